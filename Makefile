@@ -1,0 +1,29 @@
+# make demo | make check | make build; everything else is named in README.md.
+BUILD ?= build
+SHELL := /bin/bash
+.PHONY: all build setup demo check clean bench-planar sanitize
+all: build
+
+setup:
+	@bash makefiles/setup.sh
+
+$(BUILD)/build.ninja: CMakeLists.txt | setup
+	@cmake -S . -B $(BUILD) -G Ninja >$(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }; rm -f $(BUILD).log
+
+build: setup $(BUILD)/build.ninja
+	@cmake --build $(BUILD)
+
+demo: build
+	@bash makefiles/demo.sh $(BUILD)
+
+check: build
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) --output-on-failure
+
+bench-planar: build
+	@bash makefiles/bench_planar.sh $(BUILD)
+
+sanitize: setup
+	@bash makefiles/sanitize.sh
+
+clean:
+	rm -rf $(BUILD)

@@ -1,0 +1,25 @@
+#pragma once
+#include "floe/body/inertia.h"
+
+namespace floe::body {
+
+/// Coordinates of a body floating in the plane: (R_x, R_y, theta, q), q its k elastic coordinates in body axes.
+///
+/// Inertia rows of the equations of motion, M(q) a - Q_v(q, v), with sigma = s0 + S q, A = A(theta), J =
+/// [[0,-1],[1,0]]:
+///   R      m R.. + A (J sigma th.. + S q.. - th.^2 sigma + 2 th. J S q.)
+///   theta  (A J sigma).R.. + (C0 + 2 h q + q'M q) th.. + (g + B'q).q.. + 2 th. (h + M q).q.
+///   q      S'A'R.. + (g + B'q) th.. + M q.. - th.^2 (h + M q) - 2 th. B q.
+/// Source: Shabana, Dynamics of multibody systems, ch. 5.
+/// @param q, v, a  k + 3 each, frame first
+void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const Eigen::VectorXd& a, Eigen::VectorXd& r);
+
+/// Weighted derivatives of the same rows: wq d/dq + wv d/dv + wa d/da, exact.
+void add_inertia_tangent(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                         const Eigen::VectorXd& a, double wq, double wv, double wa, Eigen::MatrixXd& J);
+
+/// 1/2 v'M(q)v. [J]
+double kinetic_energy(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+}  // namespace floe::body

@@ -1,0 +1,56 @@
+#pragma once
+#include <vector>
+
+#include "floe/petsc/handle.h"
+
+namespace floe::dynamics {
+
+/// Numbering of the unknowns of a system: what each rank sees of them, and where that stands in PETSc's vectors.
+///
+/// Two kinds of block are added in turn, then number() fixes the layout:
+///   shared       a few unknowns that every rank reads and the last rank owns (frames, reduced coordinates,
+///   multipliers) distributed  finite-element dofs: this rank's own and the foreign ones it reads
+/// "Local" indices count the blocks of one rank one after another in the order added, owned dofs before foreign ones.
+class Coordinates {
+ public:
+  explicit Coordinates(MPI_Comm comm) : comm_(comm) {}
+
+  /// Adds `count` shared unknowns, the same on all ranks. Returns the first local index.
+  int add_shared(int count, bool multipliers = false);
+
+  /// Adds a distributed block: this rank owns `owned` dofs (in rank order); `foreign` are block-wide indices of others.
+  /// Returns the first local index.
+  int add_distributed(PetscInt owned, std::vector<PetscInt> foreign);
+
+  /// Fixes the layout. Collective.
+  void number();
+
+  MPI_Comm comm() const { return comm_; }
+  int local_size() const { return local_size_; }
+  PetscInt owned_size() const { return owned_size_; }
+  PetscInt global_size() const { return global_size_; }
+  /// Global index of each local unknown.
+  const std::vector<PetscInt>& global() const { return global_; }
+  /// Of each local unknown: whether it is a multiplier.
+  const std::vector<char>& multiplier() const { return multiplier_; }
+  /// Global indices of the multipliers that this rank owns, ascending.
+  const std::vector<PetscInt>& owned_multipliers() const { return owned_multipliers_; }
+  PetscInt multiplier_count() const { return multiplier_count_; }
+
+ private:
+  struct Block {
+    bool shared;
+    bool multipliers;
+    PetscInt owned;  // on this rank
+    std::vector<PetscInt> foreign;
+    int first;  // local
+  };
+  MPI_Comm comm_;
+  std::vector<Block> blocks_;
+  int local_size_ = 0;
+  PetscInt owned_size_ = 0, global_size_ = 0, multiplier_count_ = 0;
+  std::vector<PetscInt> global_, owned_multipliers_;
+  std::vector<char> multiplier_;
+};
+
+}  // namespace floe::dynamics

@@ -1,0 +1,41 @@
+#pragma once
+#include <petscts.h>
+
+namespace floe::dynamics {
+
+/// Name of the TS type: -motion_ts_type generalized-alpha.
+inline constexpr const char* generalized_alpha = "generalized-alpha";
+
+/// Registers the TS type `generalized-alpha`: Arnold and Bruels' scheme for index-3 constrained second-order systems.
+///
+/// F(t, U, V, A) = 0, U = (q, multipliers), by TSSetI2Function and TSSetI2Jacobian (both needed, as is TS2SetSolution).
+/// Order 2 in q, v and multipliers from the first step, after restarts and through changes of the step; constraints
+/// hold at the end of every step. Events, rollback, interpolation and TSADAPTBASIC work (TSSetTolerances: rtol alone
+/// counts, it is relative to the greatest distance from where the run began). Newton stops at -snes_rtol (1e-10) of the
+/// step's increment, whatever the units. With a fixed step the first failed solve ends the motion
+/// (TS_DIVERGED_NONLINEAR_SOLVE, state kept); an adaptive one is cut up to -ts_max_reject times
+/// (TS_DIVERGED_STEP_REJECTED). Defaults: direct solver (preonly, lu), full Newton steps, no adaptivity. Call once
+/// after PetscInitialize. See src/dynamics/generalized_alpha.cpp for the equations. Source: Arnold, Bruels 2007,
+/// Convergence of the generalized-alpha scheme for constrained mechanical systems.
+void register_generalized_alpha();
+
+/// Which unknowns are multipliers (algebraic, without rates); their rows hold C(q, t). Global indices that this rank
+/// owns. `multipliers` is referenced; none set: an unconstrained system. Collective.
+PetscErrorCode TSGeneralizedAlphaSetMultipliers(TS ts, IS multipliers);
+
+/// Spectral radius at infinite frequency, 0 <= rho < 1 (option -ts_generalized_alpha_radius; default 0.8).
+PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho);
+
+/// Consistent start: given t, U, V the callback fills A (initial accelerations) and the multipliers in U.
+///
+/// Needed with multipliers; without it an unconstrained system solves F(t, U, V, A) = 0 itself. It is called three
+/// times at a start, a restart or (with multipliers) a change of the step: at the state, and at states moved along the
+/// motion by some hundredths of a step (constraints then hold to that order only).
+using TSGeneralizedAlphaStart = PetscErrorCode (*)(TS ts, PetscReal t, Vec U, Vec V, Vec A, void* context);
+PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context);
+
+/// The accelerations that belong to the current solution (borrowed, until the next step). NULL before the first step
+/// and for other types.
+PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);
+
+}  // namespace floe::dynamics

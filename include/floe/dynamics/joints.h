@@ -1,0 +1,91 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <variant>
+
+#include "floe/dynamics/marker_pair.h"
+
+namespace floe::dynamics {
+
+/// A function of time with its first two derivatives.
+struct TimeFunction {
+  std::function<double(double)> value, rate, acceleration;
+};
+
+/// C = p_2 - p_1 (2 rows).
+struct Revolute {};
+/// C = (p_2 - p_1, angle_2 - angle_1 - offset - angle(t)) (3 rows): a clamp; with a function of time, driven.
+/// Angles of beams' nodes are slopes v' against the frame plus the frame's angle.
+struct Clamp {
+  double offset = 0;
+  TimeFunction angle;  ///< empty: fixed
+};
+/// C = (n.(p_2 - p_1) - offset_n, angle_2 - angle_1 - offset) (2 rows); n turns with the first place: n = normal at
+/// angle_1 = 0.
+struct Prismatic {
+  Eigen::Vector2d normal{0, 1};
+  double gap = 0, offset = 0;
+};
+using Constraint = std::variant<Revolute, Clamp, Prismatic>;
+
+int rows(const Constraint& constraint);
+
+/// Constraint rows at a level with multipliers: r_y += C_y' lambda, r_lambda = C (or its time derivatives).
+///
+/// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
+class Joint final : public Term {
+ public:
+  /// @param multipliers  local index of the first of rows(constraint) multipliers
+  Joint(Marker first, Marker second, Constraint constraint, int multipliers);
+  const std::vector<int>& coordinates() const override { return pair_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+
+ private:
+  mutable MarkerPair pair_;
+  Constraint constraint_;
+  int multiplier_;  // position among coordinates
+};
+
+/// Spring and damper between two places: along the line that joins them, and torsional.
+///
+///   f = stiffness (l - length) + viscosity l.,  m = torsional_stiffness (dangle - angle) + torsional_viscosity dangle.
+struct SpringProperties {
+  double stiffness = 0, viscosity = 0, length = 0;
+  double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
+};
+class Spring final : public Term {
+ public:
+  Spring(Marker first, Marker second, SpringProperties properties);
+  const std::vector<int>& coordinates() const override { return pair_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Energy energy(const Motion& motion) const override;
+
+ private:
+  mutable MarkerPair pair_;
+  SpringProperties properties_;
+};
+
+/// A force and moment of time on a marker, in world axes or turning with the marker's frame (r_y -= (f, m)).
+class Force final : public Term {
+ public:
+  enum class Axes { world, body };
+  /// @param force  (f_x, f_y, m)(t)
+  Force(Marker at, std::function<Eigen::Vector3d(double)> force, Axes axes);
+  const std::vector<int>& coordinates() const override { return at_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Energy energy(const Motion& motion) const override;
+  /// Counts -f.p as potential energy: for forces constant in time and world axes (gravity).
+  bool conservative = false;
+
+ private:
+  Eigen::Vector3d wrench(const Motion& motion) const;
+  Marker at_;
+  std::function<Eigen::Vector3d(double)> force_;
+  Axes axes_;
+  mutable Pose pose_;
+};
+
+}  // namespace floe::dynamics

@@ -1,0 +1,34 @@
+#pragma once
+#include "floe/dynamics/system.h"
+
+namespace floe::dynamics {
+
+/// Consistent accelerations and multipliers at an instant:
+///
+///   M a + C_q' lambda = Q(t, q, v),   d2C/dt2 = C_q a + ... = 0
+///
+/// @param U  coordinates given, multipliers overwritten;  @param A  overwritten
+/// @throws RunError  the matrix is singular: constraints that repeat or contradict one another, or mass that is missing
+/// Collective. One factorisation (KSP prefix motion_start_).
+void consistent_start(const System& system, double t, Vec U, Vec V, Vec A);
+
+/// Takes the velocities to the nearest ones (in kinetic energy) that the joints allow, and returns the relative change.
+/// Collective. One factorisation.
+double consistent_velocities(const System& system, double t, Vec U, Vec V);
+
+/// |C(q, t)|, or of its rate, greatest over all rows. Collective.
+double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
+
+/// Coordinates and multipliers with F(t, U, V, 0) = 0 at given velocities: a static equilibrium (V = 0) or the steady
+/// shape of a body that turns at constant speed.
+///
+/// SNES prefix static_ (Newton with backtracking). @throws RunError  not converged. Collective.
+void equilibrium(const System& system, double t, Vec U, Vec V);
+
+/// A direct solver for a tangent: LAPACK's LU where it is dense, MUMPS' where it is sparse; `prefix` for the user.
+/// Collective.
+petsc::KspHandle tangent_solver(Mat J, const char* prefix);
+/// The same defaults on a solver that exists (a SNES's).
+void set_tangent_solver(KSP ksp, Mat J);
+
+}  // namespace floe::dynamics

@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+namespace floe::dynamics {
+
+/// Which time derivative of the constraints the multiplier rows hold: C, dC/dt or d2C/dt2.
+enum class ConstraintLevel { position, velocity, acceleration };
+
+/// The motion as one term sees it: its own coordinates, in the order of Term::coordinates(), and their rates.
+///
+/// Multipliers stand among the coordinates; their rates are zero and mean nothing.
+struct Motion {
+  double t = 0;
+  const Eigen::VectorXd& q;
+  const Eigen::VectorXd& v;
+  const Eigen::VectorXd& a;
+  ConstraintLevel level = ConstraintLevel::position;
+};
+
+/// Weights of the three derivatives in a tangent: q * dr/dq + v * dr/dv + a * dr/da.
+///
+/// The columns of the multipliers and the constraint rows (C_q', C_q) count with weight 1 whatever the weights; the
+/// stiffness that multipliers bring by (C_q' lambda)_q counts with q.
+struct Weights {
+  double q = 1, v = 0, a = 0;
+};
+
+/// What a term holds and spends. [J]
+struct Energy {
+  double kinetic = 0;
+  double elastic = 0;
+  double potential = 0;
+  Energy& operator+=(const Energy& other) {
+    kinetic += other.kinetic, elastic += other.elastic, potential += other.potential;
+    return *this;
+  }
+};
+
+/// One term of the equations of motion: it acts on few coordinates and adds to their rows.
+///
+/// The equations are sum over terms of r(t, q, v, a) = 0, in the sense inertia + elastic + constraint - applied forces.
+/// A term knows neither ranks nor matrices: bodies, elements, joints and loads are terms; System sums them.
+class Term {
+ public:
+  virtual ~Term() = default;
+  /// Indices into the system's local coordinates (Coordinates), all different.
+  virtual const std::vector<int>& coordinates() const = 0;
+  /// r (sized as coordinates(), zero at entry) receives the term's rows.
+  virtual void residual(const Motion& motion, Eigen::VectorXd& r) const = 0;
+  /// J (square, zero at entry) receives the weighted derivatives of residual at level position.
+  virtual void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const = 0;
+  virtual Energy energy(const Motion&) const { return {}; }
+};
+
+}  // namespace floe::dynamics

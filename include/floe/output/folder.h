@@ -1,0 +1,41 @@
+#pragma once
+#include <mpi.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace floe::output {
+
+/// Where a run leaves its results, and what they are called.
+struct ResultFolder {
+  std::filesystem::path path;
+  std::filesystem::path summary() const { return path / "summary.json"; }
+  std::filesystem::path probes() const { return path / "probes.csv"; }
+  std::filesystem::path result() const { return path / "result.h5"; }
+};
+
+/// Makes `path` (and its parents) ready to take results; tries it by writing a file.
+///
+/// A folder that holds anything is refused unless `overwrite`; then floe's own results are removed from it, by name,
+/// and nothing else is touched.
+/// @throws InputError  not empty, not a folder, cannot be made, not writable: one line, the same on every rank
+/// Collective; rank 0 alone touches the file system.
+ResultFolder prepare_folder(MPI_Comm comm, const std::filesystem::path& path, bool overwrite);
+
+/// Replaces the file so that whoever reads it, at any moment, finds the old text or the new one, whole.
+///
+/// Writes `.NAME.partial` beside it, syncs, renames.
+/// @throws RunError  path and reason ("No space left on device"); the old file is as it was
+/// Rank-local.
+void write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// `.NAME.partial` beside `path`: the draft that is renamed to it once it is whole.
+std::filesystem::path draft_of(const std::filesystem::path& path);
+
+/// The second half of write_file_atomically: brings `draft` to disk and gives it the name `path`.
+///
+/// @throws RunError
+/// Rank-local.
+void publish_draft(const std::filesystem::path& draft, const std::filesystem::path& path);
+
+}  // namespace floe::output

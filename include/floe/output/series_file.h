@@ -1,0 +1,50 @@
+#pragma once
+#include <mpi.h>
+
+#include <chrono>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace floe::output {
+
+struct SeriesColumn {
+  std::string name, unit;
+};
+
+/// A time series as CSV: a header `t [s],tip.x [m],...`, then a line per row, each number as short as reads back
+/// exactly.
+///
+/// Whole lines reach the file once a second or every thousand rows and at the end, so that a run that is killed leaves
+/// what it had.
+class SeriesFile {
+ public:
+  /// Creates the file with its header. Collective; rank 0 writes.
+  /// @param columns  without the time
+  /// @throws RunError  on every rank
+  SeriesFile(MPI_Comm comm, const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+             const std::string& time_unit = "s");
+  SeriesFile(const SeriesFile&) = delete;
+  SeriesFile& operator=(const SeriesFile&) = delete;
+  /// Writes what is left; a failure here is lost, so call finish() first.
+  ~SeriesFile();
+
+  /// Adds a line. Rank 0 only (elsewhere nothing happens): where ranks run in step, call it within petsc::agree.
+  /// @throws RunError  path and reason
+  void row(double t, std::span<const double> values);
+  /// Writes what is left and closes; rows after it are lost. Collective.
+  /// @throws RunError  on every rank
+  void finish();
+
+ private:
+  void write();
+  MPI_Comm comm_;
+  std::string path_;
+  int descriptor_ = -1;
+  std::size_t columns_, pending_rows_ = 0;
+  std::string pending_;
+  std::chrono::steady_clock::time_point written_;
+};
+
+}  // namespace floe::output

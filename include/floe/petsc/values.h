@@ -1,0 +1,26 @@
+#pragma once
+#include "floe/petsc/handle.h"
+
+namespace floe::petsc {
+
+/// This rank's entries of a Vec, indexed globally, for as long as the view lives.
+class Values {
+ public:
+  explicit Values(Vec vec) : vec_(vec) {
+    check(VecGetOwnershipRange(vec, &first, &end));
+    check(VecGetArray(vec, &data_));
+  }
+  Values(const Values&) = delete;
+  Values& operator=(const Values&) = delete;
+  ~Values() { VecRestoreArray(vec_, &data_); }
+  double& operator[](PetscInt global) { return data_[global - first]; }
+  double* begin() { return data_; }
+
+  PetscInt first = 0, end = 0;
+
+ private:
+  Vec vec_;
+  double* data_ = nullptr;
+};
+
+}  // namespace floe::petsc

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "floe/reduction/derivatives.h"
+
+namespace floe::reduction {
+
+/// What a column of the basis came from, and whether it stayed.
+struct ColumnOrigin {
+  enum class Kind { mode, derivative, attachment } kind;
+  std::string label;    ///< `mode 3`, `derivative 1,2`, `attachment root.moment`
+  double omega = 0;     ///< modes [rad/s]
+  double new_part = 1;  ///< share of the scaled column that the columns before it lack
+  bool kept = true;
+  double interaction = 0;  ///< derivatives chosen by count: modal interaction against the greatest
+};
+
+/// V = [phi theta ...], M-orthonormal: V' M V = 1. k columns.
+struct Basis {
+  petsc::BvHandle V;
+  int columns = 0;
+  std::vector<ColumnOrigin> origins;  ///< of every candidate, in order
+};
+
+/// Orthonormalises candidates in their order, in the M inner product; a column whose new part is below `tolerance`
+/// times its norm adds nothing and is dropped.
+///
+/// @param candidates  in the floating frame; at least one
+/// Collective. Block-free Gram-Schmidt with refinement (BVOrthogonalizeColumn).
+Basis orthonormal_basis(const fem::Structure& structure, const Columns& candidates, std::vector<ColumnOrigin> origins,
+                        double tolerance);
+
+}  // namespace floe::reduction

@@ -1,0 +1,21 @@
+#pragma once
+#include "floe/body/flexible_body.h"
+#include "floe/reduction/basis.h"
+
+namespace floe::reduction {
+
+/// The body on the columns of V: inertia constants, bending stiffness, and the membrane energy's triangular factor F.
+///
+/// H has the rows sqrt(w) D^(1/2) [L V | e(V_a, V_b)] of every strain point; H = Q F by a tall-skinny QR, blocks of
+/// rows at a time and then over ranks. Pairs of columns without slope are left out. Energy and forces equal the
+/// projected full ones to round-off. Collective; the result is the same to the bit on all ranks. Cost O(cells (k +
+/// k^2/2)^2), memory O(k^4).
+body::FlexibleBody project(const fem::Structure& structure, const Basis& basis);
+
+/// Rows of V at a node: S and psi. Collective; replicated.
+body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, PetscInt node);
+
+/// A body without elastic coordinates: its mass alone. Collective.
+body::FlexibleBody rigid_body(const fem::Structure& structure);
+
+}  // namespace floe::reduction

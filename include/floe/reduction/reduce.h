@@ -1,0 +1,54 @@
+#pragma once
+#include <functional>
+
+#include "floe/body/flexible_body.h"
+#include "floe/reduction/projection.h"
+
+namespace floe::reduction {
+
+/// A static column asked for: the response to a unit load.
+struct Attachment {
+  std::string label;  ///< `root.moment`
+  petsc::VecHandle load;
+};
+
+/// Which derivatives join the basis.
+struct DerivativeChoice {
+  enum class Which { none, all, count, pairs } which = Which::all;
+  int count = 0;  ///< Which::count
+  Pairs pairs;    ///< Which::pairs
+  bool full = false;
+};
+
+/// The columns that derivatives are taken of: modes and attachment columns, independent of one another.
+struct Generators {
+  Modes modes;
+  Columns fields;                     ///< in the floating frame, M-normalised; modes first
+  std::vector<ColumnOrigin> origins;  ///< of every field
+  std::vector<ColumnOrigin> dropped;  ///< attachment columns that vanish or repeat others
+};
+
+/// @param holding  how the body is held for its modes. Collective.
+Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+                      const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance);
+
+/// Derivative columns with their origins.
+struct DerivativeColumns {
+  Columns columns;
+  std::vector<ColumnOrigin> origins;
+};
+
+/// theta of the pairs (of fields). Full derivatives exist for pairs of modes; with attachment columns they are static.
+/// Collective.
+DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
+                                     const fem::Holding& holding, const Statics& statics, const Generators& generators,
+                                     const Pairs& pairs, bool full);
+
+/// Generators and derivatives as one M-orthonormal basis. Collective.
+Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
+               double tolerance);
+
+/// M-norm of a field. Collective.
+double mass_norm(Mat M, Vec field);
+
+}  // namespace floe::reduction

@@ -1,0 +1,89 @@
+#pragma once
+#include <map>
+#include <memory>
+
+#include "floe/dynamics/coordinates.h"
+#include "floe/dynamics/marker.h"
+#include "floe/dynamics/term.h"
+#include "floe/fem/reference_frame.h"
+
+namespace floe::reference {
+
+/// Where the nodes of a distributed body stand among a system's local coordinates.
+///
+/// Owned nodes, the mesh's foreign ones, and on the last rank also the nodes that joints, loads and probes act on:
+/// these terms live there, beside the frames and the multipliers.
+class NodeCoordinates {
+ public:
+  /// @param visited  global nodes that the last rank must see. Collective (in order with other blocks).
+  NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh, const std::vector<PetscInt>& visited);
+  /// Local index of the first dof of a node that this rank sees.
+  int of_local_node(int local) const { return first_ + fem::Structure::dofs_per_node * local; }
+  /// Likewise from the global number; throws std::out_of_range where it is not seen.
+  int of_node(PetscInt global) const { return first_of_node_.at(global); }
+  int first() const { return first_; }
+
+ private:
+  int first_ = 0;
+  std::map<PetscInt, int> first_of_node_;
+};
+
+enum class ElasticForce { von_karman, linear };
+
+/// Rayleigh damping C = mass * M + stiffness * K. [1/s], [s]
+struct Rayleigh {
+  double mass = 0, stiffness = 0;
+};
+
+/// Terms of one full-order body in its floating frame (formulations nlffr and lffr): one FloatingBody for each element,
+/// the equations that hold the frame's conditions, and for mean_axis the constraints Phi_r' M q = 0.
+///
+/// @param frame        local index of (R_x, R_y, theta)
+/// @param multipliers  local index of three multipliers (mean_axis only)
+/// Rank-local: each rank gets the terms of its own cells.
+std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structure& structure,
+                                                              const fem::ReferenceFrame& reference,
+                                                              const NodeCoordinates& nodes, int frame, int multipliers,
+                                                              ElasticForce force, Rayleigh damping);
+
+/// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or [m] of line.
+enum class Density { mass, line };
+std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const NodeCoordinates& nodes, int frame,
+                                              Density density);
+
+/// The place of a node of a full-order body.
+dynamics::Marker node_marker(const NodeCoordinates& nodes, int frame, PetscInt node, const Eigen::Vector3d& x);
+
+/// Line density on the cells of a corotational body (world axes): each half cell's load goes to its node. [m]
+std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes);
+
+/// r = A q with A fixed: a linear equation among coordinates, in terms of dynamics::Term. Weight 1 at every level.
+///
+/// With multipliers: r_q = C' lambda, r_lambda = C q.
+class LinearConstraint final : public dynamics::Term {
+ public:
+  /// @param coordinates  of q, then of the multipliers; C is (multipliers) x (q)
+  LinearConstraint(std::vector<int> coordinates, Eigen::MatrixXd C);
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
+
+ private:
+  std::vector<int> coordinates_;
+  Eigen::MatrixXd C_;
+};
+
+/// r = scale * q: a dof that the frame holds at zero.
+class HeldDof final : public dynamics::Term {
+ public:
+  HeldDof(int coordinate, double scale) : coordinates_{coordinate}, scale_(scale) {}
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
+
+ private:
+  std::vector<int> coordinates_;
+  double scale_;
+};
+
+}  // namespace floe::reference

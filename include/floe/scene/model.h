@@ -1,0 +1,97 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floe/dynamics/joints.h"
+#include "floe/dynamics/system.h"
+#include "floe/reduction/reduce.h"
+#include "floe/scene/scene.h"
+
+namespace floe::scene {
+
+/// What is simulated: corotational full order; full order in floating frames, von Karman or linear; reduced to modes,
+/// or to modes and modal derivatives.
+enum class Formulation { cfr, nlffr, lffr, vm, vm_md };
+std::string name_of(Formulation formulation);
+/// @throws InputError  unknown, with the nearest name
+Formulation formulation_of(const std::string& name);
+std::vector<std::string> formulation_names();
+bool is_reduced(Formulation formulation);
+
+/// A body's finite elements in its frame, and where both stand. Made once for every formulation.
+struct PreparedBody {
+  Body spec;
+  fem::Structure structure;  ///< positions in the axes of the floating frame
+  fem::ReferenceFrame frame;
+  Eigen::Vector2d frame_origin;                    ///< in mesh axes
+  double frame_angle = 0;                          ///< of the frame in mesh axes
+  Eigen::Vector3d pose;                            ///< of the frame at the start, world: (R_x, R_y, theta)
+  Eigen::Vector3d velocity;                        ///< likewise
+  petsc::VecHandle deformation, deformation_rate;  ///< at the start, in the frame; null if none
+  fem::Conditions held;                            ///< dofs that joints to the ground hold
+};
+
+/// A node that something acts on.
+struct PreparedPlace {
+  int body = -1;  ///< index of prepared bodies, -1: ground
+  PetscInt node = 0;
+  Eigen::Vector3d x;  ///< in the frame's axes; ground: world
+};
+
+/// What came out of the reduction of one body, for the user's eyes and for redrawing.
+struct BodyReport {
+  std::string name;
+  PetscInt dofs = 0, nodes = 0, elements = 0;
+  bool rigid = false;
+  int columns = 0;
+  std::vector<double> omega, residual;
+  std::vector<reduction::ColumnOrigin> origins;
+  double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;
+  int first_coordinate = 0;  ///< local index of the frame's R_x
+  int first_elastic = 0;     ///< local index of the first elastic coordinate
+  std::shared_ptr<reduction::Basis> basis;
+  PetscInt first_node = 0;              ///< of this rank
+  std::vector<double> positions;        ///< of this rank's own nodes, x y x y, in the frame
+};
+
+struct ModelProbe {
+  std::string name;
+  Probe::Quantity quantity;
+  dynamics::Marker marker;
+  std::optional<dynamics::Marker> relative_to;
+  Eigen::Vector3d start, start_relative;
+};
+
+/// A scene in one formulation, ready to move.
+struct Model {
+  Formulation formulation;
+  std::unique_ptr<dynamics::System> system;
+  petsc::VecHandle U, V;  ///< at the start, consistent with the joints
+  std::vector<ModelProbe> probes;
+  std::vector<BodyReport> bodies;
+  std::vector<std::string> warnings;
+  PetscInt coordinates = 0, multipliers = 0;
+  double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
+};
+
+/// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
+/// by itself. @throws InputError, RunError. Collective.
+Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
+
+/// Vibration modes of every flexible body as its reduction asks for them. Collective.
+std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
+
+/// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
+Scene split_frames(const Scene& scene);
+
+/// Columns of the probes: `tip.x` with unit.
+struct ProbeColumn {
+  std::string name, unit;
+};
+std::vector<ProbeColumn> probe_columns(const Model& model);
+/// Values at an instant, the same on all ranks of the system. Collective.
+std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V);
+
+}  // namespace floe::scene

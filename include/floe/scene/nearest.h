@@ -1,0 +1,12 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace floe::scene {
+
+/// The known word that `word` was probably meant to be: least edit distance (insert, delete, change, swap two
+/// neighbours; case counts nothing), if at most a third of the longer word is wrong; or the only one that it is the
+/// beginning of. Empty when nothing is near. Used for keys, names of the scene and options.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace floe::scene

@@ -1,0 +1,174 @@
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "floe/math/formula.h"
+
+namespace floe::scene {
+
+using Point = std::array<double, 3>;  ///< planar scenes leave the third at 0
+
+/// Where in the file a value stands: every later complaint can name it.
+struct Where {
+  std::string file;
+  int line = 0, column = 0;  ///< from 1
+  std::string key;           ///< as `bodies.beam.section.A`
+  std::string text() const;  ///< `scene.yaml:12:5: bodies.beam.section.A`
+};
+
+/// A node of a body, by name (start, end, middle, or a point pN of the polyline, N from 1) or by coordinates in the axes of
+/// the body's mesh; or a point of the ground (world axes). Written `beam.end`, `{body: beam, node: [50, 0]}`, `ground`,
+/// `{body: ground, node: [0, 3]}`. A ground without a point follows the other place of the joint as it is at the start.
+struct Place {
+  std::string body;
+  std::string name;
+  std::optional<Point> point;
+  Where where;
+  bool ground() const { return body == "ground"; }
+};
+
+/// Straight segments between points, each divided into elements of equal length.
+struct MeshSpec {
+  std::vector<Point> points;
+  std::vector<std::array<int, 2>> segments;  ///< indices of points
+  std::vector<int> elements;                 ///< of each segment
+  Where where;
+};
+
+/// Per unit length: axial and bending stiffness [N], [N m2], mass and rotary inertia [kg/m], [kg m].
+struct Section {
+  double EA = 0, EI = 0, rhoA = 0, rhoI = 0;
+  Where where;
+};
+
+enum class Strain { averaged, pointwise };
+
+struct FrameSpec {
+  enum class Kind { pinned, clamped, mean_axis } kind = Kind::pinned;
+  Place from, to;  ///< pinned: origin, and the place on the frame's x axis
+  Place at;        ///< clamped
+  Where where;
+};
+
+struct ModesSpec {
+  enum class Of { joints, frame } of = Of::joints;
+  int count = 6;
+  int alone = 0;  ///< how many in formulation vm; 0: as many as vm+md has columns
+  Where where;
+};
+
+struct DerivativesSpec {
+  enum class Choice { none, all, count, pairs } choice = Choice::all;
+  int count = 0;                           ///< choice count: this many, first by maximum modal interaction
+  std::vector<std::array<int, 2>> pairs;   ///< choice pairs: from 1, i <= j
+  bool full = false;                       ///< METHOD: full (with inertia) instead of static
+  Where where;
+};
+
+struct ReductionSpec {
+  ModesSpec modes;
+  DerivativesSpec derivatives;
+  enum class Attachment { none, joints, loads, all } attachment = Attachment::joints;
+  double drop_tolerance = 1e-7;
+};
+
+struct DampingSpec {
+  double mass = 0;            ///< Rayleigh alpha [1/s]
+  double stiffness = 0;       ///< Rayleigh beta [s]
+  std::vector<double> modal;  ///< ratios of the first modes
+  Where where;
+};
+
+struct InitialSpec {
+  Point position{};  ///< of the mesh's origin, world
+  double angle = 0;  ///< of the mesh's axes [rad]
+  Point velocity{};  ///< of the mesh's origin, world
+  double angular_velocity = 0;
+  std::optional<std::array<math::Formula, 2>> deformation;       ///< (u, v)(x, y) in mesh axes
+  std::optional<std::array<math::Formula, 2>> deformation_rate;  ///< likewise, 1/s
+  Where where;
+};
+
+struct Body {
+  std::string name;
+  MeshSpec mesh;
+  Section section;
+  Strain strain = Strain::averaged;
+  bool rotary_inertia = true;
+  bool rigid = false;
+  FrameSpec frame;
+  int frames = 1;  ///< split one line into this many floating frames, joined rigidly
+  ReductionSpec reduction;
+  DampingSpec damping;
+  InitialSpec initial;
+  Where where;
+};
+
+struct Joint {
+  enum class Kind { fixed, revolute, prismatic, driven, spring } kind = Kind::fixed;
+  std::string name;
+  Place first, second;
+  math::Formula angle;         ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
+  Point axis{1, 0, 0};         ///< prismatic: sliding direction in world axes at the start, carried by the first place
+  double stiffness = 0;        ///< spring [N/m]
+  double viscosity = 0;        ///< spring [N s/m]
+  std::optional<double> length;  ///< spring, unstretched; absent: the distance at the start
+  double torsional_stiffness = 0, torsional_viscosity = 0;  ///< spring [N m/rad], [N m s/rad]
+  Where where;
+};
+
+struct Load {
+  enum class Kind { force, moment, distributed } kind = Kind::force;
+  std::string name;
+  Place at;          ///< force, moment
+  std::string body;  ///< distributed: uniform along all its segments
+  std::array<math::Formula, 2> force;  ///< of t [N], distributed [N/m]
+  math::Formula moment;                ///< of t [N m]
+  enum class Axes { world, body } axes = Axes::world;  ///< body: follows the frame
+  Where where;
+};
+
+struct Motion {
+  double end = 0;
+  double step = 0;
+  double spectral_radius = 0.8;
+  std::optional<double> tolerance;  ///< adaptive step, relative
+  int every = 1;                    ///< store each so many steps
+  Where where;
+};
+
+struct Probe {
+  std::string name;
+  Place at;
+  enum class Quantity { position, displacement, deflection, velocity, rotation } quantity = Quantity::displacement;
+  std::optional<Place> relative_to;  ///< measured from this place, in axes that turn with it
+  Where where;
+};
+
+/// A scene: plain data, checked, all numbers finite. Nothing is built yet.
+struct Scene {
+  std::string file;
+  std::string title;
+  std::string text;  ///< the file as read
+  std::map<std::string, double> parameters;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Load> loads;
+  Point gravity{};
+  Motion motion;
+  std::vector<Probe> probes;
+};
+
+/// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected, nearest name).
+Scene read_scene(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+Scene parse_scene(const std::string& text, const std::string& name);
+
+/// The reference of the grammar, printed by `floe schema`: every key with type, unit, default, range, text.
+std::string schema_reference();
+
+}  // namespace floe::scene

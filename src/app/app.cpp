@@ -1,0 +1,123 @@
+#include "floe/app/app.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "commands.h"
+#include "compare.h"
+#include "floe/version.h"
+#include "session.h"
+
+namespace floe::app {
+
+namespace {
+
+struct Choices {
+  std::string scene, formulation = "vm+md", out;
+  std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
+  bool force = false, no_reference_error = false;
+};
+
+std::string stem(const std::string& path) {
+  const auto slash = path.find_last_of('/');
+  const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  const std::string file = name.substr(0, name.find_last_of('.'));
+  if (file != "scene" || slash == std::string::npos) return file;
+  const std::string folder = path.substr(0, slash);  // examples/cantilever/scene.yaml: cantilever
+  const auto before = folder.find_last_of('/');
+  return before == std::string::npos ? folder : folder.substr(before + 1);
+}
+
+scene::Scene read(const std::string& path) {
+  scene::Scene scene;
+  petsc::agree(PETSC_COMM_WORLD, [&] { scene = scene::read_scene(path); });
+  return scene;
+}
+
+std::string folder_of(const Choices& choices, const std::string& what) {
+  return choices.out.empty() ? "results/" + stem(choices.scene) + "-" + what : choices.out;
+}
+
+void add_scene(CLI::App* command, Choices& choices) {
+  command->add_option("SCENE", choices.scene, "the scene, a YAML file (floe schema prints its grammar)")->required();
+}
+void add_folder(CLI::App* command, Choices& choices) {
+  command->add_option("-o,--out", choices.out, "folder for the results (default: results/NAME-...)");
+  command->add_flag("--force", choices.force, "replace floe's results in a folder that has some");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const CommandLine line = split(argc, argv);
+  Choices choices;
+  std::function<void()> work;
+  CLI::App app("floe " FLOE_VERSION
+               ": flexible multibody dynamics, reduced with modal derivatives in the floating frame of reference");
+  app.set_version_flag("--version", std::string("floe " FLOE_VERSION " (" FLOE_COMMIT ")"));
+  app.require_subcommand(1);
+  app.footer(
+      "PETSc's and SLEPc's options follow with one dash: -modes_eps_..., -derivatives_ksp_..., -motion_ts_..., "
+      "-static_snes_..., -log_view; -help lists those of a command's solvers. Under mpirun -n N the answer is the "
+      "same.");
+
+  CLI::App* run_command = app.add_subcommand("run", "simulate a scene in one formulation");
+  add_scene(run_command, choices);
+  run_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
+      ->capture_default_str();
+  add_folder(run_command, choices);
+  run_command->callback([&] {
+    work = [&] {
+      const scene::Formulation formulation = scene::formulation_of(choices.formulation);
+      const scene::Scene scene = read(choices.scene);
+      run_one(scene, formulation, PETSC_COMM_WORLD,
+              output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force));
+    };
+  });
+
+  CLI::App* compare_command = app.add_subcommand("compare", "simulate in several formulations: one table, one picture");
+  add_scene(compare_command, choices);
+  compare_command->add_option("--formulations", choices.formulations, "which, separated by commas")
+      ->delimiter(',')
+      ->capture_default_str();
+  compare_command->add_flag("--no-reference-error", choices.no_reference_error,
+                            "spare the run that shows the reference's own error");
+  add_folder(compare_command, choices);
+  compare_command->callback([&] {
+    work = [&] {
+      std::vector<scene::Formulation> formulations;
+      for (const std::string& name : choices.formulations) formulations.push_back(scene::formulation_of(name));
+      compare(read(choices.scene), formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
+              !choices.no_reference_error);
+    };
+  });
+
+  CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
+  add_scene(modes_command, choices);
+  modes_command->callback([&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD); }; });
+
+  CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
+  add_scene(check_command, choices);
+  check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
+
+  CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
+  bool schema = false;
+  schema_command->callback([&] { schema = true; });
+
+  try {
+    std::vector<std::string> words(line.own.rbegin(), line.own.rend());
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    fmt::print(stderr, "floe: {} (floe --help)\n", error.what());
+    return 2;
+  }
+  if (schema) {
+    fmt::print("{}", scene::schema_reference());
+    return 0;
+  }
+  return in_session(line, work);
+}
+
+}  // namespace floe::app

@@ -1,0 +1,116 @@
+#include "commands.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floe/output/table.h"
+#include "run.h"
+
+namespace floe::app {
+
+namespace {
+
+bool first_rank(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank == 0;
+}
+
+std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
+  using Choice = scene::DerivativesSpec::Choice;
+  const std::string kind = spec.full ? "full" : "static";
+  switch (spec.choice) {
+    case Choice::none:
+      return "no derivatives";
+    case Choice::all:
+      return fmt::format("all {} {} derivatives of each pair", fields * (fields + 1) / 2, kind);
+    case Choice::count:
+      return fmt::format("{} {} derivatives by modal interaction", spec.count, kind);
+    default:
+      return fmt::format("{} {} derivatives that are named", spec.pairs.size(), kind);
+  }
+}
+
+std::string basis_words(const scene::Body& body) {
+  if (body.rigid) return "rigid";
+  const scene::ModesSpec& modes = body.reduction.modes;
+  return fmt::format("{} modes ({}), {}", modes.count,
+                     modes.of == scene::ModesSpec::Of::joints ? "as its joints hold it" : "of its frame",
+                     derivative_words(body.reduction.derivatives, modes.count));
+}
+
+std::string frame_words(const scene::Body& body) {
+  switch (body.frame.kind) {
+    case scene::FrameSpec::Kind::pinned:
+      return "pinned";
+    case scene::FrameSpec::Kind::clamped:
+      return "clamped";
+    default:
+      return "mean-axis";
+  }
+}
+
+}  // namespace
+
+void modes(const scene::Scene& scene, MPI_Comm comm) {
+  const std::vector<scene::BodyReport> bodies = scene::body_modes(scene, comm);
+  if (!first_rank(comm)) return;
+  output::Table table;
+  table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
+  for (const auto& body : bodies)
+    for (std::size_t i = 0; i < body.omega.size(); ++i)
+      table.rows.push_back(
+          {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
+  fmt::print("{}", output::to_text(table));
+}
+
+void check(const scene::Scene& scene, MPI_Comm comm) {
+  const scene::Model model = scene::build(scene, scene::Formulation::nlffr, comm);
+  if (!first_rank(comm)) return;
+  const scene::Scene split = scene::split_frames(scene);
+  output::Table table;
+  table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
+  for (std::size_t b = 0; b < split.bodies.size(); ++b)
+    table.rows.push_back({split.bodies[b].name, static_cast<std::int64_t>(model.bodies[b].elements),
+                          static_cast<std::int64_t>(model.bodies[b].rigid ? 3 : model.bodies[b].dofs),
+                          frame_words(split.bodies[b]), basis_words(split.bodies[b])});
+  fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
+  fmt::print("{} joints, {} loads, {} probes; {} coordinates and {} multipliers at full order\n", split.joints.size(),
+             scene.loads.size(), scene.probes.size(), model.coordinates, model.multipliers);
+  fmt::print("motion to t = {} s, ", scene.motion.end);
+  if (scene.motion.tolerance)
+    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
+  else
+    fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
+  if (model.velocity_correction > 1e-9)
+    fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",
+               model.velocity_correction);
+}
+
+void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+             const output::ResultFolder& folder) {
+  const RunResult result = run(scene, formulation, comm, folder);
+  if (!first_rank(comm)) return;
+  const auto& s = result.summary;
+  fmt::print("{} as {} ({}): {} coordinates, {} steps to t = {} s\n", scene.title.empty() ? scene.file : scene.title,
+             scene::name_of(formulation), result.label, result.coordinates, result.steps, scene.motion.end);
+  fmt::print("offline {:.3g} s, motion {:.3g} s ({:.3g} us a step)\n", result.offline_seconds, result.motion_seconds,
+             1e6 * result.motion_seconds / std::max<double>(1, static_cast<double>(result.steps)));
+  fmt::print("constraints within {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
+             s["constraints"]["greatest_violation"].get<double>(),
+             s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
+  output::Table table;
+  table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
+  for (std::size_t c = 0; c < result.series.columns.size(); ++c) {
+    double least = result.series.values[0][c], greatest = least;
+    for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
+    table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
+                          result.series.columns[c].unit});
+  }
+  if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
+  for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
+  fmt::print("Results: {}\n", folder.path.string());
+}
+
+}  // namespace floe::app

@@ -1,0 +1,15 @@
+#pragma once
+#include "floe/output/folder.h"
+#include "floe/scene/model.h"
+
+namespace floe::app {
+
+/// `floe modes`: frequencies of each body with residuals. Collective.
+void modes(const scene::Scene& scene, MPI_Comm comm);
+/// `floe check`: what would be simulated; nothing is moved. Collective.
+void check(const scene::Scene& scene, MPI_Comm comm);
+/// `floe run`. Collective.
+void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+             const output::ResultFolder& folder);
+
+}  // namespace floe::app

@@ -1,0 +1,200 @@
+#include "recorder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/dynamics/start.h"
+#include "floe/output/provenance.h"
+#include "floe/output/summary.h"
+#include "floe/petsc/values.h"
+
+namespace floe::app {
+
+using nlohmann::ordered_json;
+using petsc::check;
+
+namespace {
+
+const char* kind_name(reduction::ColumnOrigin::Kind kind) {
+  switch (kind) {
+    case reduction::ColumnOrigin::Kind::mode:
+      return "mode";
+    case reduction::ColumnOrigin::Kind::derivative:
+      return "derivative";
+    default:
+      return "attachment";
+  }
+}
+
+ordered_json body_json(const scene::BodyReport& body) {
+  ordered_json j;
+  j["name"] = body.name;
+  j["nodes"] = body.nodes;
+  j["elements"] = body.elements;
+  j["dofs"] = body.dofs;
+  j["rigid"] = body.rigid;
+  if (!body.basis) return j;
+  j["reduced_coordinates"] = body.columns;
+  for (std::size_t i = 0; i < body.omega.size(); ++i)
+    j["frequencies"].push_back(
+        {{"rad_per_s", body.omega[i]}, {"Hz", body.omega[i] / (2 * M_PI)}, {"residual", body.residual[i]}});
+  for (const auto& origin : body.origins) {
+    ordered_json column{{"column", origin.label},
+                        {"kind", kind_name(origin.kind)},
+                        {"kept", origin.kept},
+                        {"new_part", origin.new_part}};
+    if (origin.interaction > 0) column["interaction"] = origin.interaction;
+    j["basis"].push_back(column);
+  }
+  j["seconds"] = {{"modes", body.seconds_modes},
+                  {"derivatives", body.seconds_derivatives},
+                  {"projection", body.seconds_projection}};
+  return j;
+}
+
+ordered_json first_summary(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
+                           const RunResult& result) {
+  ordered_json j;
+  j["status"] = "running";
+  j["scene"] = {{"file", scene.file}, {"title", scene.title}};
+  j["formulation"] = scene::name_of(model.formulation);
+  j["label"] = result.label;
+  j["provenance"] = output::provenance(comm);
+  j["unknowns"] = {{"coordinates", model.coordinates}, {"multipliers", model.multipliers}};
+  for (const auto& body : model.bodies) j["bodies"].push_back(body_json(body));
+  j["motion"] = {
+      {"end", scene.motion.end}, {"step", scene.motion.step}, {"spectral_radius", scene.motion.spectral_radius}};
+  if (scene.motion.tolerance) j["motion"]["tolerance"] = *scene.motion.tolerance;
+  if (model.velocity_correction > 1e-9) j["start_velocity_correction"] = model.velocity_correction;
+  j["warnings"] = model.warnings;
+  j["seconds"] = {{"offline", result.offline_seconds}};
+  return j;
+}
+
+}  // namespace
+
+Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
+                   const std::optional<output::ResultFolder>& folder, RunResult& result)
+    : scene_(scene), model_(model), comm_(comm), folder_(folder), result_(result) {
+  result_.summary = first_summary(scene, model, comm, result);
+  if (!folder_) return;
+  output::write_summary(comm, *folder_, result_.summary);
+  std::vector<output::SeriesColumn> columns;
+  for (const auto& column : result_.series.columns) columns.push_back({column.name, column.unit});
+  probes_ = std::make_unique<output::SeriesFile>(comm, folder_->probes(), columns);
+  file_ = std::make_unique<output::ResultFile>(comm, folder_->result());
+  file_->write_text("summary", result_.summary.dump(2));
+  file_->write_text("scene", scene.text);
+  write_basis();
+  const std::int64_t rows =
+      scene.motion.tolerance ? 0
+                             : static_cast<std::int64_t>(scene.motion.end / scene.motion.step / scene.motion.every) + 2;
+  const PetscInt unknowns = model.coordinates + model.multipliers;
+  file_->add_series("motion/t", 1, {"s", "time"}, rows);
+  file_->add_series("motion/U", unknowns, {"", "coordinates and multipliers"}, rows);
+  file_->add_series("motion/V", unknowns, {"", "their rates"}, rows);
+  file_->add_series("motion/energy", 3, {"J", "kinetic, elastic, potential"}, rows);
+  file_->publish();
+}
+
+void Recorder::write_basis() {
+  for (const auto& body : model_.bodies) {
+    if (!body.basis || body.columns == 0) continue;
+    PetscInt first = 0, end = 0;
+    std::vector<double> rows;
+    for (int j = 0; j < body.columns; ++j) {
+      Vec column = nullptr;
+      check(BVGetColumn(body.basis->V, j, &column));
+      {
+        petsc::Values values(column);
+        first = values.first, end = values.end;
+        rows.resize((end - first) * body.columns);
+        for (PetscInt i = first; i < end; ++i) rows[(i - first) * body.columns + j] = values[i];
+      }
+      check(BVRestoreColumn(body.basis->V, j, &column));
+    }
+    file_->write_distributed_rows("bodies/" + body.name + "/basis", body.dofs, body.columns, first, rows,
+                                  {"", "V: nodal (u, v, rotation) of each reduced coordinate, in the floating frame"});
+    file_->write_distributed_rows("bodies/" + body.name + "/nodes", body.nodes, 2, body.first_node, body.positions,
+                                  {"m", "undeformed positions in the floating frame"});
+  }
+  for (const auto& body : model_.bodies) {
+    const double where[2] = {static_cast<double>(body.first_coordinate), static_cast<double>(body.first_elastic)};
+    if (scene::is_reduced(model_.formulation))
+      file_->write_array("bodies/" + body.name + "/columns_of_motion", {2}, where,
+                         {"", "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates"});
+  }
+}
+
+void Recorder::store_state(const dynamics::Instant& instant) {
+  const auto append = [&](const char* name, Vec vector) {
+    petsc::Values values(vector);
+    const std::span<const double> part(values.begin(), static_cast<std::size_t>(values.end - values.first));
+    if (scene::is_reduced(model_.formulation))
+      file_->append(name, part);
+    else
+      file_->append_distributed(name, values.first, part);
+  };
+  append("motion/U", instant.U);
+  append("motion/V", instant.V);
+}
+
+void Recorder::observe(const dynamics::Instant& instant) {
+  if (instant.step % scene_.motion.every != 0 && !instant.last) return;
+  const double begin = MPI_Wtime();
+  const std::vector<double> values = scene::probe_values(model_, instant.t, instant.U, instant.V);
+  result_.series.t.push_back(instant.t);
+  result_.series.values.push_back(values);
+  const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
+  energy_now_ = energy.kinetic + energy.elastic + energy.potential;
+  if (instant.step == 0) energy_start_ = energy_now_;
+  energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
+  drift_ = std::max(drift_, std::abs(energy_now_ - energy_start_));
+  violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
+                                                                   dynamics::ConstraintLevel::position));
+  velocity_violation_ =
+      std::max(velocity_violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
+                                                                   dynamics::ConstraintLevel::velocity));
+  if (folder_) {
+    const auto write = [&] {
+      probes_->row(instant.t, values);
+      const double t[1] = {instant.t}, e[3] = {energy.kinetic, energy.elastic, energy.potential};
+      file_->append("motion/t", t);
+      file_->append("motion/energy", e);
+    };
+    if (scene::is_reduced(model_.formulation))
+      write();
+    else
+      petsc::agree(comm_, write);
+    store_state(instant);
+  }
+  seconds_ += MPI_Wtime() - begin;
+}
+
+void Recorder::finish(const dynamics::IntegrationReport& report, const std::string& stopped) {
+  ordered_json& j = result_.summary;
+  j["status"] = stopped.empty() ? "finished" : "failed";
+  if (!stopped.empty()) j["reason"] = stopped;
+  j["integration"] = {{"type", report.type},
+                      {"reached", report.end},
+                      {"steps", report.steps},
+                      {"rejected", report.rejected},
+                      {"newton_iterations", report.newton},
+                      {"linear_solves", report.solves}};
+  j["energy"] = {
+      {"start", energy_start_}, {"end", energy_now_}, {"greatest_part", energy_greatest_}, {"greatest_change", drift_}};
+  j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
+  j["seconds"]["motion"] = result_.motion_seconds;
+  j["seconds"]["recording"] = seconds_;
+  if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
+  if (!folder_) return;
+  probes_->finish();
+  file_->flush();
+  file_->write_text("summary", j.dump(2));
+  file_->finish();
+  output::write_summary(comm_, *folder_, j);
+}
+
+}  // namespace floe::app

@@ -1,0 +1,161 @@
+#include "session.h"
+
+#include <fmt/format.h>
+#include <slepcsys.h>
+
+#include <cctype>
+#include <chrono>
+#include <thread>
+
+#include "floe/dynamics/generalized_alpha.h"
+#include "floe/output/provenance.h"
+#include "floe/petsc/error.h"
+#include "floe/scene/nearest.h"
+
+namespace floe::app {
+
+using petsc::check;
+
+namespace {
+
+bool petsc_option(const std::string& word) {
+  return word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1])) && word.find('.') != 1;
+}
+bool scene_file(const std::string& word) {
+  const auto ends = [&](const std::string& tail) {
+    return word.size() > tail.size() && word.compare(word.size() - tail.size(), tail.size(), tail) == 0;
+  };
+  return ends(".yaml") || ends(".yml");
+}
+
+void say(const std::string& text) {
+  std::string line;
+  for (const char c : text + "\n") {
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    std::fprintf(stderr, "floe: %s\n", line.c_str());
+    line.clear();
+  }
+}
+
+/// Whether every rank has come here within some seconds.
+bool all_arrive(double seconds) {
+  MPI_Request request;
+  int done = 0;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  const double begin = MPI_Wtime();
+  while (!done && MPI_Wtime() - begin < seconds) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return done;
+}
+
+int report(int code, const std::string& text) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (rank == 0) say(text);
+  if (all_arrive(10)) return code;
+  if (rank != 0) say(text);
+  MPI_Abort(MPI_COMM_WORLD, code);
+  return code;
+}
+
+int guarded(const std::function<void()>& work) {
+  try {
+    work();
+    return 0;
+  } catch (const InputError& error) {
+    return report(2, error.what());
+  } catch (const std::exception& error) {
+    return report(1, error.what());
+  }
+}
+
+}  // namespace
+
+CommandLine split(int argc, char** argv) {
+  CommandLine line;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (!petsc_option(word)) {
+      line.own.push_back(word);
+      continue;
+    }
+    line.petsc.push_back(word);
+    if (i + 1 < argc && !petsc_option(argv[i + 1]) && std::string(argv[i + 1]).rfind("--", 0) != 0 &&
+        std::string(argv[i + 1]) != "-o" && !scene_file(argv[i + 1]))
+      line.petsc.push_back(argv[++i]);
+  }
+  return line;
+}
+
+int in_session(const CommandLine& line, const std::function<void()>& work) {
+  std::vector<std::string> words = {"floe"};
+  words.insert(words.end(), line.petsc.begin(), line.petsc.end());
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  int count = static_cast<int>(words.size());
+  char** arguments = pointers.data();
+  if (SlepcInitialize(&count, &arguments, nullptr, nullptr)) return 1;
+  const int code = guarded([&] {
+    petsc::collect_errors();
+    dynamics::register_generalized_alpha();
+    check_prefixes();
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank == 0 && output::provenance(PETSC_COMM_WORLD)["blas"]["name"] == "reference")
+      say("the reference BLAS is in use, which makes factorisations 5 to 7 times slower: install libopenblas0-serial");
+    work();
+    check_unused();
+  });
+  PetscOptionsSetValue(nullptr, "-options_left", "no");
+  SlepcFinalize();
+  return code;
+}
+
+void check_prefixes() {
+  const std::vector<std::string> ours = {"modes_", "derivatives_", "motion_", "static_", "ranking_"};
+  const std::vector<std::string> objects = {"eps_", "st_", "ksp_", "pc_", "ts_", "snes_", "mat_", "bv_", "start_"};
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> faults;
+  for (PetscInt i = 0; i < count; ++i) {
+    const std::string name = names[i];
+    const auto end = name.find('_');
+    if (end == std::string::npos) continue;
+    const std::string prefix = name.substr(0, end + 1), rest = name.substr(end + 1);
+    bool object = false;
+    for (const std::string& o : objects) object = object || rest.rfind(o, 0) == 0;
+    bool known = false;
+    for (const std::string& o : ours) known = known || prefix == o;
+    if (!object || known) continue;
+    const std::string near = scene::nearest(prefix, ours);
+    if (!near.empty())
+      faults.push_back(
+          fmt::format("option -{}: floe has no solver with prefix {}; did you mean -{}{}?", name, prefix, near, rest));
+  }
+  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  if (!faults.empty()) throw InputError(faults);
+}
+
+void check_unused() {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  std::vector<std::string> faults;
+  for (PetscInt i = 0; i < count; ++i)
+    faults.push_back(
+        fmt::format("option -{}{}{}: nothing in this run has read it; floe's solvers read -modes_..., "
+                    "-derivatives_..., -motion_..., "
+                    "-static_...",
+                    names[i], values[i] ? " " : "", values[i] ? values[i] : ""));
+  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace floe::app

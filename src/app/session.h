@@ -1,0 +1,27 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace floe::app {
+
+/// The command line in two: floe's own words, and the options that PETSc reads (-modes_eps_nev 5 -log_view).
+struct CommandLine {
+  std::vector<std::string> own;
+  std::vector<std::string> petsc;
+};
+
+/// PETSc's options have one dash and more than one letter, and take the next word along unless that is an option or a
+/// scene.
+CommandLine split(int argc, char** argv);
+
+/// Runs `work` between SlepcInitialize and SlepcFinalize and turns what it throws into messages (rank 0, stderr) and an
+/// exit code: 0, 1 RunError, 2 InputError. A fault of one rank alone, which the others do not learn of, ends them all.
+int in_session(const CommandLine& line, const std::function<void()>& work);
+
+/// @throws InputError  options with a prefix that is nearly, but not quite, one of ours
+void check_prefixes();
+/// @throws InputError  options that nothing has read
+void check_unused();
+
+}  // namespace floe::app

@@ -1,0 +1,79 @@
+#include "floe/body/elasticity.h"
+
+namespace floe::body {
+namespace {
+
+void monomials(const Elasticity& e, const Eigen::VectorXd& q, Eigen::VectorXd& z) {
+  const Eigen::Index k = q.size();
+  z.resize(e.F.cols());
+  if (z.size() == 0) return;
+  z.head(k) = q;
+  for (std::size_t p = 0; p < e.pairs.size(); ++p) {
+    const auto [a, b] = e.pairs[p];
+    z[k + p] = a == b ? 0.5 * q[a] * q[a] : q[a] * q[b];
+  }
+}
+
+/// y = F z, w = F'y: stresses and their pull-back.
+void stresses(const Elasticity& e, const Eigen::VectorXd& q, ElasticityWork& work) {
+  monomials(e, q, work.z);
+  work.y.noalias() = e.F * work.z;
+  work.w.noalias() = e.F.transpose() * work.y;
+}
+
+}  // namespace
+
+Eigen::MatrixXd Elasticity::linear_stiffness() const {
+  const Eigen::Index k = bending.rows();
+  if (F.rows() == 0) return bending;
+  return bending + F.leftCols(k).transpose() * F.leftCols(k);
+}
+
+double energy(const Elasticity& e, const Eigen::VectorXd& q) {
+  double twice = q.dot(e.bending * q);
+  if (e.F.rows() > 0) {
+    Eigen::VectorXd z;
+    monomials(e, q, z);
+    twice += (e.F * z).squaredNorm();
+  }
+  return 0.5 * twice;
+}
+
+void add_force(const Elasticity& e, const Eigen::VectorXd& q, ElasticityWork& work, Eigen::Ref<Eigen::VectorXd> f) {
+  const Eigen::Index k = q.size();
+  f.noalias() += e.bending * q;
+  if (e.F.rows() == 0) return;
+  stresses(e, q, work);
+  f += work.w.head(k);
+  for (std::size_t p = 0; p < e.pairs.size(); ++p) {
+    const auto [a, b] = e.pairs[p];
+    const double w = work.w[k + p];
+    f[a] += w * q[b];
+    if (a != b) f[b] += w * q[a];
+  }
+}
+
+void add_tangent(const Elasticity& e, const Eigen::VectorXd& q, double weight, ElasticityWork& work,
+                 Eigen::Ref<Eigen::MatrixXd> K) {
+  const Eigen::Index k = q.size();
+  K += weight * e.bending;
+  if (e.F.rows() == 0) return;
+  stresses(e, q, work);
+  work.T = e.F.leftCols(k);  // T = F dz/dq
+  for (std::size_t p = 0; p < e.pairs.size(); ++p) {
+    const auto [a, b] = e.pairs[p];
+    work.T.col(a) += q[b] * e.F.col(k + p);
+    if (a != b) work.T.col(b) += q[a] * e.F.col(k + p);
+  }
+  K.noalias() += weight * work.T.transpose() * work.T;
+  for (std::size_t p = 0; p < e.pairs.size(); ++p) {
+    const auto [a, b] = e.pairs[p];
+    const double w = weight * work.w[k + p];
+    K(a, b) += w;
+    if (a != b) K(b, a) += w;
+  }
+}
+
+Elasticity linearised(const Elasticity& e) { return {e.bending, e.F.leftCols(e.bending.rows()), {}}; }
+
+}  // namespace floe::body

@@ -1,0 +1,35 @@
+#include "floe/dynamics/floating_body.h"
+
+#include "floe/body/floating_frame.h"
+
+namespace floe::dynamics {
+
+FloatingBody::FloatingBody(std::vector<int> coordinates, body::PlanarInertia inertia, body::Elasticity elasticity,
+                           Eigen::MatrixXd damping)
+    : coordinates_(std::move(coordinates)),
+      inertia_(std::move(inertia)),
+      elasticity_(std::move(elasticity)),
+      damping_(std::move(damping)) {}
+
+void FloatingBody::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  body::add_inertia_force(inertia_, motion.q, motion.v, motion.a, r);
+  const Eigen::Index k = r.size() - 3;
+  elastic_ = motion.q.tail(k);
+  body::add_force(elasticity_, elastic_, work_, r.tail(k));
+  if (damping_.size() > 0) r.tail(k).noalias() += damping_ * motion.v.tail(k);
+}
+
+void FloatingBody::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  body::add_inertia_tangent(inertia_, motion.q, motion.v, motion.a, weights.q, weights.v, weights.a, J);
+  const Eigen::Index k = J.rows() - 3;
+  elastic_ = motion.q.tail(k);
+  if (weights.q != 0) body::add_tangent(elasticity_, elastic_, weights.q, work_, J.bottomRightCorner(k, k));
+  if (damping_.size() > 0) J.bottomRightCorner(k, k) += weights.v * damping_;
+}
+
+Energy FloatingBody::energy(const Motion& motion) const {
+  elastic_ = motion.q.tail(motion.q.size() - 3);
+  return {body::kinetic_energy(inertia_, motion.q, motion.v), body::energy(elasticity_, elastic_), 0};
+}
+
+}  // namespace floe::dynamics

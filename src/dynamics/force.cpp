@@ -1,0 +1,38 @@
+#include <cmath>
+
+#include "floe/dynamics/joints.h"
+
+namespace floe::dynamics {
+
+Force::Force(Marker at, std::function<Eigen::Vector3d(double)> force, Axes axes)
+    : at_(std::move(at)), force_(std::move(force)), axes_(axes) {}
+
+Eigen::Vector3d Force::wrench(const Motion& motion) const {
+  Eigen::Vector3d f = force_(motion.t);
+  if (axes_ == Axes::body && at_.framed) {
+    const double c = std::cos(motion.q[2]), s = std::sin(motion.q[2]);
+    f.head<2>() = Eigen::Vector2d(c * f.x() - s * f.y(), s * f.x() + c * f.y());
+  }
+  return f;
+}
+
+void Force::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  r.noalias() -= pose_.P.transpose() * wrench(motion);
+}
+
+void Force::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  const Eigen::Vector3d f = wrench(motion);
+  add_geometric_stiffness(at_, pose_, f, -weights.q, J);
+  if (axes_ == Axes::body && at_.framed)
+    J.col(2).noalias() -= weights.q * (pose_.P.transpose() * Eigen::Vector3d(-f.y(), f.x(), 0));
+}
+
+Energy Force::energy(const Motion& motion) const {
+  if (!conservative) return {};
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  return {0, 0, -wrench(motion).dot(pose_.y)};
+}
+
+}  // namespace floe::dynamics

@@ -1,0 +1,157 @@
+#include "generalized_alpha_data.h"
+
+namespace floe::dynamics {
+namespace {
+
+struct Norms {
+  PetscReal update, increment, size;
+};
+
+// Weighted norms of Newton's last update, of q_1 - q_0 and of q_1. Multipliers have no weight. Collective.
+PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
+  Vec U_vec, update_vec;
+  SNESLineSearch line_search;
+  PetscReal lambda;
+  PetscMPIInt ranks;
+  double sums[3] = {0, 0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetSolution(snes, &U_vec));
+  PetscCall(SNESGetSolutionUpdate(snes, &update_vec));
+  PetscCall(SNESGetLineSearch(snes, &line_search));
+  PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
+  const Entries U(U_vec), U0(data->U0), update(update_vec), weight(data->weight);
+  for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
+    sums[0] += weight[i] * PetscSqr(update[i]);
+    sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
+    sums[2] += weight[i] * PetscSqr(U[i]);
+  }
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));
+  if (ranks > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
+  *norms = {lambda * PetscSqrtReal(sums[0]), PetscSqrtReal(sums[1]), PetscSqrtReal(sums[2])};
+  PetscFunctionReturn(0);
+}
+
+// The rate of convergence theta: the ratio of the last two updates. For the first update of a solve: the rate seen
+// last, in proportion to the update (Newton converges quadratically); unknown (1) if the Jacobian was new then and is
+// not now.
+PetscReal rate_of(GeneralizedAlpha* data, PetscInt iteration, PetscReal update) {
+  if (iteration == 1) {
+    data->best = data->first_update = update;
+    data->idle = data->growing = 0;
+    if (!data->new_jacobian && !data->rate_of_old_jacobian) return 1;
+    const PetscReal larger = data->rate_update > 0 ? PetscMax(update / data->rate_update, 1) : 1;
+    data->rate = PetscMin(2 * data->rate, 1);  // until it is measured again
+    return PetscMin(PetscPowReal(data->rate, 0.8) * larger, 1);
+  }
+  const PetscReal rate = data->update > 0 ? update / data->update : 0;
+  data->growing = rate > 2 ? data->growing + 1 : 0;
+  data->idle = update > 0.9 * data->best ? data->idle + 1 : 0;
+  data->best = PetscMin(data->best, update);
+  data->rate = PetscMax(rate, PETSC_MACHINE_EPSILON);
+  data->rate_update = data->first_update;
+  data->rate_of_old_jacobian = data->formed ? PETSC_FALSE : PETSC_TRUE;
+  return rate;
+}
+
+}  // namespace
+
+// Converged when the error that is left is under rtol |q_1 - q_0| + 4 eps |q_1|, in the norm sqrt(sum |J_ii| q_i^2);
+// the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner, Solving Ordinary
+// Differential Equations II, IV.8). Round-off: three updates in a row with a new Jacobian that are small and do not
+// fall any more. A Jacobian kept from before is replaced when the rate is bad.
+PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
+                                SNESConvergedReason* reason, void* context) {
+  GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
+  PetscReal rtol;
+  Norms norms;
+
+  PetscFunctionBegin;
+  *reason = SNES_CONVERGED_ITERATING;
+  if (iteration == 0) {
+    data->new_jacobian = data->formed = PETSC_FALSE;
+    if (residual == 0) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (PetscIsInfOrNanReal(residual)) *reason = SNES_DIVERGED_FNORM_NAN;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(measure(data, snes, &norms));
+  PetscCall(SNESGetTolerances(snes, nullptr, &rtol, nullptr, nullptr, nullptr));
+  if (data->new_jacobian) data->formed = PETSC_TRUE;
+  const PetscReal rate = rate_of(data, iteration, norms.update);
+  const PetscReal left = rate < 1 ? rate / (1 - rate) * norms.update : PETSC_MAX_REAL;
+  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size;
+  if (PetscIsInfOrNanReal(norms.update) || PetscIsInfOrNanReal(residual)) {
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  } else if (norms.update <= 4 * floor || left <= rtol * norms.increment + 4 * floor) {
+    *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  } else if (iteration > 1 && rate > 0.25 && !data->new_jacobian) {
+    renew_jacobian(snes, iteration);
+    data->idle = data->growing = 0;
+  } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, 1e3 * floor)) {
+    *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  } else if (data->growing >= 2) {
+    *reason = SNES_DIVERGED_DTOL;
+  }
+  data->update = norms.update;
+  data->new_jacobian = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+namespace {
+
+// e = J^-1 shift_a M e0, e0 = h^2 (b - 1/6) (a_1 - a_0): Newmark's error of q in the step, without what is stiff or
+// normal to the constraints (there q is exact, and the estimate would be noise of the multipliers). Into work_U. M e0
+// is F(t, U, V, A + e0), for F is linear in A and F(t, U, V, A) = 0.
+PetscErrorCode estimate_error(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal h = data->h, factor = data->shift_a * h * h * (data->beta - 1. / 6);
+  KSP ksp;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_A, -1, data->a_used, data->a1));
+  PetscCall(VecAYPX(data->work_A, factor, data->A1));
+  PetscCall(TSComputeI2Function(ts, ts->ptime + h, data->U1, data->V1, data->work_A, data->work_F));
+  {
+    const Entries scale(data->scale), dynamic(data->dynamic);
+    Changed rows(data->work_F);
+    for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i) rows[i] *= dynamic[i] * scale[i];
+  }
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPSolve(ksp, data->work_F, data->work_U));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+// Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
+// sqrt(sum M_ii q_i^2): no unit and no atol enters. -1 (not known) while nothing has moved, and in the first step from
+// rest without a force, where the distance is of the size of the error whatever the step. The power of h in the
+// estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  double sums[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(estimate_error(ts));
+  {
+    const Entries e(data->work_U), U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
+    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
+      sums[0] += dynamic[i] * mass[i] * PetscSqr(e[i]);
+      sums[1] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
+  data->reach_tried = PetscSqrtReal(sums[1]);
+  const PetscReal reach = PetscMax(data->reach, data->reach_tried);
+  const bool known = reach > 0 && !data->from_rest;
+  *error = known ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
+  *order = 3;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::dynamics

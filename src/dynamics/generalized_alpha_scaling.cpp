@@ -1,0 +1,143 @@
+#include <petsc/private/snesimpl.h>
+
+#include <vector>
+
+#include "generalized_alpha_data.h"
+
+// Rows are scaled, unknowns are not: LU with partial pivoting compares entries of a column, which row scaling gives one
+// unit. With w_i = |K_ii| + shift_a M_ii (the Jacobian's diagonal, an energy per unit of q_i squared)
+//   dynamic row     1 / sqrt(w_i)
+//   constraint row  1 / sqrt(sum_j C_j^2 / w_j)
+// the dynamic rows get a unit diagonal in the variables sqrt(w_j) q_j and the constraint rows unit length, at any step
+// size and in any units. K_ii, M_ii and C_j are those of the start.
+
+namespace floe::dynamics {
+namespace {
+
+struct Row {
+  std::vector<PetscInt> columns;
+  std::vector<PetscScalar> values;
+};
+
+PetscErrorCode owned_constraint_rows(GeneralizedAlpha* data, Mat J, std::vector<PetscInt>& local, Row& entries,
+                                     std::vector<size_t>& ends) {
+  PetscInt first;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(data->dynamic, &first, nullptr));
+  const Entries dynamic(data->dynamic);
+  for (PetscInt i = 0, n = local_size(data->dynamic); i < n; ++i) {
+    if (dynamic[i] != 0) continue;
+    PetscInt count;
+    const PetscInt* columns;
+    const PetscScalar* values;
+    PetscCall(MatGetRow(J, first + i, &count, &columns, &values));
+    entries.columns.insert(entries.columns.end(), columns, columns + count);
+    entries.values.insert(entries.values.end(), values, values + count);
+    PetscCall(MatRestoreRow(J, first + i, &count, &columns, &values));
+    local.push_back(i);
+    ends.push_back(entries.columns.size());
+  }
+  PetscFunctionReturn(0);
+}
+
+// w of the given columns, whoever owns them. Collective.
+PetscErrorCode gather_weights(Vec weight, const std::vector<PetscInt>& columns, std::vector<PetscScalar>& gathered) {
+  IS wanted;
+  Vec here;
+  VecScatter scatter;
+  const auto count = static_cast<PetscInt>(columns.size());
+
+  PetscFunctionBegin;
+  gathered.resize(columns.size());
+  PetscCall(ISCreateGeneral(PetscObjectComm((PetscObject)weight), count, columns.data(), PETSC_COPY_VALUES, &wanted));
+  PetscCall(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, count, gathered.data(), &here));
+  PetscCall(VecScatterCreate(weight, wanted, here, nullptr, &scatter));
+  PetscCall(VecScatterBegin(scatter, weight, here, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(scatter, weight, here, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterDestroy(&scatter));
+  PetscCall(VecDestroy(&here));
+  PetscCall(ISDestroy(&wanted));
+  PetscFunctionReturn(0);
+}
+
+// row = 1 / sqrt(sum_j C_j^2 shift_a / w_j): nearly free of the step size. Needs weight.
+PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
+  std::vector<PetscInt> local;
+  std::vector<PetscScalar> weights;
+  std::vector<size_t> ends;
+  Row entries;
+
+  PetscFunctionBegin;
+  PetscCall(owned_constraint_rows(data, J, local, entries, ends));
+  PetscCall(gather_weights(data->weight, entries.columns, weights));
+  Changed row(data->row);
+  for (size_t r = 0, k = 0; r < local.size(); ++r) {
+    PetscReal sum = 0;
+    for (; k < ends[r]; ++k)
+      if (weights[k] > 0) sum += PetscSqr(entries.values[k]) * data->shift_a / weights[k];
+    row[local[r]] = sum > 0 ? 1 / PetscSqrtReal(sum) : 1;
+  }
+  PetscFunctionReturn(0);
+}
+
+void weigh(GeneralizedAlpha* data) {
+  const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
+  Changed weight(data->weight);
+  for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
+    weight[i] = dynamic[i] * (stiffness[i] + data->shift_a * mass[i]);
+}
+
+}  // namespace
+
+PetscErrorCode measure_scales(TS ts, Mat* inertia) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, 0, J, P));
+  PetscCall(MatGetDiagonal(P, data->stiffness));
+  if (inertia) PetscCall(MatDuplicate(P, MAT_COPY_VALUES, inertia));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, data->shift_a, J, P));
+  PetscCall(MatGetDiagonal(P, data->mass));
+  PetscCall(VecAXPY(data->mass, -1, data->stiffness));
+  PetscCall(VecScale(data->mass, 1 / data->shift_a));
+  PetscCall(VecAbs(data->mass));
+  PetscCall(VecAbs(data->stiffness));
+  if (inertia) {
+    PetscCall(MatAYPX(*inertia, -1, P, SAME_NONZERO_PATTERN));
+    PetscCall(MatScale(*inertia, 1 / data->shift_a));
+  }
+  weigh(data);
+  PetscCall(measure_constraint_rows(data, P));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_scales(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  weigh(data);
+  const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
+  Changed scale(data->scale);
+  const PetscReal of_row = PetscSqrtReal(data->shift_a);
+  for (PetscInt i = 0, n = local_size(data->scale); i < n; ++i) {
+    if (dynamic[i] == 0)
+      scale[i] = of_row * row[i];
+    else
+      scale[i] = weight[i] > 0 ? 1 / PetscSqrtReal(weight[i]) : 1;
+  }
+  data->h_scale = data->h;
+  renew_jacobian(ts->snes, 0);
+  PetscFunctionReturn(0);
+}
+
+// SNES forms a Jacobian when (iteration + jac_iter) is a multiple of the lag; -1 means never again, -2 once more.
+void renew_jacobian(SNES snes, PetscInt iteration) {
+  snes->jac_iter = snes->pre_iter = -iteration;
+  if (snes->lagjacobian == -1) snes->lagjacobian = -2;
+  if (snes->lagpreconditioner == -1) snes->lagpreconditioner = -2;
+}
+
+}  // namespace floe::dynamics

@@ -1,0 +1,233 @@
+#include <petsc/private/snesimpl.h>
+
+#include <utility>
+
+#include "generalized_alpha_data.h"
+
+namespace floe::dynamics {
+namespace {
+
+// The time that the step under way ends at.
+PetscReal end_time(TS ts) { return ts->ptime + generalized_alpha_data(ts)->h; }
+
+// The state becomes the step's beginning. Multipliers have no rates, whatever the user's V holds there.
+PetscErrorCode begin(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(ts->vec_sol, data->U0));
+  PetscCall(VecPointwiseMult(data->V0, ts->vec_dot, data->dynamic));
+  std::swap(data->A0, data->A1);
+  std::swap(data->a0, data->a1);
+  data->h_a0 = data->h;
+  data->fresh = data->from_rest = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+// a_n and v_n as a first step needs them (and, with constraints, one of another size than the last), so that the
+// numerical solution is smooth from the start.
+//
+// The smooth solution of the scheme has a_n = A(t_n + (am - af) h); normal to the constraints, where q is exact,
+// summing q_1 - q_0 over a step shows v_n = v(t_n) + c h^2 A', c = 1/6 - b + (af - am)/2. Starting with a_0 = A_0 or
+// v_0 = v(t_0) leaves a transient of O(h) in the multipliers. A' counts with (h^-2 M / (h^-2 M + K))^2, which is
+// 1 - O(h^2) for what the step resolves and 0 for stiff motions, whose h A' would be noise greater than A.
+void fresh_rates(GeneralizedAlpha* data) {
+  const Entries v(data->V0), A(data->A0), jerk(data->jerk), normal(data->normal), mass(data->mass),
+      weight(data->weight);
+  Changed a_used(data->a_used), v_used(data->work_V);
+  const PetscReal h = data->h, shift = data->alpha_f - data->alpha_m, offset = 1. / 6 - data->beta + shift / 2;
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
+    const PetscReal resolved = weight[i] > 0 ? PetscMin(data->shift_a * mass[i] / weight[i], 1) : 0;
+    a_used[i] = A[i] - h * shift * resolved * resolved * jerk[i];
+    v_used[i] = v[i] + h * h * offset * normal[i];
+  }
+}
+
+// Without constraints: a_n - A_n is proportional to the step and follows a change of h, up to twice its size.
+void later_rates(GeneralizedAlpha* data) {
+  const Entries v(data->V0), A(data->A0), a(data->a0);
+  Changed a_used(data->a_used), v_used(data->work_V);
+  const PetscReal ratio = PetscMin(data->h / data->h_a0, 2);
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
+    a_used[i] = ratio == 1 ? a[i] : A[i] + ratio * (a[i] - A[i]);
+    v_used[i] = v[i];
+  }
+}
+
+// Shifts, scales and the constants in a_1(q_1), v_1(a_1), A_1(a_1) for a step h; U1 becomes the solution for a_1 = a_0.
+PetscErrorCode prepare(TS ts, PetscReal h) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal beta = data->beta, gamma = data->gamma, alpha_m = data->alpha_m, alpha_f = data->alpha_f;
+
+  PetscFunctionBegin;
+  set_step(data, h);
+  if (!data->fresh && data->multipliers && PetscAbsReal(h - data->h_a0) > 1e-6 * data->h_a0)
+    PetscCall(smooth_rates(ts));
+  else if (PetscAbsReal(h - data->h_scale) > 0.05 * data->h_scale)
+    PetscCall(set_scales(ts));
+  if (data->fresh)
+    fresh_rates(data);
+  else
+    later_rates(data);
+  const Entries U0(data->U0), v(data->work_V), A(data->A0), a(data->a_used);
+  Changed base_q(data->base_q), base_v(data->base_v), base_A(data->base_A), U1(data->U1);
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
+    base_q[i] = U0[i] + h * v[i] + h * h * (0.5 - beta) * a[i];
+    base_v[i] = v[i] + h * (1 - gamma) * a[i];
+    base_A[i] = (alpha_m * a[i] - alpha_f * A[i]) / (1 - alpha_f);
+    U1[i] = base_q[i] + h * h * beta * a[i];
+  }
+  PetscFunctionReturn(0);
+}
+
+// V1, A1 and, if wanted, a1 that belong to U.
+void set_rates(GeneralizedAlpha* data, Vec U_vec, bool auxiliary) {
+  const Entries U(U_vec), dynamic(data->dynamic), base_q(data->base_q), base_v(data->base_v), base_A(data->base_A);
+  Changed V(data->V1), A(data->A1), a(data->a1);
+  const PetscReal h = data->h, of_q = 1 / (data->beta * h * h), of_a = (1 - data->alpha_m) / (1 - data->alpha_f);
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
+    const PetscReal a1 = dynamic[i] * (U[i] - base_q[i]) * of_q;
+    V[i] = base_v[i] + h * data->gamma * a1;
+    A[i] = base_A[i] + of_a * a1;
+    if (auxiliary) a[i] = a1;
+  }
+}
+
+PetscErrorCode solve(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscInt iterations, linear;
+  SNESConvergedReason reason;
+
+  PetscFunctionBegin;
+  if (!ts->snes->lagjac_persist) ts->snes->jac_iter = 0;
+  if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
+  PetscCall(SNESSolve(ts->snes, nullptr, data->U1));
+  PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
+  PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
+  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
+  ts->snes_its += iterations;
+  ts->ksp_its += linear;
+  if (reason < 0) renew_jacobian(ts->snes, 0);
+  PetscFunctionReturn(0);
+}
+
+// An adaptive step that would change by little is kept: constant steps are what the scheme likes best, and a Jacobian
+// may serve longer. Not near a time that is to be met.
+PetscReal keep_if_close(TS ts, PetscReal next) {
+  const PetscReal h = ts->time_step;
+  const PetscReal goal = ts->tspan ? ts->tspan->span_times[ts->tspan->spanctr] : ts->max_time;
+  const bool free_to_choose = goal - ts->ptime > 4 * PetscMax(h, next);
+  return free_to_choose && next > 0.95 * h && next < 1.25 * h ? h : next;
+}
+
+// One attempt; *accepted tells whether ts->vec_sol and ts->vec_dot now hold the step's end.
+PetscErrorCode attempt(TS ts, PetscReal* next, PetscBool* accepted) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (ts->ptime + ts->time_step == ts->ptime) {
+    PetscCall(PetscInfo(ts, "Step %" PetscInt_FMT ": too small to change the time\n", ts->steps));
+    ts->reason = TS_DIVERGED_STEP_REJECTED;
+    *accepted = PETSC_FALSE;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(prepare(ts, ts->time_step));
+  PetscCall(TSPreStage(ts, end_time(ts)));
+  PetscCall(solve(ts));
+  PetscCall(TSPostStage(ts, end_time(ts), 0, &data->U1));
+  PetscCall(TSAdaptCheckStage(ts->adapt, ts, end_time(ts), data->U1, accepted));
+  if (!*accepted) PetscFunctionReturn(0);
+  set_rates(data, data->U1, true);
+  PetscCall(VecCopy(data->U1, ts->vec_sol));
+  PetscCall(VecCopy(data->V1, ts->vec_dot));
+  PetscCall(TSAdaptChoose(ts->adapt, ts, ts->time_step, nullptr, next, accepted));
+  if (!*accepted) {
+    PetscCall(roll_back(ts));
+    ts->time_step = *next;
+  }
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+PetscErrorCode step(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscInt rejections = 0;
+  PetscReal next = ts->time_step;
+  PetscBool accepted = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  if (!ts->steprollback) PetscCall(begin(ts));
+  if (ts->steprestart || !data->started) PetscCall(start_consistently(ts));
+  do {
+    PetscCall(attempt(ts, &next, &accepted));
+    if (accepted) {
+      data->reach = PetscMax(data->reach, data->reach_tried);
+      next = keep_if_close(ts, next);
+      ts->ptime += ts->time_step;
+      ts->time_step = next;
+      break;
+    }
+    ts->reject++;
+    if (!ts->reason && ++rejections > ts->max_reject && ts->max_reject >= 0) {
+      ts->reason = TS_DIVERGED_STEP_REJECTED;
+      PetscCall(PetscInfo(ts, "Step %" PetscInt_FMT ": rejected %" PetscInt_FMT " times\n", ts->steps, rejections));
+    }
+  } while (!ts->reason);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode roll_back(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data->U0, ts->vec_sol));
+  PetscCall(VecCopy(data->V0, ts->vec_dot));
+  PetscCall(VecCopy(data->A0, data->A1));
+  PetscFunctionReturn(0);
+}
+
+// Cubic Hermite for q (error O(h^4) of the scheme's own path), linear for the multipliers.
+PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (ts->ptime == ts->ptime_prev) {
+    PetscCall(VecCopy(ts->vec_sol, U_vec));
+    PetscFunctionReturn(0);
+  }
+  const Entries U0(data->U0), V0(data->V0), U1(data->U1), V1(data->V1), dynamic(data->dynamic);
+  Changed U(U_vec);
+  const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h;
+  for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
+    const PetscReal to_end = dynamic[i] != 0 ? x * x * (3 - 2 * x) : x;
+    U[i] = U0[i] + to_end * (U1[i] - U0[i]) + h * x * (1 - x) * ((1 - x) * V0[i] - x * V1[i]);
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode form_function(SNES, Vec U, Vec F, TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  set_rates(data, U, false);
+  PetscCall(TSComputeI2Function(ts, end_time(ts), U, data->V1, data->A1, F));
+  const Entries scale(data->scale);
+  Changed scaled(F);
+  for (PetscInt i = 0, n = local_size(F); i < n; ++i) scaled[i] *= scale[i];
+  PetscFunctionReturn(0);
+}
+
+// SNES has evaluated the function at U before: V1 and A1 belong to U.
+PetscErrorCode form_jacobian(SNES, Vec U, Mat J, Mat P, TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(TSComputeI2Jacobian(ts, end_time(ts), U, data->V1, data->A1, data->shift_v, data->shift_a, J, P));
+  PetscCall(MatDiagonalScale(P, data->scale, nullptr));
+  if (J != P) PetscCall(MatDiagonalScale(J, data->scale, nullptr));
+  data->new_jacobian = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::dynamics

@@ -1,0 +1,125 @@
+#include "floe/dynamics/joints.h"
+
+#include <cmath>
+
+namespace floe::dynamics {
+namespace {
+
+using Eigen::Vector2d;
+
+/// A constraint at one instant, in poses: C at the asked level, dC/dy, and the Hessian of lambda . C.
+struct Evaluation {
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 3, 6> gradient = Eigen::Matrix<double, 3, 6>::Zero();
+  Matrix6 hessian = Matrix6::Zero();
+};
+
+const Vector6& at_level(ConstraintLevel level, const Vector6& y, const Vector6& yd, const Vector6& ydd) {
+  return level == ConstraintLevel::position ? y : level == ConstraintLevel::velocity ? yd : ydd;
+}
+
+double at_level(ConstraintLevel level, const TimeFunction& f, double t) {
+  if (!f.value) return 0;
+  return level == ConstraintLevel::position   ? f.value(t)
+         : level == ConstraintLevel::velocity ? f.rate(t)
+                                              : f.acceleration(t);
+}
+
+void coincide(const Vector6& y, Evaluation& e) {
+  e.C.head<2>() = y.segment<2>(3) - y.head<2>();
+  e.gradient(0, 0) = e.gradient(1, 1) = -1;
+  e.gradient(0, 3) = e.gradient(1, 4) = 1;
+}
+
+struct Evaluate {
+  const Motion& motion;
+  const MarkerPair& pair;
+  const Eigen::Vector3d& lambda;
+
+  Evaluation operator()(const Revolute&) const {
+    Evaluation e;
+    coincide(at_level(motion.level, pair.y(), pair.yd(), pair.ydd()), e);
+    return e;
+  }
+  Evaluation operator()(const Clamp& clamp) const {
+    Evaluation e;
+    const Vector6 y = at_level(motion.level, pair.y(), pair.yd(), pair.ydd());
+    coincide(y, e);
+    e.C[2] = y[5] - y[2] - at_level(motion.level, clamp.angle, motion.t);
+    if (motion.level == ConstraintLevel::position) e.C[2] -= clamp.offset;
+    e.gradient(2, 2) = -1, e.gradient(2, 5) = 1;
+    return e;
+  }
+  Evaluation operator()(const Prismatic& slide) const {
+    Evaluation e;
+    const Vector6 y = pair.y(), yd = pair.yd(), ydd = pair.ydd();
+    const double c = std::cos(y[2]), s = std::sin(y[2]), w = yd[2], wd = ydd[2];
+    const Vector2d n(c * slide.normal.x() - s * slide.normal.y(), s * slide.normal.x() + c * slide.normal.y());
+    const Vector2d m(-n.y(), n.x());  // dn/dangle
+    const Vector2d d = y.segment<2>(3) - y.head<2>();
+    const Vector2d dd = yd.segment<2>(3) - yd.head<2>(), ddd = ydd.segment<2>(3) - ydd.head<2>();
+    const Vector6 level = at_level(motion.level, y, yd, ydd);
+    e.C[1] = level[5] - level[2];
+    switch (motion.level) {
+      case ConstraintLevel::position:
+        e.C[0] = n.dot(d) - slide.gap;
+        e.C[1] -= slide.offset;
+        break;
+      case ConstraintLevel::velocity:
+        e.C[0] = n.dot(dd) + w * m.dot(d);
+        break;
+      case ConstraintLevel::acceleration:
+        e.C[0] = n.dot(ddd) + 2 * w * m.dot(dd) + wd * m.dot(d) - w * w * n.dot(d);
+        break;
+    }
+    e.gradient.block<1, 2>(0, 0) = -n.transpose();
+    e.gradient(0, 2) = m.dot(d);
+    e.gradient.block<1, 2>(0, 3) = n.transpose();
+    e.gradient(1, 2) = -1, e.gradient(1, 5) = 1;
+    e.hessian(2, 2) = -lambda[0] * n.dot(d);
+    e.hessian.block<2, 1>(0, 2) = -lambda[0] * m;
+    e.hessian.block<2, 1>(3, 2) = lambda[0] * m;
+    e.hessian.block<1, 2>(2, 0) = -lambda[0] * m.transpose();
+    e.hessian.block<1, 2>(2, 3) = lambda[0] * m.transpose();
+    return e;
+  }
+};
+
+}  // namespace
+
+int rows(const Constraint& constraint) { return std::holds_alternative<Clamp>(constraint) ? 3 : 2; }
+
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers)
+    : pair_(std::move(first), std::move(second)),
+      constraint_(std::move(constraint)),
+      multiplier_(static_cast<int>(pair_.coordinates.size())) {
+  for (int i = 0; i < rows(constraint_); ++i) pair_.coordinates.push_back(multipliers + i);
+}
+
+void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  const int m = rows(constraint_);
+  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+  lambda.head(m) = motion.q.segment(multiplier_, m);
+  pair_.evaluate(motion);
+  const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
+  pair_.add(e.gradient.transpose() * lambda, r);
+  r.segment(multiplier_, m) += e.C.head(m);
+}
+
+void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  const int m = rows(constraint_);
+  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+  lambda.head(m) = motion.q.segment(multiplier_, m);
+  pair_.evaluate(motion);
+  const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
+  pair_.add_tangent(e.gradient.transpose() * lambda, e.hessian, Matrix6::Zero(), weights, J);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(J.rows());
+  for (int i = 0; i < m; ++i) {
+    row.setZero();
+    pair_.add(e.gradient.row(i).transpose(), row);
+    J.row(multiplier_ + i) += row.transpose();
+    J.col(multiplier_ + i) += row;
+  }
+}
+
+}  // namespace floe::dynamics

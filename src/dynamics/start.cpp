@@ -1,0 +1,200 @@
+#include "floe/dynamics/start.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floe/petsc/values.h"
+
+namespace floe::dynamics {
+
+using petsc::check;
+
+void set_tangent_solver(KSP ksp, Mat J) {
+  PC pc = nullptr;
+  PetscBool dense = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(J), &dense, MATSEQDENSE, MATDENSE, ""));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCLU));
+  if (!dense) check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+}
+
+petsc::KspHandle tangent_solver(Mat J, const char* prefix) {
+  petsc::KspHandle ksp;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(J)), ksp.out()));
+  check(KSPSetOptionsPrefix(ksp, prefix));
+  check(KSPSetOperators(ksp, J, J));
+  set_tangent_solver(ksp, J);
+  check(KSPSetFromOptions(ksp));
+  return ksp;
+}
+
+namespace {
+
+/// Symmetric scaling of [M C'; C 0]: 1 / sqrt(M_ii) for coordinates, 1 / |row of C M^(-1/2)| for multipliers. Scales J.
+petsc::VecHandle equilibrate(const System& system, Mat J) {
+  const auto& multipliers = system.coordinates().owned_multipliers();
+  petsc::VecHandle scale = system.create_vector();
+  check(MatGetDiagonal(J, scale));
+  {
+    petsc::Values s(scale);
+    for (PetscInt i = s.first; i < s.end; ++i) s[i] = s[i] != 0 ? 1 / std::sqrt(std::abs(s[i])) : 1;
+    for (PetscInt row : multipliers) s[row] = 1;
+  }
+  check(MatDiagonalScale(J, nullptr, scale));
+  const petsc::VecHandle columns = system.create_vector();
+  check(VecSet(columns, 1));
+  {
+    petsc::Values s(scale), c(columns);
+    for (PetscInt row : multipliers) {
+      PetscInt count = 0;
+      const PetscInt* where = nullptr;
+      const double* entries = nullptr;
+      check(MatGetRow(J, row, &count, &where, &entries));
+      const double norm = Eigen::Map<const Eigen::VectorXd>(entries, count).norm();
+      check(MatRestoreRow(J, row, &count, &where, &entries));
+      s[row] = c[row] = norm > 0 ? 1 / norm : 1;
+    }
+  }
+  check(MatDiagonalScale(J, scale, columns));
+  return scale;
+}
+
+/// x with [M C'; C 0] x = b.
+petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec A, Vec b) {
+  const petsc::MatHandle J = system.create_tangent();
+  system.tangent(t, U, V, A, {0, 0, 1}, J);
+  const petsc::VecHandle scale = equilibrate(system, J);
+  const petsc::VecHandle right = system.create_vector(), product = system.create_vector();
+  petsc::VecHandle x = system.create_vector();
+  check(VecPointwiseMult(right, b, scale));
+  petsc::MatHandle kept;  // a dense LU overwrites its matrix
+  check(MatDuplicate(J, MAT_COPY_VALUES, kept.out()));
+  const petsc::KspHandle ksp = tangent_solver(J, "motion_start_");
+  check(KSPSolve(ksp, right, x));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  double size = 0, residual = 0, given = 0;
+  check(KSPGetConvergedReason(ksp, &reason));
+  check(VecNorm(x, NORM_INFINITY, &size));
+  check(MatMult(kept, x, product));
+  check(VecAXPY(product, -1, right));
+  check(VecNorm(product, NORM_INFINITY, &residual));
+  check(VecNorm(right, NORM_INFINITY, &given));
+  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given))
+    throw RunError(
+        "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
+        "hold the same motion), or a body has no mass");
+  check(VecPointwiseMult(x, x, scale));
+  return x;
+}
+
+/// Splits a solution of the saddle: accelerations (multipliers zero) and multipliers (into U).
+void split(const System& system, Vec x, Vec U, Vec A) {
+  check(VecCopy(x, A));
+  petsc::Values from(x), a(A);
+  for (PetscInt row : system.coordinates().owned_multipliers()) a[row] = 0;
+  if (!U) return;
+  petsc::Values u(U);
+  for (PetscInt row : system.coordinates().owned_multipliers()) u[row] = from[row];
+}
+
+/// Keeps only the multiplier rows (`multipliers`), or only the others.
+void keep_rows(const System& system, Vec f, bool multipliers) {
+  petsc::Values values(f);
+  const auto& rows = system.coordinates().owned_multipliers();  // ascending
+  auto next = rows.begin();
+  for (PetscInt i = values.first; i < values.end; ++i) {
+    const bool is = next != rows.end() && *next == i;
+    if (is) ++next;
+    if (is != multipliers) values[i] = 0;
+  }
+}
+
+}  // namespace
+
+void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
+  keep_rows(system, U, false);
+  check(VecSet(A, 0));
+  const petsc::VecHandle F = system.create_vector();
+  system.residual(t, U, V, A, ConstraintLevel::acceleration, F);
+  check(VecScale(F, -1));
+  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  split(system, x, U, A);
+}
+
+double consistent_velocities(const System& system, double t, Vec U, Vec V) {
+  if (system.coordinates().multiplier_count() == 0) return 0;
+  const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
+  system.residual(t, U, V, A, ConstraintLevel::velocity, F);
+  keep_rows(system, F, true);
+  check(VecScale(F, -1));
+  double wrong = 0, size = 0, change = 0;
+  check(VecNorm(F, NORM_2, &wrong));
+  if (wrong == 0) return 0;
+  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  split(system, x, nullptr, A);
+  check(VecNorm(V, NORM_2, &size));
+  check(VecNorm(A, NORM_2, &change));
+  check(VecAXPY(V, 1, A));
+  return size > 0 ? change / size : (change > 0 ? 1 : 0);
+}
+
+double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {
+  const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
+  system.residual(t, U, V, A, level, F);
+  keep_rows(system, F, true);
+  double greatest = 0;
+  check(VecNorm(F, NORM_INFINITY, &greatest));
+  return greatest;
+}
+
+namespace {
+
+struct EquilibriumContext {
+  const System& system;
+  double t;
+  Vec V, A;
+  petsc::Guard guard;
+};
+
+PetscErrorCode equilibrium_residual(SNES, Vec U, Vec F, void* context) {
+  auto& c = *static_cast<EquilibriumContext*>(context);
+  return c.guard.run([&] { c.system.residual(c.t, U, c.V, c.A, ConstraintLevel::position, F); });
+}
+
+PetscErrorCode equilibrium_tangent(SNES, Vec U, Mat J, Mat, void* context) {
+  auto& c = *static_cast<EquilibriumContext*>(context);
+  return c.guard.run([&] { c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J); });
+}
+
+}  // namespace
+
+void equilibrium(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
+  const petsc::MatHandle J = system.create_tangent();
+  EquilibriumContext context{system, t, V, A, {}};
+  petsc::SnesHandle snes;
+  KSP ksp = nullptr;
+  SNESLineSearch search = nullptr;
+  check(SNESCreate(system.comm(), snes.out()));
+  check(SNESSetOptionsPrefix(snes, "static_"));
+  check(SNESSetFunction(snes, F, equilibrium_residual, &context));
+  check(SNESSetJacobian(snes, J, J, equilibrium_tangent, &context));
+  check(SNESSetTolerances(snes, 0, 1e-11, 1e-11, 100, 10000));
+  check(SNESGetLineSearch(snes, &search));
+  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  check(SNESGetKSP(snes, &ksp));
+  set_tangent_solver(ksp, J);
+  check(SNESSetFromOptions(snes));
+  context.guard.check(SNESSolve(snes, nullptr, U));
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscInt iterations = 0;
+  check(SNESGetConvergedReason(snes, &reason));
+  check(SNESGetIterationNumber(snes, &iterations));
+  if (reason < 0)
+    throw RunError(fmt::format("no equilibrium at t = {} (options -static_snes_...): {} after {} iterations", t,
+                               SNESConvergedReasons[reason], iterations));
+}
+
+}  // namespace floe::dynamics

@@ -1,0 +1,95 @@
+#include "floe/fem/element.h"
+
+#include <cmath>
+
+namespace floe::fem {
+namespace {
+
+/// D^(1/2) with D^(1/2)' D^(1/2) = D, for D symmetric positive semi-definite.
+Eigen::MatrixXd root(const Eigen::MatrixXd& D) {
+  if (D.size() == 1) return D.cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(D);
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+}  // namespace
+
+Eigen::VectorXd StrainPoint::bilinear(const Eigen::VectorXd& slope_a, const Eigen::VectorXd& slope_b) const {
+  Eigen::VectorXd e(P.size());
+  for (std::size_t s = 0; s < P.size(); ++s) e[s] = slope_a.dot(P[s] * slope_b);
+  return e;
+}
+
+Eigen::MatrixXd ElementMaps::stiffness() const {
+  Eigen::MatrixXd K = bending;
+  for (const StrainPoint& g : membrane) K.noalias() += g.weight * g.L.transpose() * g.D * g.L;
+  return K;
+}
+
+Eigen::MatrixXd ElementMaps::mass_matrix() const {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(bending.rows(), bending.rows());
+  for (const body::MassPoint& point : mass) M.noalias() += point.mass * point.N.transpose() * point.N;
+  return M;
+}
+
+Eigen::VectorXd stiffness_derivative(const ElementMaps& maps, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(a.size());
+  for (const StrainPoint& g : maps.membrane) {
+    const Eigen::VectorXd slope_a = g.G * a, slope_b = g.G * b;
+    const Eigen::VectorXd stress_a = g.D * (g.L * a), stress_b = g.D * (g.L * b);
+    f.noalias() += g.weight * g.L.transpose() * (g.D * g.bilinear(slope_a, slope_b));
+    for (std::size_t s = 0; s < g.P.size(); ++s)
+      f.noalias() += g.weight * g.G.transpose() * (g.P[s] * (stress_b[s] * slope_a + stress_a[s] * slope_b));
+  }
+  return f;
+}
+
+std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped) {
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < sloped.size(); ++i)
+    for (std::size_t j = i; j < sloped.size(); ++j) pairs.emplace_back(sloped[i], sloped[j]);
+  return pairs;
+}
+
+Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
+                            const std::vector<std::pair<int, int>>& pairs) {
+  const Eigen::Index k = V.cols();
+  Eigen::Index count = 0;
+  for (const StrainPoint& g : maps.membrane) count += g.L.rows();
+  Eigen::MatrixXd H(count, k + static_cast<Eigen::Index>(pairs.size()));
+  Eigen::Index row = 0;
+  for (const StrainPoint& g : maps.membrane) {
+    const Eigen::Index s = g.L.rows();
+    auto rows = H.middleRows(row, s);
+    rows.leftCols(k).noalias() = g.L * V;
+    const Eigen::MatrixXd slopes = g.G * V;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      rows.col(k + p) = g.bilinear(slopes.col(pairs[p].first), slopes.col(pairs[p].second));
+    rows = (std::sqrt(g.weight) * root(g.D) * rows).eval();
+    row += s;
+  }
+  return H;
+}
+
+body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
+  std::vector<int> sloped;
+  for (int a = 0; a < V.cols(); ++a) {
+    bool slope = false;
+    for (const StrainPoint& g : maps.membrane) slope = slope || (g.G * V.col(a)).cwiseAbs().maxCoeff() > 0;
+    if (slope) sloped.push_back(a);
+  }
+  body::Elasticity e;
+  e.bending = V.transpose() * maps.bending * V;
+  e.pairs = pairs_of(sloped);
+  e.F = strain_rows(maps, V, e.pairs);
+  return e;
+}
+
+body::Inertia inertia(const ElementMaps& maps, const Eigen::MatrixXd& V) {
+  const int d = maps.mass.empty() ? 2 : static_cast<int>(maps.mass.front().x.size());
+  body::Inertia sum(d, static_cast<int>(V.cols()));
+  for (const body::MassPoint& point : maps.mass) sum.add({point.mass, point.x, point.N * V});
+  return sum;
+}
+
+}  // namespace floe::fem

@@ -1,0 +1,110 @@
+#include "floe/fem/mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace floe::fem {
+namespace {
+
+/// Global node numbers of a segment: first end, inner nodes (consecutive), last end.
+struct Run {
+  PetscInt from, inner, to;
+  PetscInt node(PetscInt i, PetscInt elements) const { return i == 0 ? from : i == elements ? to : inner + i - 1; }
+};
+
+std::vector<Run> number(const Segments& segments, PetscInt& count) {
+  std::vector<PetscInt> of_point(segments.points.size(), -1);
+  std::vector<Run> runs;
+  count = 0;
+  auto point = [&](int p) {
+    if (of_point[p] < 0) of_point[p] = count++;
+    return of_point[p];
+  };
+  for (std::size_t s = 0; s < segments.join.size(); ++s) {
+    Run run;
+    run.from = point(segments.join[s][0]);
+    run.inner = count;
+    count += segments.elements[s] - 1;
+    run.to = point(segments.join[s][1]);
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+}  // namespace
+
+Mesh mesh_of(MPI_Comm comm, const Segments& segments) {
+  Mesh mesh;
+  mesh.comm = comm;
+  const std::vector<Run> runs = number(segments, mesh.node_count);
+  PetscInt owned = PETSC_DECIDE;
+  petsc::check(PetscSplitOwnership(comm, &owned, &mesh.node_count));
+  mesh.owned_nodes = owned;
+  PetscInt end = 0;
+  MPI_Scan(&owned, &end, 1, MPIU_INT, MPI_SUM, comm);
+  mesh.first_node = end - owned;
+
+  // The first end of an element decides whose it is.
+  struct Element {
+    PetscInt nodes[2];
+    int part;
+  };
+  std::vector<Element> mine;
+  std::map<PetscInt, Eigen::Vector3d> position;
+  for (std::size_t s = 0; s < runs.size(); ++s) {
+    const PetscInt elements = segments.elements[s];
+    const Eigen::Vector3d &from = segments.points[segments.join[s][0]], &to = segments.points[segments.join[s][1]];
+    auto at = [&](PetscInt i) { return Eigen::Vector3d(from + (to - from) * (double(i) / double(elements))); };
+    mesh.cell_count += elements;
+    for (PetscInt i = 0; i < elements; ++i) {
+      const Element element{{runs[s].node(i, elements), runs[s].node(i + 1, elements)}, static_cast<int>(s)};
+      const bool own[2] = {element.nodes[0] >= mesh.first_node && element.nodes[0] < end,
+                           element.nodes[1] >= mesh.first_node && element.nodes[1] < end};
+      if (own[0]) mine.push_back(element);
+      if (own[0] || own[1]) position.emplace(element.nodes[0], at(i)), position.emplace(element.nodes[1], at(i + 1));
+    }
+  }
+  for (const Element& element : mine)
+    for (PetscInt node : element.nodes)
+      if (node < mesh.first_node || node >= end) mesh.foreign.push_back(node);
+  std::sort(mesh.foreign.begin(), mesh.foreign.end());
+  mesh.foreign.erase(std::unique(mesh.foreign.begin(), mesh.foreign.end()), mesh.foreign.end());
+
+  auto local = [&](PetscInt node) {
+    if (node >= mesh.first_node && node < end) return static_cast<int>(node - mesh.first_node);
+    const auto found = std::lower_bound(mesh.foreign.begin(), mesh.foreign.end(), node);
+    return static_cast<int>(owned + (found - mesh.foreign.begin()));
+  };
+  mesh.positions.resize(owned + mesh.foreign.size());
+  for (const auto& [node, x] : position)
+    if ((node >= mesh.first_node && node < end) || std::binary_search(mesh.foreign.begin(), mesh.foreign.end(), node))
+      mesh.positions[local(node)] = x;
+  for (const Element& element : mine)
+    mesh.cells.push_back({{local(element.nodes[0]), local(element.nodes[1])}, element.part});
+  return mesh;
+}
+
+void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rotation) {
+  for (Eigen::Vector3d& x : mesh.positions) x = rotation.transpose() * (x - origin);
+}
+
+NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
+  double best = std::numeric_limits<double>::infinity();
+  PetscInt node = mesh.node_count;
+  for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
+    const double distance = (mesh.positions[i] - point).norm();
+    if (distance < best) best = distance, node = mesh.first_node + i;
+  }
+  double least = best;
+  MPI_Allreduce(&best, &least, 1, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  const PetscInt candidate = best == least ? node : mesh.node_count;
+  NearestNode found{candidate, least, Eigen::Vector3d::Zero()};
+  MPI_Allreduce(&candidate, &found.node, 1, MPIU_INT, MPI_MIN, mesh.comm);
+  const PetscInt mine = found.node - mesh.first_node;
+  if (mine >= 0 && mine < mesh.owned_nodes) found.position = mesh.positions[mine];
+  MPI_Allreduce(MPI_IN_PLACE, found.position.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return found;
+}
+
+}  // namespace floe::fem

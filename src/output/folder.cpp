@@ -1,0 +1,109 @@
+#include "floe/output/folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "floe/petsc/error.h"
+
+namespace floe::output {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array results = {"summary.json", "probes.csv",  "result.h5",   "compare.json", "compare.md",
+                                "compare.csv",  "compare.png", "compare.svg", "compare.pdf"};
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
+  throw InputError(fmt::format("output folder '{}': {}", path.string(), why));
+}
+
+void prepare(const fs::path& path, bool overwrite) {
+  if (path.empty()) refuse(path, "needs a name");
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_directory(status)) refuse(path, "exists and is not a folder");
+  fs::create_directories(path, error);
+  if (error) refuse(path, "cannot be made: " + error.message());
+  const bool empty = fs::is_empty(path, error);
+  if (error) refuse(path, "cannot be read: " + error.message());
+  if (!empty && !overwrite) refuse(path, "is not empty; name another, or replace the results in it with --force");
+  try {
+    write_file_atomically(path / "floe.try", "");
+  } catch (const RunError& fault) {
+    refuse(path, fmt::format("is not writable: {}", fault.what()));
+  }
+  fs::remove(path / "floe.try", error);
+  for (const char* name : results)
+    for (const fs::path& old : {path / name, draft_of(path / name)})
+      if (!fs::remove(old, error) && error)
+        refuse(path, fmt::format("{} cannot be removed: {}", old.string(), error.message()));
+}
+
+[[noreturn]] void cannot_write(const fs::path& path) {
+  throw RunError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+}
+
+void write_all(const fs::path& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) cannot_write(path);
+  while (!text.empty()) {
+    const ssize_t written = ::write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR) {
+      const int reason = errno;
+      close(file);
+      errno = reason;
+      cannot_write(path);
+    }
+    if (written > 0) text.remove_prefix(written);
+  }
+  if (close(file) != 0) cannot_write(path);
+}
+
+void sync(const fs::path& path, int flags) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) cannot_write(path);
+  const bool synced = fsync(file) == 0 || errno == EINVAL || errno == EROFS;
+  const int reason = errno;
+  close(file);
+  errno = reason;
+  if (!synced) cannot_write(path);
+}
+
+}  // namespace
+
+ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  petsc::agree(comm, [&] {
+    if (rank == 0) prepare(path, overwrite);
+  });
+  return {path};
+}
+
+fs::path draft_of(const fs::path& path) {
+  return path.parent_path() / fmt::format(".{}.partial", path.filename().string());
+}
+
+void publish_draft(const fs::path& draft, const fs::path& path) {
+  sync(draft, O_RDWR);
+  if (std::rename(draft.c_str(), path.c_str()) != 0) cannot_write(path);
+  sync(path.has_parent_path() ? path.parent_path() : fs::path("."), O_RDONLY | O_DIRECTORY);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view text) {
+  const fs::path draft = draft_of(path);
+  try {
+    write_all(draft, text);
+    publish_draft(draft, path);
+  } catch (const RunError&) {
+    std::error_code ignored;
+    fs::remove(draft, ignored);
+    throw;
+  }
+}
+
+}  // namespace floe::output

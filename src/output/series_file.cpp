@@ -1,0 +1,82 @@
+#include "floe/output/series_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <stdexcept>
+
+#include "floe/petsc/error.h"
+
+namespace floe::output {
+namespace {
+constexpr std::size_t rows_at_most = 1000;
+constexpr std::chrono::seconds wait_at_most{1};
+}  // namespace
+
+SeriesFile::SeriesFile(MPI_Comm comm, const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+                       const std::string& time_unit)
+    : comm_(comm), path_(path.string()), columns_(columns.size()) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw RunError(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
+    pending_ = fmt::format("t [{}]", time_unit);
+    for (const auto& column : columns) pending_ += fmt::format(",{} [{}]", column.name, column.unit);
+    pending_ += '\n';
+    write();
+  });
+}
+
+SeriesFile::~SeriesFile() {
+  if (descriptor_ < 0) return;
+  try {
+    write();
+  } catch (const RunError&) {
+  }
+  close(descriptor_);
+}
+
+void SeriesFile::row(double t, std::span<const double> values) {
+  if (descriptor_ < 0) return;
+  if (values.size() != columns_)
+    throw std::invalid_argument(fmt::format("{}: {} values for {} columns", path_, values.size(), columns_));
+  auto out = std::back_inserter(pending_);
+  fmt::format_to(out, "{}", t);
+  for (const double value : values) fmt::format_to(out, ",{}", value);
+  pending_ += '\n';
+  if (++pending_rows_ >= rows_at_most || std::chrono::steady_clock::now() - written_ > wait_at_most) write();
+}
+
+void SeriesFile::write() {
+  const char* next = pending_.data();
+  const char* end = next + pending_.size();
+  while (next < end) {
+    const ssize_t written = ::write(descriptor_, next, end - next);
+    if (written < 0 && errno != EINTR) {
+      const int reason = errno;
+      pending_.erase(0, next - pending_.data());
+      throw RunError(fmt::format("cannot write {}: {}", path_, std::strerror(reason)));
+    }
+    if (written > 0) next += written;
+  }
+  pending_.clear();
+  pending_rows_ = 0;
+  written_ = std::chrono::steady_clock::now();
+}
+
+void SeriesFile::finish() {
+  petsc::agree(comm_, [&] {
+    if (descriptor_ < 0) return;
+    write();
+    if (close(std::exchange(descriptor_, -1)) != 0)
+      throw RunError(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
+  });
+}
+
+}  // namespace floe::output

@@ -1,0 +1,85 @@
+#include "floe/reduction/derivatives.h"
+
+#include <algorithm>
+#include <map>
+
+namespace floe::reduction {
+
+using petsc::check;
+
+Pairs all_pairs(int m) {
+  Pairs pairs;
+  for (int i = 0; i < m; ++i)
+    for (int j = i; j < m; ++j) pairs.push_back({i, j});
+  return pairs;
+}
+
+Columns static_derivatives(const fem::Structure& structure, const Statics& statics, const Columns& fields,
+                           const Pairs& pairs) {
+  Columns loads;
+  for (const auto& [i, j] : pairs) {
+    loads.push_back(fem::stiffness_derivative(structure, fields[i], fields[j]));
+    check(VecScale(loads.back(), -1));
+  }
+  return statics.solve(loads);
+}
+
+namespace {
+
+/// The global dof where a field is greatest.
+PetscInt greatest_dof(Vec field) {
+  PetscInt dof = 0;
+  const petsc::VecHandle magnitude = copy(field);
+  check(VecAbs(magnitude));
+  check(VecMax(magnitude, &dof, nullptr));
+  return dof;
+}
+
+}  // namespace
+
+Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+                         const Modes& modes, const Pairs& pairs, Pairs& which) {
+  std::map<int, std::vector<int>> partners;  // of each i, the j
+  which.clear();
+  for (const auto& [i, j] : pairs) {
+    partners[i].push_back(j);
+    if (i != j) partners[j].push_back(i);
+  }
+  const petsc::MatHandle M = fem::mass(structure, {});
+  Columns all;
+  for (const auto& [i, others] : partners) {
+    const double lambda = modes.omega[i] * modes.omega[i];
+    fem::Conditions conditions = holding.held;
+    conditions.push_back(greatest_dof(modes.raw[i]));
+    std::sort(conditions.begin(), conditions.end());
+    const petsc::MatHandle A = fem::assemble(structure, conditions, 1, [&](const fem::ElementMaps& maps) {
+      return Eigen::MatrixXd(maps.stiffness() - lambda * maps.mass_matrix());
+    });
+    const petsc::KspHandle ksp = direct_solver(A, "derivatives_");
+    const petsc::VecHandle Mphi = fem::field(structure);
+    check(MatMult(M, modes.raw[i], Mphi));
+    Columns loads;
+    for (int j : others) {
+      petsc::VecHandle load = fem::stiffness_derivative(structure, modes.shapes[i], modes.shapes[j]);
+      double slope = 0;  // domega_i^2 / deta_j
+      check(VecDot(load, modes.shapes[i], &slope));
+      fem::balance(frame, load);
+      check(VecAYPX(load, -1, Mphi));  // M phi - load, M phi scaled below
+      check(VecAXPY(load, slope - 1, Mphi));
+      fem::hold(load, conditions);
+      loads.push_back(std::move(load));
+      which.push_back({i, j});
+    }
+    Columns theta = block_solve(ksp, loads);
+    for (auto& column : theta) {
+      double along = 0;
+      check(VecDot(Mphi, column, &along));
+      check(VecAXPY(column, -along, modes.raw[i]));
+      fem::to_frame(frame, column);
+      all.push_back(std::move(column));
+    }
+  }
+  return all;
+}
+
+}  // namespace floe::reduction

@@ -1,0 +1,104 @@
+#include "floe/reduction/reduce.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace floe::reduction {
+
+using petsc::check;
+
+double mass_norm(Mat M, Vec field) {
+  petsc::VecHandle product;
+  check(VecDuplicate(field, product.out()));
+  check(MatMult(M, field, product));
+  double square = 0;
+  check(VecDot(field, product, &square));
+  return std::sqrt(std::max(0.0, square));
+}
+
+Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+                      const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance) {
+  Generators result;
+  const petsc::MatHandle M = fem::mass(structure, {});
+  result.modes = vibration_modes(structure, frame, holding, statics, modes);
+  Columns candidates;
+  std::vector<ColumnOrigin> origins;
+  for (int i = 0; i < modes; ++i) {
+    candidates.push_back(copy(result.modes.shapes[i]));
+    origins.push_back({ColumnOrigin::Kind::mode, fmt::format("mode {}", i + 1), result.modes.omega[i]});
+  }
+  Columns loads;
+  for (const Attachment& attachment : attachments) loads.push_back(copy(attachment.load));
+  Columns responses = statics.solve(loads);
+  double greatest = 0;
+  std::vector<double> norms;
+  for (const auto& response : responses)
+    norms.push_back(mass_norm(M, response)), greatest = std::max(greatest, norms.back());
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    ColumnOrigin origin{ColumnOrigin::Kind::attachment, "attachment " + attachments[i].label};
+    if (norms[i] <= 1e-10 * greatest) {
+      origin.kept = false, origin.new_part = 0;
+      result.dropped.push_back(origin);
+      continue;
+    }
+    fix_sign(responses[i]);
+    candidates.push_back(std::move(responses[i]));
+    origins.push_back(origin);
+  }
+  const Basis independent = orthonormal_basis(structure, candidates, std::move(origins), tolerance);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!independent.origins[i].kept) {
+      result.dropped.push_back(independent.origins[i]);
+      continue;
+    }
+    const double norm = mass_norm(M, candidates[i]);
+    check(VecScale(candidates[i], 1 / norm));
+    result.fields.push_back(std::move(candidates[i]));
+    result.origins.push_back(independent.origins[i]);
+  }
+  return result;
+}
+
+DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
+                                     const fem::Holding& holding, const Statics& statics, const Generators& generators,
+                                     const Pairs& pairs, bool full) {
+  auto name = [&](int i) {
+    const ColumnOrigin& origin = generators.origins[i];
+    return origin.kind == ColumnOrigin::Kind::mode ? origin.label.substr(5) : origin.label.substr(11);
+  };
+  auto origin = [&](int i, int j) {
+    return ColumnOrigin{ColumnOrigin::Kind::derivative, fmt::format("derivative {},{}", name(i), name(j))};
+  };
+  DerivativeColumns result;
+  Pairs with_inertia, without;
+  const int modes = static_cast<int>(generators.modes.omega.size());
+  for (const auto& pair : pairs) (full && pair[0] < modes && pair[1] < modes ? with_inertia : without).push_back(pair);
+  if (!with_inertia.empty()) {
+    Pairs which;
+    result.columns = full_derivatives(structure, frame, holding, generators.modes, with_inertia, which);
+    for (const auto& [i, j] : which) result.origins.push_back(origin(i, j));
+  }
+  Columns more = static_derivatives(structure, statics, generators.fields, without);
+  for (std::size_t p = 0; p < without.size(); ++p) {
+    result.columns.push_back(std::move(more[p]));
+    result.origins.push_back(origin(without[p][0], without[p][1]));
+  }
+  return result;
+}
+
+Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
+               double tolerance) {
+  Columns candidates;
+  for (const auto& column : generators.fields) candidates.push_back(copy(column));
+  std::vector<ColumnOrigin> origins = generators.origins;
+  for (std::size_t i = 0; i < derivatives.columns.size(); ++i) {
+    candidates.push_back(std::move(derivatives.columns[i]));
+    origins.push_back(derivatives.origins[i]);
+  }
+  Basis basis = orthonormal_basis(structure, candidates, std::move(origins), tolerance);
+  for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
+  return basis;
+}
+
+}  // namespace floe::reduction

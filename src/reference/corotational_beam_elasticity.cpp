@@ -1,0 +1,41 @@
+#include "corotational_beam_forces.h"
+
+// U = 1/2 EA l0 eps^2 + 1/2 a' B a,   eps = (l - l0)/l0 + 1/2 a' S a,   l a function of r2 - r1.
+namespace floe::reference::corotational {
+
+double membrane_strain(const Moments& m, double length, const Chord& chord) {
+  return (chord.length - length) / length + chord.local.dot(m.slope * chord.local) / 2;
+}
+
+double elastic_energy(const Moments& m, double length, const Chord& chord) {
+  const double eps = membrane_strain(m, length, chord);
+  return m.axial * length * length * eps * eps / 2 + chord.local.dot(m.bending * chord.local) / 2;
+}
+
+Seven elastic_force(const Moments& m, double length, const Chord& chord) {
+  const double N = m.axial * length * membrane_strain(m, length, chord);
+  Seven f = Seven::Zero();
+  f[0] = -N;
+  f[2] = N;
+  f.segment<2>(4) = N * length * (m.slope * chord.local) + m.bending * chord.local;
+  return f;
+}
+
+SevenSquare elastic_stiffness(const Moments& m, double length, const Chord& chord) {
+  const double N = m.axial * length * membrane_strain(m, length, chord);
+  const Eigen::Vector2d slope = m.slope * chord.local;
+  const Eigen::Vector2d coupling = m.axial * length * slope;
+  SevenSquare K = SevenSquare::Zero();
+  K(0, 0) = K(2, 2) = m.axial;
+  K(0, 2) = K(2, 0) = -m.axial;
+  K(1, 1) = K(3, 3) = N / chord.length;  // N e turns with the chord
+  K(1, 3) = K(3, 1) = -N / chord.length;
+  K.block<2, 1>(4, 0) = -coupling;
+  K.block<2, 1>(4, 2) = coupling;
+  K.block<1, 2>(0, 4) = -coupling.transpose();
+  K.block<1, 2>(2, 4) = coupling.transpose();
+  K.block<2, 2>(4, 4) = length * coupling * slope.transpose() + N * length * m.slope + m.bending;
+  return K;
+}
+
+}  // namespace floe::reference::corotational

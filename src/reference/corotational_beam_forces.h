@@ -1,0 +1,39 @@
+#pragma once
+#include "corotational_beam_chord.h"
+#include "floe/reference/corotational_beam.h"
+
+// Forces and energies of the corotational beam over its extended coordinates z (corotational_beam_chord.h).
+namespace floe::reference::corotational {
+
+/// Integrals over an undeformed element of length l0, in closed form. phi_1 = l0 xi (1-xi)^2, phi_2 = -l0 xi^2 (1-xi).
+struct Moments {
+  double mass;                  ///< int rhoA
+  Eigen::Vector2d first, last;  ///< int rhoA (1 - xi) phi_i,  int rhoA xi phi_i
+  Eigen::Matrix2d deflection;   ///< int rhoA phi_i phi_j
+  double rotary;                ///< int rhoI
+  Eigen::Matrix2d slope;        ///< 1/l0 int phi_i' phi_j'
+  double axial;                 ///< EA / l0
+  Eigen::Matrix2d bending;      ///< int EI phi_i'' phi_j''
+};
+Moments moments(double length, const CorotationalBeam::Properties& properties);
+
+/// eps - the membrane strain, averaged over the element.
+double membrane_strain(const Moments& m, double length, const Chord& chord);
+double elastic_energy(const Moments& m, double length, const Chord& chord);
+Seven elastic_force(const Moments& m, double length, const Chord& chord);
+SevenSquare elastic_stiffness(const Moments& m, double length, const Chord& chord);
+
+double kinetic_energy(const Moments& m, const Chord& chord, const Seven& velocity);
+
+/// int rhoA (dr/dz)' r.. + rhoI (dpsi/dz)' psi.., psi the rotation of the section.
+///
+/// Gravity g is the same as accelerations of the nodes less g.
+Seven inertia_force(const Moments& m, const Chord& chord, const Rates& rates);
+
+/// Its derivatives with respect to z, z., z...
+struct InertiaTangent {
+  SevenSquare K, C, M;
+};
+InertiaTangent inertia_tangent(const Moments& m, const Chord& chord, const Rates& rates);
+
+}  // namespace floe::reference::corotational

@@ -1,0 +1,49 @@
+#pragma once
+#include "build_reduce.h"
+#include "floe/reference/full_order.h"
+
+namespace floe::scene {
+
+/// Turns prepared bodies into coordinates, terms, joints and a state at the start.
+///
+/// Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's communicator, where
+/// the last rank holds what is shared.
+class Assembly {
+ public:
+  /// @param reduced  one for each body: full for reduced formulations; rigid bodies only for full-order ones
+  Assembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced);
+  /// Collective.
+  Model model();
+
+ private:
+  struct Slot {
+    int frame = -1;        // local index of (R_x, R_y, theta); -1: none (corotational)
+    int elastic = -1;      // local index of reduced coordinates
+    int multipliers = -1;  // of the mean axes
+    std::unique_ptr<reference::NodeCoordinates> nodes;
+  };
+  bool compact(int body) const;  // described by a ReducedBody
+  void add_coordinates();
+  void add_body_terms(int body);
+  void add_gravity(int body);
+  void add_loads();
+  void add_joints(const Eigen::VectorXd& q);
+  void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
+  void add_probes(Model& model, const Eigen::VectorXd& q);
+  void set_start(Model& model);
+  void set_full_order_start(int body, Vec U, Vec V);
+  dynamics::Marker marker(const PreparedPlace& place);
+  dynamics::Marker density(int body, const body::Inertia& inertia);
+  Eigen::Vector3d pose_at(const dynamics::Marker& marker, const Eigen::VectorXd& q) const;
+
+  const Prepared& prepared_;
+  Formulation formulation_;
+  const std::vector<ReducedBody>& reduced_;
+  bool owner_;  // this rank has the shared terms
+  dynamics::Coordinates coordinates_;
+  std::vector<Slot> slots_;
+  std::vector<int> joint_multipliers_;
+  std::vector<std::unique_ptr<dynamics::Term>> terms_;
+};
+
+}  // namespace floe::scene

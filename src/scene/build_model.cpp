@@ -1,0 +1,55 @@
+#include "build_assembly.h"
+#include "floe/dynamics/simulation.h"
+
+namespace floe::scene {
+namespace {
+
+/// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
+/// fields.
+///
+/// A basis without derivatives holds the fields in order, V = fields T^-1 with T = V'M fields; here the integral is
+/// taken over the coordinates of V's columns, which differ from the fields' by the orthogonalisation alone.
+std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
+  Model model = Assembly(prepared, Formulation::vm, linear).model();
+  std::vector<Eigen::MatrixXd> sums;
+  for (const ReducedBody& body : linear)
+    sums.push_back(Eigen::MatrixXd::Zero(body.body.coordinates(), body.body.coordinates()));
+  const Motion& motion = prepared.scene.motion;
+  Eigen::VectorXd q;
+  auto observe = [&](const dynamics::Instant& instant) {
+    model.system->gather(instant.U, q);
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+      const auto eta = q.segment(model.bodies[b].first_elastic, sums[b].rows());
+      sums[b] += motion.step * (eta * eta.transpose()).cwiseAbs();
+    }
+  };
+  try {
+    dynamics::simulate(*model.system, {motion.end, motion.step, motion.spectral_radius, {}, "ranking_"}, model.U,
+                       model.V, observe);
+  } catch (const dynamics::MotionStopped&) {
+    // A linear body that is turned too fast diverges: what it did until then ranks the pairs.
+  }
+  return sums;
+}
+
+}  // namespace
+
+Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
+  const Scene scene = formulation == Formulation::cfr ? whole : split_frames(whole);
+  const Prepared prepared = prepare(scene, comm);
+  std::vector<std::string> warnings;
+  std::vector<ReducedBody> reduced(prepared.bodies.size());
+  if (is_reduced(formulation)) {
+    reduced = reduce_bodies(
+        prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
+        warnings);
+  } else {
+    for (std::size_t b = 0; b < reduced.size(); ++b)
+      if (prepared.bodies[b].spec.rigid) reduced[b] = rigid(prepared.bodies[b]);
+  }
+  Model model = Assembly(prepared, formulation, reduced).model();
+  model.warnings = std::move(warnings);
+  return model;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,201 @@
+#include "build_prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/values.h"
+#include "floe/scene/places.h"
+
+namespace floe::scene {
+
+Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
+
+namespace {
+
+Eigen::Vector2d planar(const Point& p) { return {p[0], p[1]}; }
+Eigen::Vector3d spatial(const Point& p) { return {p[0], p[1], p[2]}; }
+
+fem::Segments segments_of(const MeshSpec& spec) {
+  fem::Segments segments;
+  for (const Point& p : spec.points) segments.points.push_back(spatial(p));
+  segments.join = spec.segments;
+  segments.elements.assign(spec.elements.begin(), spec.elements.end());
+  return segments;
+}
+
+struct FrameNodes {
+  PetscInt a = 0, b = 0;
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in mesh axes
+  double angle = 0;
+};
+
+FrameNodes frame_nodes(const Body& body, const fem::Mesh& mesh) {
+  auto find = [&](const Place& place) { return fem::nearest_node(mesh, spatial(place_point(body.mesh, place))); };
+  FrameNodes nodes;
+  if (body.frame.kind == FrameSpec::Kind::pinned) {
+    const fem::NearestNode a = find(body.frame.from), b = find(body.frame.to);
+    const Eigen::Vector2d chord = (b.position - a.position).head<2>();
+    nodes = {a.node, b.node, a.position.head<2>(), std::atan2(chord.y(), chord.x())};
+  } else if (body.frame.kind == FrameSpec::Kind::clamped) {
+    const fem::NearestNode a = find(body.frame.at);
+    nodes = {a.node, a.node, a.position.head<2>(), 0};
+  }
+  return nodes;
+}
+
+fem::ReferenceFrame::Kind kind_of(FrameSpec::Kind kind) {
+  switch (kind) {
+    case FrameSpec::Kind::pinned:
+      return fem::ReferenceFrame::Kind::pinned;
+    case FrameSpec::Kind::clamped:
+      return fem::ReferenceFrame::Kind::clamped;
+    default:
+      return fem::ReferenceFrame::Kind::mean_axis;
+  }
+}
+
+/// Nodal values of a displacement field given in mesh axes; the rotation is the field's slope across the element.
+petsc::VecHandle sampled(const fem::Structure& structure, const FrameNodes& frame,
+                         const std::array<math::Formula, 2>& formula) {
+  const Eigen::Matrix2d A = turn(frame.angle);
+  petsc::VecHandle vector = fem::field(structure);
+  Eigen::VectorXd local = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(structure.mesh.positions.size()));
+  auto value = [&](const Eigen::Vector2d& x) {  // in frame axes
+    const Eigen::Vector2d X = frame.origin + A * x;
+    return Eigen::Vector2d(A.transpose() * Eigen::Vector2d(formula[0](X.x(), X.y()), formula[1](X.x(), X.y())));
+  };
+  for (const auto& cell : structure.mesh.cells) {
+    const Eigen::Vector2d x[2] = {structure.mesh.positions[cell.nodes[0]].head<2>(),
+                                  structure.mesh.positions[cell.nodes[1]].head<2>()};
+    const double length = (x[1] - x[0]).norm();
+    const Eigen::Vector2d along = (x[1] - x[0]) / length, across(-along.y(), along.x());
+    for (int i = 0; i < 2; ++i) {
+      const double h = 1e-4 * length;
+      const Eigen::Vector2d slope = (8 * (value(x[i] + h * along) - value(x[i] - h * along)) -
+                                     (value(x[i] + 2 * h * along) - value(x[i] - 2 * h * along))) /
+                                    (12 * h);
+      local.segment<3>(3 * cell.nodes[i]) << value(x[i]), across.dot(slope);
+    }
+  }
+  petsc::Values owned(vector);
+  for (PetscInt i = 0; i < owned.end - owned.first; ++i) owned[owned.first + i] = local[i];
+  return vector;
+}
+
+/// Dofs that a joint to the ground holds at a node, in the axes of the frame.
+void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& held) {
+  switch (joint.kind) {
+    case Joint::Kind::fixed:
+    case Joint::Kind::driven:
+      held.insert(held.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+      break;
+    case Joint::Kind::revolute:
+      held.insert(held.end(), {3 * node, 3 * node + 1});
+      break;
+    case Joint::Kind::prismatic: {
+      held.push_back(3 * node + 2);
+      const Eigen::Vector2d axis = turn(-frame_angle) * planar(joint.axis).normalized();
+      if (std::abs(axis.y()) < 1e-9) held.push_back(3 * node + 1);
+      if (std::abs(axis.x()) < 1e-9) held.push_back(3 * node);
+      break;
+    }
+    case Joint::Kind::spring:
+      break;
+  }
+}
+
+PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
+  fem::Mesh mesh = fem::mesh_of(comm, segments_of(spec.mesh));
+  const FrameNodes nodes = frame_nodes(spec, mesh);
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  rotation.topLeftCorner<2, 2>() = turn(nodes.angle);
+  fem::express_in_frame(mesh, Eigen::Vector3d(nodes.origin.x(), nodes.origin.y(), 0), rotation);
+  const fem::BeamSection section{spec.section.EA, spec.section.EI, spec.section.rhoA,
+                                 spec.rotary_inertia ? spec.section.rhoI : 0};
+  fem::Structure structure(
+      std::move(mesh), std::vector<fem::BeamSection>(spec.mesh.segments.size(), section),
+      spec.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise);
+  fem::ReferenceFrame frame;
+  try {
+    frame = fem::reference_frame(structure, kind_of(spec.frame.kind), nodes.a, nodes.b);
+  } catch (const InputError& error) {
+    throw InputError(spec.frame.where.text() + ": " + error.what());
+  }
+  PreparedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}};
+  const InitialSpec& start = spec.initial;
+  const Eigen::Vector2d arm = turn(start.angle) * nodes.origin;
+  body.pose << planar(start.position) + arm, start.angle + nodes.angle;
+  body.velocity << planar(start.velocity) + start.angular_velocity * Eigen::Vector2d(-arm.y(), arm.x()),
+      start.angular_velocity;
+  if (start.deformation) body.deformation = sampled(body.structure, nodes, *start.deformation);
+  if (start.deformation_rate) body.deformation_rate = sampled(body.structure, nodes, *start.deformation_rate);
+  for (Vec field : {body.deformation.get(), body.deformation_rate.get()})
+    if (field) fem::to_frame(body.frame, field);
+  return body;
+}
+
+PreparedPlace find(const std::vector<PreparedBody>& bodies, const Place& place) {
+  PreparedPlace found;
+  if (place.ground()) {
+    found.x = place.point ? spatial(*place.point) : Eigen::Vector3d::Constant(std::nan(""));
+    return found;
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].spec.name != place.body) continue;
+    const Point p = place_point(bodies[b].spec.mesh, place);
+    const Eigen::Vector2d x = turn(-bodies[b].frame_angle) * (planar(p) - bodies[b].frame_origin);
+    const fem::NearestNode nearest = fem::nearest_node(bodies[b].structure.mesh, {x.x(), x.y(), 0});
+    return {static_cast<int>(b), nearest.node, nearest.position};
+  }
+  throw InputError(place.where.text() + ": no body \"" + place.body + "\"");
+}
+
+int body_index(const Scene& scene, const std::string& name) {
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (scene.bodies[b].name == name) return static_cast<int>(b);
+  return -1;
+}
+
+}  // namespace
+
+Prepared prepare(const Scene& scene, MPI_Comm comm) {
+  Prepared prepared{scene, comm, {}, {}, {}, {}, 0};
+  for (const Body& body : scene.bodies) {
+    prepared.bodies.push_back(prepare_body(body, comm));
+    for (const Point& p : body.mesh.points)
+      for (const Point& q : body.mesh.points)
+        prepared.extent = std::max(prepared.extent, (spatial(p) - spatial(q)).norm());
+  }
+  for (const Joint& joint : scene.joints) {
+    prepared.joints.push_back({find(prepared.bodies, joint.first), find(prepared.bodies, joint.second)});
+    const auto& [first, second] = prepared.joints.back();
+    if (first.body >= 0 && second.body >= 0) continue;
+    const PreparedPlace& place = first.body >= 0 ? first : second;
+    if (place.body < 0) continue;
+    PreparedBody& body = prepared.bodies[place.body];
+    hold_by_joint(joint, place.node, body.pose[2], body.held);
+  }
+  for (PreparedBody& body : prepared.bodies) {
+    std::sort(body.held.begin(), body.held.end());
+    body.held.erase(std::unique(body.held.begin(), body.held.end()), body.held.end());
+  }
+  for (const Load& load : scene.loads) {
+    PreparedPlace place;
+    if (load.kind == Load::Kind::distributed)
+      place.body = body_index(scene, load.body);
+    else
+      place = find(prepared.bodies, load.at);
+    prepared.loads.push_back(place);
+  }
+  for (const Probe& probe : scene.probes) {
+    std::array<PreparedPlace, 2> places;
+    places[0] = find(prepared.bodies, probe.at);
+    if (probe.relative_to) places[1] = find(prepared.bodies, *probe.relative_to);
+    prepared.probes.push_back(places);
+  }
+  return prepared;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,22 @@
+#pragma once
+#include "floe/scene/model.h"
+
+namespace floe::scene {
+
+/// Joints, loads and probes with their places found on the meshes.
+struct Prepared {
+  const Scene& scene;
+  MPI_Comm comm;
+  std::vector<PreparedBody> bodies;
+  std::vector<std::array<PreparedPlace, 2>> joints;
+  std::vector<PreparedPlace> loads;                  ///< distributed ones: body only
+  std::vector<std::array<PreparedPlace, 2>> probes;  ///< second: relative_to, or the ground
+  double extent = 0;                                 ///< a length of the scene
+};
+
+/// Meshes, frames and places of a scene. Collective.
+Prepared prepare(const Scene& scene, MPI_Comm comm);
+
+Eigen::Matrix2d turn(double angle);
+
+}  // namespace floe::scene

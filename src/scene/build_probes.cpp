@@ -1,0 +1,92 @@
+#include "build_prepare.h"
+
+namespace floe::scene {
+
+std::vector<ProbeColumn> probe_columns(const Model& model) {
+  std::vector<ProbeColumn> columns;
+  for (const ModelProbe& probe : model.probes) {
+    if (probe.quantity == Probe::Quantity::rotation) {
+      columns.push_back({probe.name + ".angle", "rad"});
+      continue;
+    }
+    const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
+    columns.push_back({probe.name + ".x", unit});
+    columns.push_back({probe.name + ".y", unit});
+  }
+  return columns;
+}
+
+namespace {
+
+struct Placed {
+  Eigen::Vector3d y, yd;
+};
+
+Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd own(n), rate(n);
+  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  dynamics::Pose pose;
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  return {pose.y, pose.yd};
+}
+
+void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                std::vector<double>& values) {
+  Placed at = placed(probe.marker, q, v);
+  Eigen::Vector3d start = probe.start;
+  if (probe.relative_to) {  // seen from axes that move with the other place
+    const Placed from = placed(*probe.relative_to, q, v);
+    const Eigen::Matrix2d A = turn(from.y[2]), A0 = turn(probe.start_relative[2]);
+    const Eigen::Vector2d d = A.transpose() * (at.y - from.y).head<2>();
+    const Eigen::Vector2d dd =
+        A.transpose() * (at.yd - from.yd).head<2>() - from.yd[2] * Eigen::Vector2d(-d.y(), d.x());
+    at.y << d, at.y[2] - from.y[2];
+    at.yd << dd, at.yd[2] - from.yd[2];
+    start << A0.transpose() * (probe.start - probe.start_relative).head<2>(), probe.start[2] - probe.start_relative[2];
+  }
+  switch (probe.quantity) {
+    case Probe::Quantity::position:
+      values.insert(values.end(), {at.y[0], at.y[1]});
+      break;
+    case Probe::Quantity::displacement:
+      values.insert(values.end(), {at.y[0] - start[0], at.y[1] - start[1]});
+      break;
+    case Probe::Quantity::velocity:
+      values.insert(values.end(), {at.yd[0], at.yd[1]});
+      break;
+    case Probe::Quantity::rotation:
+      values.push_back(at.y[2] - start[2]);
+      break;
+    case Probe::Quantity::deflection: {
+      const dynamics::Marker& marker = probe.marker;
+      Eigen::VectorXd elastic(marker.S.cols());
+      for (Eigen::Index i = 0; i < elastic.size(); ++i) elastic[i] = q[marker.coordinates[3 + i]];
+      const Eigen::Vector2d u = marker.S * elastic;
+      values.insert(values.end(), {u.x(), u.y()});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> probe_values(const Model& model, double, Vec U, Vec V) {
+  static thread_local Eigen::VectorXd q, v;
+  model.system->gather(U, q);
+  model.system->gather(V, v);
+  std::vector<double> values;
+  const MPI_Comm comm = model.system->comm();
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  if (rank == size - 1)
+    for (const ModelProbe& probe : model.probes) add_values(probe, q, v, values);
+  if (size > 1) {
+    values.resize(probe_columns(model).size());
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);
+  }
+  return values;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/scene/places.h"
+#include "readers.h"
+
+namespace floe::scene {
+namespace {
+
+// A place as the joints see it: its body and node.
+struct Spot {
+  const Body* body = nullptr;  // of the ground: none
+  Point node{};
+  std::optional<Point> world;  // at the start; nothing: ground that follows the other place
+  bool operator==(const Spot& other) const {
+    return body == other.body && (!body || node == other.node);  // the ground is one body, wherever it is held
+  }
+};
+
+std::optional<Point> world_point(const Body& body, const Point& node) {
+  const InitialSpec& initial = body.initial;
+  Point p = node;
+  try {
+    if (initial.deformation && !body.rigid) {
+      for (int i = 0; i < 2; ++i) p[i] += (*initial.deformation)[i](node[0], node[1]);
+    }
+  } catch (const math::FormulaError&) {
+    return {};
+  }
+  const double c = std::cos(initial.angle), s = std::sin(initial.angle);
+  return Point{initial.position[0] + c * p[0] - s * p[1], initial.position[1] + s * p[0] + c * p[1], 0};
+}
+
+// Nothing when the place is wrong, which check_places has told.
+std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
+  if (place.ground()) return Spot{nullptr, {}, place.point};
+  for (const Body& body : scene.bodies) {
+    if (body.name != place.body || body.mesh.points.empty()) continue;
+    try {
+      const Point node = place_point(body.mesh, place);
+      return Spot{&body, node, world_point(body, node)};
+    } catch (const InputError&) {
+      return {};
+    }
+  }
+  return {};
+}
+
+// Two points that a joint keeps together must be together at the start, up to rounding in the file's numbers.
+void check_distance(Document& document, const Joint& joint, const Spot& first, const Spot& second) {
+  if (joint.kind == Joint::Kind::prismatic || joint.kind == Joint::Kind::spring || !first.world || !second.world)
+    return;
+  double size = 0;
+  for (const Spot& spot : {first, second}) {
+    if (spot.body) size = std::max(size, total_length(spot.body->mesh));
+  }
+  const Point &p = *first.world, &q = *second.world;
+  const double away = std::hypot(p[0] - q[0], p[1] - q[1]);
+  if (!(away > 1e-6 * size)) return;
+  document.fault(joint.where,
+                 fmt::format("its places are {:.4g} apart at the start: ({:.6g}, {:.6g}) and ({:.6g}, {:.6g})", away,
+                             p[0], p[1], q[0], q[1]),
+                 "one point (see `initial` of the bodies)");
+}
+
+}  // namespace
+
+void check_joints(Document& document, const Scene& scene) {
+  struct Held {
+    const Joint* joint;
+    Spot first, second;
+  };
+  std::vector<Held> held;
+  for (const Joint& joint : scene.joints) {
+    const auto spots = std::pair(find_spot(scene, joint.first), find_spot(scene, joint.second));
+    if (!spots.first || !spots.second) continue;
+    const Spot &first = *spots.first, &second = *spots.second;
+    if (first == second) {
+      document.fault(joint.where, first.body ? "joins a place with itself" : "joins the ground with itself",
+                     "two different places");
+      continue;
+    }
+    if (first.body && first.body == second.body && first.body->rigid) {
+      document.fault(joint.where, "joins two places of one rigid body", "places of two bodies");
+      continue;
+    }
+    check_distance(document, joint, first, second);
+    if (joint.kind == Joint::Kind::spring) continue;  // beside a hinge it is a torsion spring
+    for (const Held& other : held) {
+      const bool same =
+          (first == other.first && second == other.second) || (first == other.second && second == other.first);
+      if (!same) continue;
+      document.fault(
+          joint.where,
+          fmt::format("holds the same two places as joint {} (line {})", other.joint->name, other.joint->where.line),
+          "one joint for a pair of places (springs apart)");
+      break;
+    }
+    held.push_back({&joint, first, second});
+  }
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,58 @@
+#include "document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floe/scene/nearest.h"
+
+namespace floe::scene {
+namespace {
+
+// One line per fault, whatever the file contains.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Where::text() const {
+  std::string out = file;
+  if (line > 0) out += fmt::format(":{}:{}", line, column);
+  if (!key.empty()) out += ": " + key;
+  return out;
+}
+
+void Document::fault(const Where& where, const std::string& wrong, const std::string& expected, const std::string& word,
+                     const std::vector<std::string>& known) {
+  std::string text = fmt::format("{}: {}", where.text(), wrong);
+  if (!expected.empty()) text += "; expected " + expected;
+  if (const std::string near = nearest(word, known); !near.empty()) text += fmt::format("; did you mean \"{}\"?", near);
+  faults_.push_back({where.line, where.column, one_line(text)});
+}
+
+void Document::fault(const Where& where, const InputError& error) {
+  for (const auto& text : error.faults()) faults_.push_back({where.line, where.column, one_line(text)});
+}
+
+void Document::throw_faults() const {
+  if (faults_.empty()) return;
+  auto sorted = faults_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  std::vector<std::string> texts;
+  for (const auto& fault : sorted) {
+    if (!std::count(texts.begin(), texts.end(), fault.text)) texts.push_back(fault.text);
+  }
+  throw InputError(texts);
+}
+
+Where Document::place_of(const YAML::Mark& mark, const std::string& key) const {
+  return {file, mark.line + 1, mark.column + 1, key};
+}
+
+}  // namespace floe::scene

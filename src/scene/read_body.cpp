@@ -1,0 +1,99 @@
+#include <algorithm>
+
+#include "floe/scene/places.h"
+#include "readers.h"
+
+namespace floe::scene {
+namespace {
+
+using FrameKind = FrameSpec::Kind;
+const std::vector<std::pair<std::string, FrameKind>> frame_kinds{
+    {"pinned", FrameKind::pinned}, {"clamped", FrameKind::clamped}, {"mean-axis", FrameKind::mean_axis}};
+
+FrameSpec read_frame(Document& document, Reading& body, const std::string& name) {
+  FrameSpec frame;
+  Value value = *body.value("frame");
+  frame.where = value.where;
+  if (value.node.IsScalar()) {  // the type alone
+    YAML::Node mapping(YAML::NodeType::Map);
+    const Key& key = schema_section("frame").key("type");
+    const std::string type = read_choice(document, value, key);
+    if (!type.empty()) mapping["type"] = type;
+    value.node = mapping;
+  }
+  Reading reading(document, value, "frame");
+  frame.kind = reading.choice<FrameKind>("type", frame_kinds);
+  if (reading.given("type")) reading.set_kind(reading.text("type"));
+  const auto place = [&](const char* key) {
+    return read_own_place(document, *reading.value(key), reading.key(key), name);
+  };
+  frame.from = place("from");
+  frame.to = place("to");
+  frame.at = place("at");
+  return frame;
+}
+
+DampingSpec read_damping(Document& document, Reading& body) {
+  DampingSpec damping;
+  const auto value = body.value("damping");
+  if (!value) return damping;
+  damping.where = value->where;
+  Reading reading(document, *value, "damping");
+  damping.mass = reading.number("mass");
+  damping.stiffness = reading.number("stiffness");
+  damping.modal = reading.numbers("modal");
+  return damping;
+}
+
+InitialSpec read_initial(Document& document, Reading& body) {
+  InitialSpec initial;
+  const auto value = body.value("initial");
+  if (!value) return initial;
+  initial.where = value->where;
+  Reading reading(document, *value, "initial");
+  initial.position = reading.point("position");
+  initial.angle = reading.number("angle");
+  initial.velocity = reading.point("velocity");
+  initial.angular_velocity = reading.number("angular_velocity");
+  initial.deformation = reading.formulas("deformation", {"x", "y"});
+  initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
+  return initial;
+}
+
+// The default count of modes fits every mesh; what the file asks for is taken at its word.
+void fit_default_modes(Reading& body, Body& out) {
+  const auto reduction = body.value("reduction");
+  const bool given = reduction && reduction->node.IsMap() && reduction->node["modes"] &&
+                     (!reduction->node["modes"].IsMap() || reduction->node["modes"]["count"]);
+  if (given || out.mesh.points.empty() || out.frames < 1) return;
+  const int elastic = 3 * ((node_count(out.mesh) - 1) / out.frames);
+  out.reduction.modes.count = std::min(out.reduction.modes.count, std::max(elastic, 0));
+}
+
+}  // namespace
+
+Body read_body(Document& document, const std::string& name, const Value& value) {
+  const std::size_t before = document.fault_count();
+  Body body;
+  body.name = name;
+  body.where = value.where;
+  Reading reading(document, value, "body");
+  if (!value.node.IsMap()) return body;
+  if (const auto mesh = reading.value("mesh")) body.mesh = read_mesh(document, *mesh);
+  body.rigid = reading.flag("rigid");
+  body.section = read_section(document, reading, body.rigid);
+  body.strain = reading.choice<Strain>("strain", {{"averaged", Strain::averaged}, {"pointwise", Strain::pointwise}});
+  body.rotary_inertia = reading.flag("rotary_inertia");
+  body.frame = read_frame(document, reading, name);
+  body.frames = reading.integer("frames");
+  if (body.rigid) body.frames = 1;
+  const Value nothing{YAML::Node(YAML::NodeType::Map), body.where};
+  body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing));
+  body.damping = read_damping(document, reading);
+  body.initial = read_initial(document, reading);
+  fit_default_modes(reading, body);
+  if (document.fault_count() == before) check_body(document, body);
+  return body;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,31 @@
+#include "readers.h"
+
+namespace floe::scene {
+
+Load read_load(Document& document, const std::string& name, const Value& value) {
+  using Kind = Load::Kind;
+  Load load;
+  load.name = name;
+  load.where = value.where;
+  Reading reading(document, value, "load");
+  if (!value.node.IsMap()) return load;
+  const std::size_t before = document.fault_count();
+  load.kind = reading.choice<Kind>(
+      "type", {{"force", Kind::force}, {"moment", Kind::moment}, {"distributed", Kind::distributed}});
+  if (document.fault_count() != before) return load;  // which keys it needs is unknown
+  reading.set_kind(reading.text("type"));
+  if (load.kind == Kind::distributed) {
+    load.body = reading.text("body");
+  } else if (const auto at = reading.value("at")) {
+    load.at = read_place(document, *at, reading.key("at"));
+  }
+  if (load.kind == Kind::moment) {
+    load.moment = reading.formula("moment");
+  } else if (const auto force = reading.formulas("force", {"t"})) {
+    load.force = *force;
+  }
+  load.axes = reading.choice<Load::Axes>("axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}});
+  return load;
+}
+
+}  // namespace floe::scene

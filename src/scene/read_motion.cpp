@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include "readers.h"
+
+namespace floe::scene {
+
+Motion read_motion(Document& document, const Value& value) {
+  constexpr double most_steps = 1e9;
+  Motion motion;
+  motion.where = value.where;
+  Reading reading(document, value, "motion");
+  motion.end = reading.number("end");
+  motion.step = reading.number("step");
+  motion.spectral_radius = reading.number("spectral_radius");
+  motion.tolerance = reading.optional_number("tolerance");
+  motion.every = reading.integer("every");
+  if (motion.step > motion.end) {
+    document.fault(reading.where("step"), fmt::format("is {}", motion.step),
+                   fmt::format("at most end, {}", motion.end));
+  } else if (motion.end / motion.step > most_steps) {
+    document.fault(reading.where("step"),
+                   fmt::format("is {}: {} steps to the end", motion.step, motion.end / motion.step),
+                   fmt::format("at most {} steps", most_steps));
+  }
+  return motion;
+}
+
+Probe read_probe(Document& document, const std::string& name, const Value& value) {
+  using Quantity = Probe::Quantity;
+  Probe probe;
+  probe.name = name;
+  probe.where = value.where;
+  Reading reading(document, value, "probe");
+  if (!value.node.IsMap()) return probe;
+  if (const auto at = reading.value("at")) probe.at = read_place(document, *at, reading.key("at"));
+  probe.quantity = reading.choice<Quantity>("quantity", {{"position", Quantity::position},
+                                                         {"displacement", Quantity::displacement},
+                                                         {"deflection", Quantity::deflection},
+                                                         {"velocity", Quantity::velocity},
+                                                         {"rotation", Quantity::rotation}});
+  return probe;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,66 @@
+#include <algorithm>
+
+#include "readers.h"
+
+namespace floe::scene {
+namespace {
+
+bool good_name(const std::string& name) {
+  return !name.empty() && name.size() <= 100 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+}
+
+// A mapping of names to sections, each read by `read(document, name, value)`.
+template <class Part>
+std::vector<Part> read_named(Document& document, Reading& scene, const std::string& key,
+                             Part (*read)(Document&, const std::string&, const Value&)) {
+  std::vector<Part> parts;
+  const auto value = scene.value(key);
+  if (!value) return parts;
+  for (const auto& entry : read_mapping(document, *value, describe(scene.key(key)))) {
+    if (!good_name(entry.name)) {
+      document.fault(entry.where, "is no good name", "letters, digits, _ and -");
+    } else if (key == "bodies" && entry.name == "ground") {
+      document.fault(entry.where, "is the name of the ground", "another name");
+    }
+    Value part = entry.value;
+    part.where = entry.where;
+    parts.push_back(read(document, entry.name, part));
+  }
+  return parts;
+}
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::string& name) {
+  Document document;
+  document.file = name;
+  const Value root = parse_yaml(text, name);
+  Scene scene;
+  scene.file = name;
+  scene.text = text;
+  Reading reading(document, root, "scene");
+  if (!root.node.IsMap()) document.throw_faults();
+  if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
+  scene.title = reading.text("title");
+  scene.gravity = reading.point("gravity");
+  scene.bodies = read_named<Body>(document, reading, "bodies", read_body);
+  scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
+  scene.loads = read_named<Load>(document, reading, "loads", read_load);
+  if (const auto motion = reading.value("motion")) scene.motion = read_motion(document, *motion);
+  scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
+  if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {
+    document.fault(reading.where("bodies"), "is empty", "at least one body");
+  }
+  check_places(document, scene);
+  check_joints(document, scene);
+  check_formulas(document, scene);
+  document.throw_faults();
+  scene.parameters = document.parameters;
+  return scene;
+}
+
+Scene read_scene(const std::string& path) { return parse_scene(read_text(path), path); }
+
+}  // namespace floe::scene

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reading.h"
+
+namespace floe::scene {
+
+// Each reads one value of the file into its part of the scene and checks what can be told from this part alone.
+
+MeshSpec read_mesh(Document& document, const Value& value);
+Body read_body(Document& document, const std::string& name, const Value& value);
+/// The keys section and material of a body.
+Section read_section(Document& document, Reading& body, bool rigid);
+ReductionSpec read_reduction(Document& document, const Value& value);
+Joint read_joint(Document& document, const std::string& name, const Value& value);
+Load read_load(Document& document, const std::string& name, const Value& value);
+Motion read_motion(Document& document, const Value& value);
+Probe read_probe(Document& document, const std::string& name, const Value& value);
+void read_parameters(Document& document, const Value& value);
+
+/// `beam.end`, `ground` or {body: beam, node: [x, y]}; whether they exist is checked once all bodies are read.
+Place read_place(Document& document, const Value& value, const Key& key);
+/// A place of the body itself: `end` or [x, y].
+Place read_own_place(Document& document, const Value& value, const Key& key, const std::string& body);
+
+// What only the whole scene can tell; each notes faults.
+
+/// Frames, modes and initial deformation against the body's mesh, which must be sound.
+void check_body(Document& document, const Body& body);
+/// All places and bodies that joints, loads and probes name; joints against each other.
+void check_places(Document& document, const Scene& scene);
+void check_joints(Document& document, const Scene& scene);
+/// Formulas of time are finite from the start to the end of the motion.
+void check_formulas(Document& document, const Scene& scene);
+
+}  // namespace floe::scene

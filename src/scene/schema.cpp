@@ -1,0 +1,284 @@
+#include "floe/scene/schema.h"
+
+#include <cmath>
+
+namespace floe::scene {
+namespace {
+
+constexpr double inf = INFINITY;
+constexpr Range any{};
+constexpr Range positive{0, inf, true, true};
+constexpr Range nonnegative{0, inf, false, true};
+constexpr Range counts{1, 1e8};
+constexpr const char* required = Key::required;
+
+Key part(const char* name, Type type, const char* fallback, const char* text, const char* section) {
+  return {name, type, "", fallback, text, any, {}, {}, section};
+}
+Key choice(const char* name, const char* fallback, const char* text, std::vector<std::string> choices) {
+  return {name, Type::choice, "", fallback, text, any, std::move(choices)};
+}
+Key only(std::vector<std::string> kinds, Key key) {
+  key.kinds = std::move(kinds);
+  return key;
+}
+
+const SchemaSection scene_section{
+    "scene",
+    "The file: one mapping with these keys.",
+    "title: Cantilever\nparameters: {L: 100, F: 2500}\ngravity: [0, -9.81]\nbodies: {...}\njoints: {...}\nloads: "
+    "{...}\n"
+    "motion: {...}\nprobes: {...}",
+    {
+        {"title", Type::text, "", "", "what the scene shows"},
+        {"parameters", Type::parameters, "", "",
+         "numbers by name, for use in every number and formula below; each may use those above it"},
+        {"gravity", Type::point, "m/s2", "[0, 0]", "acceleration of gravity, world axes"},
+        part("bodies", Type::named_sections, required, "the bodies by name", "body"),
+        part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
+        part("loads", Type::named_sections, "", "the loads by name", "load"),
+        part("motion", Type::section, required, "how long and how finely", "motion"),
+        part("probes", Type::named_sections, "", "what to record, by name", "probe"),
+    }};
+
+const SchemaSection body_section{
+    "body",
+    "A structure of beams in one floating frame, named by its key (not `ground`).",
+    "mesh: {line: {from: [0, 0], to: [L, 0], elements: 20}}\nsection: {A: 70, I: 585}\nmaterial: {E: 16000, rho: "
+    "0.0078}\n"
+    "frame: pinned\nreduction: {modes: 12}",
+    {
+        part("mesh", Type::section, required, "the undeformed shape, in the axes of the mesh", "mesh"),
+        part("section", Type::section, required, "cross-section, or stiffness and mass per length", "section"),
+        part("material", Type::section, "", "absent: section gives EA, EI and rhoA", "material"),
+        choice("strain", "averaged",
+               "membrane strain in an element: averaged over it (free of locking) or pointwise (locks)",
+               {"averaged", "pointwise"}),
+        {"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"},
+        {"rigid", Type::flag, "", "false",
+         "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},
+        part("frame", Type::frame, "pinned", "where the floating frame is attached", "frame"),
+        {"frames", Type::integer, "", "1",
+         "split a straight line into so many floating frames, joined rigidly; divides the elements", counts},
+        part("reduction", Type::section, "", "the reduced basis", "reduction"),
+        part("damping", Type::section, "", "absent: none", "damping"),
+        part("initial", Type::section, "", "absent: at rest, undeformed, mesh axes on world axes", "initial"),
+    }};
+
+const SchemaSection mesh_section{
+    "mesh",
+    "The shape of a body: exactly one of these keys.",
+    "line: {from: [0, 0], to: [100, 0], elements: 20}",
+    {
+        part("line", Type::section, "", "one straight line", "line"),
+        part("polyline", Type::section, "", "straight segments, one after another", "polyline"),
+        part("segments", Type::section, "", "a frame: points and the segments between them", "segments"),
+    }};
+
+const SchemaSection line_section{"line",
+                                 "Places: start, end, middle.",
+                                 "from: [0, 0]\nto: [L, 0]\nelements: 20",
+                                 {
+                                     {"from", Type::point, "m", required, "place `start`"},
+                                     {"to", Type::point, "m", required, "place `end`"},
+                                     {"elements", Type::integer, "", required, "of equal length", counts},
+                                 }};
+
+const SchemaSection polyline_section{
+    "polyline",
+    "Places: start, end, middle, p1, p2, ... in the order of the points.",
+    "points: [[0, 0], [1, 0], [1, 1]]\nelements: [10, 10]",
+    {
+        {"points", Type::points, "m", required, "at least two, all different"},
+        {"elements", Type::integers, "", required, "of each segment, or one number for all", counts},
+    }};
+
+const SchemaSection segments_section{
+    "segments",
+    "Places: start (first point), end (last point), p1, p2, ...; all segments hang together.",
+    "points: [[0, 0], [1, 0], [2, 0], [1, 1]]\njoin: [[1, 2], [2, 3], [2, 4]]\nelements: 10",
+    {
+        {"points", Type::points, "m", required, "at least two, all different"},
+        {"join", Type::joins, "", required, "the two points of each segment, numbered from 1", counts},
+        {"elements", Type::integers, "", required, "of each segment, or one number for all", counts},
+    }};
+
+const SchemaSection section_section{
+    "section",
+    "With `material`: A and I. Without: EA, EI and rhoA.",
+    "A: 70\nI: 585",
+    {
+        {"A", Type::number, "m2", "", "area; with material", positive},
+        {"I", Type::number, "m4", "", "second moment of area; with material", positive},
+        {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
+        {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
+        {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},
+        {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I, or 0 without material",
+         nonnegative},
+    }};
+
+const SchemaSection material_section{"material",
+                                     "Linearly elastic.",
+                                     "E: 2.1e11\nrho: 7850",
+                                     {
+                                         {"E", Type::number, "N/m2", required, "Young's modulus", positive},
+                                         {"rho", Type::number, "kg/m3", required, "density", positive},
+                                     }};
+
+const SchemaSection frame_section{
+    "frame",
+    "What makes the elastic displacement unique. The type alone may stand for the section: `frame: clamped`.",
+    "type: pinned\nfrom: start\nto: end",
+    {
+        choice("type", "pinned",
+               "pinned: through two places; clamped: tangent at one; mean-axis: without momentum of the deformation",
+               {"pinned", "clamped", "mean-axis"}),
+        only({"pinned"}, {"from", Type::own_place, "", "start", "origin of the frame"}),
+        only({"pinned"}, {"to", Type::own_place, "", "end", "a place on the x axis of the frame"}),
+        only({"clamped"},
+             {"at", Type::own_place, "", "start", "origin of the frame, which turns with the section there"}),
+    }};
+
+const SchemaSection reduction_section{
+    "reduction",
+    "The columns of the reduced basis.",
+    "modes: {count: 12, of: joints}\nderivatives: [[1, 1], [1, 2], [2, 2]]\nderivative_type: static",
+    {
+        part("modes", Type::modes, "6", "vibration modes; an integer is their count", "modes"),
+        {"derivatives", Type::derivatives, "", "all",
+         "modal derivatives: all, none, so many (chosen by modal interaction), or pairs of modes [i, j], i <= j"},
+        choice("derivative_type", "static", "static: inertia neglected; full: with inertia", {"static", "full"}),
+        choice("attachment", "joints", "where static columns for unit forces are added",
+               {"none", "joints", "loads", "all"}),
+        {"drop_tolerance",
+         Type::number,
+         "",
+         "1e-7",
+         "columns that add less than this (relative) are dropped and reported",
+         {0, 1, false, true}},
+    }};
+
+const SchemaSection modes_section{
+    "modes",
+    "Which vibration modes.",
+    "count: 12\nof: joints\nalone: 17",
+    {
+        {"count", Type::integer, "", "6", "how many; the default is less for a mesh with fewer elastic dofs", {0, 1e5}},
+        choice("of", "joints",
+               "of the body as its joints hold it (converges), or under the conditions of its frame alone",
+               {"joints", "frame"}),
+        {"alone", Type::integer, "", "0", "how many in formulation vm; 0: as many as vm+md has columns", {0, 1e5}},
+    }};
+
+const SchemaSection damping_section{
+    "damping",
+    "Linear, of the elastic coordinates.",
+    "stiffness: 1e-4\nmodal: [0.01, 0.01]",
+    {
+        {"mass", Type::number, "1/s", "0", "Rayleigh alpha", nonnegative},
+        {"stiffness", Type::number, "s", "0", "Rayleigh beta", nonnegative},
+        {"modal", Type::numbers, "", "[]", "damping ratios of the first modes", nonnegative},
+    }};
+
+const SchemaSection initial_section{
+    "initial",
+    "Position and velocity of the axes of the mesh, deformation in them.",
+    "position: [0, 1]\nangle: pi/2\nangular_velocity: 6\ndeformation: [0, \"0.01*sin(pi*x/L)\"]",
+    {
+        {"position", Type::point, "m", "[0, 0]", "of the mesh's origin, world axes"},
+        {"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"},
+        {"velocity", Type::point, "m/s", "[0, 0]", "of the mesh's origin, world axes"},
+        {"angular_velocity", Type::number, "rad/s", "0", "of the mesh's axes"},
+        {"deformation", Type::formula_of_place, "m", "", "displacements u, v; absent: undeformed"},
+        {"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"},
+    }};
+
+const SchemaSection joint_section{
+    "joint",
+    "Holds two places together, named by its key.",
+    "type: revolute\nbetween: [ground, arm.start]",
+    {
+        choice("type", required,
+               "fixed: clamp; revolute: hinge; prismatic: slides along axis; driven: hinge with given angle; spring: "
+               "with dampers",
+               {"fixed", "revolute", "prismatic", "driven", "spring"}),
+        {"between", Type::places, "", required,
+         "`ground` alone is the point of the ground that meets the other place at the start"},
+        only({"driven"}, {"angle", Type::formula, "rad", required,
+                          "turn of the second place against the first, less its value at t = 0"}),
+        only({"prismatic"}, {"axis", Type::point, "", "[1, 0]",
+                             "direction of sliding at the start, world axes; turns with the first place"}),
+        only({"spring"}, {"stiffness", Type::number, "N/m", "0", "along the line between the places", nonnegative}),
+        only({"spring"}, {"viscosity", Type::number, "N s/m", "0", "along the line between the places", nonnegative}),
+        only({"spring"},
+             {"length", Type::number, "m", "", "unstretched; absent: the distance at the start", nonnegative}),
+        only({"spring"},
+             {"torsional_stiffness", Type::number, "N m/rad", "0", "against turning from the start", nonnegative}),
+        only({"spring"}, {"torsional_viscosity", Type::number, "N m s/rad", "0", "against turning", nonnegative}),
+    }};
+
+const SchemaSection load_section{
+    "load",
+    "A force or moment that depends on time, named by its key.",
+    "type: force\nat: beam.end\nforce: [0, \"F*sin(9.5*t)\"]",
+    {
+        choice("type", required, "at a place, or distributed along all segments of a body",
+               {"force", "moment", "distributed"}),
+        only({"force", "moment"}, {"at", Type::place, "", required, "where it acts"}),
+        only({"distributed"}, {"body", Type::body, "", required, "on which it acts"}),
+        only({"force", "distributed"},
+             {"force", Type::formulas, "N; N/m", required, "components, per length if distributed"}),
+        only({"moment"}, {"moment", Type::formula, "N m", required, "anticlockwise"}),
+        only({"force", "distributed"},
+             choice("axes", "world", "of the components; body: they turn with the floating frame", {"world", "body"})),
+    }};
+
+const SchemaSection motion_section{
+    "motion",
+    "From t = 0.",
+    "end: 3\nstep: 1e-3",
+    {
+        {"end", Type::number, "s", required, "last time", positive},
+        {"step", Type::number, "s", required, "time step (the first one, with tolerance); at most end", positive},
+        {"spectral_radius", Type::number, "", "0.8", "at infinite frequency; 0 damps most", {0, 1, false, true}},
+        {"tolerance",
+         Type::number,
+         "",
+         "",
+         "relative error a step, by which the step is adapted; absent: steps are equal",
+         {0, 1, true, true}},
+        {"every", Type::integer, "", "1", "store each so many steps", counts},
+    }};
+
+const SchemaSection probe_section{
+    "probe",
+    "What is recorded at a place, named by its key.",
+    "at: beam.end\nquantity: displacement",
+    {
+        {"at", Type::place, "", required, "where"},
+        choice("quantity", "displacement",
+               "position, displacement since the start, velocity: world axes; deflection: in "
+               "the floating frame; rotation of the section",
+               {"position", "displacement", "deflection", "velocity", "rotation"}),
+    }};
+
+const SchemaSection place_section{
+    "place",
+    "A node: `beam.end` (body.name; names under line, polyline and segments), `ground`, or this mapping.",
+    "body: beam\nnode: [50, 0]",
+    {
+        {"body", Type::body, "", required, "or ground"},
+        {"node", Type::point, "m", required, "a node's coordinates in mesh axes; world axes on the ground"},
+    }};
+
+}  // namespace
+
+const std::vector<SchemaSection>& schema() {
+  static const std::vector<SchemaSection> all{
+      scene_section,   body_section,     mesh_section,  line_section,      polyline_section, segments_section,
+      section_section, material_section, frame_section, reduction_section, modes_section,    damping_section,
+      initial_section, joint_section,    load_section,  place_section,     motion_section,   probe_section};
+  return all;
+}
+
+}  // namespace floe::scene

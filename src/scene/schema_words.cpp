@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "floe/scene/scene.h"
+#include "floe/scene/schema.h"
+
+namespace floe::scene {
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (least_excluded ? value > least : value >= least) &&
+         (greatest_excluded ? value < greatest : value <= greatest);
+}
+
+std::string Range::text() const {
+  const char* below = least_excluded ? "<" : "<=";
+  const char* above = greatest_excluded ? "<" : "<=";
+  if (std::isinf(least) && std::isinf(greatest)) return "";
+  if (std::isinf(greatest)) return fmt::format("{} {}", least_excluded ? ">" : ">=", least);
+  if (std::isinf(least)) return fmt::format("{} {}", above, greatest);
+  return fmt::format("{} {} value {} {}", least, below, above, greatest);
+}
+
+const Key& SchemaSection::key(const std::string& wanted) const {
+  for (const Key& candidate : keys) {
+    if (candidate.name == wanted) return candidate;
+  }
+  throw std::logic_error("the grammar has no key " + name + "." + wanted);
+}
+
+const SchemaSection& schema_section(const std::string& name) {
+  for (const SchemaSection& section : schema()) {
+    if (section.name == name) return section;
+  }
+  throw std::logic_error("the grammar has no section " + name);
+}
+
+std::string describe(const Key& key) {
+  switch (key.type) {
+    case Type::text:
+      return "a text";
+    case Type::flag:
+      return "true or false";
+    case Type::integer:
+      return "an integer";
+    case Type::integers:
+      return "an integer or a list of them";
+    case Type::number:
+      return "a number or a formula of the parameters";
+    case Type::numbers:
+      return "a list of numbers";
+    case Type::point:
+      return "two numbers [x, y]";
+    case Type::points:
+      return "a list of points [x, y]";
+    case Type::joins:
+      return "a list of pairs of point numbers [i, j]";
+    case Type::pair:
+      return "two integers [i, j]";
+    case Type::formula:
+      return "a number or a formula of t";
+    case Type::formulas:
+      return "two formulas of t [x, y]";
+    case Type::formula_of_place:
+      return "two formulas of x and y [u, v]";
+    case Type::choice:
+      return fmt::format("one of {}", fmt::join(key.choices, ", "));
+    case Type::derivatives:
+      return "all, none, an integer or a list of pairs [i, j]";
+    case Type::place:
+      return "a place (BODY.NAME, or {body: BODY, node: [x, y]})";
+    case Type::places:
+      return "two places [BODY.NAME, BODY.NAME], either may be ground";
+    case Type::own_place:
+      return "the name of a place of this body, or a node's coordinates [x, y]";
+    case Type::body:
+      return "the name of a body";
+    case Type::parameters:
+      return "a mapping NAME: number";
+    case Type::section:
+      return fmt::format("a mapping with the keys of `{}`", key.section);
+    case Type::modes:
+      return fmt::format("an integer, or a mapping with the keys of `{}`", key.section);
+    case Type::frame:
+      return fmt::format("pinned, clamped, mean-axis, or a mapping with the keys of `{}`", key.section);
+    case Type::named_sections:
+      return fmt::format("a mapping NAME: mapping with the keys of `{}`", key.section);
+  }
+  throw std::logic_error("a type without a description");
+}
+
+std::string schema_reference() {
+  std::string out =
+      "A scene is a YAML file. Wherever a number is expected, a formula of the parameters may stand (\"pi/2\", L/20).\n"
+      "Formulas know pi, e, + - * / ^, comparisons, `condition ? a : b`, sin, cos, exp, sqrt, abs, min, max and so "
+      "on,\n"
+      "triangle(t, rise, fall), ramp(t, from, to) and pulse(t, from, to); in a list, quote a formula that has a "
+      "comma.\n"
+      "Names are of letters, digits, _ and -. Units are SI here; any consistent set will do.\n";
+  for (const SchemaSection& section : schema()) {
+    out += fmt::format("\n{}\n{}\n{}\n", section.name, std::string(section.name.size(), '-'), section.text);
+    for (const Key& key : section.keys) {
+      out += fmt::format("  {:<20} {}\n", key.name, key.text);
+      std::string line = describe(key);
+      if (!key.unit.empty()) line += fmt::format(" [{}]", key.unit);
+      if (const std::string range = key.range.text(); !range.empty()) line += "; " + range;
+      if (key.fallback == Key::required) line += "; required";
+      if (!key.fallback.empty() && key.fallback != Key::required) line += "; default " + key.fallback;
+      if (!key.kinds.empty()) line += fmt::format("; only for type {}", fmt::join(key.kinds, ", "));
+      out += fmt::format("  {:<20}   {}\n", "", line);
+    }
+    out += "  Example:\n    ";
+    for (const char c : section.example) out += c == '\n' ? std::string("\n    ") : std::string(1, c);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,130 @@
+#include "values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace floe::scene {
+namespace {
+
+constexpr std::size_t longest_formula = 2000;
+
+// The number that a text is: digits as in C or YAML's .inf and .nan; nothing for any other text.
+std::optional<double> plain_number(std::string text) {
+  if (text.starts_with("+")) text.erase(0, 1);
+  const bool negative = text.starts_with("-");
+  const std::string bare = text.substr(negative ? 1 : 0);
+  if (bare == ".inf" || bare == ".Inf" || bare == ".INF") return negative ? -INFINITY : INFINITY;
+  if (bare == ".nan" || bare == ".NaN" || bare == ".NAN") return NAN;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end != text.data() + text.size() || error == std::errc::invalid_argument) return {};
+  if (error == std::errc::result_out_of_range) return std::strtod(text.c_str(), nullptr);  // 0 or infinite
+  return number;
+}
+
+std::vector<std::string> names_known(const Document& document, const std::vector<std::string>& variables) {
+  std::vector<std::string> names = variables;
+  for (const auto& parameter : document.parameters) names.push_back(parameter.first);
+  for (const auto& name : math::formula_names()) names.push_back(name);
+  return names;
+}
+
+std::string expected_number(const Key& key, const char* kind) {
+  const std::string range = key.range.text();
+  return range.empty() ? kind : fmt::format("{} {}", kind, range);
+}
+
+}  // namespace
+
+std::string shown(const YAML::Node& node) {
+  if (node.IsSequence()) return "is a list";
+  if (node.IsMap()) return "is a mapping";
+  if (!node.IsScalar()) return "is empty";
+  return "is " + quoted(node.Scalar());
+}
+
+std::string quoted(const std::string& text) {
+  return text.size() > 60 ? fmt::format("\"{}...\"", text.substr(0, 60)) : fmt::format("\"{}\"", text);
+}
+
+math::Formula read_formula(Document& document, const Value& value, const Key& key,
+                           const std::vector<std::string>& variables) {
+  const std::string expected =
+      variables.empty() ? "a number or a formula of the parameters"
+                        : fmt::format("a number or a formula of {} and the parameters", fmt::join(variables, ", "));
+  if (!value.node.IsScalar()) {
+    document.fault(value.where, shown(value.node), expected);
+    return NAN;
+  }
+  const std::string& text = value.node.Scalar();
+  if (const auto number = plain_number(text)) {
+    if (std::isfinite(*number)) return *number;
+    document.fault(value.where, fmt::format("is {}, which is not finite", text), expected_number(key, "a number"));
+    return NAN;
+  }
+  if (text.size() > longest_formula) {
+    document.fault(value.where, shown(value.node), fmt::format("a formula of at most {} characters", longest_formula));
+    return NAN;
+  }
+  try {
+    return math::Formula(text, variables, document.parameters);
+  } catch (const math::FormulaError& error) {
+    document.fault(value.where, error.what(), expected, error.unknown, names_known(document, variables));
+    return NAN;
+  }
+}
+
+double read_number(Document& document, const Value& value, const Key& key) {
+  const math::Formula formula = read_formula(document, value, key, {});
+  const std::size_t before = document.fault_count();
+  double number = NAN;
+  try {
+    number = formula();
+  } catch (const math::FormulaError&) {
+    return NAN;  // told by read_formula
+  }
+  if (!key.range.contains(number)) {
+    const std::string& text = value.node.Scalar();
+    const std::string is = plain_number(text) ? "is " + text : fmt::format("{} is {}", quoted(text), number);
+    document.fault(value.where, is, expected_number(key, "a number"));
+  }
+  return document.fault_count() == before ? number : NAN;
+}
+
+int read_integer(Document& document, const Value& value, const Key& key) {
+  Key unbounded = key;
+  unbounded.range = {};
+  const double number = read_number(document, value, unbounded);
+  if (std::isnan(number)) return 0;
+  if (number == std::round(number) && key.range.contains(number)) return static_cast<int>(number);
+  document.fault(value.where, fmt::format("is {}", value.node.Scalar()), expected_number(key, "an integer"));
+  return 0;
+}
+
+bool read_flag(Document& document, const Value& value, const Key& key) {
+  bool flag = false;
+  if (value.node.IsScalar() && YAML::convert<bool>::decode(value.node, flag)) return flag;
+  document.fault(value.where, shown(value.node), describe(key));
+  return false;
+}
+
+std::string read_choice(Document& document, const Value& value, const Key& key) {
+  const std::string word = value.node.IsScalar() ? value.node.Scalar() : "";
+  for (const auto& choice : key.choices) {
+    if (word == choice) return word;
+  }
+  document.fault(value.where, shown(value.node), describe(key), word, key.choices);
+  return "";
+}
+
+Point read_point(Document& document, const Value& value, const Key& key) {
+  Point point{};
+  const auto parts = read_list(document, value, key, 2);
+  for (std::size_t i = 0; i < parts.size(); ++i) point[i] = read_number(document, parts[i], key);
+  return point;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,20 @@
+#define CATCH_CONFIG_RUNNER
+#include <catch2/catch.hpp>
+#include <slepcsys.h>
+
+#include "floe/dynamics/generalized_alpha.h"
+#include "floe/petsc/error.h"
+
+int main(int argc, char** argv) {
+  int none = 1;
+  char* name[] = {argv[0], nullptr};
+  char** arguments = name;
+  if (SlepcInitialize(&none, &arguments, nullptr, nullptr)) return 1;
+  floe::petsc::collect_errors();
+  floe::dynamics::register_generalized_alpha();
+  const int failures = Catch::Session().run(argc, argv);
+  int any = 0;
+  MPI_Allreduce(&failures, &any, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);
+  SlepcFinalize();
+  return any > 255 ? 255 : any;
+}

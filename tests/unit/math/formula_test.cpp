@@ -1,0 +1,94 @@
+#include "floe/math/formula.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using Catch::Matchers::Contains;
+using floe::math::Formula;
+using floe::math::FormulaError;
+
+namespace {
+const std::vector<std::string> of_t{"t"};
+double value(const std::string& text, double t = 0) { return Formula(text, of_t, {{"F", 2500.0}, {"L", 100.0}})(t); }
+std::string complaint(const std::string& text) {
+  try {
+    value(text);
+  } catch (const FormulaError& error) {
+    return error.what();
+  }
+  return "";
+}
+}  // namespace
+
+TEST_CASE("a formula has the value of its C++ twin") {
+  CHECK(value("F*sin(9.5*t)", 0.3) == 2500 * std::sin(9.5 * 0.3));
+  CHECK(value("t<2.5 ? 32*t : 160-32*t", 1) == 32);
+  CHECK(value("t<2.5 ? 32*t : 160-32*t", 4) == 32);
+  CHECK(value("pi/2 + e") == Approx(M_PI / 2 + M_E).epsilon(1e-15));
+  CHECK(value("-1.5e-3*L") == -0.15);
+  CHECK(value("2e+1") == 20);
+  CHECK(Formula("x - 2*y", {"x", "y"}, {})(5, 1) == 3);
+}
+
+TEST_CASE("triangle, ramp and pulse are what their definitions say") {
+  CHECK(value("80*triangle(t, 2.5, 2.5)", 1.25) == 40);
+  CHECK(value("triangle(t, 1, 3)", 2.5) == 0.5);
+  CHECK(value("triangle(t, 1, 3)", 1) == 1);
+  CHECK(value("triangle(t, 0, 1)", 0.25) == 0.75);
+  CHECK(value("triangle(t, 1, 3)", -1) == 0);
+  CHECK(value("triangle(t, 1, 3)", 4) == 0);
+  CHECK(value("ramp(t, 1, 3)", 1.5) == 0.25);
+  CHECK(value("ramp(t, 1, 1)", 1) == 0);
+  CHECK(value("ramp(t, 1, 1)", 1.1) == 1);
+  CHECK(value("pulse(t, 1, 2)", 1) == 1);
+  CHECK(value("pulse(t, 1, 2)", 2) == 0);
+}
+
+TEST_CASE("a number is a formula, and constants know that they are constant") {
+  CHECK(Formula(4.5)(7) == 4.5);
+  CHECK(Formula()() == 0);
+  CHECK(Formula("2*L", of_t, {{"L", 3}}).constant());
+  CHECK_FALSE(Formula("2*t", of_t, {}).constant());
+  CHECK(Formula("2*t", of_t, {}).text() == "2*t");
+  CHECK(Formula("2*L", of_t, {{"L", 3}}).derivative(1) == 0);
+}
+
+TEST_CASE("copies share their parser and disturb each other's values not") {
+  const Formula a("t^2", of_t, {}), b = a;
+  CHECK(a(3) == 9);
+  CHECK(b(4) == 16);
+  CHECK(a(3) == 9);
+}
+
+TEST_CASE("what is wrong with a formula is said") {
+  CHECK_THAT(complaint("2*(t"), Contains("does not parse"));
+  CHECK_THAT(complaint(""), Contains("does not parse"));
+  CHECK_THAT(complaint("G*sinn(t)"), Contains("\"G\" at character 1"));
+  CHECK_THAT(complaint("F*sinn(t)"), Contains("\"sinn\" at character 3"));
+  CHECK_THAT(complaint("1, 2"), Contains("more than one formula"));
+  CHECK_THAT(complaint("t=3"), Contains("assigns at character 2"));
+  CHECK_THAT(complaint("1/0"), Contains("infinite"));
+  CHECK_THAT(complaint("sqrt(t-1)"), Contains("not a number at t = 0"));
+  CHECK_THAT(complaint("log(0*t-1)"), Contains("not a number"));
+  CHECK(complaint("t>=0 && t!=1 && t<=4 ? 1 : 2").empty());
+  try {
+    value("F*cosinus(t)");
+    FAIL("cosinus is no function");
+  } catch (const FormulaError& error) {
+    CHECK(error.unknown == "cosinus");
+  }
+}
+
+TEST_CASE("derivatives agree with the closed form over scales of time") {
+  for (const double w : {0.01, 1.0, 9.5, 150.0, 5000.0, 200 * M_PI, 1600 * M_PI}) {
+    for (const double t : {0.0, 0.013, 1.7, 40.0}) {
+      const Formula f("sin(w*t)", of_t, {{"w", w}});
+      INFO("w = " << w << ", t = " << t);
+      CHECK(std::abs(f.derivative(t) - w * std::cos(w * t)) < 1e-8 * w);
+      CHECK(std::abs(f.second_derivative(t) + w * w * std::sin(w * t)) < 1e-5 * std::max(w * w, 1e-2));
+    }
+  }
+  CHECK(Formula("150*t", of_t, {}).derivative(0.03) == Approx(150).epsilon(1e-12));
+  CHECK(Formula("x*y^3", {"x", "y"}, {}).derivative(2, 3) == Approx(27).epsilon(1e-12));
+}

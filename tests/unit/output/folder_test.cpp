@@ -1,0 +1,88 @@
+#include "floe/output/folder.h"
+
+#include <catch2/catch.hpp>
+
+#include "floe/error.h"
+#include "floe/output/summary.h"
+#include "scratch.h"
+#include "small_files.h"
+
+using namespace floe;
+using namespace floe::output;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void put(const Scratch& scratch, const std::filesystem::path& path, const std::string& text) {
+  if (scratch.rank() == 0) std::ofstream(path) << text;
+  meet();
+}
+
+}  // namespace
+
+TEST_CASE("a result folder is made with its parents") {
+  Scratch scratch;
+  const auto folder = prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false);
+  CHECK(std::filesystem::is_directory(scratch / "a/b/c"));
+  CHECK(std::filesystem::is_empty(scratch / "a/b/c"));
+  CHECK(folder.result() == scratch / "a/b/c/result.h5");
+  meet();
+  CHECK_NOTHROW(prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false));
+}
+
+TEST_CASE("a folder that holds something is replaced only when asked, and only what is ours in it") {
+  Scratch scratch;
+  put(scratch, scratch / "summary.json", "old");
+  put(scratch, scratch / ".result.h5.partial", "old");
+  put(scratch, scratch / "notes.txt", "mine");
+  put(scratch, scratch / "photo.png", "mine");
+  CHECK_THROWS_WITH(prepare_folder(PETSC_COMM_WORLD, scratch, false), Contains("not empty") && Contains("--force"));
+  CHECK(text_of(scratch / "summary.json") == "old");
+  meet();
+  prepare_folder(PETSC_COMM_WORLD, scratch, true);
+  CHECK_FALSE(std::filesystem::exists(scratch / "summary.json"));
+  CHECK_FALSE(std::filesystem::exists(scratch / ".result.h5.partial"));
+  CHECK(text_of(scratch / "notes.txt") == "mine");
+  CHECK(text_of(scratch / "photo.png") == "mine");
+}
+
+TEST_CASE("what cannot be a result folder is an input error of one line on every rank") {
+  Scratch scratch;
+  put(scratch, scratch / "file", "");
+  for (const std::filesystem::path& path :
+       {scratch / "file", scratch / "file/below", std::filesystem::path("/proc/floe/x"),
+        std::filesystem::path("/proc/self"), std::filesystem::path()}) {
+    INFO(path);
+    try {
+      prepare_folder(PETSC_COMM_WORLD, path, true);
+      FAIL("accepted");
+    } catch (const InputError& error) {
+      CHECK_THAT(error.what(), Contains("output folder '" + path.string() + "'") && !Contains("\n"));
+    }
+  }
+}
+
+TEST_CASE("a file is replaced whole or not at all") {
+  Scratch scratch;
+  if (scratch.rank() != 0) return;
+  const std::string old(1000, 'o'), fresh(100000, 'n');
+  write_file_atomically(scratch / "file", old);
+  CHECK(text_of(scratch / "file") == old);
+  {
+    SmallFiles full(4096);
+    CHECK_THROWS_AS(write_file_atomically(scratch / "file", fresh), RunError);
+    CHECK_THROWS_WITH(write_file_atomically(scratch / "file", fresh), Contains("File too large") && Contains("file"));
+  }
+  CHECK(text_of(scratch / "file") == old);
+  CHECK_FALSE(std::filesystem::exists(scratch / ".file.partial"));
+  write_file_atomically(scratch / "file", fresh);
+  CHECK(text_of(scratch / "file") == fresh);
+}
+
+TEST_CASE("a summary keeps the order of its keys, and its failure is every rank's") {
+  Scratch scratch;
+  write_summary(PETSC_COMM_WORLD, {scratch}, {{"status", "running"}, {"basis", 17}, {"a", 0.1}});
+  meet();
+  CHECK(text_of(scratch / "summary.json") == "{\n  \"status\": \"running\",\n  \"basis\": 17,\n  \"a\": 0.1\n}\n");
+  CHECK_THROWS_AS(write_summary(PETSC_COMM_WORLD, {scratch / "missing"}, {}), RunError);
+}

@@ -1,0 +1,206 @@
+#include "floe/reference/corotational_beam.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "floe/error.h"
+
+using namespace floe;
+using dynamics::Motion;
+using dynamics::Weights;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using reference::CorotationalBeam;
+
+namespace {
+
+const CorotationalBeam::Properties stocky{3.0e3, 40, 1.7, 0.3};
+const Vector2d X1(0.4, -0.2), X2(1.5, 0.6), gravity(1.3, -9.81);
+const double length = (X2 - X1).norm();
+
+CorotationalBeam stocky_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, stocky, gravity}; }
+
+struct State {
+  VectorXd q, v, a;
+};
+
+/// Deflected by tenths of a radian, turned by `turn`, moving.
+State some_state(unsigned seed, double turn) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto vector = [&](double size) {
+    return VectorXd(VectorXd::NullaryExpr(6, [&] { return size * number(random); }));
+  };
+  State state{vector(0.2), vector(3), vector(20)};
+  const Vector2d d = X2 - X1;
+  state.q.segment<2>(3) += Eigen::Rotation2Dd(turn) * d - d;
+  state.q[2] += turn;
+  state.q[5] += turn;
+  return state;
+}
+
+VectorXd residual(const CorotationalBeam& beam, const State& s) {
+  VectorXd r = VectorXd::Zero(6);
+  beam.residual(Motion{0, s.q, s.v, s.a}, r);
+  return r;
+}
+
+MatrixXd tangent(const CorotationalBeam& beam, const State& s, Weights weights) {
+  MatrixXd J = MatrixXd::Zero(6, 6);
+  beam.tangent(Motion{0, s.q, s.v, s.a}, weights, J);
+  return J;
+}
+
+dynamics::Energy energy(const CorotationalBeam& beam, const State& s) { return beam.energy(Motion{0, s.q, s.v, s.a}); }
+
+/// Jacobian by central differences of step h.
+MatrixXd differences(const std::function<VectorXd(const VectorXd&)>& f, VectorXd x, double h) {
+  MatrixXd J(f(x).size(), x.size());
+  for (int i = 0; i < x.size(); ++i) {
+    const double at = x[i];
+    x[i] = at + h;
+    const VectorXd ahead = f(x);
+    x[i] = at - h;
+    J.col(i) = (ahead - f(x)) / (2 * h);
+    x[i] = at;
+  }
+  return J;
+}
+
+/// `exact` is the derivative of f: central differences tend to it at order 2, their extrapolation equals it.
+void check_derivative(const MatrixXd& exact, const std::function<VectorXd(const VectorXd&)>& f, const VectorXd& x) {
+  const MatrixXd coarse = differences(f, x, 4e-3), fine = differences(f, x, 2e-3);
+  CHECK((coarse - exact).norm() / (fine - exact).norm() == Approx(4).epsilon(0.02));
+  CHECK(((4 * fine - coarse) / 3 - exact).norm() < 1e-7 * exact.norm());
+}
+
+}  // namespace
+
+TEST_CASE("corotational beam: the static force is the gradient of the energy", "[corotational]") {
+  const auto beam = stocky_beam();
+  for (const double turn : {0.3, 3.1, -7.9}) {
+    State s = some_state(1, turn);
+    s.v.setZero(), s.a.setZero();
+    check_derivative(
+        residual(beam, s).transpose(),
+        [&](const VectorXd& q) {
+          const auto e = energy(beam, {q, s.v, s.a});
+          return VectorXd::Constant(1, e.elastic + e.potential);
+        },
+        s.q);
+  }
+}
+
+TEST_CASE("corotational beam: the tangent is the derivative of the residual", "[corotational]") {
+  const auto beam = stocky_beam();
+  for (const double turn : {0.3, 3.1, -7.9}) {
+    const State s = some_state(2, turn);
+    check_derivative(
+        tangent(beam, s, {1, 0, 0}),
+        [&](const VectorXd& q) {
+          return residual(beam, {q, s.v, s.a});
+        },
+        s.q);
+    // quadratic in v and linear in a: central differences are exact
+    const MatrixXd C = differences([&](const VectorXd& v) { return residual(beam, {s.q, v, s.a}); }, s.v, 0.1);
+    const MatrixXd M = differences([&](const VectorXd& a) { return residual(beam, {s.q, s.v, a}); }, s.a, 1);
+    CHECK((tangent(beam, s, {0, 1, 0}) - C).norm() < 1e-9 * C.norm());
+    CHECK((tangent(beam, s, {0, 0, 1}) - M).norm() < 1e-10 * M.norm());
+    const MatrixXd sum = tangent(beam, s, {2, 0, 0}) / 2 + 3 * C - 5 * M;
+    CHECK((tangent(beam, s, {1, 3, -5}) - sum).norm() < 1e-9 * sum.norm());
+  }
+}
+
+TEST_CASE("corotational beam: kinetic energy equals quadrature of the moving body", "[corotational]") {
+  const auto beam = stocky_beam();
+  const State s = some_state(3, 1.1);
+  const auto place = [&](double xi, double t) -> Eigen::Vector3d {  // of a point of the line, and turn of its section
+    const VectorXd q = s.q + t * s.v;
+    const Vector2d r1 = X1 + q.head<2>(), r2 = X2 + q.segment<2>(3), e = (r2 - r1).normalized(), d = X2 - X1;
+    const double beta = std::atan2(e[1], e[0]) - std::atan2(d[1], d[0]);
+    const double a1 = q[2] - beta, a2 = q[5] - beta;
+    const double w = length * (xi * (1 - xi) * (1 - xi) * a1 - xi * xi * (1 - xi) * a2);
+    const double slope = (1 - xi) * (1 - 3 * xi) * a1 + xi * (3 * xi - 2) * a2;
+    const Vector2d r = (1 - xi) * r1 + xi * r2 + w * Vector2d(-e[1], e[0]);
+    return {r[0], r[1], beta + slope};
+  };
+  const double points[] = {0.8611363115940526, 0.3399810435848563},
+               weights[] = {0.3478548451374538, 0.6521451548625461};
+  double T = 0;
+  for (int g = 0; g < 4; ++g) {
+    const double xi = 0.5 + (g % 2 ? 0.5 : -0.5) * points[g / 2], h = 1e-4;
+    const Eigen::Vector3d rate =
+        (8 * (place(xi, h) - place(xi, -h)) - (place(xi, 2 * h) - place(xi, -2 * h))) / (12 * h);
+    T += length * weights[g / 2] / 4 * (stocky.rhoA * rate.head<2>().squaredNorm() + stocky.rhoI * rate[2] * rate[2]);
+  }
+  CHECK(energy(beam, s).kinetic == Approx(T).epsilon(1e-10));
+}
+
+TEST_CASE("corotational beam: the inertia force is Lagrange's derivative of the kinetic energy", "[corotational]") {
+  const auto beam = stocky_beam();
+  const State s = some_state(4, 2.2);
+  const State still{s.q, VectorXd::Zero(6), VectorXd::Zero(6)};
+  const VectorXd inertia = residual(beam, s) - residual(beam, still);
+  const auto kinetic = [&](const VectorXd& q, const VectorXd& v) { return energy(beam, {q, v, s.a}).kinetic; };
+
+  const auto along = [&](double t) { return State{s.q + t * s.v + t * t / 2 * s.a, s.v + t * s.a, s.a}; };
+  const auto momentum = [&](double t) -> VectorXd {  // T is quadratic in v: exact
+    const State at = along(t);
+    return differences([&](const VectorXd& v) { return VectorXd::Constant(1, kinetic(at.q, v)); }, at.v, 0.5)
+        .transpose();
+  };
+  const double h = 2e-4;
+  const VectorXd rate = (8 * (momentum(h) - momentum(-h)) - (momentum(2 * h) - momentum(-2 * h))) / (12 * h);
+  const auto by_place = [&](double step) -> VectorXd {
+    return differences([&](const VectorXd& q) { return VectorXd::Constant(1, kinetic(q, s.v)); }, s.q, step)
+        .transpose();
+  };
+  const VectorXd lagrange = rate - (4 * by_place(1e-3) - by_place(2e-3)) / 3;
+  CHECK((inertia - lagrange).norm() < 1e-8 * inertia.norm());
+
+  const auto energy_at = [&](double t) { return kinetic(along(t).q, along(t).v); };
+  const double power = (8 * (energy_at(h) - energy_at(-h)) - (energy_at(2 * h) - energy_at(-2 * h))) / (12 * h);
+  CHECK(s.v.dot(inertia) == Approx(power).epsilon(1e-9));
+}
+
+TEST_CASE("corotational beam: rigid motion by any angle strains nothing and has a rigid bar's energy",
+          "[corotational]") {
+  const auto beam = stocky_beam();
+  const Vector2d d = X2 - X1, shift(3, -2), velocity(0.7, -1.9);
+  const double spin = 2.3, mass = stocky.rhoA * length, J = mass * length * length / 12 + stocky.rhoI * length;
+  for (const double angle : {0.0, 1.0, std::numbers::pi, 6.2, -3.0, 20.0, -1234.5}) {
+    const Vector2d turned = Eigen::Rotation2Dd(angle) * d, half(-spin * turned[1] / 2, spin * turned[0] / 2);
+    State s{VectorXd::Zero(6), VectorXd::Zero(6), VectorXd::Zero(6)};
+    s.q << shift, angle, shift + turned - d, angle;
+    s.v << velocity - half, spin, velocity + half, spin;
+    CHECK(energy(beam, s).elastic < 1e-18);
+    CHECK(energy(beam, s).kinetic == Approx(mass * velocity.squaredNorm() / 2 + J * spin * spin / 2).epsilon(1e-12));
+    CHECK(energy(beam, s).potential == Approx(-mass * gravity.dot(X1 + shift + turned / 2)).epsilon(1e-12));
+
+    // steady turning: each half is held by its centripetal force, and gravity by half the weight at each end
+    s.a << spin * spin * turned / 2, 0, -spin * spin * turned / 2, 0;
+    VectorXd expected = VectorXd::Zero(6);
+    const Vector2d pull = mass * spin * spin * turned / 12, weight = mass * gravity / 2;
+    const double moment = mass / 12 * (gravity[1] * turned[0] - gravity[0] * turned[1]);
+    expected << pull - weight, -moment, -pull - weight, moment;
+    CHECK((residual(beam, s) - expected).norm() < 1e-10 * expected.norm());
+  }
+}
+
+TEST_CASE("corotational beam: what cannot be an element is refused, all faults at once", "[corotational]") {
+  const std::vector<int> six{0, 1, 2, 3, 4, 5};
+  CHECK_THROWS_AS(CorotationalBeam(six, X1, X1, stocky), InputError);
+  CHECK_THROWS_AS(CorotationalBeam({0, 1, 2, 3, 4, 4}, X1, X2, stocky), InputError);
+  CHECK_THROWS_AS(CorotationalBeam(six, X1, X2, stocky, {0, NAN}), InputError);
+  CHECK_NOTHROW(CorotationalBeam(six, X1, X2, {1, 1, 1, 0}));
+  try {
+    CorotationalBeam(six, X1, X2, {0, -1, NAN, -1});
+    FAIL("accepted");
+  } catch (const InputError& error) {
+    CHECK(error.faults().size() == 4);
+  }
+}
