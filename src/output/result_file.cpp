@@ -46,7 +46,12 @@ void ResultFile::reserve_in_draft(std::uint64_t bytes) {
   });
 }
 
-void ResultFile::write_text(const std::string& name, const std::string& text) {
+void ResultFile::write_text(const std::string& name, const std::string& first) {
+  std::string text = first;  // that of rank 0: HDF5's metadata must not differ between ranks
+  int size = static_cast<int>(text.size());
+  MPI_Bcast(&size, 1, MPI_INT, 0, comm_);
+  text.resize(size);
+  MPI_Bcast(text.data(), size, MPI_CHAR, 0, comm_);
   open_draft();
   reserve_in_draft(text.size());
   petsc::agree(comm_, [&] { writing(path_, [&] { write_text_dataset(draft_, name, text, rank_ == 0); }); });

@@ -35,7 +35,11 @@ std::vector<PetscInt> visited_nodes(const Prepared& prepared, int body) {
   for (const auto& joint : prepared.joints) visit(joint[0]), visit(joint[1]);
   for (std::size_t l = 0; l < prepared.loads.size(); ++l)
     if (prepared.scene.loads[l].kind != Load::Kind::distributed) visit(prepared.loads[l]);
-  for (const auto& probe : prepared.probes) visit(probe[0]), visit(probe[1]);
+  for (std::size_t p = 0; p < prepared.probes.size(); ++p) {
+    visit(prepared.probes[p][0]), visit(prepared.probes[p][1]);
+    if (prepared.scene.probes[p].quantity == Probe::Quantity::deflection && prepared.probes[p][0].body == body)
+      for (const PreparedPlace& place : prepared.bodies[body].frame_places) nodes.push_back(place.node);
+  }
   return nodes;
 }
 
@@ -307,11 +311,16 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
 void Assembly::add_probes(Model& model, const Eigen::VectorXd& q) {
   for (std::size_t p = 0; p < prepared_.probes.size(); ++p) {
     const Probe& spec = prepared_.scene.probes[p];
-    if (spec.quantity == Probe::Quantity::deflection && formulation_ == Formulation::cfr)
-      throw InputError(spec.where.text() +
-                       ": deflection is measured in the floating frame, which formulation cfr does not "
-                       "have; use displacement with relative_to");
-    ModelProbe probe{spec.name, spec.quantity, marker(prepared_.probes[p][0]), {}, {}, Eigen::Vector3d::Zero()};
+    const PreparedPlace& place = prepared_.probes[p][0];
+    ModelProbe probe{spec.name, spec.quantity, marker(place), {}, {}, {}, Eigen::Vector3d::Zero()};
+    if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && !compact(place.body) &&
+        formulation_ == Formulation::cfr) {
+      const PreparedBody& body = prepared_.bodies[place.body];
+      if (body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
+        throw InputError(spec.where.text() + ": deflection from mean axes is not known in formulation cfr");
+      for (const PreparedPlace& node : body.frame_places)
+        probe.frame.push_back(marker({place.body, node.node, node.x}));
+    }
     if (spec.relative_to) probe.relative_to = marker(prepared_.probes[p][1]);
     if (owner_) {
       probe.start = pose_at(probe.marker, q);

@@ -29,6 +29,7 @@ struct FrameNodes {
   PetscInt a = 0, b = 0;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // in mesh axes
   double angle = 0;
+  double chord = 0;  // from a to b
 };
 
 FrameNodes frame_nodes(const Body& body, const fem::Mesh& mesh) {
@@ -37,10 +38,10 @@ FrameNodes frame_nodes(const Body& body, const fem::Mesh& mesh) {
   if (body.frame.kind == FrameSpec::Kind::pinned) {
     const fem::NearestNode a = find(body.frame.from), b = find(body.frame.to);
     const Eigen::Vector2d chord = (b.position - a.position).head<2>();
-    nodes = {a.node, b.node, a.position.head<2>(), std::atan2(chord.y(), chord.x())};
+    nodes = {a.node, b.node, a.position.head<2>(), std::atan2(chord.y(), chord.x()), chord.norm()};
   } else if (body.frame.kind == FrameSpec::Kind::clamped) {
     const fem::NearestNode a = find(body.frame.at);
-    nodes = {a.node, a.node, a.position.head<2>(), 0};
+    nodes = {a.node, a.node, a.position.head<2>(), 0, 0};
   }
   return nodes;
 }
@@ -123,7 +124,9 @@ PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
   } catch (const InputError& error) {
     throw InputError(spec.frame.where.text() + ": " + error.what());
   }
-  PreparedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}};
+  PreparedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}, {}};
+  body.frame_places = {PreparedPlace{-1, nodes.a, Eigen::Vector3d::Zero()},
+                       PreparedPlace{-1, nodes.b, {nodes.chord, 0, 0}}};
   const InitialSpec& start = spec.initial;
   const Eigen::Vector2d arm = turn(start.angle) * nodes.origin;
   body.pose << planar(start.position) + arm, start.angle + nodes.angle;

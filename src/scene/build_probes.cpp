@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "build_prepare.h"
 
 namespace floe::scene {
@@ -31,6 +33,17 @@ Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Ei
   return {pose.y, pose.yd};
 }
 
+/// Displacement of a corotational body's node from the frame that its conditions define: through nodes a and b
+/// (pinned), or along the section at a (clamped).
+Eigen::Vector2d corotational_deflection(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::Vector3d& y) {
+  const Eigen::Vector3d a = placed(probe.frame[0], q, v).y, b = placed(probe.frame[1], q, v).y;
+  const bool pinned = probe.frame[0].x != probe.frame[1].x;
+  const double angle = pinned ? std::atan2(b.y() - a.y(), b.x() - a.x()) : a[2];
+  const Eigen::Vector2d from = probe.frame[0].x, rest = turn(-probe.frame[0].angle0) * (probe.marker.x - from);
+  return turn(-angle) * (y - a).head<2>() - rest;
+}
+
 void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
   Placed at = placed(probe.marker, q, v);
@@ -59,6 +72,11 @@ void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::
       values.push_back(at.y[2] - start[2]);
       break;
     case Probe::Quantity::deflection: {
+      if (!probe.frame.empty()) {
+        const Eigen::Vector2d u = corotational_deflection(probe, q, v, at.y);
+        values.insert(values.end(), {u.x(), u.y()});
+        break;
+      }
       const dynamics::Marker& marker = probe.marker;
       Eigen::VectorXd elastic(marker.S.cols());
       for (Eigen::Index i = 0; i < elastic.size(); ++i) elastic[i] = q[marker.coordinates[3 + i]];

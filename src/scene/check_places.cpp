@@ -60,7 +60,10 @@ void check_places(Document& document, const Scene& scene) {
     else if (!load.body.empty())
       find_body(document, scene, load.body, where, false);
   }
-  for (const Probe& probe : scene.probes) check_place(document, scene, probe.at, false);
+  for (const Probe& probe : scene.probes) {
+    check_place(document, scene, probe.at, false);
+    if (probe.relative_to) check_place(document, scene, *probe.relative_to, false);
+  }
 }
 
 }  // namespace floe::scene

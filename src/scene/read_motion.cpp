@@ -33,6 +33,8 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
   Reading reading(document, value, "probe");
   if (!value.node.IsMap()) return probe;
   if (const auto at = reading.value("at")) probe.at = read_place(document, *at, reading.key("at"));
+  if (const auto from = reading.value("relative_to"))
+    probe.relative_to = read_place(document, *from, reading.key("relative_to"));
   probe.quantity = reading.choice<Quantity>("quantity", {{"position", Quantity::position},
                                                          {"displacement", Quantity::displacement},
                                                          {"deflection", Quantity::deflection},

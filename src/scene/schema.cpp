@@ -260,6 +260,8 @@ const SchemaSection probe_section{
                "position, displacement since the start, velocity: world axes; deflection: in "
                "the floating frame; rotation of the section",
                {"position", "displacement", "deflection", "velocity", "rotation"}),
+        {"relative_to", Type::place, "", "",
+         "measured from this place, in axes that turn with its section; absent: world"},
     }};
 
 const SchemaSection place_section{

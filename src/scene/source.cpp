@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "document.h"
 
@@ -29,6 +31,30 @@ bool utf8(const std::string& text) {
   return expected == 0;
 }
 
+// Where a second document starts, if there is one. YAML::LoadAll tells it too, but never returns from a text that
+// begins with a comma: it takes it for empty documents without end.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> starts;
+  void OnDocumentStart(const YAML::Mark& mark) override { starts.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+std::vector<YAML::Mark> first_two_documents(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  DocumentStarts handler;
+  if (parser.HandleNextDocument(handler)) parser.HandleNextDocument(handler);
+  return handler.starts;
+}
+
 }  // namespace
 
 std::string read_text(const std::string& path) {
@@ -46,9 +72,11 @@ std::string read_text(const std::string& path) {
 
 Value parse_yaml(const std::string& text, const std::string& file) {
   if (!utf8(text)) throw InputError(file + ": is not a text file; expected a scene in YAML (UTF-8)");
-  std::vector<YAML::Node> documents;
+  YAML::Node root;
+  std::vector<YAML::Mark> documents;
   try {
-    documents = YAML::LoadAll(text);
+    documents = first_two_documents(text);
+    root = YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
     throw InputError(
         fmt::format("{}:{}:{}: is nested deeper than any scene", file, error.mark.line + 1, error.mark.column + 1));
@@ -58,12 +86,12 @@ Value parse_yaml(const std::string& text, const std::string& file) {
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: is not valid YAML: {}", file, error.what()));
   }
-  if (documents.empty() || documents[0].IsNull()) throw InputError(file + ": is empty; expected a scene");
   if (documents.size() > 1) {
-    throw InputError(fmt::format("{}:{}: holds {} YAML documents; expected one scene", file,
-                                 documents[1].Mark().line + 1, documents.size()));
+    throw InputError(fmt::format("{}:{}:{}: does not belong to the first YAML document; expected one", file,
+                                 documents[1].line + 1, documents[1].column + 1));
   }
-  return {documents[0], {file, 1, 1, ""}};
+  if (root.IsNull()) throw InputError(file + ": is empty; expected a scene");
+  return {root, {file, 1, 1, ""}};
 }
 
 }  // namespace floe::scene

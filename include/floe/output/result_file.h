@@ -37,7 +37,7 @@ class ResultFile {
   /// Saves what rank 0 still holds, as far as it can, and drops an unpublished draft; call finish() first. Collective.
   ~ResultFile();
 
-  /// A text as a scalar string dataset (UTF-8); replaces one of that name. The same text on all ranks. Collective.
+  /// A text as a scalar string dataset (UTF-8); replaces one of that name. Rank 0's text counts. Collective.
   void write_text(const std::string& name, const std::string& text);
   /// A replicated array, row-major; replaces one of that name. Collective; rank 0 writes.
   /// @throws std::invalid_argument  the product of `shape` is not the size of `data`

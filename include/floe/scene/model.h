@@ -20,6 +20,13 @@ Formulation formulation_of(const std::string& name);
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
+/// A node that something acts on.
+struct PreparedPlace {
+  int body = -1;  ///< index of prepared bodies, -1: ground
+  PetscInt node = 0;
+  Eigen::Vector3d x;  ///< in the frame's axes; ground: world
+};
+
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
 struct PreparedBody {
   Body spec;
@@ -27,17 +34,11 @@ struct PreparedBody {
   fem::ReferenceFrame frame;
   Eigen::Vector2d frame_origin;                    ///< in mesh axes
   double frame_angle = 0;                          ///< of the frame in mesh axes
+  std::array<PreparedPlace, 2> frame_places;       ///< pinned: a, b; clamped: a, a
   Eigen::Vector3d pose;                            ///< of the frame at the start, world: (R_x, R_y, theta)
   Eigen::Vector3d velocity;                        ///< likewise
   petsc::VecHandle deformation, deformation_rate;  ///< at the start, in the frame; null if none
   fem::Conditions held;                            ///< dofs that joints to the ground hold
-};
-
-/// A node that something acts on.
-struct PreparedPlace {
-  int body = -1;  ///< index of prepared bodies, -1: ground
-  PetscInt node = 0;
-  Eigen::Vector3d x;  ///< in the frame's axes; ground: world
 };
 
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
@@ -52,8 +53,8 @@ struct BodyReport {
   int first_coordinate = 0;  ///< local index of the frame's R_x
   int first_elastic = 0;     ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
-  PetscInt first_node = 0;              ///< of this rank
-  std::vector<double> positions;        ///< of this rank's own nodes, x y x y, in the frame
+  PetscInt first_node = 0;        ///< of this rank
+  std::vector<double> positions;  ///< of this rank's own nodes, x y x y, in the frame
 };
 
 struct ModelProbe {
@@ -61,6 +62,7 @@ struct ModelProbe {
   Probe::Quantity quantity;
   dynamics::Marker marker;
   std::optional<dynamics::Marker> relative_to;
+  std::vector<dynamics::Marker> frame;  ///< deflection of corotational bodies: the nodes that define the frame
   Eigen::Vector3d start, start_relative;
 };
 

@@ -142,7 +142,7 @@ TEST_CASE("joints, loads, motion and probes are read as they stand") {
   CHECK(scene.motion.tolerance == 1e-4);
   CHECK(scene.motion.every == 10);
   CHECK(scene.probes[0].quantity == Probe::Quantity::velocity);
-  CHECK(scene.probes[0].at.where.text() == "full.yaml:49:13: probes.tip.at");
+  CHECK(scene.probes[0].at.where.text() == "full.yaml:47:13: probes.tip.at");
 }
 
 // The grammar's defaults and those of the plain data agree, so that a Scene made in code is one read from a file.
