@@ -52,6 +52,11 @@ void add_folder(CLI::App* command, Choices& choices) {
 int main(int argc, char** argv) {
   const CommandLine line = split(argc, argv);
   Choices choices;
+  const auto on_first_rank = [](const auto& show) {
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank == 0) show();
+  };
   std::function<void()> work;
   CLI::App app("floe " FLOE_VERSION
                ": flexible multibody dynamics, reduced with modal derivatives in the floating frame of reference");
@@ -102,20 +107,16 @@ int main(int argc, char** argv) {
   check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
-  bool schema = false;
-  schema_command->callback([&] { schema = true; });
+  schema_command->callback([&] { work = [&] { on_first_rank([] { fmt::print("{}", scene::schema_reference()); }); }; });
 
   try {
     std::vector<std::string> words(line.own.rbegin(), line.own.rend());
+    if (words.empty() && !line.petsc.empty()) words = {"--help"};
     app.parse(words);
+  } catch (const CLI::Success& help) {
+    work = [&on_first_rank, &app, shown = help] { on_first_rank([&] { app.exit(shown); }); };
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "floe: {} (floe --help)\n", error.what());
-    return 2;
-  }
-  if (schema) {
-    fmt::print("{}", scene::schema_reference());
-    return 0;
+    work = [text = fmt::format("{} (floe --help)", error.what())] { throw InputError(text); };
   }
   return in_session(line, work);
 }

@@ -94,7 +94,7 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   if (!first_rank(comm)) return;
   const auto& s = result.summary;
   fmt::print("{} as {} ({}): {} coordinates, {} steps to t = {} s\n", scene.title.empty() ? scene.file : scene.title,
-             scene::name_of(formulation), result.label, result.coordinates, result.steps, scene.motion.end);
+             scene::name_of(formulation), result.label, result.coordinates, result.steps, result.end);
   fmt::print("offline {:.3g} s, motion {:.3g} s ({:.3g} us a step)\n", result.offline_seconds, result.motion_seconds,
              1e6 * result.motion_seconds / std::max<double>(1, static_cast<double>(result.steps)));
   fmt::print("constraints within {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",

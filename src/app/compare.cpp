@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <optional>
 
 #include "floe/output/provenance.h"
 #include "floe/output/table.h"
 #include "floe/version.h"
+#include "interruption.h"
 
 namespace floe::app {
 
@@ -32,7 +34,9 @@ std::string draw(const std::string& folder) {
   std::string script = std::string(FLOE_SCRIPTS_INSTALLED) + "/compare.py";
   if (!readable(script)) script = std::string(FLOE_SCRIPTS_SOURCE) + "/compare.py";
   const std::string python = readable("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  if (std::system((shell_quoted(python) + " " + shell_quoted(script) + " " + shell_quoted(folder) + " >/dev/null").c_str()) != 0)
+  if (std::system(
+          (shell_quoted(python) + " " + shell_quoted(script) + " " + shell_quoted(folder) + " >/dev/null").c_str()) !=
+      0)
     return "no picture: " + script + " failed (it needs python3 and matplotlib)";
   return folder + "/compare.png";
 }
@@ -50,11 +54,14 @@ scene::Scene refined(const scene::Scene& scene) {
 struct Row {
   std::string name;
   RunResult result;
-  std::string failure;
 };
 
-/// Worst column of the errors, or nothing where there is no reference.
-std::string percent(double value) { return fmt::format("{:.3g} %", 100 * value); }
+/// `tip` of the column `tip.x`.
+std::string probe_of(const scene::ProbeColumn& column) { return column.name.substr(0, column.name.rfind('.')); }
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
 
 output::Table table_of(const std::vector<Row>& rows, const std::vector<const Row*>& references, const Row* own) {
   output::Table table;
@@ -70,25 +77,26 @@ output::Table table_of(const std::vector<Row>& rows, const std::vector<const Row
     const RunResult& r = row.result;
     std::vector<output::Cell> cells = {row.name, label, static_cast<std::int64_t>(r.coordinates)};
     for (const Row* reference : references) {
-      if (reference == &row || r.series.t.size() < 2) {
-        cells.insert(cells.end(), names.size(), std::string(reference == &row ? "" : "failed"));
+      if (reference == &row) {
+        cells.insert(cells.end(), names.size(), std::string());
         continue;
       }
-      for (const double error : relative_errors(r.series, reference->result.series)) cells.push_back(100 * error);
+      for (const auto& error : relative_errors(r.series, reference->result.series))
+        cells.push_back(error ? output::Cell(100 * *error) : output::Cell(std::string()));
     }
     cells.push_back(r.offline_seconds);
     cells.push_back(r.motion_seconds);
     cells.push_back(1e6 * r.motion_seconds / std::max<double>(1, static_cast<double>(r.steps)));
     table.rows.push_back(std::move(cells));
   };
-  for (const Row& row : rows) add(row, row.failure.empty() ? row.result.label : row.result.label + " (stopped)");
+  for (const Row& row : rows) add(row, row.result.label);
   if (own) add(*own, own->result.label + ", mesh and step halved");
   return table;
 }
 
 }  // namespace
 
-std::vector<double> relative_errors(const Series& series, const Series& reference) {
+std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference) {
   const std::size_t columns = series.columns.size();
   std::vector<double> difference(columns, 0), size(columns, 0);
   std::size_t k = 0;
@@ -105,8 +113,16 @@ std::vector<double> relative_errors(const Series& series, const Series& referenc
       size[c] += r * r;
     }
   }
-  for (std::size_t c = 0; c < columns; ++c) difference[c] = size[c] > 0 ? std::sqrt(difference[c] / size[c]) : 0;
-  return difference;
+  std::map<std::string, double> of_probe;  // the greatest of its components
+  for (std::size_t c = 0; c < columns; ++c) {
+    double& greatest = of_probe[probe_of(series.columns[c])];
+    greatest = std::max(greatest, size[c]);
+  }
+  std::vector<std::optional<double>> errors(columns);
+  for (std::size_t c = 0; c < columns; ++c)
+    if (size[c] > 0 && std::sqrt(size[c]) >= 1e-9 * std::sqrt(of_probe[probe_of(series.columns[c])]))
+      errors[c] = std::sqrt(difference[c] / size[c]);
+  return errors;
 }
 
 void compare(const scene::Scene& scene, const std::vector<Formulation>& formulations, MPI_Comm comm,
@@ -115,18 +131,20 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
   MPI_Comm_rank(comm, &rank);
   const output::ResultFolder folder = output::prepare_folder(comm, path, overwrite);
   std::vector<Row> rows;
+  std::vector<std::pair<std::string, std::string>> stopped;
   for (const Formulation formulation : formulations) {
-    Row row{scene::name_of(formulation), {}, {}};
+    Row row{scene::name_of(formulation), {}};
     const output::ResultFolder sub = output::prepare_folder(comm, folder.path / row.name, overwrite);
     try {
       row.result = run(scene, formulation, comm, sub);
+      rows.push_back(std::move(row));
     } catch (const InputError&) {
       throw;
     } catch (const RunError& error) {  // one formulation that fails is a result, too
-      row.failure = error.what();
+      if (Interruption::happened(comm)) throw;
+      stopped.emplace_back(row.name, error.what());
       if (rank == 0) fmt::print(stderr, "floe: {}: {}\n", row.name, error.what());
     }
-    if (row.failure.empty()) rows.push_back(std::move(row));
   }
   if (rows.empty()) throw RunError("no formulation came to the end of its motion");
 
@@ -137,7 +155,13 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
   Row own;
   if (reference_error && !references.empty()) {
     own.name = references.front()->name;
-    own.result = run(refined(scene), scene::formulation_of(own.name), comm, std::nullopt);
+    try {
+      own.result = run(refined(scene), scene::formulation_of(own.name), comm, std::nullopt);
+    } catch (const RunError& error) {
+      if (Interruption::happened(comm)) throw;
+      stopped.emplace_back(own.name + ", mesh and step halved", error.what());
+      own.name.clear();
+    }
   }
   const output::Table table = table_of(rows, references, own.name.empty() ? nullptr : &own);
 
@@ -153,17 +177,19 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
          {"unknowns", row.result.coordinates},
          {"steps", row.result.steps},
          {"seconds", {{"offline", row.result.offline_seconds}, {"motion", row.result.motion_seconds}}}});
+  for (const auto& [name, why] : stopped) j["stopped"].push_back({{"name", name}, {"reason", why}});
   for (const auto& column : rows.front().result.series.columns)
     j["probes"].push_back({{"column", column.name}, {"unit", column.unit}});
   for (const Row* reference : references)
     for (const Row& row : rows) {
-      const std::vector<double> errors = relative_errors(row.result.series, reference->result.series);
+      const auto errors = relative_errors(row.result.series, reference->result.series);
       for (std::size_t c = 0; c < errors.size(); ++c)
-        j["errors"][reference->name][row.name][row.result.series.columns[c].name] = errors[c];
+        j["errors"][reference->name][row.name][row.result.series.columns[c].name] = number_or_null(errors[c]);
     }
   if (!own.name.empty()) {
-    const std::vector<double> errors = relative_errors(own.result.series, references.front()->result.series);
-    for (std::size_t c = 0; c < errors.size(); ++c) j["reference_error"][own.result.series.columns[c].name] = errors[c];
+    const auto errors = relative_errors(own.result.series, references.front()->result.series);
+    for (std::size_t c = 0; c < errors.size(); ++c)
+      j["reference_error"][own.result.series.columns[c].name] = number_or_null(errors[c]);
   }
   j["provenance"] = output::provenance(comm);
   petsc::agree(comm, [&] {
@@ -179,6 +205,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     fmt::print("\n");
     for (const Row& row : rows)
       for (const std::string& warning : row.result.warnings) fmt::print("Note ({}): {}\n", row.name, warning);
+    for (const auto& [name, why] : stopped) fmt::print("Not in the table ({}): {}\n", name, why);
     fmt::print("Picture: {}\n", draw(folder.path.string()));
   });
 }

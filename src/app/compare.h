@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ void compare(const scene::Scene& scene, const std::vector<scene::Formulation>& f
              const std::string& folder, bool overwrite, bool reference_error);
 
 /// sqrt(sum (p - r)^2 / sum r^2) for each column; the reference is taken at the times of `series` by linear
-/// interpolation.
-std::vector<double> relative_errors(const Series& series, const Series& reference);
+/// interpolation. None where the reference's root mean square is below 1e-9 of that of its probe's other component:
+/// there it is round-off.
+std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference);
 
 }  // namespace floe::app

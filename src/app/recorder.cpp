@@ -81,17 +81,29 @@ Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Com
   result_.summary = first_summary(scene, model, comm, result);
   if (!folder_) return;
   output::write_summary(comm, *folder_, result_.summary);
+  try {
+    open_files();
+  } catch (const RunError& error) {
+    result_.summary["status"] = "failed";
+    result_.summary["reason"] = error.what();
+    output::write_summary(comm, *folder_, result_.summary);
+    throw;
+  }
+}
+
+void Recorder::open_files() {
   std::vector<output::SeriesColumn> columns;
   for (const auto& column : result_.series.columns) columns.push_back({column.name, column.unit});
-  probes_ = std::make_unique<output::SeriesFile>(comm, folder_->probes(), columns);
-  file_ = std::make_unique<output::ResultFile>(comm, folder_->result());
+  probes_ = std::make_unique<output::SeriesFile>(comm_, folder_->probes(), columns);
+  file_ = std::make_unique<output::ResultFile>(comm_, folder_->result());
   file_->write_text("summary", result_.summary.dump(2));
-  file_->write_text("scene", scene.text);
+  file_->write_text("scene", scene_.text);
   write_basis();
   const std::int64_t rows =
-      scene.motion.tolerance ? 0
-                             : static_cast<std::int64_t>(scene.motion.end / scene.motion.step / scene.motion.every) + 2;
-  const PetscInt unknowns = model.coordinates + model.multipliers;
+      scene_.motion.tolerance
+          ? 0
+          : static_cast<std::int64_t>(scene_.motion.end / scene_.motion.step / scene_.motion.every) + 2;
+  const PetscInt unknowns = model_.coordinates + model_.multipliers;
   file_->add_series("motion/t", 1, {"s", "time"}, rows);
   file_->add_series("motion/U", unknowns, {"", "coordinates and multipliers"}, rows);
   file_->add_series("motion/V", unknowns, {"", "their rates"}, rows);
@@ -143,6 +155,7 @@ void Recorder::store_state(const dynamics::Instant& instant) {
 
 void Recorder::observe(const dynamics::Instant& instant) {
   if (instant.step % scene_.motion.every != 0 && !instant.last) return;
+  if (!result_.series.t.empty() && result_.series.t.back() == instant.t) return;  // the last one, once more
   const double begin = MPI_Wtime();
   const std::vector<double> values = scene::probe_values(model_, instant.t, instant.U, instant.V);
   result_.series.t.push_back(instant.t);
@@ -177,6 +190,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   ordered_json& j = result_.summary;
   j["status"] = stopped.empty() ? "finished" : "failed";
   if (!stopped.empty()) j["reason"] = stopped;
+  j["warnings"] = result_.warnings;
   j["integration"] = {{"type", report.type},
                       {"reached", report.end},
                       {"steps", report.steps},
@@ -190,11 +204,24 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["seconds"]["recording"] = seconds_;
   if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
   if (!folder_) return;
-  probes_->finish();
-  file_->flush();
-  file_->write_text("summary", j.dump(2));
-  file_->finish();
-  output::write_summary(comm_, *folder_, j);
+  std::exception_ptr fault;  // of one file: the others are finished all the same
+  const auto attempt = [&](const auto& work) {
+    try {
+      work();
+    } catch (const RunError& error) {
+      if (fault) return;
+      fault = std::current_exception();
+      if (stopped.empty()) j["status"] = "failed", j["reason"] = error.what();
+    }
+  };
+  attempt([&] { probes_->finish(); });
+  attempt([&] {
+    file_->flush();
+    file_->write_text("summary", j.dump(2));
+    file_->finish();
+  });
+  attempt([&] { output::write_summary(comm_, *folder_, j); });
+  if (fault) std::rethrow_exception(fault);
 }
 
 }  // namespace floe::app

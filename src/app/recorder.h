@@ -20,6 +20,7 @@ class Recorder {
   double seconds() const { return seconds_; }
 
  private:
+  void open_files();
   void write_basis();
   void store_state(const dynamics::Instant& instant);
   const scene::Scene& scene_;

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
-#include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
+#include "interruption.h"
 #include "recorder.h"
 
 namespace floe::app {
@@ -33,6 +34,28 @@ std::string label_of(const scene::Model& model) {
   return label;
 }
 
+namespace {
+
+std::exception_ptr fault_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception&) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+std::string text_of(const std::exception_ptr& fault) {
+  if (!fault) return "";
+  try {
+    std::rethrow_exception(fault);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
               const std::optional<output::ResultFolder>& folder) {
   RunResult result;
@@ -47,30 +70,58 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   Recorder recorder(scene, model, comm, folder, result);
   dynamics::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   dynamics::IntegrationReport report;
-  std::string stopped;
+  // Reduced, every rank moves its own copy and rank 0 writes; a fault of one is everybody's, at the latest so many
+  // steps later.
+  constexpr PetscInt steps_alone = 1024;
+  const bool reduced = scene::is_reduced(formulation);
+  bool told = false;  // of the fault of another rank
+  std::exception_ptr fault;
   {
+    const Interruption interruption;
     output::Progress progress(comm, 0, scene.motion.end);
     const auto observe = [&](const dynamics::Instant& instant) {
       recorder.observe(instant);
       progress.update(instant.t, instant.step);
+      interruption.check(reduced ? MPI_COMM_SELF : comm);
+      if (!reduced || instant.step % steps_alone != steps_alone - 1) return;
+      told = true;
+      petsc::agree(comm, [] {});
+      told = false;
     };
-    const auto move = [&] {
+    fault = fault_of([&] {
       try {
         report = dynamics::simulate(*model.system, how, model.U, model.V, observe);
       } catch (const dynamics::MotionStopped& error) {
         report = error.report();
-        stopped = error.what();
+        throw;
       }
-    };
-    if (scene::is_reduced(formulation))
-      petsc::agree(comm, move);  // every rank moves its own copy, rank 0 writes: a fault there is everybody's
-    else
-      move();
+    });
+    if (reduced && !told)
+      fault = fault_of([&] {
+        petsc::agree(comm, [&] {
+          if (fault) std::rethrow_exception(fault);
+        });
+      });
   }
+  if (report.type == TSALPHA2)
+    result.warnings.push_back(
+        "-motion_ts_type alpha2: PETSc's type starts with a wrong acceleration before release 3.22, which makes it of "
+        "first order; multipliers may oscillate");
   result.steps = report.steps;
+  result.end = report.end;
   result.motion_seconds = report.seconds - recorder.seconds();
-  recorder.finish(report, stopped);
-  if (!stopped.empty()) throw RunError(stopped);
+  if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
+    std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
+  const std::exception_ptr later = fault_of([&] {
+    const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
+    const std::exception_ptr lost = fault_of([&] {
+      if (fault) reduced ? petsc::agree(comm, keep) : keep();
+    });
+    recorder.finish(report, text_of(fault));
+    if (lost) std::rethrow_exception(lost);
+  });
+  if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to tell
+  if (fault) std::rethrow_exception(fault);
   return result;
 }
 

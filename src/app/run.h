@@ -25,6 +25,7 @@ struct RunResult {
   PetscInt coordinates = 0;
   double offline_seconds = 0, motion_seconds = 0;
   PetscInt steps = 0;
+  double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;
 };
 

@@ -4,8 +4,8 @@
 #include <slepcsys.h>
 
 #include <cctype>
-#include <chrono>
-#include <thread>
+#include <csignal>
+#include <fstream>
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/provenance.h"
@@ -40,24 +40,11 @@ void say(const std::string& text) {
   }
 }
 
-/// Whether every rank has come here within some seconds.
-bool all_arrive(double seconds) {
-  MPI_Request request;
-  int done = 0;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
-  const double begin = MPI_Wtime();
-  while (!done && MPI_Wtime() - begin < seconds) {
-    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return done;
-}
-
 int report(int code, const std::string& text) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (rank == 0) say(text);
-  if (all_arrive(10)) return code;
+  if (petsc::all_arrive(MPI_COMM_WORLD, 10)) return code;
   if (rank != 0) say(text);
   MPI_Abort(MPI_COMM_WORLD, code);
   return code;
@@ -74,6 +61,27 @@ int guarded(const std::function<void()>& work) {
   }
 }
 
+bool command(const std::string& word) {
+  for (const char* name : {"run", "compare", "modes", "check", "schema"})
+    if (word == name) return true;
+  return false;
+}
+
+/// Takes the options files that cannot be read out of the options: PETSc would end the program over them.
+std::vector<std::string> take_unreadable_files(std::vector<std::string>& options) {
+  std::vector<std::string> faults;
+  for (std::size_t i = 0; i + 1 < options.size();) {
+    if (options[i] != "-options_file" || std::ifstream(options[i + 1]).peek() != EOF) {
+      ++i;
+      continue;
+    }
+    faults.push_back(fmt::format("option -options_file: {} cannot be read, or is empty", options[i + 1]));
+    options.erase(options.begin() + static_cast<std::ptrdiff_t>(i),
+                  options.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+  }
+  return faults;
+}
+
 }  // namespace
 
 CommandLine split(int argc, char** argv) {
@@ -86,7 +94,7 @@ CommandLine split(int argc, char** argv) {
     }
     line.petsc.push_back(word);
     if (i + 1 < argc && !petsc_option(argv[i + 1]) && std::string(argv[i + 1]).rfind("--", 0) != 0 &&
-        std::string(argv[i + 1]) != "-o" && !scene_file(argv[i + 1]))
+        std::string(argv[i + 1]) != "-o" && !scene_file(argv[i + 1]) && !(line.own.empty() && command(argv[i + 1])))
       line.petsc.push_back(argv[++i]);
   }
   return line;
@@ -95,15 +103,18 @@ CommandLine split(int argc, char** argv) {
 int in_session(const CommandLine& line, const std::function<void()>& work) {
   std::vector<std::string> words = {"floe"};
   words.insert(words.end(), line.petsc.begin(), line.petsc.end());
+  const std::vector<std::string> unreadable = take_unreadable_files(words);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   int count = static_cast<int>(words.size());
   char** arguments = pointers.data();
   if (SlepcInitialize(&count, &arguments, nullptr, nullptr)) return 1;
+  for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
   const int code = guarded([&] {
     petsc::collect_errors();
     dynamics::register_generalized_alpha();
+    if (!unreadable.empty()) throw InputError(unreadable);
     check_prefixes();
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);

@@ -11,8 +11,8 @@ struct CommandLine {
   std::vector<std::string> petsc;
 };
 
-/// PETSc's options have one dash and more than one letter, and take the next word along unless that is an option or a
-/// scene.
+/// PETSc's options have one dash and more than one letter, and take the next word along unless that is an option, a
+/// scene or the command.
 CommandLine split(int argc, char** argv);
 
 /// Runs `work` between SlepcInitialize and SlepcFinalize and turns what it throws into messages (rank 0, stderr) and an

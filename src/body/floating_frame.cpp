@@ -14,70 +14,98 @@ Eigen::Matrix2d rotation(double theta) {
   return (Eigen::Matrix2d() << c, -s, s, c).finished();
 }
 
+/// S x, without the set-up of a general product.
+template <class Vector>
+Vector2d times(const Eigen::Matrix2Xd& S, const Vector& x) {
+  Vector2d sum = Vector2d::Zero();
+  for (Eigen::Index j = 0; j < S.cols(); ++j) sum += x[j] * S.col(j);
+  return sum;
+}
+
+void products(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+              InertiaWork& work) {
+  const Eigen::Index k = in.M.rows();
+  work.e = q.tail(k), work.ed = v.tail(k), work.edd = a.tail(k);
+  work.Me.noalias() = in.M * work.e;
+  work.Be.noalias() = in.B * work.e;  // B' e = -B e
+  work.Bed.noalias() = in.B * work.ed;
+}
+
 }  // namespace
 
 void add_inertia_force(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                       const Eigen::VectorXd& a, Eigen::VectorXd& r) {
+                       const Eigen::VectorXd& a, InertiaWork& work, Eigen::VectorXd& r) {
   const Eigen::Index k = in.M.rows();
-  const auto e = q.tail(k), ed = v.tail(k), edd = a.tail(k);
+  products(in, q, v, a, work);
+  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &Me = work.Me, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
-  const Vector2d sigma = in.s0 + in.S * e, sigma_d = in.S * ed, sigma_dd = in.S * edd;
+  const Vector2d sigma = in.s0 + times(in.S, e), sigma_d = times(in.S, ed), sigma_dd = times(in.S, edd);
   const Vector2d Rdd = A.transpose() * a.head<2>();  // in body axes
 
   const Vector2d momentum_rate =
       in.m * Rdd + rotated_quarter(sigma) * wd + sigma_dd - w * w * sigma + 2 * w * rotated_quarter(sigma_d);
   r.head<2>() += A * momentum_rate;
 
-  const Eigen::VectorXd Me = in.M * e, Be = in.B * e;  // B' e = -B e
   const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
-  r[2] += rotated_quarter(sigma).dot(Rdd) + moment * wd + (in.g - Be).dot(edd) + 2 * w * (in.h + Me).dot(ed);
+  r[2] +=
+      rotated_quarter(sigma).dot(Rdd) + moment * wd + in.g.dot(edd) - Be.dot(edd) + 2 * w * (in.h.dot(ed) + Me.dot(ed));
 
   auto elastic = r.tail(k);
-  elastic.noalias() += in.S.transpose() * Rdd;
-  elastic += (in.g - Be) * wd - w * w * (in.h + Me);
   elastic.noalias() += in.M * edd;
-  elastic.noalias() -= 2 * w * (in.B * ed);
+  for (Eigen::Index j = 0; j < k; ++j)
+    elastic[j] += in.S.col(j).dot(Rdd) + (in.g[j] - Be[j]) * wd - w * w * (in.h[j] + Me[j]) - 2 * w * work.Bed[j];
 }
 
 void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                         const Eigen::VectorXd& a, double wq, double wv, double wa, Eigen::MatrixXd& J) {
+                         const Eigen::VectorXd& a, double wq, double wv, double wa, InertiaWork& work,
+                         Eigen::MatrixXd& J) {
   const Eigen::Index k = in.M.rows();
-  const auto e = q.tail(k), ed = v.tail(k), edd = a.tail(k);
+  products(in, q, v, a, work);
+  work.Med.noalias() = in.M * work.ed;
+  work.Bedd.noalias() = in.B * work.edd;
+  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &Me = work.Me, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
   const Eigen::Matrix2d quarter = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
-  const Vector2d sigma = in.s0 + in.S * e, sigma_d = in.S * ed, sigma_dd = in.S * edd;
+  const Vector2d sigma = in.s0 + times(in.S, e), sigma_d = times(in.S, ed), sigma_dd = times(in.S, edd);
   const Vector2d Jsigma = rotated_quarter(sigma);
-  const Vector2d Rdd = A.transpose() * a.head<2>();
-  const Eigen::VectorXd Me = in.M * e, Be = in.B * e, Med = in.M * ed;
-  const Eigen::VectorXd hMe = in.h + Me, gBe = in.g - Be;
+  const Vector2d Rdd = A.transpose() * a.head<2>(), turned_Rdd = rotated_quarter(Rdd);
 
-  // rows of R
-  J.block<2, 2>(0, 0) += wa * in.m * Eigen::Matrix2d::Identity();
+  // frame by frame
   const Vector2d relative = Jsigma * wd + sigma_dd - w * w * sigma + 2 * w * rotated_quarter(sigma_d);
+  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
+  J.block<2, 2>(0, 0) += wa * in.m * Eigen::Matrix2d::Identity();
   J.block<2, 1>(0, 2) +=
       A * (wq * rotated_quarter(relative) + wv * (2 * rotated_quarter(sigma_d) - 2 * w * sigma) + wa * Jsigma);
-  const Eigen::Matrix2d onS = A * ((wa - wq * w * w) * Eigen::Matrix2d::Identity() + (wq * wd + wv * 2 * w) * quarter);
-  J.block(0, 3, 2, k).noalias() += onS * in.S;
-
-  // row of theta
-  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
   J.block<1, 2>(2, 0) += wa * (A * Jsigma).transpose();
-  J(2, 2) += -wq * sigma.dot(Rdd) + wv * 2 * hMe.dot(ed) + wa * moment;
-  auto theta_row = J.block(2, 3, 1, k);
-  theta_row.noalias() += wq * (-rotated_quarter(Rdd).transpose()) * in.S;  // (J S)' R = -S' J R
-  theta_row += (wq * (2 * wd * hMe + 2 * w * Med) + wv * 2 * w * hMe + wa * gBe).transpose();
-  theta_row.noalias() += wq * (in.B * edd).transpose();
+  J(2, 2) += -wq * sigma.dot(Rdd) + wv * 2 * (in.h.dot(ed) + Me.dot(ed)) + wa * moment;
 
-  // rows of q
-  J.block(3, 0, k, 2).noalias() += wa * in.S.transpose() * A.transpose();
-  auto theta_column = J.block(3, 2, k, 1);
-  theta_column.noalias() -= wq * in.S.transpose() * rotated_quarter(Rdd);
-  theta_column += -wv * 2 * w * hMe + wa * gBe;
-  theta_column.noalias() -= wv * 2 * (in.B * ed);
-  auto elastic = J.block(3, 3, k, k);
-  elastic += (wa - wq * w * w) * in.M - (wq * wd + wv * 2 * w) * in.B;
+  // frame by q and q by frame
+  const Eigen::Matrix2d onS = A * ((wa - wq * w * w) * Eigen::Matrix2d::Identity() + (wq * wd + wv * 2 * w) * quarter);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Vector2d S = in.S.col(j);
+    const double hMe = in.h[j] + Me[j], gBe = in.g[j] - Be[j], across = S.dot(turned_Rdd);  // (J S)' R = -S' J R
+    J.block<2, 1>(0, 3 + j) += onS * S;
+    J.block<1, 2>(3 + j, 0) += wa * (A * S).transpose();
+    J(2, 3 + j) += wq * (work.Bedd[j] - across + 2 * wd * hMe + 2 * w * work.Med[j]) + wv * 2 * w * hMe + wa * gBe;
+    J(3 + j, 2) += wa * gBe - wq * across - wv * 2 * (w * hMe + work.Bed[j]);
+  }
+
+  // q by q
+  J.block(3, 3, k, k) += (wa - wq * w * w) * in.M - (wq * wd + wv * 2 * w) * in.B;
+}
+
+void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const Eigen::VectorXd& a, Eigen::VectorXd& r) {
+  InertiaWork work;
+  add_inertia_force(inertia, q, v, a, work, r);
+}
+
+void add_inertia_tangent(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                         const Eigen::VectorXd& a, double wq, double wv, double wa, Eigen::MatrixXd& J) {
+  InertiaWork work;
+  add_inertia_tangent(inertia, q, v, a, wq, wv, wa, work, J);
 }
 
 double kinetic_energy(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {

@@ -1,7 +1,5 @@
 #include "floe/dynamics/floating_body.h"
 
-#include "floe/body/floating_frame.h"
-
 namespace floe::dynamics {
 
 FloatingBody::FloatingBody(std::vector<int> coordinates, body::PlanarInertia inertia, body::Elasticity elasticity,
@@ -12,18 +10,18 @@ FloatingBody::FloatingBody(std::vector<int> coordinates, body::PlanarInertia ine
       damping_(std::move(damping)) {}
 
 void FloatingBody::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  body::add_inertia_force(inertia_, motion.q, motion.v, motion.a, r);
+  body::add_inertia_force(inertia_, motion.q, motion.v, motion.a, inertia_work_, r);
   const Eigen::Index k = r.size() - 3;
   elastic_ = motion.q.tail(k);
-  body::add_force(elasticity_, elastic_, work_, r.tail(k));
+  body::add_force(elasticity_, elastic_, elasticity_work_, r.tail(k));
   if (damping_.size() > 0) r.tail(k).noalias() += damping_ * motion.v.tail(k);
 }
 
 void FloatingBody::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  body::add_inertia_tangent(inertia_, motion.q, motion.v, motion.a, weights.q, weights.v, weights.a, J);
+  body::add_inertia_tangent(inertia_, motion.q, motion.v, motion.a, weights.q, weights.v, weights.a, inertia_work_, J);
   const Eigen::Index k = J.rows() - 3;
   elastic_ = motion.q.tail(k);
-  if (weights.q != 0) body::add_tangent(elasticity_, elastic_, weights.q, work_, J.bottomRightCorner(k, k));
+  if (weights.q != 0) body::add_tangent(elasticity_, elastic_, weights.q, elasticity_work_, J.bottomRightCorner(k, k));
   if (damping_.size() > 0) J.bottomRightCorner(k, k) += weights.v * damping_;
 }
 

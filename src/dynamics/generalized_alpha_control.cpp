@@ -60,11 +60,13 @@ PetscReal rate_of(GeneralizedAlpha* data, PetscInt iteration, PetscReal update) 
 // Converged when the error that is left is under rtol |q_1 - q_0| + 4 eps |q_1|, in the norm sqrt(sum |J_ii| q_i^2);
 // the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner, Solving Ordinary
 // Differential Equations II, IV.8). Round-off: three updates in a row with a new Jacobian that are small and do not
-// fall any more. A Jacobian kept from before is replaced when the rate is bad.
+// fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led astray and
+// solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
   PetscReal rtol;
+  PetscInt lag;
   Norms norms;
 
   PetscFunctionBegin;
@@ -77,6 +79,7 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
   }
   PetscCall(measure(data, snes, &norms));
   PetscCall(SNESGetTolerances(snes, nullptr, &rtol, nullptr, nullptr, nullptr));
+  PetscCall(SNESGetLagJacobian(snes, &lag));
   if (data->new_jacobian) data->formed = PETSC_TRUE;
   const PetscReal rate = rate_of(data, iteration, norms.update);
   const PetscReal left = rate < 1 ? rate / (1 - rate) * norms.update : PETSC_MAX_REAL;
@@ -85,6 +88,8 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
     *reason = SNES_DIVERGED_FNORM_NAN;
   } else if (norms.update <= 4 * floor || left <= rtol * norms.increment + 4 * floor) {
     *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  } else if (iteration > 1 && rate > 1 && lag != 1) {
+    *reason = SNES_DIVERGED_DTOL;
   } else if (iteration > 1 && rate > 0.25 && !data->new_jacobian) {
     renew_jacobian(snes, iteration);
     data->idle = data->growing = 0;

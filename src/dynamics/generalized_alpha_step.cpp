@@ -54,7 +54,7 @@ void later_rates(GeneralizedAlpha* data) {
   }
 }
 
-// Shifts, scales and the constants in a_1(q_1), v_1(a_1), A_1(a_1) for a step h; U1 becomes the solution for a_1 = a_0.
+// Shifts, scales and the constants in a_1(q_1), v_1(a_1), A_1(a_1) for a step h.
 PetscErrorCode prepare(TS ts, PetscReal h) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal beta = data->beta, gamma = data->gamma, alpha_m = data->alpha_m, alpha_f = data->alpha_f;
@@ -70,13 +70,19 @@ PetscErrorCode prepare(TS ts, PetscReal h) {
   else
     later_rates(data);
   const Entries U0(data->U0), v(data->work_V), A(data->A0), a(data->a_used);
-  Changed base_q(data->base_q), base_v(data->base_v), base_A(data->base_A), U1(data->U1);
+  Changed base_q(data->base_q), base_v(data->base_v), base_A(data->base_A);
   for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
     base_q[i] = U0[i] + h * v[i] + h * h * (0.5 - beta) * a[i];
     base_v[i] = v[i] + h * (1 - gamma) * a[i];
     base_A[i] = (alpha_m * a[i] - alpha_f * A[i]) / (1 - alpha_f);
-    U1[i] = base_q[i] + h * h * beta * a[i];
   }
+  PetscFunctionReturn(0);
+}
+
+// U1 becomes the solution for a_1 = a_0.
+PetscErrorCode predict(GeneralizedAlpha* data) {
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->U1, data->beta * data->h * data->h, data->a_used, data->base_q));
   PetscFunctionReturn(0);
 }
 
@@ -93,20 +99,35 @@ void set_rates(GeneralizedAlpha* data, Vec U_vec, bool auxiliary) {
   }
 }
 
-PetscErrorCode solve(TS ts) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
+PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
   PetscInt iterations, linear;
+
+  PetscFunctionBegin;
+  PetscCall(predict(generalized_alpha_data(ts)));
+  PetscCall(SNESSolve(ts->snes, nullptr, generalized_alpha_data(ts)->U1));
+  PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
+  PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
+  PetscCall(SNESGetConvergedReason(ts->snes, reason));
+  ts->snes_its += iterations;
+  ts->ksp_its += linear;
+  PetscFunctionReturn(0);
+}
+
+// What fails with a Jacobian kept from before is tried again with a new one in every iteration.
+PetscErrorCode solve(TS ts) {
+  const PetscInt lag = ts->snes->lagjacobian;
   SNESConvergedReason reason;
 
   PetscFunctionBegin;
   if (!ts->snes->lagjac_persist) ts->snes->jac_iter = 0;
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
-  PetscCall(SNESSolve(ts->snes, nullptr, data->U1));
-  PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
-  PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
-  PetscCall(SNESGetConvergedReason(ts->snes, &reason));
-  ts->snes_its += iterations;
-  ts->ksp_its += linear;
+  PetscCall(newton(ts, &reason));
+  if (reason < 0 && lag != 1) {
+    ts->snes->lagjacobian = 1;
+    renew_jacobian(ts->snes, 0);
+    PetscCall(newton(ts, &reason));
+    ts->snes->lagjacobian = lag;
+  }
   if (reason < 0) renew_jacobian(ts->snes, 0);
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,7 @@
 #include "floe/dynamics/joints.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace floe::dynamics {
 namespace {
@@ -89,36 +90,51 @@ struct Evaluate {
 
 int rows(const Constraint& constraint) { return std::holds_alternative<Clamp>(constraint) ? 3 : 2; }
 
-Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers)
+namespace {
+
+std::vector<int> all_rows(const Constraint& constraint) {
+  std::vector<int> all(rows(constraint));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+}  // namespace
+
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing)
     : pair_(std::move(first), std::move(second)),
       constraint_(std::move(constraint)),
+      standing_(std::move(standing)),
       multiplier_(static_cast<int>(pair_.coordinates.size())) {
-  for (int i = 0; i < rows(constraint_); ++i) pair_.coordinates.push_back(multipliers + i);
+  for (std::size_t i = 0; i < standing_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
+}
+
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers)
+    : Joint(std::move(first), std::move(second), constraint, multipliers, all_rows(constraint)) {}
+
+Eigen::Vector3d Joint::multipliers(const Motion& motion) const {
+  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < standing_.size(); ++i) lambda[standing_[i]] = motion.q[multiplier_ + i];
+  return lambda;
 }
 
 void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  const int m = rows(constraint_);
-  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-  lambda.head(m) = motion.q.segment(multiplier_, m);
+  const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion);
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add(e.gradient.transpose() * lambda, r);
-  r.segment(multiplier_, m) += e.C.head(m);
+  for (std::size_t i = 0; i < standing_.size(); ++i) r[multiplier_ + i] += e.C[standing_[i]];
 }
 
 void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  const int m = rows(constraint_);
-  Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-  lambda.head(m) = motion.q.segment(multiplier_, m);
+  const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion);
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add_tangent(e.gradient.transpose() * lambda, e.hessian, Matrix6::Zero(), weights, J);
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(J.rows());
-  for (int i = 0; i < m; ++i) {
-    row.setZero();
-    pair_.add(e.gradient.row(i).transpose(), row);
-    J.row(multiplier_ + i) += row.transpose();
-    J.col(multiplier_ + i) += row;
+  for (std::size_t i = 0; i < standing_.size(); ++i) {
+    row_.setZero(J.rows());
+    pair_.add(e.gradient.row(standing_[i]).transpose(), row_);
+    J.row(multiplier_ + i) += row_.transpose();
+    J.col(multiplier_ + i) += row_;
   }
 }
 

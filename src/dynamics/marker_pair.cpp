@@ -20,12 +20,6 @@ void pick(const std::vector<int>& where, const Eigen::VectorXd& from, Eigen::Vec
   for (std::size_t i = 0; i < where.size(); ++i) to[i] = from[where[i]];
 }
 
-void scatter(const std::vector<int>& rows, const std::vector<int>& columns, const Eigen::MatrixXd& block,
-             Eigen::MatrixXd& J) {
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    for (std::size_t i = 0; i < rows.size(); ++i) J(rows[i], columns[j]) += block(i, j);
-}
-
 }  // namespace
 
 MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second(std::move(other)) {
@@ -52,21 +46,26 @@ void MarkerPair::add(const Vector6& wrench, Eigen::VectorXd& r) const {
 
 void MarkerPair::add_tangent(const Vector6& wrench, const Matrix6& Y, const Matrix6& Yd, Weights weights,
                              Eigen::MatrixXd& J) const {
-  const Matrix6 total = weights.q * Y + weights.v * Yd;
-  const Marker* markers[2] = {&first, &second};
+  const Matrix6 of_y = weights.q * Y + weights.v * Yd, of_yd = weights.q * Yd;
+  const bool depends = !of_y.isZero(0) || !of_yd.isZero(0);
   const Pose* poses[2] = {&pose_first, &pose_second};
   const std::vector<int>* where[2] = {&where_first, &where_second};
-  for (int i = 0; i < 2; ++i) {
-    for (int j = 0; j < 2; ++j) {
-      const Eigen::MatrixXd block =
-          poses[i]->P.transpose() *
-          (total.block<3, 3>(3 * i, 3 * j) * poses[j]->P + weights.q * Yd.block<3, 3>(3 * i, 3 * j) * poses[j]->dyd);
-      scatter(*where[i], *where[j], block, J);
+  for (int j = 0; depends && j < 2; ++j)
+    for (std::size_t column = 0; column < where[j]->size(); ++column) {
+      const Vector6 change =
+          of_y.middleCols<3>(3 * j) * poses[j]->P.col(column) + of_yd.middleCols<3>(3 * j) * poses[j]->dyd.col(column);
+      for (int i = 0; i < 2; ++i)
+        for (std::size_t row = 0; row < where[i]->size(); ++row)
+          J((*where[i])[row], (*where[j])[column]) += poses[i]->P.col(row).dot(change.segment<3>(3 * i));
     }
-    const Eigen::Index n = static_cast<Eigen::Index>(where[i]->size());
-    Eigen::MatrixXd geometric = Eigen::MatrixXd::Zero(n, n);
-    add_geometric_stiffness(*markers[i], *poses[i], wrench.segment<3>(3 * i), weights.q, geometric);
-    scatter(*where[i], *where[i], geometric, J);
+  for (int i = 0; i < 2; ++i) {
+    if (!(i == 0 ? first : second).framed) continue;
+    const int angle = (*where[i])[2];
+    for (std::size_t row = 2; row < where[i]->size(); ++row) {
+      const double entry = weights.q * geometric_stiffness(*poses[i], wrench.segment<3>(3 * i), row);
+      J((*where[i])[row], angle) += entry;
+      if (row != 2) J(angle, (*where[i])[row]) += entry;
+    }
   }
 }
 

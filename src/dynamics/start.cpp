@@ -26,8 +26,12 @@ petsc::KspHandle tangent_solver(Mat J, const char* prefix) {
   check(KSPSetOptionsPrefix(ksp, prefix));
   check(KSPSetOperators(ksp, J, J));
   set_tangent_solver(ksp, J);
-  check(KSPSetFromOptions(ksp));
+  petsc::check_options(KSPSetFromOptions(ksp), prefix);
   return ksp;
+}
+
+bool is_singular(PetscErrorCode code) {
+  return code == PETSC_ERR_MAT_LU_ZRPVT || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_LIB;
 }
 
 namespace {
@@ -72,7 +76,11 @@ petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec 
   petsc::MatHandle kept;  // a dense LU overwrites its matrix
   check(MatDuplicate(J, MAT_COPY_VALUES, kept.out()));
   const petsc::KspHandle ksp = tangent_solver(J, "motion_start_");
-  check(KSPSolve(ksp, right, x));
+  try {
+    check(KSPSolve(ksp, right, x));
+  } catch (const petsc::Error& error) {
+    throw RunError(is_singular(error.code()) ? singular_start : error.what());
+  }
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   double size = 0, residual = 0, given = 0;
   check(KSPGetConvergedReason(ksp, &reason));
@@ -81,10 +89,7 @@ petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec 
   check(VecAXPY(product, -1, right));
   check(VecNorm(product, NORM_INFINITY, &residual));
   check(VecNorm(right, NORM_INFINITY, &given));
-  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given))
-    throw RunError(
-        "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
-        "hold the same motion), or a body has no mass");
+  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given)) throw RunError(singular_start);
   check(VecPointwiseMult(x, x, scale));
   return x;
 }
@@ -141,12 +146,7 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V) {
 }
 
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {
-  const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
-  system.residual(t, U, V, A, level, F);
-  keep_rows(system, F, true);
-  double greatest = 0;
-  check(VecNorm(F, NORM_INFINITY, &greatest));
-  return greatest;
+  return system.constraint_violation(t, U, V, level);
 }
 
 namespace {
@@ -182,11 +182,12 @@ void equilibrium(const System& system, double t, Vec U, Vec V) {
   check(SNESSetFunction(snes, F, equilibrium_residual, &context));
   check(SNESSetJacobian(snes, J, J, equilibrium_tangent, &context));
   check(SNESSetTolerances(snes, 0, 1e-11, 1e-11, 100, 10000));
+  check(SNESSetDivergenceTolerance(snes, -1));  // the first step stretches slender bodies by (L/r)^2
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
-  check(SNESSetFromOptions(snes));
+  petsc::check_options(SNESSetFromOptions(snes), "static_");
   context.guard.check(SNESSolve(snes, nullptr, U));
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;

@@ -1,26 +1,14 @@
 #include "floe/dynamics/system.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace floe::dynamics {
 namespace {
 
-/// Work arrays of one term's evaluation, reused from call to call.
-struct TermMotion {
-  Eigen::VectorXd q, v, a, r;
-  Eigen::MatrixXd J;
-};
-
-void pick(const std::vector<int>& indices, const Eigen::VectorXd& from, Eigen::VectorXd& to) {
+void pick_from(const std::vector<int>& indices, const Eigen::VectorXd& from, Eigen::VectorXd& to) {
   to.resize(static_cast<Eigen::Index>(indices.size()));
   for (std::size_t i = 0; i < indices.size(); ++i) to[i] = from[indices[i]];
-}
-
-TermMotion& workspace(std::size_t slot) {
-  static std::vector<std::unique_ptr<TermMotion>> all;  // one for each term size, so that nothing is resized in a step
-  if (slot >= all.size()) all.resize(slot + 1);
-  if (!all[slot]) all[slot] = std::make_unique<TermMotion>();
-  return *all[slot];
 }
 
 }  // namespace
@@ -34,23 +22,48 @@ System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms
   const int mine = identity_;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_LAND, comm());
   identity_ = all;
-  sum_.resize(coordinates_.local_size());
-  dense_ = identity_ && coordinates_.global_size() == coordinates_.local_size();
-  if (identity_) return;
+  int ranks = 1;
+  MPI_Comm_size(comm(), &ranks);
+  whole_ = ranks == 1;
 
+  std::size_t largest = 0;
+  double filled = 0;
+  for (const auto& term : terms_) {
+    const std::size_t size = term->coordinates().size();
+    largest = std::max(largest, size);
+    constrains_.push_back(std::any_of(term->coordinates().begin(), term->coordinates().end(),
+                                      [&](int index) { return coordinates_.multiplier()[index]; }));
+    filled += static_cast<double>(size) * static_cast<double>(size);
+  }
+  const double unknowns = static_cast<double>(coordinates_.global_size());
+  dense_ = whole_ && identity_ && filled >= 0.5 * unknowns * unknowns;
+  work_.resize(largest + 1);
+  sum_.resize(coordinates_.local_size());
+  if (!identity_ && !whole_) set_up_scatter();
+}
+
+void System::set_up_scatter() {
   using petsc::check;
   check(VecCreateSeq(PETSC_COMM_SELF, coordinates_.local_size(), staging_.out()));
   petsc::IsHandle from;
-  check(ISCreateGeneral(comm(), coordinates_.local_size(), global.data(), PETSC_COPY_VALUES, from.out()));
+  check(
+      ISCreateGeneral(comm(), coordinates_.local_size(), coordinates_.global().data(), PETSC_COPY_VALUES, from.out()));
   const petsc::VecHandle vector = create_vector();
   check(VecScatterCreate(vector, from, staging_, nullptr, scatter_.out()));
-  check(ISLocalToGlobalMappingCreate(comm(), 1, coordinates_.local_size(), global.data(), PETSC_COPY_VALUES,
-                                     mapping_.out()));
+}
+
+System::TermWork& System::pick(const Term& term) const {
+  const auto& indices = term.coordinates();
+  TermWork& work = work_[indices.size()];
+  pick_from(indices, local_.q, work.q);
+  pick_from(indices, local_.v, work.v);
+  pick_from(indices, local_.a, work.a);
+  return work;
 }
 
 petsc::VecHandle System::create_vector() const {
   petsc::VecHandle vector;
-  if (dense_)
+  if (whole_)
     petsc::check(VecCreateSeq(comm(), coordinates_.owned_size(), vector.out()));
   else
     petsc::check(VecCreateMPI(comm(), coordinates_.owned_size(), PETSC_DETERMINE, vector.out()));
@@ -92,6 +105,7 @@ petsc::MatHandle System::create_tangent() const {
   check(MatSetType(J, MATAIJ));
   check(MatPreallocatorPreallocate(pattern, PETSC_TRUE, J));
   check(MatSetOption(J, MAT_NEW_NONZERO_LOCATION_ERR, PETSC_TRUE));
+  check(MatSetOption(J, MAT_ROW_ORIENTED, PETSC_FALSE));  // as Eigen stores what tangent() adds
   return J;
 }
 
@@ -105,43 +119,76 @@ petsc::IsHandle System::multipliers() const {
 void System::gather(Vec global, Eigen::VectorXd& local) const {
   using petsc::check;
   const double* values = nullptr;
-  if (!identity_) {
+  const bool permuted = whole_ && !identity_;
+  if (!whole_ && !identity_) {
     check(VecScatterBegin(scatter_, global, staging_, INSERT_VALUES, SCATTER_FORWARD));
     check(VecScatterEnd(scatter_, global, staging_, INSERT_VALUES, SCATTER_FORWARD));
     global = staging_;
   }
   check(VecGetArrayRead(global, &values));
-  local = Eigen::Map<const Eigen::VectorXd>(values, coordinates_.local_size());
+  local.resize(coordinates_.local_size());
+  const auto& where = coordinates_.global();
+  for (Eigen::Index i = 0; i < local.size(); ++i) local[i] = values[permuted ? where[i] : i];
   check(VecRestoreArrayRead(global, &values));
 }
 
-void System::residual(double t, Vec U, Vec V, Vec A, ConstraintLevel level, Vec F) const {
+void System::give(Vec global) const {
   using petsc::check;
-  gather(U, local_.q), gather(V, local_.v), gather(A, local_.a);
+  double* values = nullptr;
+  const bool permuted = whole_ && !identity_, scattered = !whole_ && !identity_;
+  const Vec target = scattered ? static_cast<Vec>(staging_) : global;
+  check(VecGetArrayWrite(target, &values));
+  const auto& where = coordinates_.global();
+  for (Eigen::Index i = 0; i < sum_.size(); ++i) values[permuted ? where[i] : i] = sum_[i];
+  check(VecRestoreArrayWrite(target, &values));
+  if (!scattered) return;
+  check(VecSet(global, 0));
+  check(VecScatterBegin(scatter_, staging_, global, ADD_VALUES, SCATTER_REVERSE));
+  check(VecScatterEnd(scatter_, staging_, global, ADD_VALUES, SCATTER_REVERSE));
+}
+
+void System::add_rows(double t, ConstraintLevel level, Which which) const {
   sum_.setZero();
-  petsc::agree_if_parallel(comm(), dense_, [&] {
-    for (const auto& term : terms_) {
-      const auto& indices = term->coordinates();
-      TermMotion& w = workspace(indices.size());
-      pick(indices, local_.q, w.q), pick(indices, local_.v, w.v), pick(indices, local_.a, w.a);
+  petsc::agree_if_parallel(comm(), whole_, [&] {
+    for (std::size_t term = 0; term < terms_.size(); ++term) {
+      if (which == Which::constraining && !constrains_[term]) continue;
+      const auto& indices = terms_[term]->coordinates();
+      TermWork& w = pick(*terms_[term]);
       w.r.setZero(w.q.size());
-      term->residual({t, w.q, w.v, w.a, level}, w.r);
+      terms_[term]->residual({t, w.q, w.v, w.a, level}, w.r);
       for (std::size_t i = 0; i < indices.size(); ++i) sum_[indices[i]] += w.r[i];
     }
   });
-  double* values = nullptr;
-  if (identity_) {
-    check(VecGetArrayWrite(F, &values));
-    Eigen::Map<Eigen::VectorXd>(values, sum_.size()) = sum_;
-    check(VecRestoreArrayWrite(F, &values));
-    return;
+}
+
+void System::residual(double t, Vec U, Vec V, Vec A, ConstraintLevel level, Vec F) const {
+  gather(U, local_.q), gather(V, local_.v), gather(A, local_.a);
+  add_rows(t, level, Which::all);
+  give(F);
+}
+
+double System::constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const {
+  using petsc::check;
+  gather(U, local_.q), gather(V, local_.v);
+  local_.a.setZero(local_.q.size());
+  add_rows(t, level, Which::constraining);
+  const auto& is_multiplier = coordinates_.multiplier();
+  double greatest = 0;
+  if (whole_) {
+    for (Eigen::Index i = 0; i < sum_.size(); ++i)
+      if (is_multiplier[i]) greatest = std::max(greatest, std::abs(sum_[i]));
+    return greatest;
   }
-  check(VecGetArrayWrite(staging_, &values));
-  Eigen::Map<Eigen::VectorXd>(values, sum_.size()) = sum_;
-  check(VecRestoreArrayWrite(staging_, &values));
-  check(VecSet(F, 0));
-  check(VecScatterBegin(scatter_, staging_, F, ADD_VALUES, SCATTER_REVERSE));
-  check(VecScatterEnd(scatter_, staging_, F, ADD_VALUES, SCATTER_REVERSE));
+  const petsc::VecHandle rows = create_vector();  // a row may have its parts on several ranks
+  give(rows);
+  const double* values = nullptr;
+  PetscInt first = 0;
+  check(VecGetOwnershipRange(rows, &first, nullptr));
+  check(VecGetArrayRead(rows, &values));
+  for (PetscInt row : coordinates_.owned_multipliers()) greatest = std::max(greatest, std::abs(values[row - first]));
+  check(VecRestoreArrayRead(rows, &values));
+  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, comm());
+  return greatest;
 }
 
 void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const {
@@ -156,22 +203,22 @@ void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) cons
     check(MatZeroEntries(J));
   }
   const auto& global = coordinates_.global();
-  petsc::agree_if_parallel(comm(), dense_, [&] {
+  petsc::agree_if_parallel(comm(), whole_, [&] {
     for (const auto& term : terms_) {
       const auto& indices = term->coordinates();
       const PetscInt size = static_cast<PetscInt>(indices.size());
-      TermMotion& w = workspace(indices.size());
-      pick(indices, local_.q, w.q), pick(indices, local_.v, w.v), pick(indices, local_.a, w.a);
+      TermWork& w = pick(*term);
       w.J.setZero(size, size);
       term->tangent({t, w.q, w.v, w.a, ConstraintLevel::position}, weights, w.J);
-      if (dense) {
-        for (PetscInt j = 0; j < size; ++j)
-          for (PetscInt i = 0; i < size; ++i) dense[indices[j] * n + indices[i]] += w.J(i, j);
-        continue;
-      }
       rows_.resize(size);
       for (PetscInt i = 0; i < size; ++i) rows_[i] = global[indices[i]];
-      w.J.transposeInPlace();  // MatSetValues reads rows
+      if (dense) {
+        for (PetscInt j = 0; j < size; ++j) {
+          double* column = dense + rows_[j] * n;
+          for (PetscInt i = 0; i < size; ++i) column[rows_[i]] += w.J(i, j);
+        }
+        continue;
+      }
       check(MatSetValues(J, size, rows_.data(), size, rows_.data(), w.J.data(), ADD_VALUES));
     }
   });
@@ -185,13 +232,11 @@ Energy System::energy(double t, Vec U, Vec V) const {
   local_.a.setZero(local_.q.size());
   Energy energy;
   for (const auto& term : terms_) {
-    const auto& indices = term->coordinates();
-    TermMotion& w = workspace(indices.size());
-    pick(indices, local_.q, w.q), pick(indices, local_.v, w.v), pick(indices, local_.a, w.a);
+    const TermWork& w = pick(*term);
     energy += term->energy({t, w.q, w.v, w.a, ConstraintLevel::position});
   }
   double sums[3] = {energy.kinetic, energy.elastic, energy.potential};
-  if (!dense_) MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm());
+  if (!whole_) MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm());
   return {sums[0], sums[1], sums[2]};
 }
 

@@ -47,7 +47,11 @@ ResultFile::Series& ResultFile::series(const std::string& name) {
 
 bool ResultFile::due() const {
   std::size_t bytes = 0;
-  for (const Series& each : series_) bytes += each.waiting * each.columns * sizeof(double);
+  for (const Series& each : series_) {
+    if (each.waiting > 0 && each.stored + each.waiting == each.capacity)
+      return true;  // growing may fail: be safe first
+    bytes += each.waiting * each.columns * sizeof(double);
+  }
   return bytes > bytes_at_most || std::chrono::steady_clock::now() - written_ > wait_at_most;
 }
 

@@ -53,6 +53,14 @@ void SeriesFile::row(double t, std::span<const double> values) {
   if (++pending_rows_ >= rows_at_most || std::chrono::steady_clock::now() - written_ > wait_at_most) write();
 }
 
+/// Takes the line that was written in part back out of the file, which holds the first `written` bytes of what waits.
+void SeriesFile::keep_whole_lines(std::size_t written) {
+  const std::size_t lines = written == 0 ? 0 : pending_.rfind('\n', written - 1) + 1;  // npos + 1: none
+  const off_t size = lseek(descriptor_, 0, SEEK_END);
+  const bool cut = written == lines || ftruncate(descriptor_, size - static_cast<off_t>(written - lines)) == 0;
+  pending_.erase(0, cut ? lines : written);
+}
+
 void SeriesFile::write() {
   const char* next = pending_.data();
   const char* end = next + pending_.size();
@@ -60,7 +68,7 @@ void SeriesFile::write() {
     const ssize_t written = ::write(descriptor_, next, end - next);
     if (written < 0 && errno != EINTR) {
       const int reason = errno;
-      pending_.erase(0, next - pending_.data());
+      keep_whole_lines(next - pending_.data());
       throw RunError(fmt::format("cannot write {}: {}", path_, std::strerror(reason)));
     }
     if (written > 0) next += written;

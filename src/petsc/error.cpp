@@ -1,5 +1,7 @@
 #include "floe/petsc/error.h"
 
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace floe::petsc {
@@ -38,6 +40,15 @@ void check(PetscErrorCode code) {
   throw Error(code, text);
 }
 
+void check_options(PetscErrorCode code, const std::string& prefix) {
+  try {
+    check(code);
+  } catch (const Error& error) {
+    const std::string text = error.what();
+    throw InputError("an option -" + prefix + "... cannot be taken: " + text.substr(0, text.find('\n')));
+  }
+}
+
 void agree(MPI_Comm comm, const std::function<void()>& work) {
   enum : int { well = 0, run = 1, input = 2 };
   int mine = well;
@@ -64,6 +75,18 @@ void agree(MPI_Comm comm, const std::function<void()>& work) {
   MPI_Bcast(text.data(), header[1], MPI_CHAR, first, comm);
   if (header[0] == input) throw InputError(text);
   throw RunError(text);
+}
+
+bool all_arrive(MPI_Comm comm, double seconds) {
+  MPI_Request request;
+  int done = 0;
+  MPI_Ibarrier(comm, &request);
+  const double begin = MPI_Wtime();
+  while (!done && MPI_Wtime() - begin < seconds) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (!done) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return done;
 }
 
 }  // namespace floe::petsc

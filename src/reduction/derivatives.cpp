@@ -29,9 +29,10 @@ namespace {
 /// The global dof where a field is greatest.
 PetscInt greatest_dof(Vec field) {
   PetscInt dof = 0;
+  double value = 0;  // VecMax writes it whether asked for or not
   const petsc::VecHandle magnitude = copy(field);
   check(VecAbs(magnitude));
-  check(VecMax(magnitude, &dof, nullptr));
+  check(VecMax(magnitude, &dof, &value));
   return dof;
 }
 

@@ -62,7 +62,7 @@ petsc::EpsHandle solver(Mat K, Mat M, int count, double shift) {
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(EPSSetFromOptions(eps));
+  petsc::check_options(EPSSetFromOptions(eps), "modes_");
   return eps;
 }
 

@@ -60,6 +60,29 @@ Generators generators(const fem::Structure& structure, const fem::ReferenceFrame
   return result;
 }
 
+namespace {
+
+/// Whether each field turns the body's line anywhere, by root mean squares. Fields that do not (axial modes of a
+/// straight body) have no derivatives among themselves; what a solver leaves there is round-off. Collective.
+std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fields) {
+  std::vector<bool> sloped;
+  for (const auto& field : fields) {
+    const Eigen::VectorXd q = structure.exchange.gather(field);
+    double sums[3] = {0, 0, 0};  // slope^2, displacement^2, length
+    for (const auto& cell : structure.mesh.cells) {
+      const Eigen::VectorXd qe = q(structure.cell_dofs(cell));
+      for (const auto& g : structure.maps(cell).membrane) sums[0] += g.weight * (g.G * qe).squaredNorm();
+      for (const auto& point : structure.line(cell))
+        sums[1] += point.mass * (point.N * qe).squaredNorm(), sums[2] += point.mass;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+    sloped.push_back(sums[0] * sums[2] * sums[2] > 1e-18 * sums[1]);
+  }
+  return sloped;
+}
+
+}  // namespace
+
 DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
                                      const fem::Holding& holding, const Statics& statics, const Generators& generators,
                                      const Pairs& pairs, bool full) {
@@ -74,15 +97,18 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
   Pairs with_inertia, without;
   const int modes = static_cast<int>(generators.modes.omega.size());
   for (const auto& pair : pairs) (full && pair[0] < modes && pair[1] < modes ? with_inertia : without).push_back(pair);
+  Pairs which;
   if (!with_inertia.empty()) {
-    Pairs which;
     result.columns = full_derivatives(structure, frame, holding, generators.modes, with_inertia, which);
-    for (const auto& [i, j] : which) result.origins.push_back(origin(i, j));
   }
   Columns more = static_derivatives(structure, statics, generators.fields, without);
-  for (std::size_t p = 0; p < without.size(); ++p) {
-    result.columns.push_back(std::move(more[p]));
-    result.origins.push_back(origin(without[p][0], without[p][1]));
+  for (auto& column : more) result.columns.push_back(std::move(column));
+  which.insert(which.end(), without.begin(), without.end());
+  const std::vector<bool> sloped = with_slope(structure, generators.fields);
+  for (std::size_t p = 0; p < which.size(); ++p) {
+    const auto [i, j] = which[p];
+    if (!sloped[i] && !sloped[j]) check(VecSet(result.columns[p], 0));
+    result.origins.push_back(origin(i, j));
   }
   return result;
 }

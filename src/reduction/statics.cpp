@@ -23,7 +23,7 @@ petsc::KspHandle direct_solver(Mat A, const char* prefix) {
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  check(KSPSetFromOptions(ksp));
+  petsc::check_options(KSPSetFromOptions(ksp), prefix);
   return ksp;
 }
 

@@ -10,13 +10,16 @@ namespace {
 
 constexpr int dofs = fem::Structure::dofs_per_node;
 
+bool is_held(const fem::Conditions& conditions, PetscInt dof) {
+  return std::binary_search(conditions.begin(), conditions.end(), dof);
+}
+
 /// Element dofs that the frame leaves free, as columns of a selection matrix.
 Eigen::MatrixXd free_columns(const fem::Structure& structure, const fem::Conditions& conditions,
                              const std::vector<int>& cell, std::vector<int>& kept) {
   kept.clear();
   for (std::size_t i = 0; i < cell.size(); ++i)
-    if (!std::binary_search(conditions.begin(), conditions.end(), structure.global_dof(cell[i])))
-      kept.push_back(static_cast<int>(i));
+    if (!is_held(conditions, structure.global_dof(cell[i]))) kept.push_back(static_cast<int>(i));
   Eigen::MatrixXd V =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cell.size()), static_cast<Eigen::Index>(kept.size()));
   for (std::size_t j = 0; j < kept.size(); ++j) V(kept[j], j) = 1;
@@ -94,8 +97,8 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
   return terms;
 }
 
-std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const NodeCoordinates& nodes, int frame,
-                                              Density density) {
+std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
+                                              const NodeCoordinates& nodes, int frame, Density density) {
   std::vector<dynamics::Marker> markers;
   for (const auto& cell : structure.mesh.cells) {
     const std::vector<int> all = structure.cell_dofs(cell);
@@ -109,13 +112,16 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
     marker.mass = in.m;
     marker.x = in.s0;
     marker.S = in.S;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (is_held(held, structure.global_dof(all[i]))) marker.S.col(static_cast<Eigen::Index>(i)).setZero();
     marker.psi = Eigen::RowVectorXd::Zero(in.S.cols());
     markers.push_back(std::move(marker));
   }
   return markers;
 }
 
-dynamics::Marker node_marker(const NodeCoordinates& nodes, int frame, PetscInt node, const Eigen::Vector3d& x) {
+dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
+                             const Eigen::Vector3d& x) {
   dynamics::Marker marker;
   const int first = nodes.of_node(node);
   marker.framed = true;
@@ -123,6 +129,8 @@ dynamics::Marker node_marker(const NodeCoordinates& nodes, int frame, PetscInt n
   marker.x = x.head<2>();
   marker.S = Eigen::Matrix<double, 2, 3>::Identity();
   marker.psi = Eigen::RowVector3d(0, 0, 1);
+  for (int d = 0; d < dofs; ++d)
+    if (is_held(held, dofs * node + d)) marker.S.col(d).setZero(), marker.psi[d] = 0;
   return marker;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "build_redundant.h"
 #include "floe/dynamics/floating_body.h"
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
@@ -43,19 +44,6 @@ std::vector<PetscInt> visited_nodes(const Prepared& prepared, int body) {
   return nodes;
 }
 
-int joint_rows(const Joint& joint) {
-  switch (joint.kind) {
-    case Joint::Kind::fixed:
-    case Joint::Kind::driven:
-      return 3;
-    case Joint::Kind::revolute:
-    case Joint::Kind::prismatic:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
 /// World position of a node of a corotational body at rest.
 Eigen::Vector2d world(const PreparedBody& body, const Eigen::Vector3d& x) {
   return body.pose.head<2>() + turn(body.pose[2]) * x.head<2>();
@@ -88,8 +76,9 @@ void Assembly::add_coordinates() {
     if (formulation_ != Formulation::cfr && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(3, true);
   }
-  for (const Joint& joint : prepared_.scene.joints)
-    joint_multipliers_.push_back(coordinates_.add_shared(joint_rows(joint), true));
+  joint_rows_ = standing_rows(prepared_, reduced_);
+  for (const auto& rows : joint_rows_)
+    joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(rows.size()), true));
   coordinates_.number();
 }
 
@@ -154,8 +143,8 @@ void Assembly::add_gravity(int b) {
   if (compact(b)) {
     if (owner_) markers.push_back(density(b, reduced_[b].body.inertia));
   } else if (formulation_ != Formulation::cfr) {
-    markers =
-        reference::density_markers(prepared_.bodies[b].structure, *slot.nodes, slot.frame, reference::Density::mass);
+    markers = reference::density_markers(prepared_.bodies[b].structure, prepared_.bodies[b].frame.conditions,
+                                         *slot.nodes, slot.frame, reference::Density::mass);
   }
   for (Marker& marker : markers) {
     auto force = std::make_unique<dynamics::Force>(
@@ -185,7 +174,8 @@ void Assembly::add_loads() {
     } else if (compact(place.body)) {
       if (owner_) markers.push_back(density(place.body, reduced_[place.body].body.line));
     } else if (formulation_ != Formulation::cfr) {
-      markers = reference::density_markers(prepared_.bodies[place.body].structure, *slots_[place.body].nodes,
+      markers = reference::density_markers(prepared_.bodies[place.body].structure,
+                                           prepared_.bodies[place.body].frame.conditions, *slots_[place.body].nodes,
                                            slots_[place.body].frame, reference::Density::line);
     } else {
       if (axes == Force::Axes::body)
@@ -225,8 +215,10 @@ Marker Assembly::marker(const PreparedPlace& place) {
     return at;
   }
   if (!owner_) return Marker::ground(Eigen::Vector2d::Zero());  // its term lives on the last rank
-  Marker at = reference::node_marker(*slot.nodes, slot.frame, place.node, place.x);
-  if (formulation_ == Formulation::cfr) {
+  const bool corotational = formulation_ == Formulation::cfr;
+  Marker at = reference::node_marker(corotational ? fem::Conditions{} : body.frame.conditions, *slot.nodes, slot.frame,
+                                     place.node, place.x);
+  if (corotational) {
     at.framed = false;
     at.coordinates.erase(at.coordinates.begin(), at.coordinates.begin() + 3);
     at.x = world(body, place.x);
@@ -272,11 +264,12 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
                     joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1]));
   switch (joint.kind) {
     case Joint::Kind::revolute:
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers));
+      terms_.push_back(
+          std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers, joint_rows_[j]));
       break;
     case Joint::Kind::fixed:
-      terms_.push_back(
-          std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers));
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
+                                                         joint_rows_[j]));
       break;
     case Joint::Kind::driven: {
       const math::Formula angle = joint.angle;
@@ -288,15 +281,15 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
       const dynamics::TimeFunction f{[angle](double t) { return angle(t); },
                                      [angle](double t) { return angle.derivative(t); },
                                      [angle](double t) { return angle.second_derivative(t); }};
-      terms_.push_back(
-          std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, f}, multipliers));
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, f}, multipliers,
+                                                         joint_rows_[j]));
       break;
     }
     case Joint::Kind::prismatic: {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
       const Eigen::Vector2d normal(-axis.y(), axis.x());
       const dynamics::Prismatic slide{turn(-y[0][2]) * normal, normal.dot(apart), offset};
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers));
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j]));
       break;
     }
     case Joint::Kind::spring:

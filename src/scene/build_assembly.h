@@ -43,6 +43,7 @@ class Assembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<int> joint_multipliers_;
+  std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
 };
 

@@ -205,7 +205,7 @@ const SchemaSection joint_section{
         {"between", Type::places, "", required,
          "`ground` alone is the point of the ground that meets the other place at the start"},
         only({"driven"}, {"angle", Type::formula, "rad", required,
-                          "turn of the second place against the first, less its value at t = 0"}),
+                          "turn of the second place against the first since the start; 0 at t = 0"}),
         only({"prismatic"}, {"axis", Type::point, "", "[1, 0]",
                              "direction of sliding at the start, world axes; turns with the first place"}),
         only({"spring"}, {"stiffness", Type::number, "N/m", "0", "along the line between the places", nonnegative}),

@@ -12,10 +12,22 @@ namespace floe::body {
 ///   q      S'A'R.. + (g + B'q) th.. + M q.. - th.^2 (h + M q) - 2 th. B q.
 /// Source: Shabana, Dynamics of multibody systems, ch. 5.
 /// @param q, v, a  k + 3 each, frame first
+/// @param work     its arrays are made once and used again: nothing is allocated in a step
+struct InertiaWork {
+  Eigen::VectorXd e, ed, edd;              ///< elastic parts of q, v, a
+  Eigen::VectorXd Me, Be, Med, Bed, Bedd;  ///< their products with M and B
+};
 void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                       const Eigen::VectorXd& a, Eigen::VectorXd& r);
+                       const Eigen::VectorXd& a, InertiaWork& work, Eigen::VectorXd& r);
 
 /// Weighted derivatives of the same rows: wq d/dq + wv d/dv + wa d/da, exact.
+void add_inertia_tangent(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                         const Eigen::VectorXd& a, double wq, double wv, double wa, InertiaWork& work,
+                         Eigen::MatrixXd& J);
+
+/// Both with work arrays of their own, for single evaluations.
+void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                       const Eigen::VectorXd& a, Eigen::VectorXd& r);
 void add_inertia_tangent(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                          const Eigen::VectorXd& a, double wq, double wv, double wa, Eigen::MatrixXd& J);
 

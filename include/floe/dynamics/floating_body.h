@@ -1,5 +1,6 @@
 #pragma once
 #include "floe/body/elasticity.h"
+#include "floe/body/floating_frame.h"
 #include "floe/body/inertia.h"
 #include "floe/dynamics/term.h"
 
@@ -25,7 +26,8 @@ class FloatingBody final : public Term {
   body::PlanarInertia inertia_;
   body::Elasticity elasticity_;
   Eigen::MatrixXd damping_;
-  mutable body::ElasticityWork work_;
+  mutable body::InertiaWork inertia_work_;
+  mutable body::ElasticityWork elasticity_work_;
   mutable Eigen::VectorXd elastic_;
 };
 

@@ -35,16 +35,22 @@ int rows(const Constraint& constraint);
 /// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
 class Joint final : public Term {
  public:
-  /// @param multipliers  local index of the first of rows(constraint) multipliers
+  /// @param multipliers  local index of the first of as many multipliers as rows stand
+  /// @param standing     rows of the constraint that stand, ascending; the others are left out
+  Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing);
+  /// All rows stand.
   Joint(Marker first, Marker second, Constraint constraint, int multipliers);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
 
  private:
+  Eigen::Vector3d multipliers(const Motion& motion) const;
   mutable MarkerPair pair_;
   Constraint constraint_;
+  std::vector<int> standing_;
   int multiplier_;  // position among coordinates
+  mutable Eigen::VectorXd row_;
 };
 
 /// Spring and damper between two places: along the line that joins them, and torsional.

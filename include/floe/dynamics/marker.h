@@ -38,6 +38,9 @@ struct Pose {
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
           Pose& out);
 
+/// Entry i of d(P' w)/dq, w = (f, m) fixed, in the row and the column of the frame's angle; all others are zero.
+double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i);
+
 /// K += weight * d(P' w)/dq at fixed wrench w = (f, m): the geometric stiffness of a force on a moving marker.
 void add_geometric_stiffness(const Marker& marker, const Pose& at, const Eigen::Vector3d& wrench, double weight,
                              Eigen::Ref<Eigen::MatrixXd> K);

@@ -44,8 +44,11 @@ class MotionStopped : public RunError {
 /// Integrates F(t, U, U', U'') = 0 from (U, V) at t = 0 by a PETSc TS (default type generalized-alpha), with consistent
 /// accelerations and multipliers at the start. U, V hold the state reached at return.
 ///
-/// @param observe  called at the start and after every step; what it throws ends the motion and comes out unchanged
-/// @throws MotionStopped  a step did not converge: what was tried, when, and why. Collective.
+/// @param observe  called at the start and after every step; what it throws ends the motion
+/// @throws InputError     an option has a value that it cannot have, or the TS type is for first-order systems
+/// @throws MotionStopped  a step did not converge, the steps allowed ran out, a term or `observe` threw: when, why, and
+///                        what was tried. Then U, V hold the last state that was reached. An InputError of `observe` or
+///                        of a term comes out unchanged. Collective.
 IntegrationReport simulate(const System& system, const Integration& how, Vec U, Vec V,
                            const std::function<void(const Instant&)>& observe);
 

@@ -3,6 +3,13 @@
 
 namespace floe::dynamics {
 
+/// What is wrong where accelerations and multipliers are not determined.
+inline constexpr const char* singular_start =
+    "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
+    "hold the same motion), or a body has no mass";
+/// Whether a linear solve that returned `code` met a singular matrix: each solver has an error of its own for it.
+bool is_singular(PetscErrorCode code);
+
 /// Consistent accelerations and multipliers at an instant:
 ///
 ///   M a + C_q' lambda = Q(t, q, v),   d2C/dt2 = C_q a + ... = 0

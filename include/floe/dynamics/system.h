@@ -12,7 +12,8 @@ namespace floe::dynamics {
 /// The equations of motion as a sum of terms, with the unknowns distributed over a communicator.
 ///
 /// F(t, U, V, A) = 0 with U = (coordinates, multipliers); index-3 form: multiplier rows hold C(q, t).
-/// A reduced system lives on PETSC_COMM_SELF with a dense tangent; a full-order one on all ranks with a sparse one.
+/// A reduced system lives on PETSC_COMM_SELF, where its tangent is nearly full and dense; a full-order one lives on all
+/// ranks with a sparse tangent.
 class System {
  public:
   /// @param terms  on a parallel communicator each rank brings its own; together they are the system
@@ -23,13 +24,17 @@ class System {
 
   /// A zero vector of the layout. Collective.
   petsc::VecHandle create_vector() const;
-  /// An empty tangent with its pattern (dense on one rank of a SELF communicator, else AIJ). Collective.
+  /// An empty tangent with its pattern: dense where all unknowns are shared and the terms fill half of it, else AIJ.
+  /// Collective.
   petsc::MatHandle create_tangent() const;
   /// Global indices of the multipliers (may be empty). Collective.
   petsc::IsHandle multipliers() const;
 
   /// F(t, U, V, A). Collective.
   void residual(double t, Vec U, Vec V, Vec A, ConstraintLevel level, Vec F) const;
+  /// Greatest |C(q, t)| of all constraint rows, or of a rate of them: only the terms that constrain are evaluated.
+  /// Collective.
+  double constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const;
   /// w.q dF/dU + w.v dF/dV + w.a dF/dA, assembled. Collective.
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
   /// Collective.
@@ -42,15 +47,29 @@ class System {
   struct Local {
     Eigen::VectorXd q, v, a;
   };
+  /// Work arrays of one term's evaluation.
+  struct TermWork {
+    Eigen::VectorXd q, v, a, r;
+    Eigen::MatrixXd J;
+  };
+  TermWork& pick(const Term& term) const;
+  void set_up_scatter();
+  enum class Which { all, constraining };
+  /// Rows of local_'s motion into sum_. Collective.
+  void add_rows(double t, ConstraintLevel level, Which which) const;
+  /// sum_ into a global vector, adding what ranks share. Collective.
+  void give(Vec global) const;
 
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;
-  bool identity_ = false;  // local and global numbering are the same on every rank
-  bool dense_ = false;     // one rank holds everything: dense tangent
+  std::vector<char> constrains_;  // of each term: whether it has multipliers
+  bool identity_ = false;         // local and global numbering are the same on every rank
+  bool whole_ = false;            // one rank holds everything, though perhaps in another order
+  bool dense_ = false;            // a dense tangent
   petsc::ScatterHandle scatter_;
   petsc::VecHandle staging_;
-  petsc::MappingHandle mapping_;
   mutable Local local_;
+  mutable std::vector<TermWork> work_;  // one for each size of a term, so that nothing is allocated in a step
   mutable Eigen::VectorXd sum_;
   mutable std::vector<PetscInt> rows_;
 };

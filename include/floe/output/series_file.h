@@ -39,6 +39,7 @@ class SeriesFile {
 
  private:
   void write();
+  void keep_whole_lines(std::size_t written);
   MPI_Comm comm_;
   std::string path_;
   int descriptor_ = -1;

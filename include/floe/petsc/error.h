@@ -27,6 +27,11 @@ void collect_errors();
 /// Throws Error when a PETSc call returned one.
 void check(PetscErrorCode code);
 
+/// check() for the ...SetFromOptions of solvers: an option with a value that it cannot have is the user's fault.
+/// @param prefix  of the solver's options
+/// @throws InputError  with PETSc's message
+void check_options(PetscErrorCode code, const std::string& prefix);
+
 /// Throws on every rank what was thrown on one of them: same kind (InputError or RunError), text of the lowest failing
 /// rank.
 ///
@@ -42,6 +47,10 @@ void agree_if_parallel(MPI_Comm comm, bool alone, Work&& work) {
   else
     agree(comm, work);
 }
+
+/// Whether every rank comes here within some seconds: false where one of them waits elsewhere. Collective for those
+/// that come.
+bool all_arrive(MPI_Comm comm, double seconds);
 
 /// Carries a C++ exception across PETSc's C frames.
 ///

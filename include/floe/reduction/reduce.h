@@ -39,6 +39,7 @@ struct DerivativeColumns {
 };
 
 /// theta of the pairs (of fields). Full derivatives exist for pairs of modes; with attachment columns they are static.
+/// Pairs of fields without slope (axial modes of a straight body) have none: their columns are zero.
 /// Collective.
 DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
                                      const fem::Holding& holding, const Statics& statics, const Generators& generators,

@@ -47,12 +47,15 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
                                                               ElasticForce force, Rayleigh damping);
 
 /// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or [m] of line.
+///
+/// @param held  dofs that the frame holds: a force on them acts on the frame alone
 enum class Density { mass, line };
-std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const NodeCoordinates& nodes, int frame,
-                                              Density density);
+std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
+                                              const NodeCoordinates& nodes, int frame, Density density);
 
-/// The place of a node of a full-order body.
-dynamics::Marker node_marker(const NodeCoordinates& nodes, int frame, PetscInt node, const Eigen::Vector3d& x);
+/// The place of a node of a full-order body, which does not move with the dofs that the frame holds.
+dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
+                             const Eigen::Vector3d& x);
 
 /// Line density on the cells of a corotational body (world axes): each half cell's load goes to its node. [m]
 std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes);

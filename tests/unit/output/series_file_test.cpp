@@ -7,6 +7,7 @@
 
 #include "floe/error.h"
 #include "scratch.h"
+#include "small_files.h"
 
 using namespace floe;
 using namespace floe::output;
@@ -57,4 +58,24 @@ TEST_CASE("a series file says where the disk is full, and which row has the wron
   Scratch scratch;
   SeriesFile file(PETSC_COMM_WORLD, scratch / "probes.csv", {{"x", "m"}});
   if (rank == 0) CHECK_THROWS_AS(file.row(0, std::vector<double>{1, 2}), std::invalid_argument);
+}
+
+TEST_CASE("a series file ends with a whole line when the disk is full") {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  Scratch scratch;
+  SeriesFile file(PETSC_COMM_WORLD, scratch / "probes.csv", {{"x", "m"}});
+  if (rank == 0) {
+    const SmallFiles full(1003);
+    const auto fill = [&] {
+      for (int i = 0; i < 1000; ++i) file.row(i, std::vector<double>{1.5});
+    };
+    CHECK_THROWS_WITH(fill(), Contains("File too large"));
+  }
+  meet();
+  const std::string text = text_of(scratch / "probes.csv");
+  CHECK(text.size() > 980);
+  CHECK(text.size() <= 1003);
+  CHECK(text.back() == '\n');
+  meet();
 }

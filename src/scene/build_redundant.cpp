@@ -1,0 +1,167 @@
+#include "build_redundant.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "floe/dynamics/marker.h"
+
+namespace floe::scene {
+namespace {
+
+using Eigen::VectorXd;
+
+/// A body between several joints to the ground: rows C(q) in its own coordinates q = (R, theta, eta).
+struct HeldBody {
+  struct Hold {
+    int joint = 0;
+    dynamics::Marker marker;
+    Eigen::Matrix<double, Eigen::Dynamic, 3> directions;  ///< of the marker's pose, a row each
+  };
+  std::vector<Hold> holds;
+  /// q at the start, and how far its entries go: deformations by a hundredth of the extent, followed by the frame
+  VectorXd start, scale;
+
+  VectorXd rows(const VectorXd& q, Eigen::MatrixXd* gradient) const {
+    Eigen::Index count = 0;
+    for (const Hold& hold : holds) count += hold.directions.rows();
+    VectorXd values(count);
+    if (gradient) gradient->resize(count, q.size());
+    const VectorXd none = VectorXd::Zero(q.size());
+    dynamics::Pose pose;
+    Eigen::Index first = 0;
+    for (const Hold& hold : holds) {
+      const Eigen::Index n = hold.directions.rows();
+      dynamics::pose(hold.marker, q, none, none, pose);
+      values.segment(first, n) = hold.directions * pose.y;
+      if (gradient) gradient->middleRows(first, n) = hold.directions * pose.P * scale.asDiagonal();
+      first += n;
+    }
+    return values;
+  }
+};
+
+HeldBody held_body(const Prepared& prepared, const ReducedBody& reduced, int b, const std::vector<int>& joints) {
+  const PreparedBody& body = prepared.bodies[b];
+  const int k = reduced.body.coordinates();
+  HeldBody held;
+  for (int j : joints) {
+    const Joint& joint = prepared.scene.joints[j];
+    const PreparedPlace& place = prepared.joints[j][prepared.joints[j][0].body < 0 ? 1 : 0];
+    const body::PlaceMap map = reduction::place_map(body.structure, *reduced.basis, place.node);
+    HeldBody::Hold& hold = held.holds.emplace_back();
+    hold.joint = j;
+    hold.directions = Eigen::Matrix3d::Identity().topRows(joint_rows(joint));
+    if (joint.kind == Joint::Kind::prismatic) {
+      const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
+      hold.directions << -axis.y(), axis.x(), 0, 0, 0, 1;
+    }
+    hold.marker.framed = true;
+    hold.marker.coordinates.resize(3 + k);
+    std::iota(hold.marker.coordinates.begin(), hold.marker.coordinates.end(), 0);
+    hold.marker.x = map.x.head<2>(), hold.marker.S = map.S, hold.marker.psi = map.psi;
+  }
+  held.start = VectorXd::Zero(3 + k);
+  held.start.head<3>() = body.pose;
+  held.scale = VectorXd::Constant(3 + k, 1e-2 * prepared.extent * std::sqrt(reduced.body.inertia.m));
+  held.scale.head<3>() << prepared.extent, prepared.extent, 1;
+  return held;
+}
+
+/// Rows in order, each if it is independent of those kept before it.
+std::vector<Eigen::Index> independent(const Eigen::MatrixXd& G) {
+  std::vector<Eigen::Index> kept;
+  Eigen::MatrixXd basis(G.cols(), 0);
+  for (Eigen::Index i = 0; i < G.rows(); ++i) {
+    VectorXd row = G.row(i).transpose();
+    const double size = row.norm();
+    for (int twice = 0; twice < 2; ++twice) row -= basis * (basis.transpose() * row).eval();
+    if (!(row.norm() > 1e-8 * size)) continue;
+    kept.push_back(i);
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols<1>() = row.normalized();
+  }
+  return kept;
+}
+
+/// Greatest change of any row where the kept ones have met their values, the body deformed.
+double departure(const HeldBody& held, const std::vector<Eigen::Index>& kept, int sample) {
+  const VectorXd wanted = held.rows(held.start, nullptr);
+  VectorXd q = held.start;
+  for (Eigen::Index i = 3; i < q.size(); ++i) q[i] += held.scale[i] * std::sin(1 + 1.7 * i + 2.3 * sample);
+  Eigen::MatrixXd gradient;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    const VectorXd off = held.rows(q, &gradient) - wanted;
+    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_squares(gradient(kept, Eigen::all));
+    q -= held.scale.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
+  }
+  return (held.rows(q, nullptr) - wanted).lpNorm<Eigen::Infinity>();
+}
+
+void leave_out(const Prepared& prepared, const HeldBody& held, int b, std::vector<std::vector<int>>& standing) {
+  Eigen::MatrixXd gradient;
+  held.rows(held.start, &gradient);
+  const std::vector<Eigen::Index> kept = independent(gradient);
+  if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
+  for (int sample = 0; sample < 3; ++sample)
+    if (departure(held, kept, sample) > 1e-9 * prepared.extent)
+      throw InputError(
+          fmt::format("{}: several joints hold body {} to the ground, and its columns meet them only while "
+                      "it is undeformed; expected frame: pinned, from one joint to the other",
+                      prepared.bodies[b].spec.frame.where.text(), prepared.bodies[b].spec.name));
+  Eigen::Index first = 0;
+  for (const HeldBody::Hold& hold : held.holds) {
+    const Eigen::Index n = hold.directions.rows();
+    auto& rows = standing[hold.joint];
+    rows.clear();
+    for (Eigen::Index i : kept)
+      if (i >= first && i < first + n) rows.push_back(static_cast<int>(i - first));
+    first += n;
+  }
+}
+
+}  // namespace
+
+int joint_rows(const Joint& joint) {
+  switch (joint.kind) {
+    case Joint::Kind::fixed:
+    case Joint::Kind::driven:
+      return 3;
+    case Joint::Kind::revolute:
+    case Joint::Kind::prismatic:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+std::vector<std::vector<int>> standing_rows(const Prepared& prepared, const std::vector<ReducedBody>& reduced) {
+  std::vector<std::vector<int>> standing;
+  for (const Joint& joint : prepared.scene.joints) {
+    standing.emplace_back(joint_rows(joint));
+    std::iota(standing.back().begin(), standing.back().end(), 0);
+  }
+  for (int b = 0; b < static_cast<int>(reduced.size()); ++b) {
+    if (prepared.bodies[b].spec.rigid || !reduced[b].basis) continue;
+    std::vector<int> joints;
+    std::set<PetscInt> nodes;
+    bool driven = false;
+    for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+      const auto& [first, second] = prepared.joints[j];
+      const Joint& joint = prepared.scene.joints[j];
+      if ((first.body < 0) == (second.body < 0) || std::max(first.body, second.body) != b || joint_rows(joint) == 0)
+        continue;
+      joints.push_back(static_cast<int>(j));
+      nodes.insert(first.body < 0 ? second.node : first.node);
+      driven = driven || joint.kind == Joint::Kind::driven;
+    }
+    if (nodes.size() < 2 || nodes.size() < joints.size() || driven) continue;  // joints at one place contradict
+    leave_out(prepared, held_body(prepared, reduced[b], b, joints), b, standing);
+  }
+  return standing;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,234 @@
+"""The table of the failure tests."""
+import dataclasses
+import os
+import signal
+from typing import Callable, Optional, Union
+
+from results import absent, files, full, kept, killed, no_error_of, no_results, nothing, stands
+from scenes import GAP, RIGID, scene
+
+ENVIRONMENT = dict(os.environ)
+
+
+@dataclasses.dataclass
+class Case:
+    name: str
+    arguments: list
+    codes: Union[int, tuple] = 0
+    says: tuple = ()  # phrases that stand exactly once on stderr
+    shows: tuple = ()  # phrases that stand on stdout
+    never: tuple = ()  # phrases that stand nowhere
+    lines: Optional[int] = None  # how many messages of floe
+    scene: Union[str, bytes, None] = dataclasses.field(default_factory=scene)
+    files: dict = dataclasses.field(default_factory=dict)
+    prepare: Optional[Callable] = None  # changes the folder before the run
+    environment: dict = dataclasses.field(default_factory=dict)
+    file_size: Optional[int] = None  # no file grows beyond so many KiB
+    ranks: tuple = (1, 4)
+    signal: Optional[int] = None  # is sent when rows are written
+    check: Optional[Callable] = None
+
+    def __post_init__(self):
+        self.codes = self.codes if isinstance(self.codes, tuple) else (self.codes,)
+
+
+def run(formulation="vm+md", *more):
+    return ["run", "scene.yaml", "--formulation", formulation, "-o", "out", *more]
+
+
+def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
+    """One case for each formulation: `floe run` of the scene with `changes`."""
+    rest.setdefault("scene", scene(changes))
+    for formulation in formulations:
+        full_name = name if len(formulations) == 1 else f"{name}, {formulation}"
+        yield Case(full_name, run(formulation, *options), **rest)
+
+
+COMMANDS = [
+    Case("help", ["--help"], shows=("run", "compare", "schema"), lines=0),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "modes", "check")),
+    Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
+    Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
+    Case("version", ["--version"], shows=("floe 0",), lines=0),
+    Case("schema", ["schema"], shows=("motion", "spectral_radius")),
+    Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
+    Case("modes", ["modes", "scene.yaml"], shows=("rad/s",)),
+    Case("no command", [], 2, ("subcommand is required",), lines=1),
+    Case("unknown command", ["rnu", "scene.yaml"], 2, ("floe --help",), lines=1, check=nothing),
+    Case("unknown option", ["run", "scene.yaml", "--formulaton", "vm"], 2, ("--formulaton",), lines=1, check=nothing),
+    Case("no scene", ["run"], 2, ("SCENE is required",), lines=1),
+    Case("unknown formulation", run("vm+mb"), 2,
+         ('"vm+mb" is not one of', 'did you mean "vm+md"?'), lines=1, check=nothing),
+    Case("unknown formulation of several", ["compare", "scene.yaml", "--formulations", "cfr,nlfr", "-o", "out"], 2,
+         ('"nlfr" is not one of', 'did you mean "nlffr"?'), lines=1, check=nothing),
+]
+
+SCENES = [
+    Case("scene missing", run(), 2, ("scene.yaml: cannot be read: No such file",), lines=1, scene=None, check=nothing),
+    Case("scene is a folder", run(), 2, ("is a folder; expected a scene file",), lines=1, scene=None,
+         prepare=lambda folder: (folder / "scene.yaml").mkdir(), check=nothing),
+    Case("scene empty", run(), 2, ("scene.yaml: is empty; expected a scene",), lines=1, scene="", check=nothing),
+    Case("scene binary", run(), 2, ("is not a text file; expected a scene in YAML",), lines=1,
+         scene=bytes(range(256)), check=nothing),
+    Case("scene no YAML", run(), 2, ("scene.yaml:3:7: is not valid YAML",), lines=1,
+         scene="title: x\nbodies: {a: [1, 2\nmotion: 3\n", check=nothing),
+    *case("several faults", codes=2, lines=3, check=nothing,
+          says=("bodies.beam.section.EI", "motion.stepp: unknown key",
+                'did you mean "step"?', "motion.step: is missing"),
+          changes={"bodies.beam.section.EI": -1, "motion": {"end": 1, "stepp": 0.1}}),
+    *case("unknown key", codes=2, lines=1, check=nothing, changes={"titel": "x"},
+          says=("scene.yaml:57:2: titel: unknown key; expected one of", 'did you mean "title"?')),
+    *case("density zero", codes=2, says=("bodies.beam.section.rhoA: is 0",), changes={"bodies.beam.section.rhoA": 0},
+          lines=1, check=nothing),
+    *case("frame through one place", codes=2, says=("from and to are one node", "expected two different places"),
+          changes={"bodies.beam.frame": {"type": "pinned", "from": "end", "to": "end"}}, lines=1, check=nothing),
+    *case("place that matches nothing", codes=2, says=('has no place "tip"',), lines=1, check=nothing,
+          changes={"probes.tip.at": "beam.tip"}),
+    *case("joint apart", codes=2, says=("apart at the start", "expected one point"), lines=1, check=nothing,
+          changes={"joints.far": {"type": "revolute", "between": [{"body": "ground", "node": [3, 0]}, "beam.end"]}}),
+    *case("joint apart by its initial position", formulations=("vm+md", "cfr"), codes=2, says=("apart at the start",),
+          changes={**RIGID, "bodies.link.initial": {"position": [0, 0.1]}}, lines=1, check=nothing),
+    *case("driven angle not 0 at the start", codes=2, lines=1, says=("at t = 0", "expected 0"), check=no_results,
+          changes={"joints.clamp": {"type": "driven", "between": ["ground", "beam.start"], "angle": "0.1 + t"}}),
+    *case("more modes than dofs", codes=2, says=("100 modes", "scene.yaml:"), lines=1, check=no_results,
+          changes={"bodies.beam.reduction.modes": 100}),
+    *case("modal damping at full order", formulations=("nlffr", "lffr", "cfr"), codes=2, lines=1, check=no_results,
+          says=("scene.yaml:", "modal damping needs a reduced formulation"),
+          changes={"bodies.beam.damping": {"modal": [0.01]}}),
+    *case("Rayleigh damping in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
+          says=("scene.yaml:", "no Rayleigh damping"), changes={"bodies.beam.damping": {"mass": 0.1}}),
+    *case("load in body axes in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
+          says=("scene.yaml:", "axes"), changes={"loads.tip.axes": "body"}),
+    *case("formula not a number when read", codes=2, lines=1, check=nothing,
+          says=("loads.tip.force[2]", "is not a number at t ="), changes={"loads.tip.force": [0, "sqrt(0.03 - t)"]}),
+]
+
+FOLDERS = [
+    Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
+         check=kept("out/mine.txt", "mine")),
+    Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": "old"},
+         check=lambda folder: (kept("out/mine.txt", "mine")(folder), files("finished", 51)(folder))),
+    Case("folder is a file", run(), 2, ("exists and is not a folder",), lines=1, files={"out": "mine"},
+         check=kept("out", "mine")),
+    Case("folder below a file", ["run", "scene.yaml", "-o", "mine/out"], 2, ("mine/out': ", "Not a directory"),
+         lines=1, files={"mine": "mine"}, check=kept("mine", "mine")),
+    Case("folder not writable", ["run", "scene.yaml", "-o", "/proc/floe"], 2, ("/proc/floe': ",), lines=1),
+    Case("folder of compare not empty", ["compare", "scene.yaml", "-o", "out"], 2, ("is not empty",), lines=1,
+         files={"out/mine.txt": "mine"}, check=kept("out/mine.txt", "mine")),
+    Case("folder by default", ["run", "scene.yaml", "--formulation", "lffr"], 0,
+         check=files("finished", 51, out="results/scene-lffr")),
+    Case("scene in a read-only folder", ["run", "there/scene.yaml", "-o", "out"], 0, scene=None,
+         files={"there/scene.yaml": scene()}, prepare=lambda folder: (folder / "there").chmod(0o555),
+         check=files("finished", 51)),
+]
+
+# Adaptive: the rows are not known before, so that the result grows: it is written anew, twice as large, after 4096
+# steps (vm+md: 0.7 MiB) or 16 (nlffr: 3 MiB).
+GROWING = {"motion.end": 1000, "motion.tolerance": 1e-4, "bodies.beam.reduction": {"modes": 3, "derivatives": "none"}}
+GROWING_FAST = {**GROWING, "bodies.beam.mesh.line.elements": 4000}
+LONG = {"motion.end": 1000, "motion.step": 1e-4}
+SMALL_FILES = {"PMIX_MCA_gds": "hash", "OMPI_MCA_btl": "self,tcp"}  # Open MPI's own would be too large
+
+PATIENT = {"OMPI_MCA_odls_base_sigkill_timeout": "30"}  # s that mpirun waits between SIGTERM and SIGKILL
+
+FAULTS = [
+    *case("formula fails in the run", formulations=("vm+md", "nlffr", "cfr"), codes=1, lines=1,
+          says=("stopped at t = 0.02 of 0.05, after 20 steps", "is not a number at t = 0.021"),
+          changes={"loads.tip.force": [0, GAP]}, check=files("failed", 21, "is not a number", 0.02)),
+    *case("formula fails between stored steps", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          changes={"loads.tip.force": [0, GAP], "motion.every": 7}, check=files("failed", 4, "is not a number", 0.02)),
+    *case("angle fails in the run", formulations=("vm+md", "nlffr"), codes=1, lines=1, says=("is not a number",),
+          changes={"joints.clamp": {"type": "driven", "between": ["ground", "beam.start"], "angle": f"t^3 + 0*{GAP}"}},
+          check=files("failed", reason="is not a number")),
+    *case("moment fails in the run", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          says=("is infinite at t = 0.021",),
+          changes={"loads.m": {"type": "moment", "at": "beam.end", "moment": "abs(t - 0.021) < 1e-4 ? 1/0*t : t"}},
+          check=files("failed", 21, "is infinite")),
+    *case("step does not converge", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          says=("the motion stopped at t = ", "did not converge", "smaller motion.step"),
+          changes={"loads.tip.force": [0, 1e7], "motion.step": 0.05, "motion.end": 1},
+          check=files("failed", reason="did not converge")),
+    *case("step cut too often", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          options=("-motion_ts_max_reject", "1"), says=("the motion stopped at t = ", "steps tried again"),
+          changes={"loads.tip.force": [0, 1e7], "motion.step": 0.05, "motion.end": 1, "motion.tolerance": 1e-6},
+          check=files("failed")),
+    *case("joints repeat each other", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          says=("stopped at t = 0 of", "constraints repeat or contradict"),
+          changes={**RIGID, "joints.b": {"type": "fixed", "between": [{"body": "ground", "node": [2, 0]}, "link.end"]},
+                   "joints.c": {"type": "fixed", "between": [{"body": "ground", "node": [1, 0]}, "link.start"]}},
+          check=no_results),
+    *case("steps allowed run out", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          options=("-motion_ts_max_steps", "5"),
+          says=("stopped at t = 0.005 of 0.05, after 5 steps", "-motion_ts_max_steps"),
+          check=files("failed", 6, "-motion_ts_max_steps", 0.005)),
+    *case("disk full from the start", formulations=("vm+md", "nlffr"), codes=1, lines=1, file_size=8,
+          environment=SMALL_FILES, says=("result.h5.partial: File too large",), check=no_results),
+    *case("disk full in the run", codes=1, lines=1, changes=GROWING, file_size=1500, environment=SMALL_FILES,
+          says=("File too large", "the motion stopped at t = "), check=full),
+    *case("disk full in the run at full order", formulations=("nlffr",), codes=1, lines=1, changes=GROWING_FAST,
+          file_size=4500, ranks=(1,), says=("File too large", "the motion stopped at t = "), check=full),
+    *case("killed", formulations=("vm+md", "nlffr"), codes=(-9, 137), changes=LONG, signal=signal.SIGKILL,
+          check=killed),
+    *case("told to end", formulations=("vm+md", "nlffr"), codes=(1, 143, 130), changes=LONG, signal=signal.SIGTERM,
+          environment=PATIENT, check=files("failed", reason="interrupted")),
+    Case("Ctrl-C in compare", ["compare", "scene.yaml", "--formulations", "vm,nlffr", "-o", "out"], (1, 130),
+         lines=1, scene=scene(LONG), signal=signal.SIGINT, environment=PATIENT,
+         check=lambda folder: (files("failed", reason="interrupted", out="out/vm")(folder),
+                               absent("out/nlffr")(folder))),
+    *case("Ctrl-C", codes=(1, 130), changes=LONG, signal=signal.SIGINT,
+          environment=PATIENT, check=files("failed", reason="interrupted")),
+]
+
+OPTIONS = [
+    *case("prefix nearly ours", codes=2, lines=1, options=("-mode_eps_nev", "3"), check=nothing,
+          says=("-mode_eps_nev", "did you mean -modes_eps_nev?")),
+    *case("option unused", codes=2, lines=1, options=("-motion_ts_foo", "1"), says=("-motion_ts_foo 1: nothing",)),
+    *case("option of no solver", codes=2, lines=1, options=("-modes_eps_nve", "3"), says=("-modes_eps_nve 3",)),
+    *case("options from a file", options=("-options_file", "options"), files={"options": "-motion_ts_dt 0.005\n"},
+          check=files("finished", 11)),
+    *case("options file unused", codes=2, lines=1, options=("-options_file", "options"),
+          files={"options": "-motion_ts_foo 1\n"}, says=("-motion_ts_foo",)),
+    *case("options file missing", codes=2, lines=1, options=("-options_file", "options"), check=nothing,
+          says=("options cannot be read",)),
+    *case("end from an option", options=("-motion_ts_max_time", "0.01"), check=files("finished", 11, end=0.01)),
+    Case("command after an option", ["-log_view", *run()], 0, check=files("finished", 51)),
+    *case("modes that do not converge", codes=1, lines=1, options=("-modes_eps_max_it", "1", "-modes_eps_ncv", "4"),
+          says=("-modes_eps_...", "found 0 of 3 modes", "DIVERGED_ITS"), check=no_results,
+          changes={"bodies.beam.mesh.line.elements": 40}),
+    *case("derivatives that do not converge", codes=1, lines=1, check=no_results, says=("derivatives_ksp_",),
+          options=("-derivatives_ksp_type", "cg", "-derivatives_ksp_max_it", "1", "-derivatives_pc_type", "none")),
+    *case("solver of steps that does not converge", formulations=("nlffr",), codes=1, lines=1,
+          options=("-motion_ksp_type", "gmres", "-motion_ksp_max_it", "1", "-motion_pc_type", "none"),
+          says=("stopped at t = 0 of", "-motion_ksp_", "DIVERGED_"), check=files("failed", 1, "DIVERGED_")),
+    *case("option value is none", codes=2, lines=1, options=("-motion_ts_dt", "abc"), says=("-motion_...", "abc")),
+    *case("type of TS unknown", codes=2, lines=1, options=("-motion_ts_type", "alpah2"),
+          says=("Unknown TS type: alpah2",)),
+    *case("type of TS for first-order systems", formulations=("vm+md", "nlffr"), codes=2, lines=1,
+          options=("-motion_ts_type", "bdf"), says=("-motion_ts_type bdf: integrates first-order systems",),
+          check=no_results),
+    *case("type of TS of PETSc", options=("-motion_ts_type", "alpha2"), lines=0,
+          shows=("Note: -motion_ts_type alpha2",),
+          check=files("finished", 51)),
+    *case("spectral radius 1", codes=2, lines=1, options=("-motion_ts_generalized_alpha_radius", "1"),
+          says=("spectral radius",)),
+]
+
+UNUSUAL = [
+    *case("free body", formulations=("vm+md", "nlffr", "cfr"), changes={"joints": None}, check=files("finished", 51)),
+    *case("no load", changes={"loads": None}, check=files("finished", 51)),
+    *case("no probes", changes={"probes": None}, check=files("finished", 51)),
+    *case("rigid bodies alone", formulations=("vm+md", "nlffr", "cfr"), check=files("finished", 51),
+          changes={"bodies.beam.rigid": True, "bodies.beam.reduction": None,
+                   "joints.clamp": {"type": "revolute", "between": ["ground", "beam.start"]}}),
+    Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
+                                              "--no-reference-error"], 1,
+         ("nlffr: ", "vm: ", "no formulation came to the end"), scene=scene({"loads.tip.force": [0, GAP]}),
+         check=files("failed", 21, out="out/vm")),
+    Case("error against round-off", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
+                                     "--no-reference-error"], 0, lines=0, scene=scene({"loads.tip.force": [1, 0]}),
+         check=no_error_of("tip.y", "tip.x")),
+    Case("compare", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out"], 0, lines=0,
+         check=lambda folder: (files("finished", 51, out="out/vm")(folder), stands("out/compare.csv")(folder))),
+]
+
+CASES = COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

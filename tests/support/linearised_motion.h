@@ -1,0 +1,62 @@
+#pragma once
+#include <Eigen/Dense>
+#include <algorithm>
+#include <complex>
+#include <vector>
+
+#include "floe/dynamics/system.h"
+
+namespace floe::test {
+
+/// d(residual)/d(q, v or a) of a system on one rank, as a dense matrix.
+inline Eigen::MatrixXd dense_tangent(const dynamics::System& system, Vec U, Vec V, dynamics::Weights weights) {
+  const petsc::MatHandle J = system.create_tangent();
+  const petsc::VecHandle A = system.create_vector();
+  system.tangent(0, U, V, A, weights, J);
+  const PetscInt n = system.coordinates().global_size();
+  std::vector<PetscInt> all(n);
+  for (PetscInt i = 0; i < n; ++i) all[i] = i;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(n, n);
+  petsc::check(MatGetValues(J, n, all.data(), n, all.data(), rows.data()));
+  return rows;
+}
+
+/// Exponents s of small motions e^(st) about a steady motion: (s^2 M + s C + K) x = 0 with C_q x = 0.
+///
+/// Constraints are met by x = Z y, Z an orthonormal basis of the null space of their gradient. Coordinates that a frame
+/// holds at zero (rows that do not depend on the weights) are left out.
+inline std::vector<std::complex<double>> characteristic_exponents(const dynamics::System& system, Vec U, Vec V) {
+  const Eigen::MatrixXd K = dense_tangent(system, U, V, {1, 0, 0}), C = dense_tangent(system, U, V, {0, 1, 0}),
+                        M = dense_tangent(system, U, V, {0, 0, 1});
+  std::vector<Eigen::Index> free, multipliers;
+  for (Eigen::Index i = 0; i < K.rows(); ++i) {
+    const bool held = K.row(i) == C.row(i) && K.row(i) == M.row(i);
+    if (system.coordinates().multiplier()[i])
+      multipliers.push_back(i);
+    else if (!held)
+      free.push_back(i);
+  }
+  const Eigen::MatrixXd G = K(multipliers, free);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(G.transpose());
+  const Eigen::MatrixXd Q = qr.householderQ();
+  const Eigen::Index n = static_cast<Eigen::Index>(free.size() - multipliers.size());
+  const Eigen::MatrixXd Z = Q.rightCols(n);
+  const Eigen::LDLT<Eigen::MatrixXd> mass(Z.transpose() * M(free, free) * Z);
+  Eigen::MatrixXd first_order = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  first_order.topRightCorner(n, n).setIdentity();
+  first_order.bottomLeftCorner(n, n) = -mass.solve(Z.transpose() * K(free, free) * Z);
+  first_order.bottomRightCorner(n, n) = -mass.solve(Z.transpose() * C(free, free) * Z);
+  const Eigen::VectorXcd s = Eigen::EigenSolver<Eigen::MatrixXd>(first_order, false).eigenvalues();
+  return {s.data(), s.data() + s.size()};
+}
+
+/// Angular frequencies of the exponents that swing faster than `least`, ascending.
+inline std::vector<double> oscillations(const std::vector<std::complex<double>>& exponents, double least = 0.1) {
+  std::vector<double> omega;
+  for (const auto& s : exponents)
+    if (s.imag() > least) omega.push_back(s.imag());
+  std::sort(omega.begin(), omega.end());
+  return omega;
+}
+
+}  // namespace floe::test

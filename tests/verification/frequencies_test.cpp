@@ -1,0 +1,112 @@
+#include <catch2/catch.hpp>
+
+#include "scene_motion.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// omega_n of a beam with L = EI = rhoA = 1 and axial modes out of the way.
+std::vector<double> frequencies(const std::string& frame, const std::string& joints, int count) {
+  const std::string text = fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 32}}
+    section: {EA: 1e6, EI: 1, rhoA: 1}
+    frame: $frame
+    reduction: {modes: $count}
+joints: {$joints}
+motion: {end: 1, step: 1}
+)yaml",
+                                {{"frame", frame}, {"count", std::to_string(count)}, {"joints", joints}});
+  return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+}
+
+const std::string left = "a: {type: fixed, between: [ground, beam.start]}",
+                  right = "b: {type: fixed, between: [ground, beam.end]}",
+                  hinges =
+                      "a: {type: revolute, between: [ground, beam.start]}, "
+                      "b: {type: revolute, between: [ground, beam.end]}";
+
+}  // namespace
+
+// Roots of 1 + cos cosh, 1 - cos cosh and sin (closed form).
+TEST_CASE("linear frequencies of beams") {
+  const double CF[] = {3.5160152685, 22.034491565, 61.697214414}, FF[] = {22.373285448, 61.672822868};
+  for (const std::string frame : {"pinned", "clamped", "mean-axis"}) {
+    INFO("frame " << frame);
+    const auto clamped = frequencies(frame, left, 3), both = frequencies(frame, left + ", " + right, 2),
+               simple = frequencies(frame, hinges, 3), free = frequencies(frame, "", 2);
+    for (int i = 0; i < 3; ++i) CHECK(clamped[i] == Approx(CF[i]).epsilon(1e-5));
+    for (int i = 0; i < 2; ++i) CHECK(both[i] == Approx(FF[i]).epsilon(1e-5));
+    for (int i = 0; i < 2; ++i) CHECK(free[i] == Approx(FF[i]).epsilon(1e-5));
+    for (int i = 0; i < 3; ++i) CHECK(simple[i] == Approx(std::pow((i + 1) * M_PI, 2)).epsilon(1e-5));
+  }
+}
+
+// Rayleigh beam (no shear), hinged: omega^2 = beta^4 EI / (rhoA + beta^2 rhoI), beta = n pi / L.
+TEST_CASE("linear frequencies with rotary inertia") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 32}}
+    section: {EA: 1e6, EI: 1, rhoA: 1, rhoI: 0.01}
+    reduction: {modes: 3}
+joints: {a: {type: revolute, between: [ground, beam.start]}, b: {type: revolute, between: [ground, beam.end]}}
+motion: {end: 1, step: 1}
+)yaml";
+  const auto omega = scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+  for (int n = 1; n <= 3; ++n) {
+    const double beta = n * M_PI;
+    CHECK(omega[n - 1] == Approx(std::sqrt(std::pow(beta, 4) / (1 + beta * beta * 0.01))).epsilon(1e-5));
+  }
+}
+
+namespace {
+
+/// How many frequencies are those of a clamped-free rod of 40 linear elements with a consistent mass:
+/// omega = (2 c/h) sqrt(3) sin x / sqrt(3 - 2 sin^2 x), x = (2k - 1) pi/160.
+int axial(const std::vector<double>& omega) {
+  const double h = 2.5, c = std::sqrt(1.12e6 / 0.546);
+  int count = 0;
+  for (int k = 1; k <= 17; ++k) {
+    const double s = std::sin((2 * k - 1) * M_PI / 160),
+                 exact = 2 * c / h * std::sqrt(3.) * s / std::sqrt(3 - 2 * s * s);
+    for (const double value : omega) count += std::abs(value - exact) < 1e-6 * exact;
+  }
+  return count;
+}
+
+}  // namespace
+
+// The paper's cantilever: independent converged computation, in rad/s.
+TEST_CASE("linear frequencies of the paper's cantilever") {
+  const auto omega = [](const std::string& rotary) {
+    const std::string text = fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [100, 0], elements: 40}}
+    section: {A: 70, I: 585}
+    material: {E: 16000, rho: 0.0078}
+    rotary_inertia: $rotary
+    reduction: {modes: 17}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+motion: {end: 1, step: 1}
+)yaml",
+                                  {{"rotary", rotary}});
+    return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+  };
+  const auto with = omega("true"), without = omega("false");
+  // bending; the third mode is axial: (pi/2L) sqrt(EA/rhoA) = 22.497
+  CHECK(with[0] == Approx(1.45295).margin(2e-5));
+  CHECK(with[1] == Approx(9.00192).margin(2e-5));
+  CHECK(with[2] == Approx(M_PI / 200 * std::sqrt(1.12e6 / 0.546)).epsilon(1e-4));
+  CHECK(with[3] == Approx(24.758).margin(1e-3));
+  CHECK(without[0] == Approx(1.4558).margin(1e-4));
+  CHECK(without[1] == Approx(9.1232).margin(1e-4));
+  CHECK(without[3] == Approx(25.55).margin(1e-2));
+  // Seven of the first seventeen are axial with rotary inertia, eight without (it lowers the bending modes).
+  CHECK(axial(with) == 7);
+  CHECK(axial(without) == 8);
+}
