@@ -3,4 +3,4 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source makefiles/mpi_environment.sh
-exec python3 tests/benchmark/planar.py --floe "${1:-build}/floe" --out docs/benchmarks "${@:2}"
+exec /usr/bin/python3 tests/benchmark/planar.py --floe "${1:-build}/floe" --out docs/benchmarks "${@:2}"

@@ -28,10 +28,12 @@ MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second
 }
 
 void MarkerPair::evaluate(const Motion& motion) {
-  pick(where_first, motion.q, q), pick(where_first, motion.v, v), pick(where_first, motion.a, a);
-  pose(first, q, v, a, pose_first);
-  pick(where_second, motion.q, q), pick(where_second, motion.v, v), pick(where_second, motion.a, a);
-  pose(second, q, v, a, pose_second);
+  const auto see = [&](const Marker& marker, const std::vector<int>& where, State& state, Pose& out) {
+    pick(where, motion.q, state.q), pick(where, motion.v, state.v), pick(where, motion.a, state.a);
+    pose(marker, state.q, state.v, state.a, out);
+  };
+  see(first, where_first, state_first, pose_first);
+  see(second, where_second, state_second, pose_second);
 }
 
 Vector6 MarkerPair::y() const { return (Vector6() << pose_first.y, pose_second.y).finished(); }

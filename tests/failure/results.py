@@ -43,6 +43,15 @@ def probe_times(path):
     return times
 
 
+def has_rows(path):
+    """Whether a result that is being written has two rows of its motion."""
+    try:
+        with h5py.File(path) as result:
+            return sum(math.isfinite(t) for t in result["motion/t"][:, 0]) >= 2
+    except (OSError, KeyError):
+        return False
+
+
 def killed(folder):
     """After SIGKILL: nothing says that it finished, and what had been written can be read."""
     assert json.loads((folder / "out/summary.json").read_text())["status"] == "running"

@@ -14,6 +14,7 @@ import time
 import traceback
 
 import cases
+import results
 
 TIME_LIMIT = 120  # s; on a quiet machine no case takes more than a tenth of it
 
@@ -61,7 +62,9 @@ class Run:
         while not any(p.read_text().count("\n") > 2 for p in self.folder.rglob("probes.csv")):
             assert process.poll() is None and time.monotonic() < until, "no rows to interrupt"
             time.sleep(0.05)
-        time.sleep(1.5)  # the result file has its rows a moment later
+        while self.case.signal == signal.SIGKILL and not results.has_rows(self.folder / "out/result.h5"):
+            assert process.poll() is None and time.monotonic() < until, "no rows in result.h5 to interrupt"
+            time.sleep(0.3)
         target = process.pid
         if self.case.signal == signal.SIGKILL and self.ranks > 1:
             children = pathlib.Path(f"/proc/{target}/task/{target}/children").read_text().split()
@@ -88,7 +91,7 @@ class Run:
 
 def attempt(case, floe, ranks):
     """Empty, or what is wrong."""
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         run = Run(case, floe, ranks, pathlib.Path(name))
         try:
             run.execute()

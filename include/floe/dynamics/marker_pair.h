@@ -14,7 +14,10 @@ struct MarkerPair {
   std::vector<int> coordinates;  ///< of both, each once; a term may add its own behind
   std::vector<int> where_first, where_second;
   Pose pose_first, pose_second;
-  Eigen::VectorXd q, v, a;
+  struct State {
+    Eigen::VectorXd q, v, a;
+  };
+  State state_first, state_second;  ///< of their coordinates
 
   MarkerPair(Marker first, Marker second);
   /// Evaluates both poses.
