@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check clean bench-planar sanitize
+.PHONY: all build setup demo check verify-ranks clean bench-planar sanitize
 all: build
 
 setup:
@@ -18,6 +18,9 @@ demo: build
 
 check: build
 	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) --output-on-failure
+
+verify-ranks: build
+	@bash makefiles/verify_ranks.sh $(BUILD)
 
 bench-planar: build
 	@bash makefiles/bench_planar.sh $(BUILD)

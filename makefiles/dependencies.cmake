@@ -8,7 +8,6 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(EIGEN REQUIRED IMPORTED_TARGET eigen3)
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
 find_path(CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 find_path(NLOHMANN_INCLUDE nlohmann/json.hpp REQUIRED)
 find_path(CATCH_INCLUDE catch2/catch.hpp)
@@ -17,5 +16,5 @@ find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS /usr/share/petsc/3.18/inclu
 
 add_library(floe_outside INTERFACE)
 target_link_libraries(floe_outside INTERFACE PkgConfig::SLEPC PkgConfig::PETSC PkgConfig::HDF5 MPI::MPI_CXX
-  PkgConfig::MUPARSER PkgConfig::EIGEN yaml-cpp fmt::fmt spdlog::spdlog)
+  PkgConfig::MUPARSER PkgConfig::EIGEN yaml-cpp fmt::fmt)
 target_include_directories(floe_outside SYSTEM INTERFACE ${PETSC_PRIVATE} ${CLI11_INCLUDE} ${NLOHMANN_INCLUDE})

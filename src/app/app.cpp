@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
   };
   std::function<void()> work;
   CLI::App app("floe " FLOE_VERSION
-               ": flexible multibody dynamics, reduced with modal derivatives in the floating frame of reference");
+               ": flexible multibody dynamics, reduced with modal derivatives in the floating frame of reference",
+               "floe");
   app.set_version_flag("--version", std::string("floe " FLOE_VERSION " (" FLOE_COMMIT ")"));
   app.require_subcommand(1);
   app.footer(
@@ -116,7 +117,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     work = [&on_first_rank, &app, shown = help] { on_first_rank([&] { app.exit(shown); }); };
   } catch (const CLI::ParseError& error) {
-    work = [text = fmt::format("{} (floe --help)", error.what())] { throw InputError(text); };
+    std::string what = error.what();
+    if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
+      what = fmt::format("\"{}\" is no command; expected run, compare, modes, check or schema", line.own.front());
+    work = [text = what + " (floe --help)"] { throw InputError(text); };
   }
   return in_session(line, work);
 }

@@ -7,29 +7,32 @@ struct Norms {
   PetscReal update, increment, size;
 };
 
-// Weighted norms of Newton's last update, of q_1 - q_0 and of q_1. Multipliers have no weight. Collective.
+// Weighted norms of Newton's last update, of the lesser of q_1 - q_0 and q_1 - q_0 - h v_0 (a steady motion is no
+// measure of what a step solves for, nor is the speed of a stiff one), and of q_1. Multipliers have no weight.
+// Collective.
 PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   Vec U_vec, update_vec;
   SNESLineSearch line_search;
   PetscReal lambda;
   PetscMPIInt ranks;
-  double sums[3] = {0, 0, 0};
+  double sums[4] = {0, 0, 0, 0};
 
   PetscFunctionBegin;
   PetscCall(SNESGetSolution(snes, &U_vec));
   PetscCall(SNESGetSolutionUpdate(snes, &update_vec));
   PetscCall(SNESGetLineSearch(snes, &line_search));
   PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
-  const Entries U(U_vec), U0(data->U0), update(update_vec), weight(data->weight);
+  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight);
   for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
     sums[0] += weight[i] * PetscSqr(update[i]);
     sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
-    sums[2] += weight[i] * PetscSqr(U[i]);
+    sums[2] += weight[i] * PetscSqr(U[i] - U0[i] - data->h * V0[i]);
+    sums[3] += weight[i] * PetscSqr(U[i]);
   }
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));
   if (ranks > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
-  *norms = {lambda * PetscSqrtReal(sums[0]), PetscSqrtReal(sums[1]), PetscSqrtReal(sums[2])};
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
+  *norms = {lambda * PetscSqrtReal(sums[0]), PetscSqrtReal(PetscMin(sums[1], sums[2])), PetscSqrtReal(sums[3])};
   PetscFunctionReturn(0);
 }
 
@@ -57,11 +60,12 @@ PetscReal rate_of(GeneralizedAlpha* data, PetscInt iteration, PetscReal update) 
 
 }  // namespace
 
-// Converged when the error that is left is under rtol |q_1 - q_0| + 4 eps |q_1|, in the norm sqrt(sum |J_ii| q_i^2);
-// the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner, Solving Ordinary
-// Differential Equations II, IV.8). Round-off: three updates in a row with a new Jacobian that are small and do not
-// fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led astray and
-// solve() begins again without it.
+// Converged when the error that is left is under rtol min(|q_1 - q_0|, |q_1 - q_0 - h v_0|) and slack, in the norm
+// sqrt(sum |J_ii| q_i^2); the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner,
+// Solving Ordinary Differential Equations II, IV.8). Slack is 4 eps |q_1|, and less with a Jacobian kept from before,
+// whose errors have the same sign step after step. Round-off: three updates in a row with a new Jacobian that are small
+// and do not fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led
+// astray and solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
@@ -83,10 +87,10 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
   if (data->new_jacobian) data->formed = PETSC_TRUE;
   const PetscReal rate = rate_of(data, iteration, norms.update);
   const PetscReal left = rate < 1 ? rate / (1 - rate) * norms.update : PETSC_MAX_REAL;
-  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size;
+  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size, slack = (data->new_jacobian ? 4 : 0.01) * floor;
   if (PetscIsInfOrNanReal(norms.update) || PetscIsInfOrNanReal(residual)) {
     *reason = SNES_DIVERGED_FNORM_NAN;
-  } else if (norms.update <= 4 * floor || left <= rtol * norms.increment + 4 * floor) {
+  } else if (norms.update <= 4 * floor || left <= rtol * norms.increment + slack) {
     *reason = SNES_CONVERGED_SNORM_RELATIVE;
   } else if (iteration > 1 && rate > 1 && lag != 1) {
     *reason = SNES_DIVERGED_DTOL;

@@ -19,7 +19,7 @@ struct GeneralizedAlpha {
   PetscReal h_a0 = 0;  // of the step that a0 was made for
   PetscBool started = PETSC_FALSE;
 
-  // After a start (and for constrained systems after a change of h): rate of A, and its part normal to the constraints.
+  // After a start (and for constrained systems after a change of h): rate of A that it resolves, normal part.
   PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
   Vec jerk = nullptr, normal = nullptr;
 

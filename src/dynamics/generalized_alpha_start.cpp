@@ -5,6 +5,8 @@
 //   A'              from the same at t_0 + e and t_0 + 2e with the state moved along its Taylor series; the three-point
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
 //   A'_normal       the part of A' that the constraints see, of least M / h^2 + K norm
+//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
+//                   slow motions and 0 for stiff ones; what the constraints see of A' stays
 // What the step makes of A' and A'_normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
@@ -139,6 +141,37 @@ PetscErrorCode split_normal(TS ts) {
   PetscFunctionReturn(0);
 }
 
+// jerk <- J^-1 (M shift_a jerk), with the constraint rows C_q jerk. h M jerk is F(.., A + h jerk) - F(.., A), for F is
+// linear in A. The operator acts on motions, not on coordinates: a frame that turns and elastic coordinates that turn
+// it back are one motion, whatever the stiffness of either coordinate by itself.
+PetscErrorCode leave_out_stiff(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+  KSPConvergedReason reason;
+  Mat P;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
+  PetscCall(VecWAXPY(data->work_A, data->h, data->jerk, data->A0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, data->work_F));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_V));
+  PetscCall(VecAXPY(data->work_F, -1, data->work_V));
+  PetscCall(MatMult(P, data->jerk, data->work_V));
+  {
+    const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
+    Changed rows(data->work_F);
+    for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
+      rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a / data->h * rows[i] : seen[i];
+  }
+  PetscCall(KSPSolve(ksp, data->work_F, data->jerk));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecPointwiseMult(data->jerk, data->jerk, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
 // F's scaled rows at (t_0 + e, q_0 + e v_0).
 PetscErrorCode rows_along_velocity(TS ts, PetscReal e, Vec F) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
@@ -182,6 +215,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(differentiate(ts, inertia));
   PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
+  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
   PetscCall(mark_origin(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
@@ -202,6 +236,7 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
+  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
   data->fresh = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -29,16 +29,14 @@ PetscErrorCode begin(TS ts) {
 //
 // The smooth solution of the scheme has a_n = A(t_n + (am - af) h); normal to the constraints, where q is exact,
 // summing q_1 - q_0 over a step shows v_n = v(t_n) + c h^2 A', c = 1/6 - b + (af - am)/2. Starting with a_0 = A_0 or
-// v_0 = v(t_0) leaves a transient of O(h) in the multipliers. A' counts with (h^-2 M / (h^-2 M + K))^2, which is
-// 1 - O(h^2) for what the step resolves and 0 for stiff motions, whose h A' would be noise greater than A.
+// v_0 = v(t_0) leaves a transient of O(h) in the multipliers. Only the part of A' that the step resolves counts:
+// of stiff motions h A' would be noise greater than A.
 void fresh_rates(GeneralizedAlpha* data) {
-  const Entries v(data->V0), A(data->A0), jerk(data->jerk), normal(data->normal), mass(data->mass),
-      weight(data->weight);
+  const Entries v(data->V0), A(data->A0), jerk(data->jerk), normal(data->normal);
   Changed a_used(data->a_used), v_used(data->work_V);
   const PetscReal h = data->h, shift = data->alpha_f - data->alpha_m, offset = 1. / 6 - data->beta + shift / 2;
   for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
-    const PetscReal resolved = weight[i] > 0 ? PetscMin(data->shift_a * mass[i] / weight[i], 1) : 0;
-    a_used[i] = A[i] - h * shift * resolved * resolved * jerk[i];
+    a_used[i] = A[i] - h * shift * jerk[i];
     v_used[i] = v[i] + h * h * offset * normal[i];
   }
 }

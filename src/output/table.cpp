@@ -100,6 +100,14 @@ std::string to_text(const Table& table) {
   return text;
 }
 
+int text_width(const Table& table) {
+  const std::string text = to_text(table);
+  std::size_t widest = 0;
+  for (std::size_t from = 0, to = 0; (to = text.find('\n', from)) != std::string::npos; from = to + 1)
+    widest = std::max(widest, width(text.substr(from, to - from)));
+  return static_cast<int>(widest);
+}
+
 std::string to_markdown(const Table& table) {
   Table escaped = table;
   for (auto& row : escaped.rows)

@@ -5,6 +5,7 @@ DIR/compare.json names the runs, the probes and the reference; each run's series
 """
 import argparse
 import csv
+import io
 import json
 import math
 import os
@@ -141,21 +142,31 @@ def draw_values(axes, description, probe):
     limits = value_range(description, probe["column"])
     if limits:
         axes.set_ylim(*limits)
+    axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
     axes.set_ylabel(with_unit(probe["column"], probe.get("unit", "")))
 
 
+def components(description, probe):
+    """Columns of the probe that a column belongs to: `tip.x`, `tip.y`."""
+    name = probe["column"].rpartition(".")[0]
+    return [p["column"] for p in description["probes"] if name and p["column"].rpartition(".")[0] == name
+            and p.get("unit", "") == probe.get("unit", "")] or [probe["column"]]
+
+
 def draw_errors(axes, description, probe):
-    """|p - p_ref| at the times of each run, on an axis that shows the good ones whole and cuts one that diverges."""
+    """|p - p_ref|, a vector's length, at the times of each run; the axis shows the good runs whole and cuts one that diverges."""
     runs = {run["name"]: run for run in description["runs"]}
-    reference = runs[description["reference"]]["series"]
-    column, medians, greatest = probe["column"], [], 0.0
+    reference = runs[description["reference"]]
+    columns, medians, greatest = components(description, probe), [], 0.0
     for name, run in runs.items():
         if name == description["reference"]:
             continue
-        times = run["series"]["t"]
-        exact = interpolated(reference["t"], reference[column], times)
-        errors = [abs(value - other) for value, other in zip(run["series"][column], exact)]
-        errors = [error if error > 0 and math.isfinite(error) else math.nan for error in errors]
+        times, squares = run["series"]["t"], [0.0] * len(run["series"]["t"])
+        for column in columns:
+            exact = interpolated(reference["series"]["t"], reference["series"][column], times)
+            gaps = (value - other for value, other in zip(run["series"][column], exact))
+            squares = [square + gap * gap for square, gap in zip(squares, gaps)]
+        errors = [math.sqrt(square) if square > 0 and math.isfinite(square) else math.nan for square in squares]
         known = sorted(error for error in errors if error > 0)
         if known:
             medians.append(known[len(known) // 2])
@@ -163,9 +174,11 @@ def draw_errors(axes, description, probe):
         axes.plot(times, errors, **run["line"])
     axes.set_yscale("log")
     if medians:
-        high = min(2 * greatest, 10 * span(reference[column]) or math.inf)
+        widest = max(span(reference["series"][column]) for column in columns)
+        high = min(2 * greatest, 10 * widest or math.inf)
         axes.set_ylim(max(min(medians) / 100, 1e-12 * high), high)
-    axes.set_ylabel("error of\n" + with_unit(column, probe.get("unit", "")))
+    what = columns[0].rpartition(".")[0] if len(columns) > 1 else probe["column"]
+    axes.set_ylabel(f"error of {with_unit(what, probe.get('unit', ''))}\nagainst {reference['label']}")
 
 
 def place_legend(figure, axes):
@@ -208,14 +221,25 @@ def draw(description, path, dpi):
     figure.suptitle(description.get("title", ""), y=1 - 0.08 / height, va="top", fontsize=11).set_in_layout(False)
     head = place_legend(figure, axes[0])
     figure.tight_layout(rect=(0, 0, 1, 1 - head / height))
-    figure.savefig(path, dpi=dpi)
+    save(figure, path, dpi)
+
+
+def save(figure, path, dpi):
+    """A PNG has a palette: lines in few colours take a third of the bytes then."""
+    if not path.endswith(".png"):
+        figure.savefig(path)
+        return
+    from PIL import Image  # matplotlib needs it, too
+
+    with io.BytesIO() as drawn:
+        figure.savefig(drawn, format="png", dpi=dpi)
+        Image.open(drawn).convert("RGB").quantize(64).save(path, optimize=True, dpi=(dpi, dpi))
 
 
 def main_probe(description):
     """The one that moves most in the reference: its error is shown."""
     name = description.get("reference") or description["runs"][0]["name"]
     series = next(run["series"] for run in description["runs"] if run["name"] == name)
-
     return max(description["probes"], key=lambda probe: span(series[probe["column"]]))
 
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace floe::reduction {
 
@@ -41,7 +43,25 @@ double low_frequency(const fem::Structure& structure, const Statics& statics, Ma
   return elastic / kinetic;
 }
 
-petsc::EpsHandle solver(Mat K, Mat M, int count, double shift) {
+bool user_sets(const std::string& prefix) {
+  char* all = nullptr;
+  check(PetscOptionsGetAll(nullptr, &all));
+  const bool found = (" " + std::string(all)).find(" -" + prefix) != std::string::npos;
+  check(PetscFree(all));
+  return found;
+}
+
+/// Lets the solver of `statics` invert K, unless the user wants another operator or another solver.
+void share_factor(EPS eps, const Statics& statics) {
+  ST st = nullptr;
+  double target = 0;
+  check(EPSGetTarget(eps, &target));
+  if (target != 0 || user_sets("modes_st_")) return;
+  check(EPSGetST(eps, &st));
+  check(STSetKSP(st, statics.solver()));
+}
+
+petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   petsc::EpsHandle eps;
   ST st = nullptr;
   KSP ksp = nullptr;
@@ -50,7 +70,6 @@ petsc::EpsHandle solver(Mat K, Mat M, int count, double shift) {
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, K, M));
   check(EPSSetProblemType(eps, EPS_GHEP));
-  check(EPSSetDimensions(eps, count, PETSC_DEFAULT, PETSC_DEFAULT));
   check(EPSSetTolerances(eps, 1e-13, PETSC_DEFAULT));
   check(EPSSetTarget(eps, shift));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
@@ -62,8 +81,49 @@ petsc::EpsHandle solver(Mat K, Mat M, int count, double shift) {
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  petsc::check_options(EPSSetFromOptions(eps), "modes_");
   return eps;
+}
+
+/// The rigid motions that are left free, under the conditions.
+Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding) {
+  Columns rigid;
+  for (Eigen::Index r = 0; r < holding.left.cols(); ++r) {
+    rigid.push_back(fem::field(structure));
+    for (int i = 0; i < 3; ++i) check(VecAXPY(rigid.back(), holding.left(i, r), frame.rigid[i]));
+    fem::hold(rigid.back(), holding.held);
+  }
+  return rigid;
+}
+
+/// EPSSolve, where a linear solve within it that does not converge is told by its options.
+void solve_pairs(EPS eps) {
+  try {
+    check(EPSSolve(eps));
+  } catch (const petsc::Error& error) {
+    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    ST st = nullptr;
+    KSP ksp = nullptr;
+    const char* prefix = nullptr;
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check(EPSGetST(eps, &st));
+    check(STGetKSP(st, &ksp));
+    check(KSPGetOptionsPrefix(ksp, &prefix));
+    check(KSPGetConvergedReason(ksp, &reason));
+    throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
+                               prefix ? prefix : "", KSPConvergedReasons[reason]));
+  }
+}
+
+void check_converged(EPS eps, int count) {
+  PetscInt converged = 0, iterations = 0;
+  EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
+  check(EPSGetConverged(eps, &converged));
+  check(EPSGetConvergedReason(eps, &reason));
+  check(EPSGetIterationNumber(eps, &iterations));
+  if (converged < count)
+    throw RunError(
+        fmt::format("the eigenvalue solver (options -modes_eps_...) found {} of {} modes in {} iterations: {}",
+                    converged, count, iterations, EPSConvergedReasons[reason]));
 }
 
 }  // namespace
@@ -92,55 +152,73 @@ void fix_sign(Vec shape) {
   if (sign < 0) check(VecScale(shape, -1));
 }
 
-Modes vibration_modes(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
-                      const Statics& statics, int count) {
+ModeSolver::ModeSolver(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+                       const Statics& statics)
+    : structure_(structure), frame_(frame), holding_(holding), statics_(statics) {}
+
+// An EPS resets the solver it goes with: the one of `statics` is taken out first.
+ModeSolver::~ModeSolver() {
+  if (!eps_) return;
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  EPSGetST(eps_, &st);
+  STGetKSP(st, &ksp);
+  if (ksp != statics_.solver()) return;
+  petsc::KspHandle other;
+  KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), other.out());
+  STSetKSP(st, other);
+}
+
+void ModeSolver::create(int count) {
+  const bool moves = holding_.left.cols() > 0, shares = !moves && holding_.held == statics_.conditions();
+  M_ = fem::mass(structure_, holding_.held);
+  if (!shares) K_ = fem::stiffness(structure_, holding_.held);
+  eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, moves ? -low_frequency(structure_, statics_, M_) : 0);
+  check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
+  petsc::check_options(EPSSetFromOptions(eps_), "modes_");
+  if (shares) share_factor(eps_, statics_);
+}
+
+PetscInt ModeSolver::available() const {
+  return structure_.dofs() - static_cast<PetscInt>(holding_.held.size()) - static_cast<PetscInt>(holding_.left.cols());
+}
+
+Modes ModeSolver::solve(int count) {
   Modes modes;
   if (count <= 0) return modes;
-  const PetscInt available =
-      structure.dofs() - static_cast<PetscInt>(holding.held.size()) - static_cast<PetscInt>(holding.left.cols());
-  if (count > available)
+  if (count > available())
     throw InputError(
-        fmt::format("{} modes are asked of a body that has {} elastic dofs under its conditions", count, available));
-  const petsc::MatHandle K = fem::stiffness(structure, holding.held), M = fem::mass(structure, holding.held);
-  const bool moves = holding.left.cols() > 0;
-  const double shift = moves ? -low_frequency(structure, statics, M) : 0;
-  const petsc::EpsHandle eps = solver(K, M, count, shift);
-
-  Columns rigid;
-  for (Eigen::Index r = 0; r < holding.left.cols(); ++r) {
-    rigid.push_back(fem::field(structure));
-    for (int i = 0; i < 3; ++i) check(VecAXPY(rigid.back(), holding.left(i, r), frame.rigid[i]));
-    fem::hold(rigid.back(), holding.held);
-  }
+        fmt::format("{} modes are asked of a body that has {} elastic dofs under its conditions", count, available()));
+  if (eps_)
+    check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
+  else
+    create(count);
+  const Columns rigid = rigid_motions(structure_, frame_, holding_);
   std::vector<Vec> deflated(rigid.begin(), rigid.end());
-  if (moves) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
-  const petsc::VecHandle first = start(structure, holding.held);
+  if (!deflated.empty()) check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(deflated.size()), deflated.data()));
+  const petsc::VecHandle first = start(structure_, holding_.held);
   Vec initial[1] = {first};
-  check(EPSSetInitialSpace(eps, 1, initial));
-  check(EPSSolve(eps));
-
-  PetscInt converged = 0, iterations = 0;
-  EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
-  check(EPSGetConverged(eps, &converged));
-  check(EPSGetConvergedReason(eps, &reason));
-  check(EPSGetIterationNumber(eps, &iterations));
-  if (converged < count)
-    throw RunError(
-        fmt::format("the eigenvalue solver (options -modes_eps_...) found {} of {} modes in {} iterations: {}",
-                    converged, count, iterations, EPSConvergedReasons[reason]));
+  check(EPSSetInitialSpace(eps_, 1, initial));
+  solve_pairs(eps_);
+  check_converged(eps_, count);
   for (int i = 0; i < count; ++i) {
     double lambda = 0, error = 0;
-    modes.raw.push_back(fem::field(structure));
-    check(EPSGetEigenpair(eps, i, &lambda, nullptr, modes.raw.back(), nullptr));
-    check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &error));
-    fem::hold(modes.raw.back(), holding.held);
+    modes.raw.push_back(fem::field(structure_));
+    check(EPSGetEigenpair(eps_, i, &lambda, nullptr, modes.raw.back(), nullptr));
+    check(EPSComputeError(eps_, i, EPS_ERROR_RELATIVE, &error));
+    fem::hold(modes.raw.back(), holding_.held);
     fix_sign(modes.raw.back());
     modes.omega.push_back(std::sqrt(std::max(lambda, 0.0)));
     modes.residual.push_back(error);
     modes.shapes.push_back(copy(modes.raw.back()));
-    fem::to_frame(frame, modes.shapes.back());
+    fem::to_frame(frame_, modes.shapes.back());
   }
   return modes;
+}
+
+Modes vibration_modes(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+                      const Statics& statics, int count) {
+  return ModeSolver(structure, frame, holding, statics).solve(count);
 }
 
 }  // namespace floe::reduction

@@ -19,12 +19,18 @@ double mass_norm(Mat M, Vec field) {
 
 Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                       const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance) {
+  return generators(structure, statics, vibration_modes(structure, frame, holding, statics, modes), attachments,
+                    tolerance);
+}
+
+Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
+                      const std::vector<Attachment>& attachments, double tolerance) {
   Generators result;
   const petsc::MatHandle M = fem::mass(structure, {});
-  result.modes = vibration_modes(structure, frame, holding, statics, modes);
+  result.modes = std::move(modes);
   Columns candidates;
   std::vector<ColumnOrigin> origins;
-  for (int i = 0; i < modes; ++i) {
+  for (std::size_t i = 0; i < result.modes.omega.size(); ++i) {
     candidates.push_back(copy(result.modes.shapes[i]));
     origins.push_back({ColumnOrigin::Kind::mode, fmt::format("mode {}", i + 1), result.modes.omega[i]});
   }

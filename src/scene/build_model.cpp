@@ -6,9 +6,6 @@ namespace {
 
 /// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
 /// fields.
-///
-/// A basis without derivatives holds the fields in order, V = fields T^-1 with T = V'M fields; here the integral is
-/// taken over the coordinates of V's columns, which differ from the fields' by the orthogonalisation alone.
 std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
   Model model = Assembly(prepared, Formulation::vm, linear).model();
   std::vector<Eigen::MatrixXd> sums;
@@ -19,7 +16,8 @@ std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::v
   auto observe = [&](const dynamics::Instant& instant) {
     model.system->gather(instant.U, q);
     for (std::size_t b = 0; b < sums.size(); ++b) {
-      const auto eta = q.segment(model.bodies[b].first_elastic, sums[b].rows());
+      if (sums[b].rows() == 0) continue;
+      const Eigen::VectorXd eta = linear[b].of_fields * q.segment(model.bodies[b].first_elastic, sums[b].rows());
       sums[b] += motion.step * (eta * eta.transpose()).cwiseAbs();
     }
   };

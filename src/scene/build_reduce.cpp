@@ -4,9 +4,9 @@
 #include <petsctime.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "floe/petsc/values.h"
+#include "floe/reduction/ranking.h"
 
 namespace floe::scene {
 
@@ -25,7 +25,16 @@ reduction::Attachment unit_load(const PreparedBody& body, PetscInt node, int com
   return attachment;
 }
 
-/// Unit loads where joints and loads act. Where the ground holds a body and its modes are those of the held body, the
+/// Whether the scene turns the body by a moment at a place of one of its joints: a hinge that is driven.
+bool at_a_joint(const Prepared& prepared, const PreparedPlace& load) {
+  for (const auto& places : prepared.joints)
+    for (const PreparedPlace& place : places)
+      if (place.body == load.body && place.node == load.node) return true;
+  return false;
+}
+
+/// Unit loads where joints and loads act. A moment at a joint counts as the joint's: no mode has a moment at a hinge.
+/// Where the ground holds a body and its modes are those of the held body, the
 /// joint brings no column of its own.
 std::vector<reduction::Attachment> attachments(const Prepared& prepared, int index) {
   using Choice = ReductionSpec::Attachment;
@@ -45,10 +54,11 @@ std::vector<reduction::Attachment> attachments(const Prepared& prepared, int ind
         all.push_back(unit_load(body, place.node, c, joint.name));
   }
   for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
-    if (choice != Choice::loads && choice != Choice::all) break;
     const Load& load = prepared.scene.loads[l];
     if (prepared.loads[l].body != index || load.kind == Load::Kind::distributed) continue;
     const bool moment = load.kind == Load::Kind::moment;
+    const bool of_joint = choice == Choice::joints && moment && at_a_joint(prepared, prepared.loads[l]);
+    if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
     for (int c = moment ? 2 : 0; c < (moment ? 3 : 2); ++c)
       all.push_back(unit_load(body, prepared.loads[l].node, c, load.name));
   }
@@ -74,19 +84,17 @@ Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& redu
 struct Stage {
   fem::Holding for_modes, for_statics;
   std::unique_ptr<reduction::Statics> statics;
+  std::unique_ptr<reduction::ModeSolver> solver;
   reduction::Generators generators;
   reduction::Pairs pairs;
 };
 
-void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
+/// (Re)makes the generators, with the lowest `modes` modes.
+void generate(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
   const PreparedBody& body = prepared.bodies[index];
   const double start = MPI_Wtime();
-  stage.for_statics = fem::holding(body.structure, body.frame, body.held);
-  stage.for_modes =
-      of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
-  stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   try {
-    stage.generators = reduction::generators(body.structure, body.frame, stage.for_modes, *stage.statics, modes,
+    stage.generators = reduction::generators(body.structure, *stage.statics, stage.solver->solve(modes),
                                              attachments(prepared, index), body.spec.reduction.drop_tolerance);
   } catch (const InputError& error) {
     throw InputError(body.spec.reduction.modes.where.text() + ": " + error.what());
@@ -94,6 +102,16 @@ void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyRep
   report.omega = stage.generators.modes.omega;
   report.residual = stage.generators.modes.residual;
   report.seconds_modes = MPI_Wtime() - start;
+}
+
+void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
+  const PreparedBody& body = prepared.bodies[index];
+  stage.for_statics = fem::holding(body.structure, body.frame, body.held);
+  stage.for_modes =
+      of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
+  stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
+  stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
+  generate(prepared, index, modes, stage, report);
 }
 
 void end(const PreparedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives, ReducedBody& reduced) {
@@ -108,23 +126,26 @@ void end(const PreparedBody& body, const Stage& stage, reduction::DerivativeColu
   reduced.report.seconds_projection = MPI_Wtime() - start;
 }
 
-/// theta_ij by maximum modal interaction: int |eta_i eta_j| dt |theta_ij|_M, greatest first. Source: Tiso 2011.
+reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stage& stage, const reduction::Pairs& pairs,
+                                            bool full) {
+  return reduction::derivative_columns(body.structure, body.frame, stage.for_modes, *stage.statics, stage.generators,
+                                       pairs, full);
+}
+
+/// theta_ij by maximum modal interaction, int |eta_i eta_j| dt |what theta_ij adds|_M (half of it for i = j, as in the
+/// series u = phi_i eta_i + 1/2 theta_ij eta_i eta_j): one after the other, each without what the generators and those
+/// before it span. Source of the interaction: Tiso 2011.
 void rank_pairs(const PreparedBody& body, Stage& stage, const Eigen::MatrixXd& interaction, int count,
                 std::vector<double>& weights) {
   const reduction::Pairs all = reduction::all_pairs(static_cast<int>(stage.generators.fields.size()));
-  const reduction::Columns theta =
-      reduction::static_derivatives(body.structure, *stage.statics, stage.generators.fields, all);
-  const petsc::MatHandle M = fem::mass(body.structure, {});
-  std::vector<double> weight;
-  for (std::size_t p = 0; p < all.size(); ++p)
-    weight.push_back(interaction(all[p][0], all[p][1]) * reduction::mass_norm(M, theta[p]));
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return weight[a] > weight[b]; });
+  const reduction::Columns theta = derivatives_of(body, stage, all, false).columns;
+  std::vector<double> factors;
+  for (const auto& [i, j] : all) factors.push_back((i == j ? 0.5 : 1) * interaction(i, j));
   stage.pairs.clear();
-  for (std::size_t i = 0; i < order.size() && static_cast<int>(i) < count; ++i) {
-    stage.pairs.push_back(all[order[i]]);
-    weights.push_back(weight[order[i]] / weight[order[0]]);
+  for (const reduction::Ranked& next : reduction::rank(body.structure, stage.generators.fields, theta, factors, count,
+                                                       body.spec.reduction.drop_tolerance)) {
+    stage.pairs.push_back(all[next.candidate]);
+    weights.push_back(next.weight);
   }
 }
 
@@ -135,21 +156,6 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, int fields) {
   if (spec.choice == Choice::pairs)
     for (const auto& [i, j] : spec.pairs) pairs.push_back({i - 1, j - 1});
   return pairs;
-}
-
-/// How many modes stand in for modes and derivatives in formulation vm: as many as these had columns.
-int modes_alone(const Prepared& prepared, int index) {
-  const ReductionSpec& spec = prepared.bodies[index].spec.reduction;
-  if (spec.modes.alone > 0) return spec.modes.alone;
-  using Choice = DerivativesSpec::Choice;
-  const int fields = spec.modes.count;
-  int derivatives = 0;
-  if (spec.derivatives.choice == Choice::all) derivatives = fields * (fields + 1) / 2;
-  if (spec.derivatives.choice == Choice::count) derivatives = spec.derivatives.count;
-  if (spec.derivatives.choice == Choice::pairs) derivatives = static_cast<int>(spec.derivatives.pairs.size());
-  const PreparedBody& body = prepared.bodies[index];
-  const PetscInt available = body.structure.dofs() - 3 - static_cast<PetscInt>(body.held.size());
-  return static_cast<int>(std::min<PetscInt>(fields + derivatives, available));
 }
 
 void warn(const Prepared& prepared, int index, Formulation formulation, std::vector<std::string>& warnings) {
@@ -177,6 +183,57 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
                       "bending: its cubic "
                       "stiffness comes out too high (by half for a hinged beam)",
                       body.spec.name));
+}
+
+/// Without derivatives the basis holds the fields in order: fields = V T, T = V'M fields, eta = T^-1 q.
+Eigen::MatrixXd coordinates_of_fields(const Stage& stage, const ReducedBody& reduced) {
+  const int k = reduced.body.coordinates();
+  Eigen::MatrixXd T(k, k);
+  for (int i = 0; i < k; ++i) check(BVDotVec(reduced.basis->V, stage.generators.fields[i], T.col(i).data()));
+  return T.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(k, k));
+}
+
+/// Pairs of the bodies whose derivatives are chosen by count, after one linear run. @return their weights
+std::vector<std::vector<double>> choose_by_count(const Prepared& prepared, Formulation formulation,
+                                                 const InteractionRun& linear_run, std::vector<Stage>& stages,
+                                                 const std::vector<ReducedBody>& begun) {
+  std::vector<std::vector<double>> weights(stages.size());
+  auto chooses = [&](std::size_t b) {
+    const Body& spec = prepared.bodies[b].spec;
+    return !spec.rigid && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count &&
+           !(formulation == Formulation::vm && spec.reduction.modes.alone > 0);
+  };
+  bool any = false;
+  for (std::size_t b = 0; b < stages.size(); ++b) any = any || chooses(b);
+  if (!any) return weights;
+  std::vector<ReducedBody> linear = begun;
+  for (std::size_t b = 0; b < stages.size(); ++b) {
+    if (prepared.bodies[b].spec.rigid) continue;
+    end(prepared.bodies[b], stages[b], {}, linear[b]);
+    linear[b].body.elasticity = body::linearised(linear[b].body.elasticity);
+    linear[b].of_fields = coordinates_of_fields(stages[b], linear[b]);
+  }
+  const std::vector<Eigen::MatrixXd> interaction = linear_run(linear);
+  for (std::size_t b = 0; b < stages.size(); ++b)
+    if (chooses(b))
+      rank_pairs(prepared.bodies[b], stages[b], interaction[b], prepared.bodies[b].spec.reduction.derivatives.count,
+                 weights[b]);
+  return weights;
+}
+
+/// Formulation vm without a number of its own: as many modes as modes and derivatives together keep columns.
+///
+/// Derivatives that vanish or repeat others take no column, and so no mode stands in for them. The factors of the
+/// first modes serve all that is solved here.
+void modes_for_derivatives(const Prepared& prepared, int index, Stage& stage, BodyReport& report) {
+  const PreparedBody& body = prepared.bodies[index];
+  const ReductionSpec& spec = body.spec.reduction;
+  const auto attached = stage.generators.fields.size() - stage.generators.modes.omega.size();
+  const reduction::Basis both =
+      reduction::basis_of(body.structure, stage.generators,
+                          derivatives_of(body, stage, stage.pairs, spec.derivatives.full), spec.drop_tolerance);
+  const auto modes = std::min<PetscInt>(both.columns - static_cast<PetscInt>(attached), stage.solver->available());
+  if (modes > spec.modes.count) generate(prepared, index, static_cast<int>(modes), stage, report);
 }
 
 }  // namespace
@@ -208,49 +265,38 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
                                        const InteractionRun& linear_run, std::vector<std::string>& warnings) {
   const int count = static_cast<int>(prepared.bodies.size());
+  const bool alone = formulation == Formulation::vm;
   std::vector<Stage> stages(count);
   std::vector<ReducedBody> all(count);
-  bool ranked = false;
   for (int b = 0; b < count; ++b) {
-    const Body& spec = prepared.bodies[b].spec;
-    if (spec.rigid) {
-      all[b] = rigid(prepared.bodies[b]);
+    const PreparedBody& body = prepared.bodies[b];
+    const ReductionSpec& spec = body.spec.reduction;
+    if (body.spec.rigid) {
+      all[b] = rigid(body);
       continue;
     }
-    const bool alone = formulation == Formulation::vm;
-    begin(prepared, b, alone ? modes_alone(prepared, b) : spec.reduction.modes.count, stages[b], all[b].report);
-    if (!alone)
-      stages[b].pairs = pairs_of(spec.reduction.derivatives, static_cast<int>(stages[b].generators.fields.size()));
-    ranked = ranked || (!alone && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count);
+    const bool stated = alone && spec.modes.alone > 0;
+    begin(prepared, b, stated ? spec.modes.alone : spec.modes.count, stages[b], all[b].report);
+    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, static_cast<int>(stages[b].generators.fields.size()));
     warn(prepared, b, formulation, warnings);
   }
-  std::vector<std::vector<double>> weights(count);
-  if (ranked) {
-    std::vector<ReducedBody> linear = {};
-    for (int b = 0; b < count; ++b) {
-      linear.push_back(all[b]);
-      if (prepared.bodies[b].spec.rigid) continue;
-      end(prepared.bodies[b], stages[b], {}, linear[b]);
-      linear[b].body.elasticity = body::linearised(linear[b].body.elasticity);
-    }
-    const std::vector<Eigen::MatrixXd> interaction = linear_run(linear);
-    for (int b = 0; b < count; ++b) {
-      const DerivativesSpec& spec = prepared.bodies[b].spec.reduction.derivatives;
-      if (!prepared.bodies[b].spec.rigid && spec.choice == DerivativesSpec::Choice::count)
-        rank_pairs(prepared.bodies[b], stages[b], interaction[b], spec.count, weights[b]);
-    }
-  }
+  const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);
   for (int b = 0; b < count; ++b) {
     const PreparedBody& body = prepared.bodies[b];
     if (body.spec.rigid) continue;
-    const double start = MPI_Wtime();
-    reduction::DerivativeColumns derivatives =
-        reduction::derivative_columns(body.structure, body.frame, stages[b].for_modes, *stages[b].statics,
-                                      stages[b].generators, stages[b].pairs, body.spec.reduction.derivatives.full);
-    for (std::size_t i = 0; i < std::min(weights[b].size(), derivatives.origins.size()); ++i)
-      derivatives.origins[i].interaction = weights[b][i];
-    all[b].report.seconds_derivatives = MPI_Wtime() - start;
+    reduction::DerivativeColumns derivatives;
+    if (alone) {
+      if (body.spec.reduction.modes.alone == 0) modes_for_derivatives(prepared, b, stages[b], all[b].report);
+    } else {
+      const double start = MPI_Wtime();
+      derivatives = derivatives_of(body, stages[b], stages[b].pairs, body.spec.reduction.derivatives.full);
+      for (std::size_t i = 0; i < std::min(weights[b].size(), derivatives.origins.size()); ++i)
+        derivatives.origins[i].interaction = weights[b][i];
+      all[b].report.seconds_derivatives = MPI_Wtime() - start;
+    }
     end(body, stages[b], std::move(derivatives), all[b]);
+    stages[b].solver.reset();  // before the statics whose factor it uses
+    stages[b] = Stage();
   }
   return all;
 }

@@ -8,10 +8,12 @@ struct ReducedBody {
   body::FlexibleBody body;
   std::shared_ptr<reduction::Basis> basis;
   Eigen::MatrixXd damping;
+  Eigen::MatrixXd of_fields;  ///< coordinates of the generating fields from those of V; ranking's linear run only
   BodyReport report;
 };
 
-/// Runs linear and reads off int |eta_i eta_j| dt of each body's generators: needed for derivatives chosen by count.
+/// Runs linear and reads off int |eta_i eta_j| dt of each body's generators, eta = of_fields q: needed for derivatives
+/// chosen by count.
 using InteractionRun = std::function<std::vector<Eigen::MatrixXd>(const std::vector<ReducedBody>&)>;
 
 /// Offline stage of every body. Collective.

@@ -38,7 +38,7 @@ struct End {
 
 End end_of(const History& at) {
   const Eigen::VectorXd U = entries(at.model.U);
-  const auto& rows = at.model.system->coordinates().owned_multipliers();
+  const std::vector<PetscInt> rows = multipliers(*at.model.system);
   End end{{at["tip.x"].back(), at["tip.y"].back()}, {at["speed.x"].back(), at["speed.y"].back()}, {}};
   end.multipliers.resize(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) end.multipliers[i] = U[rows[i]];

@@ -2,22 +2,27 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <complex>
+#include <numeric>
 #include <vector>
 
-#include "floe/dynamics/system.h"
+#include "scene_motion.h"
 
 namespace floe::test {
 
-/// d(residual)/d(q, v or a) of a system on one rank, as a dense matrix.
+/// d(residual)/d(q, v or a) of a system as a dense matrix, on every rank. Collective.
 inline Eigen::MatrixXd dense_tangent(const dynamics::System& system, Vec U, Vec V, dynamics::Weights weights) {
   const petsc::MatHandle J = system.create_tangent();
   const petsc::VecHandle A = system.create_vector();
   system.tangent(0, U, V, A, weights, J);
   const PetscInt n = system.coordinates().global_size();
   std::vector<PetscInt> all(n);
-  for (PetscInt i = 0; i < n; ++i) all[i] = i;
+  std::iota(all.begin(), all.end(), 0);
+  PetscInt first = 0, end = 0;
+  petsc::check(MatGetOwnershipRange(J, &first, &end));
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(n, n);
-  petsc::check(MatGetValues(J, n, all.data(), n, all.data(), rows.data()));
+  rows.setZero();
+  petsc::check(MatGetValues(J, end - first, all.data() + first, n, all.data(), rows.data() + first * n));
+  MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM, system.comm());
   return rows;
 }
 
@@ -28,10 +33,11 @@ inline Eigen::MatrixXd dense_tangent(const dynamics::System& system, Vec U, Vec 
 inline std::vector<std::complex<double>> characteristic_exponents(const dynamics::System& system, Vec U, Vec V) {
   const Eigen::MatrixXd K = dense_tangent(system, U, V, {1, 0, 0}), C = dense_tangent(system, U, V, {0, 1, 0}),
                         M = dense_tangent(system, U, V, {0, 0, 1});
+  const std::vector<PetscInt> constrained = multipliers(system);
   std::vector<Eigen::Index> free, multipliers;
   for (Eigen::Index i = 0; i < K.rows(); ++i) {
     const bool held = K.row(i) == C.row(i) && K.row(i) == M.row(i);
-    if (system.coordinates().multiplier()[i])
+    if (std::binary_search(constrained.begin(), constrained.end(), static_cast<PetscInt>(i)))
       multipliers.push_back(i);
     else if (!held)
       free.push_back(i);

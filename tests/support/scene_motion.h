@@ -10,6 +10,7 @@
 
 #include "floe/dynamics/simulation.h"
 #include "floe/dynamics/start.h"
+#include "floe/petsc/values.h"
 #include "floe/scene/model.h"
 
 namespace floe::test {
@@ -96,14 +97,28 @@ inline double relative_error(const History& a, const History& b, const std::stri
   return std::sqrt(difference / size);
 }
 
-/// Entries of a vector that lives on one rank.
+/// All entries, on every rank. Collective.
 inline Eigen::VectorXd entries(Vec vec) {
-  const double* values = nullptr;
+  petsc::VecHandle all;
+  petsc::ScatterHandle scatter;
+  petsc::check(VecScatterCreateToAll(vec, scatter.out(), all.out()));
+  petsc::check(VecScatterBegin(scatter, vec, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::check(VecScatterEnd(scatter, vec, all, INSERT_VALUES, SCATTER_FORWARD));
+  petsc::Values values(all);
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(), values.end);
+}
+
+/// Global indices of all multipliers, on every rank. Collective.
+inline std::vector<PetscInt> multipliers(const dynamics::System& system) {
+  petsc::IsHandle all;
+  const petsc::IsHandle mine = system.multipliers();
+  const PetscInt* values = nullptr;
   PetscInt n = 0;
-  petsc::check(VecGetLocalSize(vec, &n));
-  petsc::check(VecGetArrayRead(vec, &values));
-  const Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, n);
-  petsc::check(VecRestoreArrayRead(vec, &values));
+  petsc::check(ISAllGather(mine, all.out()));
+  petsc::check(ISGetLocalSize(all, &n));
+  petsc::check(ISGetIndices(all, &values));
+  const std::vector<PetscInt> copy(values, values + n);
+  petsc::check(ISRestoreIndices(all, &values));
   return copy;
 }
 

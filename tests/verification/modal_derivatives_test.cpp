@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "floe/petsc/values.h"
 #include "floe/reduction/derivatives.h"
+#include "scene_motion.h"
 
 using namespace floe;
 
@@ -26,19 +26,13 @@ Derivatives derivatives(bool fixed_ends) {
   const reduction::Statics statics(structure, frame, holding);
   reduction::Modes modes = reduction::vibration_modes(structure, frame, holding, statics, 3);
   for (int n = 1; n <= 3; ++n) {  // greatest value 1, at x = L/2n
-    double top = 0;
-    {
-      petsc::Values shape(modes.shapes[n - 1]);
-      top = shape[3 * (elements / (2 * n)) + 1];
-    }
+    const double top = test::entries(modes.shapes[n - 1])[3 * (elements / (2 * n)) + 1];
     petsc::check(VecScale(modes.shapes[n - 1], 1 / top));
   }
   Derivatives result;
   result.pairs = reduction::all_pairs(3);
-  for (const auto& theta : reduction::static_derivatives(structure, statics, modes.shapes, result.pairs)) {
-    petsc::Values values(theta);
-    result.theta.emplace_back(Eigen::Map<Eigen::VectorXd>(values.begin(), 3 * (elements + 1)));
-  }
+  for (const auto& theta : reduction::static_derivatives(structure, statics, modes.shapes, result.pairs))
+    result.theta.push_back(test::entries(theta));
   return result;
 }
 

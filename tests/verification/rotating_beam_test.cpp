@@ -106,7 +106,7 @@ TEST_CASE("rotating beam: lag frequencies of the hinged beam") {
     {
       const Eigen::VectorXd state = entries(driven_beam.model.U);
       petsc::Values U(hinged.model.U);
-      for (PetscInt i = 0; i < U.end; ++i) U[i] = state[i];
+      for (PetscInt i = U.first; i < U.end; ++i) U[i] = state[i];
     }
     const auto found = oscillations(characteristic_exponents(*hinged.model.system, hinged.model.U, hinged.model.V), 1);
     for (int i = 1; i < 3; ++i)

@@ -16,11 +16,12 @@ struct Integration {
   std::string prefix = "motion_";
 };
 
-/// One instant of the motion, borrowed.
+/// One instant of the motion, borrowed until `observe` returns.
 struct Instant {
-  double t;
-  PetscInt step;
-  Vec U, V, A;
+  double t;       ///< [s]
+  PetscInt step;  ///< 0 at the start
+  Vec U, V;
+  Vec A;  ///< null at step 0 (the first step finds it) and with other types of TS than generalized-alpha
   bool last;
 };
 

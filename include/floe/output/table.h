@@ -22,6 +22,8 @@ struct Table {
 
 /// Aligned for a terminal: names, units (where there are any), a rule, rows; numbers to the right, texts to the left.
 std::string to_text(const Table& table);
+/// Characters of the longest line of to_text.
+int text_width(const Table& table);
 /// A pipe table of Markdown.
 std::string to_markdown(const Table& table);
 /// RFC 4180; header `name [unit]`; numbers as short as read back exactly.

@@ -11,12 +11,38 @@ struct Modes {
   Columns shapes;                ///< phi in the floating frame, P phi
 };
 
-/// Lowest modes of the body as `holding.held` holds it; rigid motions that are left free are deflated, not counted.
+/// Finds the lowest modes of the body as `holding.held` holds it; rigid motions that are left free are deflated, not
+/// counted. More modes may be asked for later: the factorisation serves again.
 ///
 /// EPS prefix modes_ (default: Krylov-Schur, shift-invert at 0, or just below it for bodies that can still move
-/// rigidly, Cholesky by MUMPS). The sign of each mode makes the first translation above half the greatest one positive.
-/// @param statics  a solver of the same body (estimates the shift of a free body)
-/// @throws InputError  more modes asked than dofs; RunError  EPS did not converge. Collective.
+/// rigidly, Cholesky by MUMPS). At shift 0 under the conditions of `statics`, the solver of `statics` serves with its
+/// factor and its options -derivatives_...; any option -modes_st_... gives the EPS a solver of its own. The sign of
+/// each mode makes the first translation above half the greatest one positive.
+class ModeSolver {
+ public:
+  /// @param statics  a solver of the same body (also estimates the shift of a free body)
+  /// All four are borrowed. No work is done yet.
+  ModeSolver(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
+             const Statics& statics);
+  ModeSolver(const ModeSolver&) = delete;
+  ~ModeSolver();
+  /// @throws InputError  more modes asked than dofs; RunError  EPS did not converge. Collective. Factors at the first
+  /// call.
+  Modes solve(int count);
+  /// How many there are.
+  PetscInt available() const;
+
+ private:
+  void create(int count);
+  const fem::Structure& structure_;
+  const fem::ReferenceFrame& frame_;
+  const fem::Holding& holding_;
+  const Statics& statics_;
+  petsc::MatHandle K_, M_;  ///< K_ only where the one of `statics` does not serve
+  petsc::EpsHandle eps_;
+};
+
+/// The modes of a ModeSolver that is asked once. Collective.
 Modes vibration_modes(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                       const Statics& statics, int count);
 

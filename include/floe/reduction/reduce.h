@@ -28,7 +28,11 @@ struct Generators {
   std::vector<ColumnOrigin> dropped;  ///< attachment columns that vanish or repeat others
 };
 
-/// @param holding  how the body is held for its modes. Collective.
+/// Modes and static columns for the attachments, without what repeats. Collective.
+Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
+                      const std::vector<Attachment>& attachments, double tolerance);
+
+/// The same with the lowest `modes` modes. @param holding  how the body is held for its modes. Collective.
 Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                       const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance);
 

@@ -19,6 +19,11 @@ class Statics {
   /// @throws RunError  not converged. Collective. One block solve.
   Columns solve(const Columns& loads) const;
 
+  /// For those who need K under the same conditions: the matrix, its conditions, and the solver with its factor.
+  Mat stiffness() const { return K_; }
+  const fem::Conditions& conditions() const { return conditions_; }
+  KSP solver() const { return ksp_; }
+
  private:
   const fem::ReferenceFrame& frame_;
   fem::Conditions conditions_;

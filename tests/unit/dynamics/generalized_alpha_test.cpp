@@ -130,7 +130,8 @@ TEST_CASE("generalized-alpha: units do not matter") {
   const bool adaptive = GENERATE(false, true);
   const double mass = GENERATE(1e-9, 1e9), length = GENERATE(1e-9, 1e9), gravity = GENERATE(1e-9, 1e9);
   const Numbers one = final_state(1, 1, 1, adaptive), other = final_state(mass, length, gravity, adaptive);
-  for (size_t i = 0; i < one.size(); ++i) CHECK(other[i] == Approx(one[i]).epsilon(0).margin(1e-10));
+  // The multiplier's round-off is eps |q| / (beta h^2), some 1e-10 where steps adapt, whatever Newton's tolerance.
+  for (size_t i = 0; i < one.size(); ++i) CHECK(other[i] == Approx(one[i]).epsilon(0).margin(i == 2 ? 3e-10 : 1e-11));
 }
 
 TEST_CASE("generalized-alpha: rest stays at rest, and tiny motions are as good as great ones") {

@@ -1,0 +1,125 @@
+#include "compare_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floe::app {
+
+namespace {
+
+std::string probe_of(const scene::ProbeColumn& column) { return column.name.substr(0, column.name.rfind('.')); }
+
+/// Sums over the instants, of each column.
+struct Squares {
+  std::vector<double> difference, size;
+};
+
+Squares squares(const Series& series, const Series& reference) {
+  const std::size_t columns = series.columns.size();
+  Squares sums{std::vector<double>(columns, 0), std::vector<double>(columns, 0)};
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < series.t.size(); ++i) {
+    const double t = series.t[i];
+    if (t > reference.t.back() * (1 + 1e-12)) break;
+    while (k + 2 < reference.t.size() && reference.t[k + 1] < t) ++k;
+    const double s =
+        reference.t.size() < 2 ? 0 : std::clamp((t - reference.t[k]) / (reference.t[k + 1] - reference.t[k]), 0.0, 1.0);
+    for (std::size_t c = 0; c < columns; ++c) {
+      const double r = reference.t.size() < 2 ? reference.values[0][c]
+                                              : (1 - s) * reference.values[k][c] + s * reference.values[k + 1][c];
+      sums.difference[c] += std::pow(series.values[i][c] - r, 2);
+      sums.size[c] += r * r;
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns)
+    if (std::find(names.begin(), names.end(), probe_of(column)) == names.end()) names.push_back(probe_of(column));
+  return names;
+}
+
+std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference) {
+  const Squares sums = squares(series, reference);
+  std::vector<std::optional<double>> errors(sums.size.size());
+  for (std::size_t c = 0; c < errors.size(); ++c) {
+    double greatest = 0;  // of the probe's components
+    for (std::size_t o = 0; o < errors.size(); ++o)
+      if (probe_of(series.columns[o]) == probe_of(series.columns[c])) greatest = std::max(greatest, sums.size[o]);
+    if (sums.size[c] > 0 && std::sqrt(sums.size[c]) >= 1e-9 * std::sqrt(greatest))
+      errors[c] = std::sqrt(sums.difference[c] / sums.size[c]);
+  }
+  return errors;
+}
+
+std::vector<std::optional<double>> relative_vector_errors(const Series& series, const Series& reference) {
+  const Squares sums = squares(series, reference);
+  std::vector<std::optional<double>> errors;
+  for (const std::string& probe : probes(series.columns)) {
+    double difference = 0, size = 0;
+    for (std::size_t c = 0; c < sums.size.size(); ++c)
+      if (probe_of(series.columns[c]) == probe) difference += sums.difference[c], size += sums.size[c];
+    errors.push_back(size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt);
+  }
+  return errors;
+}
+
+output::Table comparison(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
+                         const Compared* own, bool components) {
+  output::Table table;
+  table.columns = {{"formulation", ""}, {"model", ""}, {"unknowns", ""}};
+  const auto& columns = rows.front().result.series.columns;
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.push_back(column.name);
+  if (!components) names = probes(columns);
+  for (const Compared* reference : references)
+    for (const std::string& name : names) table.columns.push_back({name + " vs " + reference->name, "%", 3});
+  table.columns.push_back({"offline", "s", 3});
+  table.columns.push_back({"motion", "s", 3});
+  table.columns.push_back({"per step", "us", 3});
+  const auto add = [&](const Compared& row, const std::string& label) {
+    const RunResult& r = row.result;
+    std::vector<output::Cell> cells = {row.name, label, static_cast<std::int64_t>(r.coordinates)};
+    for (const Compared* reference : references) {
+      if (reference == &row) {
+        cells.insert(cells.end(), names.size(), std::string());
+        continue;
+      }
+      const auto errors = components ? relative_errors(r.series, reference->result.series)
+                                     : relative_vector_errors(r.series, reference->result.series);
+      for (const auto& error : errors)
+        cells.push_back(error ? output::Cell(100 * *error) : output::Cell(std::string()));
+    }
+    cells.emplace_back(r.offline_seconds);
+    cells.emplace_back(r.motion_seconds);
+    cells.emplace_back(1e6 * r.motion_seconds / std::max<double>(1, static_cast<double>(r.steps)));
+    table.rows.push_back(std::move(cells));
+  };
+  for (const Compared& row : rows) add(row, row.result.label);
+  if (own) add(*own, own->result.label + ", mesh and step halved");
+  return table;
+}
+
+std::string comparison_text(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
+                            const Compared* own, int columns) {
+  const auto narrow = [&](const std::vector<const Compared*>& against, bool components) {
+    output::Table table = comparison(rows, against, own, components);
+    for (auto& column : table.columns)  // `tip vs cfr [%]`: tip above [% cfr]
+      if (const auto at = column.name.find(" vs "); at != std::string::npos)
+        column = {column.name.substr(0, at), "% " + column.name.substr(at + 4), column.digits};
+    return table;
+  };
+  const std::vector<const Compared*> first(references.begin(),
+                                           references.begin() + std::min<std::size_t>(1, references.size()));
+  const output::Table whole = narrow(references, true), vectors = narrow(references, false);
+  if (output::text_width(whole) <= columns) return output::to_text(whole);
+  const bool both = output::text_width(vectors) <= columns;
+  return output::to_text(both ? vectors : narrow(first, false)) + "Each probe as a vector; its components" +
+         (both ? "" : " and every reference") + " are in compare.csv.\n";
+}
+
+}  // namespace floe::app

@@ -1,0 +1,38 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floe/output/table.h"
+#include "run.h"
+
+namespace floe::app {
+
+/// One run of a comparison.
+struct Compared {
+  std::string name;  ///< `vm+md`
+  RunResult result;
+};
+
+/// sqrt(sum (p - r)^2 / sum r^2) for each column; the reference is taken at the times of `series` by linear
+/// interpolation. None where the reference's root mean square is below 1e-9 of that of its probe's other component:
+/// there it is round-off.
+std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference);
+
+/// The same for each probe as a vector, in the order of `probes`: |.|^2 is summed over its components.
+std::vector<std::optional<double>> relative_vector_errors(const Series& series, const Series& reference);
+
+/// `tip` of the columns `tip.x`, `tip.y`: each probe once, in order.
+std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns);
+
+/// A row each for `rows` and (when there is one) the run that shows the reference's own error; errors in per cent
+/// against each reference, of the components or of the probes as vectors.
+output::Table comparison(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
+                         const Compared* own, bool components);
+
+/// For a terminal of so many characters: errors of the components where that fits, else of the probes as vectors, else
+/// of these against the first reference alone.
+std::string comparison_text(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
+                            const Compared* own, int columns);
+
+}  // namespace floe::app

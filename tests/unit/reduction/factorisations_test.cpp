@@ -1,0 +1,46 @@
+#include <petsclog.h>
+
+#include <catch2/catch.hpp>
+
+#include "bodies.h"
+
+using namespace floe;
+using namespace floe::testing;
+
+namespace {
+
+int factorisations() {
+  PetscLogEvent event = 0;
+  PetscEventPerfInfo info;
+  petsc::check(PetscLogEventGetId("MatCholFctrNum", &event));
+  petsc::check(PetscLogEventGetPerfInfo(0, event, &info));
+  return info.count;
+}
+
+/// Of modes, more modes, and derivatives.
+int spent(Kind kind, const fem::Conditions& held) {
+  const Held body(straight(PETSC_COMM_WORLD, 10, 1, {1e4, 1, 1, 0}), kind, held);
+  const int before = factorisations();
+  reduction::ModeSolver solver(body.structure, body.frame, body.holding, body.statics);
+  const auto few = solver.solve(2), more = solver.solve(4);
+  CHECK(more.omega[1] == Approx(few.omega[1]).epsilon(1e-10));
+  reduction::static_derivatives(body.structure, body.statics, more.shapes, reduction::all_pairs(4));
+  return factorisations() - before;
+}
+
+}  // namespace
+
+TEST_CASE("a held body's stiffness is factored once, for modes and derivatives together") {
+  petsc::check(PetscLogDefaultBegin());
+  CHECK(spent(Kind::clamped, {0, 1, 2}) == 1);
+  CHECK(spent(Kind::pinned, {0, 1, 2}) == 1);   // clamped body, pinned frame
+  CHECK(spent(Kind::pinned, {0, 1, 31}) == 1);  // simply supported
+  CHECK(spent(Kind::pinned, {0, 1}) == 2);      // a rigid motion is left: the modes need a shift
+}
+
+TEST_CASE("options -modes_st_... give the modes a solver of their own") {
+  petsc::check(PetscLogDefaultBegin());
+  petsc::check(PetscOptionsSetValue(nullptr, "-modes_st_ksp_type", "preonly"));
+  CHECK(spent(Kind::clamped, {0, 1, 2}) == 2);
+  petsc::check(PetscOptionsClearValue(nullptr, "-modes_st_ksp_type"));
+}
