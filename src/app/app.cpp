@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <optional>
 
 #include "commands.h"
 #include "compare.h"
@@ -14,7 +16,8 @@ namespace floe::app {
 namespace {
 
 struct Choices {
-  std::string scene, formulation = "vm+md", out;
+  std::string scene, formulation = "vm+md";
+  std::optional<std::string> out;
   std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
   bool force = false, no_reference_error = false;
 };
@@ -36,7 +39,7 @@ scene::Scene read(const std::string& path) {
 }
 
 std::string folder_of(const Choices& choices, const std::string& what) {
-  return choices.out.empty() ? "results/" + stem(choices.scene) + "-" + what : choices.out;
+  return choices.out ? *choices.out : "results/" + stem(choices.scene) + "-" + what;
 }
 
 void add_scene(CLI::App* command, Choices& choices) {
@@ -93,7 +96,12 @@ int main(int argc, char** argv) {
   compare_command->callback([&] {
     work = [&] {
       std::vector<scene::Formulation> formulations;
-      for (const std::string& name : choices.formulations) formulations.push_back(scene::formulation_of(name));
+      for (const std::string& name : choices.formulations) {
+        const scene::Formulation one = scene::formulation_of(name);
+        if (std::find(formulations.begin(), formulations.end(), one) != formulations.end())
+          throw InputError(fmt::format("--formulations: \"{}\" is named twice", name));
+        formulations.push_back(one);
+      }
       compare(read(choices.scene), formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
     };

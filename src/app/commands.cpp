@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <set>
 
 #include "floe/output/table.h"
 #include "run.h"
@@ -40,6 +43,22 @@ std::string basis_words(const scene::Body& body) {
                      derivative_words(body.reduction.derivatives, modes.count));
 }
 
+/// From so many elements on, `check` does not build the full-order system: it would take seconds and gigabytes.
+constexpr std::int64_t greatest_built = 20000;
+
+std::int64_t elements_of(const scene::Body& body) {
+  return std::accumulate(body.mesh.elements.begin(), body.mesh.elements.end(), std::int64_t{0});
+}
+
+/// Three at each node: of the points that segments join, and between the elements of each segment.
+std::int64_t dofs_of(const scene::Body& body) {
+  if (body.rigid) return 3;
+  std::set<int> points;
+  for (const auto& segment : body.mesh.segments) points.insert(segment.begin(), segment.end());
+  const std::int64_t ends = static_cast<std::int64_t>(points.size());
+  return 3 * (ends + elements_of(body) - static_cast<std::int64_t>(body.mesh.segments.size()));
+}
+
 std::string frame_words(const scene::Body& body) {
   switch (body.frame.kind) {
     case scene::FrameSpec::Kind::pinned:
@@ -66,31 +85,41 @@ void modes(const scene::Scene& scene, MPI_Comm comm) {
 }
 
 void check(const scene::Scene& scene, MPI_Comm comm) {
-  const scene::Model model = scene::build(scene, scene::Formulation::nlffr, comm);
-  if (!first_rank(comm)) return;
   const scene::Scene split = scene::split_frames(scene);
+  std::int64_t elements = 0;
+  for (const scene::Body& body : split.bodies) elements += elements_of(body);
+  std::optional<scene::Model> model;  // at full order
+  if (elements < greatest_built) model = scene::build(scene, scene::Formulation::nlffr, comm);
+  if (!first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
-  for (std::size_t b = 0; b < split.bodies.size(); ++b)
-    table.rows.push_back({split.bodies[b].name, static_cast<std::int64_t>(model.bodies[b].elements),
-                          static_cast<std::int64_t>(model.bodies[b].rigid ? 3 : model.bodies[b].dofs),
-                          frame_words(split.bodies[b]), basis_words(split.bodies[b])});
+  for (const scene::Body& body : split.bodies)
+    table.rows.push_back({body.name, elements_of(body), dofs_of(body), frame_words(body), basis_words(body)});
   fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
-  fmt::print("{} joints, {} loads, {} probes; {} coordinates and {} multipliers at full order\n", split.joints.size(),
-             scene.loads.size(), scene.probes.size(), model.coordinates, model.multipliers);
+  fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
+  if (model)
+    fmt::print("{} coordinates and {} multipliers at full order\n", model->coordinates, model->multipliers);
+  else
+    fmt::print("the full-order system is not built here, from {} elements on\n", greatest_built);
   fmt::print("motion to t = {} s, ", scene.motion.end);
   if (scene.motion.tolerance)
     fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
   else
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
-  if (model.velocity_correction > 1e-9)
+  if (model && model->velocity_correction > 1e-9)
     fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",
-               model.velocity_correction);
+               model->velocity_correction);
 }
 
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
              const output::ResultFolder& folder) {
-  const RunResult result = run(scene, formulation, comm, folder);
+  RunResult result;
+  try {
+    result = run(scene, formulation, comm, folder);
+  } catch (const std::exception&) {
+    output::discard_if_empty(folder);
+    throw;
+  }
   if (!first_rank(comm)) return;
   const auto& s = result.summary;
   fmt::print("{} as {} ({}): {} coordinates, {} steps to t = {} s\n", scene.title.empty() ? scene.file : scene.title,

@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 
@@ -79,14 +80,19 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
       row.result = run(scene, formulation, comm, sub);
       rows.push_back(std::move(row));
     } catch (const InputError&) {
+      output::discard_if_empty(sub), output::discard_if_empty(folder);
       throw;
     } catch (const RunError& error) {  // one formulation that fails is a result, too
+      output::discard_if_empty(sub);
       if (Interruption::happened(comm)) throw;
       stopped.emplace_back(row.name, error.what());
       if (rank == 0) fmt::print(stderr, "floe: {}: {}\n", row.name, error.what());
     }
   }
-  if (rows.empty()) throw RunError("no formulation came to the end of its motion");
+  if (rows.empty()) {
+    output::discard_if_empty(folder);
+    throw RunError("no formulation came to the end of its motion");
+  }
 
   std::vector<const Compared*> references;
   for (const char* name : {"cfr", "nlffr"})
@@ -104,7 +110,12 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     }
   }
   const Compared* finer = own.name.empty() ? nullptr : &own;
-  const output::Table table = comparison(rows, references, finer, true);
+  std::vector<std::string> failed;
+  for (const Formulation formulation : formulations)
+    if (const std::string name = scene::name_of(formulation);
+        std::none_of(rows.begin(), rows.end(), [&](const Compared& row) { return row.name == name; }))
+      failed.push_back(name);
+  const output::Table table = comparison(rows, references, failed, finer, true);
 
   ordered_json j;
   j["title"] = scene.title.empty() ? scene.file : scene.title;
@@ -138,7 +149,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     output::write_file_atomically(folder.path / "compare.json", j.dump(2));
     output::write_file_atomically(folder.path / "compare.csv", output::to_csv(table));
     output::write_file_atomically(folder.path / "compare.md", output::to_markdown(table));
-    fmt::print("{}\n", comparison_text(rows, references, finer, terminal_columns()));
+    fmt::print("{}\n", comparison_text(rows, references, failed, finer, terminal_columns()));
     fmt::print("Errors: relative L2 over the horizon.");
     if (!own.name.empty())
       fmt::print(" The last row is the error of the reference itself, {} against a mesh and step twice as fine.",
@@ -146,9 +157,13 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     fmt::print("\n");
     for (const Compared& row : rows)
       for (const std::string& warning : row.result.warnings) fmt::print("Note ({}): {}\n", row.name, warning);
-    for (const auto& [name, why] : stopped) fmt::print("Not in the table ({}): {}\n", name, why);
+    for (const auto& [name, why] : stopped) fmt::print("Failed ({}): {}\n", name, why);
     fmt::print("Picture: {}\n", draw(folder.path.string()));
   });
+  if (!failed.empty())
+    throw RunError(
+        fmt::format("{} of {} formulations failed: {}", failed.size(), formulations.size(), fmt::join(failed, ", ")));
+  if (!stopped.empty()) throw RunError(stopped[0].first + ": " + stopped[0].second);
 }
 
 }  // namespace floe::app

@@ -69,7 +69,7 @@ std::vector<std::optional<double>> relative_vector_errors(const Series& series, 
 }
 
 output::Table comparison(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
-                         const Compared* own, bool components) {
+                         const std::vector<std::string>& failed, const Compared* own, bool components) {
   output::Table table;
   table.columns = {{"formulation", ""}, {"model", ""}, {"unknowns", ""}};
   const auto& columns = rows.front().result.series.columns;
@@ -100,14 +100,19 @@ output::Table comparison(const std::vector<Compared>& rows, const std::vector<co
     table.rows.push_back(std::move(cells));
   };
   for (const Compared& row : rows) add(row, row.result.label);
+  for (const std::string& name : failed) {
+    std::vector<output::Cell> cells(table.columns.size(), std::string());
+    cells[0] = name, cells[1] = "failed";
+    table.rows.push_back(std::move(cells));
+  }
   if (own) add(*own, own->result.label + ", mesh and step halved");
   return table;
 }
 
 std::string comparison_text(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
-                            const Compared* own, int columns) {
+                            const std::vector<std::string>& failed, const Compared* own, int columns) {
   const auto narrow = [&](const std::vector<const Compared*>& against, bool components) {
-    output::Table table = comparison(rows, against, own, components);
+    output::Table table = comparison(rows, against, failed, own, components);
     for (auto& column : table.columns)  // `tip vs cfr [%]`: tip above [% cfr]
       if (const auto at = column.name.find(" vs "); at != std::string::npos)
         column = {column.name.substr(0, at), "% " + column.name.substr(at + 4), column.digits};

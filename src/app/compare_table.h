@@ -25,14 +25,14 @@ std::vector<std::optional<double>> relative_vector_errors(const Series& series, 
 /// `tip` of the columns `tip.x`, `tip.y`: each probe once, in order.
 std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns);
 
-/// A row each for `rows` and (when there is one) the run that shows the reference's own error; errors in per cent
-/// against each reference, of the components or of the probes as vectors.
+/// A row each for `rows`, for those that failed (by name) and, when there is one, for the run that shows the
+/// reference's own error; errors in per cent against each reference, of the components or of the probes as vectors.
 output::Table comparison(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
-                         const Compared* own, bool components);
+                         const std::vector<std::string>& failed, const Compared* own, bool components);
 
 /// For a terminal of so many characters: errors of the components where that fits, else of the probes as vectors, else
 /// of these against the first reference alone.
 std::string comparison_text(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,
-                            const Compared* own, int columns);
+                            const std::vector<std::string>& failed, const Compared* own, int columns);
 
 }  // namespace floe::app

@@ -164,7 +164,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (instant.step == 0) energy_start_ = energy_now_;
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
-  drift_ = std::max(drift_, std::abs(energy_now_ - energy_start_));
+  change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
                                                                    dynamics::ConstraintLevel::position));
   velocity_violation_ =
@@ -197,8 +197,10 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
                       {"rejected", report.rejected},
                       {"newton_iterations", report.newton},
                       {"linear_solves", report.solves}};
-  j["energy"] = {
-      {"start", energy_start_}, {"end", energy_now_}, {"greatest_part", energy_greatest_}, {"greatest_change", drift_}};
+  j["energy"] = {{"start", energy_start_},
+                 {"end", energy_now_},
+                 {"greatest_part", energy_greatest_},
+                 {"greatest_change_of_total_energy", change_}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;

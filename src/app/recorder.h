@@ -30,7 +30,8 @@ class Recorder {
   RunResult& result_;
   std::unique_ptr<output::SeriesFile> probes_;
   std::unique_ptr<output::ResultFile> file_;
-  double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0, drift_ = 0;
+  double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
+  double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
   double violation_ = 0, velocity_violation_ = 0;
 };
 

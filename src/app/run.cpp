@@ -36,6 +36,16 @@ std::string label_of(const scene::Model& model) {
 
 namespace {
 
+/// What the offline stage does, for those who wait for it.
+std::string offline_words(const scene::Scene& scene, scene::Formulation formulation) {
+  if (!scene::is_reduced(formulation)) return "assembling " + scene::name_of(formulation);
+  std::vector<std::string> names;
+  for (const auto& body : scene.bodies)
+    if (!body.rigid) names.push_back(body.name);
+  if (names.size() == 1) return "reducing body " + names[0];
+  return fmt::format("reducing {} bodies", names.size());
+}
+
 std::exception_ptr fault_of(const std::function<void()>& work) {
   try {
     work();
@@ -60,7 +70,10 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
               const std::optional<output::ResultFolder>& folder) {
   RunResult result;
   const double begin = MPI_Wtime();
-  scene::Model model = scene::build(scene, formulation, comm);
+  scene::Model model = [&] {
+    const output::Waiting waiting(comm, offline_words(scene, formulation));
+    return scene::build(scene, formulation, comm);
+  }();
   result.offline_seconds = MPI_Wtime() - begin;
   result.label = label_of(model);
   result.coordinates = model.coordinates;

@@ -4,17 +4,17 @@
 #include <slepcsys.h>
 
 #include <cctype>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
-#include "floe/scene/nearest.h"
+#include "options.h"
 
 namespace floe::app {
-
-using petsc::check;
 
 namespace {
 
@@ -59,6 +59,14 @@ int guarded(const std::function<void()>& work) {
   } catch (const std::exception& error) {
     return report(1, error.what());
   }
+}
+
+/// 1 where standard output did not take all that was printed, else 0.
+int flushed() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
+  say(std::string("cannot write to standard output") + (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+  return 1;
 }
 
 bool command(const std::string& word) {
@@ -115,7 +123,7 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
     petsc::collect_errors();
     dynamics::register_generalized_alpha();
     if (!unreadable.empty()) throw InputError(unreadable);
-    check_prefixes();
+    check_options();
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
     if (rank == 0 && output::provenance(PETSC_COMM_WORLD)["blas"]["name"] == "reference")
@@ -123,50 +131,9 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
     work();
     check_unused();
   });
-  PetscOptionsSetValue(nullptr, "-options_left", "no");
+  silence_options_left();
   SlepcFinalize();
-  return code;
-}
-
-void check_prefixes() {
-  const std::vector<std::string> ours = {"modes_", "derivatives_", "motion_", "static_", "ranking_"};
-  const std::vector<std::string> objects = {"eps_", "st_", "ksp_", "pc_", "ts_", "snes_", "mat_", "bv_", "start_"};
-  PetscInt count = 0;
-  char **names = nullptr, **values = nullptr;
-  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
-  std::vector<std::string> faults;
-  for (PetscInt i = 0; i < count; ++i) {
-    const std::string name = names[i];
-    const auto end = name.find('_');
-    if (end == std::string::npos) continue;
-    const std::string prefix = name.substr(0, end + 1), rest = name.substr(end + 1);
-    bool object = false;
-    for (const std::string& o : objects) object = object || rest.rfind(o, 0) == 0;
-    bool known = false;
-    for (const std::string& o : ours) known = known || prefix == o;
-    if (!object || known) continue;
-    const std::string near = scene::nearest(prefix, ours);
-    if (!near.empty())
-      faults.push_back(
-          fmt::format("option -{}: floe has no solver with prefix {}; did you mean -{}{}?", name, prefix, near, rest));
-  }
-  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
-  if (!faults.empty()) throw InputError(faults);
-}
-
-void check_unused() {
-  PetscInt count = 0;
-  char **names = nullptr, **values = nullptr;
-  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
-  std::vector<std::string> faults;
-  for (PetscInt i = 0; i < count; ++i)
-    faults.push_back(
-        fmt::format("option -{}{}{}: nothing in this run has read it; floe's solvers read -modes_..., "
-                    "-derivatives_..., -motion_..., "
-                    "-static_...",
-                    names[i], values[i] ? " " : "", values[i] ? values[i] : ""));
-  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
-  if (!faults.empty()) throw InputError(faults);
+  return code != 0 ? code : flushed();
 }
 
 }  // namespace floe::app

@@ -19,9 +19,4 @@ CommandLine split(int argc, char** argv);
 /// exit code: 0, 1 RunError, 2 InputError. A fault of one rank alone, which the others do not learn of, ends them all.
 int in_session(const CommandLine& line, const std::function<void()>& work);
 
-/// @throws InputError  options with a prefix that is nearly, but not quite, one of ours
-void check_prefixes();
-/// @throws InputError  options that nothing has read
-void check_unused();
-
 }  // namespace floe::app

@@ -51,7 +51,7 @@ std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped) {
   return pairs;
 }
 
-Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
+Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V, const Eigen::MatrixXd& strained,
                             const std::vector<std::pair<int, int>>& pairs) {
   const Eigen::Index k = V.cols();
   Eigen::Index count = 0;
@@ -61,7 +61,7 @@ Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
   for (const StrainPoint& g : maps.membrane) {
     const Eigen::Index s = g.L.rows();
     auto rows = H.middleRows(row, s);
-    rows.leftCols(k).noalias() = g.L * V;
+    rows.leftCols(k).noalias() = g.L * strained;
     const Eigen::MatrixXd slopes = g.G * V;
     for (std::size_t p = 0; p < pairs.size(); ++p)
       rows.col(k + p) = g.bilinear(slopes.col(pairs[p].first), slopes.col(pairs[p].second));
@@ -81,7 +81,7 @@ body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
   body::Elasticity e;
   e.bending = V.transpose() * maps.bending * V;
   e.pairs = pairs_of(sloped);
-  e.F = strain_rows(maps, V, e.pairs);
+  e.F = strain_rows(maps, V, V, e.pairs);
   return e;
 }
 

@@ -43,6 +43,14 @@ void prepare(const fs::path& path, bool overwrite) {
         refuse(path, fmt::format("{} cannot be removed: {}", old.string(), error.message()));
 }
 
+/// The first of a path's folders that does not exist; empty if all do.
+fs::path first_missing(fs::path path) {
+  if (!path.has_filename()) path = path.parent_path();
+  fs::path missing;
+  for (std::error_code error; !path.empty() && !fs::exists(path, error); path = path.parent_path()) missing = path;
+  return missing;
+}
+
 [[noreturn]] void cannot_write(const fs::path& path) {
   throw RunError(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
 }
@@ -78,10 +86,18 @@ void sync(const fs::path& path, int flags) {
 ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  fs::path made;
   petsc::agree(comm, [&] {
-    if (rank == 0) prepare(path, overwrite);
+    if (rank != 0) return;
+    made = first_missing(path);
+    prepare(path, overwrite);
   });
-  return {path};
+  return {path, made};
+}
+
+void discard_if_empty(const ResultFolder& folder) noexcept {
+  if (folder.made.empty()) return;
+  for (fs::path path = folder.path; rmdir(path.c_str()) == 0 && path != folder.made;) path = path.parent_path();
 }
 
 fs::path draft_of(const fs::path& path) {

@@ -22,6 +22,17 @@ std::string per_step(double seconds) {
   return seconds < 1 ? fmt::format("{:.3g} ms/step", 1e3 * seconds) : fmt::format("{:.3g} s/step", seconds);
 }
 
+bool shown_to_user(MPI_Comm comm, std::FILE* stream) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank == 0 && isatty(fileno(stream));
+}
+
+void write(std::FILE* stream, const std::string& line) {
+  std::fputs(("\r" + line + "\033[K").c_str(), stream);
+  std::fflush(stream);
+}
+
 }  // namespace
 
 std::string progress_line(double start, double t, double end, const std::string& unit, std::int64_t steps,
@@ -35,16 +46,13 @@ std::string progress_line(double start, double t, double end, const std::string&
 
 Progress::Progress(MPI_Comm comm, double start, double end, std::string time_unit, std::FILE* stream)
     : start_(start), end_(end), unit_(std::move(time_unit)), stream_(nullptr), began_(Clock::now()) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  if (rank == 0 && isatty(fileno(stream))) stream_ = stream;
+  if (shown_to_user(comm, stream)) stream_ = stream;
   next_ = began_ + before_first;
 }
 
 Progress::~Progress() {
   if (!shown_) return;
-  std::fputs("\r\033[K", stream_);
-  std::fflush(stream_);
+  write(stream_, "");
 }
 
 void Progress::update(double t, std::int64_t steps) {
@@ -54,8 +62,31 @@ void Progress::update(double t, std::int64_t steps) {
   next_ = now + between;
   shown_ = true;
   const double elapsed = std::chrono::duration<double>(now - began_).count();
-  std::fputs(("\r" + progress_line(start_, t, end_, unit_, steps, elapsed) + "\033[K").c_str(), stream_);
-  std::fflush(stream_);
+  write(stream_, progress_line(start_, t, end_, unit_, steps, elapsed));
+}
+
+Waiting::Waiting(MPI_Comm comm, const std::string& what, std::FILE* stream) : stream_(stream) {
+  if (shown_to_user(comm, stream)) writer_ = std::thread([this, what] { show(what); });
+}
+
+Waiting::~Waiting() {
+  if (!writer_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    done_ = true;
+  }
+  end_.notify_one();
+  writer_.join();
+}
+
+void Waiting::show(const std::string& what) {
+  int seconds = 0;
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!end_.wait_for(lock, before_first, [&] { return done_; })) {
+    ++seconds;
+    write(stream_, what + " ... " + duration(seconds));
+  }
+  if (seconds > 0) write(stream_, "");
 }
 
 }  // namespace floe::output

@@ -7,21 +7,31 @@
 namespace floe::petsc {
 namespace {
 
-std::string& traceback() {
-  static std::string text;
-  return text;
+/// Of the error under way; one PETSc call passes it to the next, outwards.
+struct Trace {
+  std::string message, innermost, outermost;
+};
+Trace& trace() {
+  static Trace one;
+  return one;
 }
 
-PetscErrorCode collect(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code,
-                       PetscErrorType type, const char* message, void*) {
+std::string meaning_of(PetscErrorCode code) {
+  const char* meaning = nullptr;
+  PetscErrorMessage(code, &meaning, nullptr);
+  return "PETSc error " + std::to_string(code) + (meaning ? std::string(", ") + meaning : "");
+}
+
+PetscErrorCode collect(MPI_Comm, int, const char* function, const char*, PetscErrorCode code, PetscErrorType type,
+                       const char* message, void*) {
   if (type == PETSC_ERROR_INITIAL) {
-    const char* meaning = nullptr;
-    PetscErrorMessage(code, &meaning, nullptr);
-    traceback() = "PETSc error " + std::to_string(code) + (meaning ? std::string(", ") + meaning : "");
-    if (message && *message) traceback() += std::string(": ") + message;
+    trace() = {meaning_of(code), "", ""};
+    const std::string text = message ? message : "";
+    if (!text.empty()) trace().message += ": " + text.substr(0, text.find('\n'));
   }
-  if (function && std::string(function) != "User provided function")
-    traceback() += std::string("\n    in ") + function + "() at " + (file ? file : "?") + ":" + std::to_string(line);
+  if (!function || std::string(function) == "User provided function") return code;
+  if (trace().innermost.empty()) trace().innermost = function;
+  trace().outermost = function;
   return code;
 }
 
@@ -31,21 +41,18 @@ void collect_errors() { check(PetscPushErrorHandler(collect, nullptr)); }
 
 void check(PetscErrorCode code) {
   if (code == 0) return;
-  std::string text = std::exchange(traceback(), {});
-  if (text.empty()) {
-    const char* meaning = nullptr;
-    PetscErrorMessage(code, &meaning, nullptr);
-    text = "PETSc error " + std::to_string(code) + (meaning ? std::string(", ") + meaning : "");
-  }
-  throw Error(code, text);
+  const Trace last = std::exchange(trace(), {});
+  std::string text = last.message.empty() ? meaning_of(code) : last.message;
+  if (!last.innermost.empty()) text += " (in " + last.innermost;
+  if (last.outermost != last.innermost) text += ", called by " + last.outermost;
+  throw Error(code, last.innermost.empty() ? text : text + ")");
 }
 
 void check_options(PetscErrorCode code, const std::string& prefix) {
   try {
     check(code);
   } catch (const Error& error) {
-    const std::string text = error.what();
-    throw InputError("an option -" + prefix + "... cannot be taken: " + text.substr(0, text.find('\n')));
+    throw InputError("an option -" + prefix + "... cannot be taken: " + error.what());
   }
 }
 

@@ -25,6 +25,15 @@ petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& c
   return x;
 }
 
+/// q'K q / q'M q with the strain energy of the elements.
+double rayleigh(const fem::ElementStiffness& K, Mat M, Vec q) {
+  const petsc::VecHandle product = fem::field(K.structure());
+  double kinetic = 0;
+  check(MatMult(M, q, product));
+  check(VecDot(q, product, &kinetic));
+  return 2 * K.strain_energy(q) / kinetic;
+}
+
 /// A value near the lowest squared frequency of a body that is free to move: Rayleigh's quotient of a static
 /// deflection.
 double low_frequency(const fem::Structure& structure, const Statics& statics, Mat M) {
@@ -33,14 +42,7 @@ double low_frequency(const fem::Structure& structure, const Statics& statics, Ma
   Columns loads;
   loads.push_back(std::move(load));
   const Columns u = statics.solve(loads);
-  const petsc::MatHandle K = fem::stiffness(structure, {});
-  const petsc::VecHandle product = fem::field(structure);
-  double elastic = 0, kinetic = 0;
-  check(MatMult(K, u[0], product));
-  check(VecDot(u[0], product, &elastic));
-  check(MatMult(M, u[0], product));
-  check(VecDot(u[0], product, &kinetic));
-  return elastic / kinetic;
+  return rayleigh(*statics.elements(), M, u[0]);
 }
 
 bool user_sets(const std::string& prefix) {
@@ -51,14 +53,38 @@ bool user_sets(const std::string& prefix) {
   return found;
 }
 
-/// Lets the solver of `statics` invert K, unless the user wants another operator or another solver.
-void share_factor(EPS eps, const Statics& statics) {
-  ST st = nullptr;
+bool own_transformation(EPS eps, double shift) {
   double target = 0;
   check(EPSGetTarget(eps, &target));
-  if (target != 0 || user_sets("modes_st_")) return;
+  return target == shift && !user_sets("modes_st_");
+}
+
+/// Lets the solver of `statics` invert K, unless the user wants another operator or another solver.
+void share_factor(EPS eps, Mat M, const Statics& statics) {
+  ST st = nullptr;
+  if (!own_transformation(eps, 0)) return;
   check(EPSGetST(eps, &st));
   check(STSetKSP(st, statics.solver()));
+  if (!statics.refines()) return;
+  check(EPSSetOperators(eps, statics.exact_stiffness(), M));
+  check(STSetPreconditionerMat(st, statics.stiffness()));
+}
+
+/// Where the factor is spoilt by round-off: the exact K - shift M, preconditioned by the factor of the assembled one.
+void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& structure, const fem::Conditions& held) {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  if (!own_transformation(eps, shift)) return;
+  const petsc::MatHandle factored = fem::assemble(structure, held, 1, [&](const fem::ElementMaps& maps) {
+    return Eigen::MatrixXd(maps.stiffness() - shift * maps.mass_matrix());
+  });
+  check(MatSetOption(factored, MAT_SPD, PETSC_TRUE));
+  check(EPSSetOperators(eps, exact, M));
+  check(EPSGetST(eps, &st));
+  check(STSetMatMode(st, ST_MATMODE_SHELL));
+  check(STSetPreconditionerMat(st, factored));
+  check(STGetKSP(st, &ksp));
+  iterate(ksp, KSPCG);
 }
 
 petsc::EpsHandle solver(Mat K, Mat M, double shift) {
@@ -95,12 +121,13 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
   return rigid;
 }
 
-/// EPSSolve, where a linear solve within it that does not converge is told by its options.
-void solve_pairs(EPS eps) {
+/// EPSSolve, where a linear solve within it that does not converge is told by its options, or by its mesh.
+void solve_pairs(EPS eps, const Statics& statics) {
   try {
     check(EPSSolve(eps));
   } catch (const petsc::Error& error) {
     if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
     ST st = nullptr;
     KSP ksp = nullptr;
     const char* prefix = nullptr;
@@ -112,6 +139,36 @@ void solve_pairs(EPS eps) {
     throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
                                prefix ? prefix : "", KSPConvergedReasons[reason]));
   }
+}
+
+/// How far the pairs are from satisfying K phi = lambda M phi, by K without its round-off: (lambda - s)/lambda times
+/// the M-norm of (K - s M)^-1 (K phi - lambda M phi), s the shift. It bounds |lambda - true lambda| / lambda.
+std::vector<double> residuals(EPS eps, Mat exact, Mat M, const fem::Conditions& held, const Columns& phi,
+                              const std::vector<double>& lambda) {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  double shift = 0;
+  check(EPSGetST(eps, &st));
+  check(STGetKSP(st, &ksp));
+  check(STGetShift(st, &shift));
+  Columns loads;
+  const petsc::VecHandle product = copy(phi[0]);
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    loads.push_back(copy(phi[i]));
+    check(MatMult(exact, phi[i], loads[i]));
+    check(MatMult(M, phi[i], product));
+    check(VecAXPY(loads[i], -lambda[i], product));
+    fem::hold(loads[i], held);
+  }
+  const Columns errors = block_solve(ksp, loads);
+  std::vector<double> found;
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    double square = 0;
+    check(MatMult(M, errors[i], product));
+    check(VecDot(errors[i], product, &square));
+    found.push_back(std::abs(lambda[i] - shift) / lambda[i] * std::sqrt(std::max(square, 0.0)));
+  }
+  return found;
 }
 
 void check_converged(EPS eps, int count) {
@@ -163,7 +220,7 @@ ModeSolver::~ModeSolver() {
   KSP ksp = nullptr;
   EPSGetST(eps_, &st);
   STGetKSP(st, &ksp);
-  if (ksp != statics_.solver()) return;
+  if (!statics_.owns(ksp)) return;
   petsc::KspHandle other;
   KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(ksp)), other.out());
   STSetKSP(st, other);
@@ -173,10 +230,15 @@ void ModeSolver::create(int count) {
   const bool moves = holding_.left.cols() > 0, shares = !moves && holding_.held == statics_.conditions();
   M_ = fem::mass(structure_, holding_.held);
   if (!shares) K_ = fem::stiffness(structure_, holding_.held);
-  eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, moves ? -low_frequency(structure_, statics_, M_) : 0);
+  const double shift = moves ? -low_frequency(structure_, statics_, M_) : 0;
+  eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift);
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
-  if (shares) share_factor(eps_, statics_);
+  exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
+  if (shares)
+    share_factor(eps_, M_, statics_);
+  else if (statics_.refines())
+    refine(eps_, exact_, M_, shift, structure_, holding_.held);
 }
 
 PetscInt ModeSolver::available() const {
@@ -199,20 +261,25 @@ Modes ModeSolver::solve(int count) {
   const petsc::VecHandle first = start(structure_, holding_.held);
   Vec initial[1] = {first};
   check(EPSSetInitialSpace(eps_, 1, initial));
-  solve_pairs(eps_);
+  solve_pairs(eps_, statics_);
   check_converged(eps_, count);
+  std::vector<double> lambda, of_matrix(count);
   for (int i = 0; i < count; ++i) {
-    double lambda = 0, error = 0;
     modes.raw.push_back(fem::field(structure_));
-    check(EPSGetEigenpair(eps_, i, &lambda, nullptr, modes.raw.back(), nullptr));
-    check(EPSComputeError(eps_, i, EPS_ERROR_RELATIVE, &error));
+    check(EPSGetEigenpair(eps_, i, &of_matrix[i], nullptr, modes.raw.back(), nullptr));
     fem::hold(modes.raw.back(), holding_.held);
     fix_sign(modes.raw.back());
-    modes.omega.push_back(std::sqrt(std::max(lambda, 0.0)));
-    modes.residual.push_back(error);
+    lambda.push_back(rayleigh(*statics_.elements(), M_, modes.raw.back()));
+    modes.omega.push_back(std::sqrt(lambda.back()));
     modes.shapes.push_back(copy(modes.raw.back()));
     fem::to_frame(frame_, modes.shapes.back());
   }
+  modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
+  for (int i = 0; i < count; ++i)
+    if (modes.residual[i] > 1e-2 && std::abs(of_matrix[i] / lambda[i] - 1) > 1e-3)
+      throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
+                                             std::sqrt(std::min(lambda[i], std::abs(of_matrix[i]))),
+                                             std::sqrt(std::max(lambda[i], std::abs(of_matrix[i])))));
   return modes;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "floe/fem/element_stiffness.h"
+
 namespace floe::reduction {
 
 using petsc::check;
@@ -129,8 +131,10 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
     const Eigen::MatrixXd Ve = V(structure.cell_dofs(cell), Eigen::all);
     for (const body::MassPoint& point : maps.mass) body.inertia.add({point.mass, point.x, point.N * Ve});
     for (const body::MassPoint& point : structure.line(cell)) body.line.add({point.mass, point.x, point.N * Ve});
-    body.elasticity.bending.noalias() += Ve.transpose() * maps.bending * Ve;
-    if (k > 0) qr.add(fem::strain_rows(maps, Ve, body.elasticity.pairs));
+    Eigen::MatrixXd strained = Ve;
+    fem::take_rigid_motion(strained, fem::arms(structure.mesh, cell));
+    body.elasticity.bending.noalias() += strained.transpose() * maps.bending * strained;
+    if (k > 0) qr.add(fem::strain_rows(maps, Ve, strained, body.elasticity.pairs));
   }
   sum_over_ranks(comm, body.inertia);
   sum_over_ranks(comm, body.line);

@@ -23,6 +23,27 @@ Generators generators(const fem::Structure& structure, const fem::ReferenceFrame
                     tolerance);
 }
 
+namespace {
+
+/// Responses to all attachments, in their order.
+Columns static_columns(const fem::Structure& structure, const Statics& statics,
+                       const std::vector<Attachment>& attachments) {
+  Columns loads, all;
+  std::vector<PetscInt> moved;
+  for (const Attachment& attachment : attachments)
+    if (attachment.load)
+      loads.push_back(copy(attachment.load));
+    else
+      moved.push_back(attachment.moved);
+  Columns responses = statics.solve(loads), constrained = statics.constraint_modes(structure, moved);
+  auto response = responses.begin(), constraint = constrained.begin();
+  for (const Attachment& attachment : attachments)
+    all.push_back(std::move(attachment.load ? *response++ : *constraint++));
+  return all;
+}
+
+}  // namespace
+
 Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
                       const std::vector<Attachment>& attachments, double tolerance) {
   Generators result;
@@ -34,16 +55,15 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
     candidates.push_back(copy(result.modes.shapes[i]));
     origins.push_back({ColumnOrigin::Kind::mode, fmt::format("mode {}", i + 1), result.modes.omega[i]});
   }
-  Columns loads;
-  for (const Attachment& attachment : attachments) loads.push_back(copy(attachment.load));
-  Columns responses = statics.solve(loads);
+  Columns responses = static_columns(structure, statics, attachments);
   double greatest = 0;
   std::vector<double> norms;
-  for (const auto& response : responses)
-    norms.push_back(mass_norm(M, response)), greatest = std::max(greatest, norms.back());
+  for (const auto& response : responses) norms.push_back(mass_norm(M, response));
+  for (std::size_t i = 0; i < norms.size(); ++i)  // of loads: those of displacements have a scale of their own
+    if (attachments[i].load) greatest = std::max(greatest, norms[i]);
   for (std::size_t i = 0; i < responses.size(); ++i) {
     ColumnOrigin origin{ColumnOrigin::Kind::attachment, "attachment " + attachments[i].label};
-    if (norms[i] <= 1e-10 * greatest) {
+    if (norms[i] <= (attachments[i].load ? 1e-10 * greatest : 0)) {
       origin.kept = false, origin.new_part = 0;
       result.dropped.push_back(origin);
       continue;

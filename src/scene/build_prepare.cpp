@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floe/petsc/values.h"
+#include "build_start.h"
 #include "floe/scene/places.h"
 
 namespace floe::scene {
@@ -57,34 +57,6 @@ fem::ReferenceFrame::Kind kind_of(FrameSpec::Kind kind) {
   }
 }
 
-/// Nodal values of a displacement field given in mesh axes; the rotation is the field's slope across the element.
-petsc::VecHandle sampled(const fem::Structure& structure, const FrameNodes& frame,
-                         const std::array<math::Formula, 2>& formula) {
-  const Eigen::Matrix2d A = turn(frame.angle);
-  petsc::VecHandle vector = fem::field(structure);
-  Eigen::VectorXd local = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(structure.mesh.positions.size()));
-  auto value = [&](const Eigen::Vector2d& x) {  // in frame axes
-    const Eigen::Vector2d X = frame.origin + A * x;
-    return Eigen::Vector2d(A.transpose() * Eigen::Vector2d(formula[0](X.x(), X.y()), formula[1](X.x(), X.y())));
-  };
-  for (const auto& cell : structure.mesh.cells) {
-    const Eigen::Vector2d x[2] = {structure.mesh.positions[cell.nodes[0]].head<2>(),
-                                  structure.mesh.positions[cell.nodes[1]].head<2>()};
-    const double length = (x[1] - x[0]).norm();
-    const Eigen::Vector2d along = (x[1] - x[0]) / length, across(-along.y(), along.x());
-    for (int i = 0; i < 2; ++i) {
-      const double h = 1e-4 * length;
-      const Eigen::Vector2d slope = (8 * (value(x[i] + h * along) - value(x[i] - h * along)) -
-                                     (value(x[i] + 2 * h * along) - value(x[i] - 2 * h * along))) /
-                                    (12 * h);
-      local.segment<3>(3 * cell.nodes[i]) << value(x[i]), across.dot(slope);
-    }
-  }
-  petsc::Values owned(vector);
-  for (PetscInt i = 0; i < owned.end - owned.first; ++i) owned[owned.first + i] = local[i];
-  return vector;
-}
-
 /// Dofs that a joint to the ground holds at a node, in the axes of the frame.
 void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& held) {
   switch (joint.kind) {
@@ -127,15 +99,7 @@ PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
   PreparedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}, {}};
   body.frame_places = {PreparedPlace{-1, nodes.a, Eigen::Vector3d::Zero()},
                        PreparedPlace{-1, nodes.b, {nodes.chord, 0, 0}}};
-  const InitialSpec& start = spec.initial;
-  const Eigen::Vector2d arm = turn(start.angle) * nodes.origin;
-  body.pose << planar(start.position) + arm, start.angle + nodes.angle;
-  body.velocity << planar(start.velocity) + start.angular_velocity * Eigen::Vector2d(-arm.y(), arm.x()),
-      start.angular_velocity;
-  if (start.deformation) body.deformation = sampled(body.structure, nodes, *start.deformation);
-  if (start.deformation_rate) body.deformation_rate = sampled(body.structure, nodes, *start.deformation_rate);
-  for (Vec field : {body.deformation.get(), body.deformation_rate.get()})
-    if (field) fem::to_frame(body.frame, field);
+  start_body(body);
   return body;
 }
 
@@ -178,7 +142,7 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
     const PreparedPlace& place = first.body >= 0 ? first : second;
     if (place.body < 0) continue;
     PreparedBody& body = prepared.bodies[place.body];
-    hold_by_joint(joint, place.node, body.pose[2], body.held);
+    hold_by_joint(joint, place.node, body.spec.initial.angle + body.frame_angle, body.held);  // undeformed
   }
   for (PreparedBody& body : prepared.bodies) {
     std::sort(body.held.begin(), body.held.end());

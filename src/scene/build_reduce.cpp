@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "floe/petsc/values.h"
+#include "build_attachments.h"
 #include "floe/reduction/ranking.h"
 
 namespace floe::scene {
@@ -13,57 +13,6 @@ namespace floe::scene {
 using petsc::check;
 
 namespace {
-
-bool of_frame(const PreparedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
-
-reduction::Attachment unit_load(const PreparedBody& body, PetscInt node, int component, const std::string& where) {
-  static const char* names[3] = {"fx", "fy", "moment"};
-  reduction::Attachment attachment{where + "." + names[component], fem::field(body.structure)};
-  petsc::Values values(attachment.load);
-  const PetscInt dof = 3 * node + component;
-  if (dof >= values.first && dof < values.end) values[dof] = 1;
-  return attachment;
-}
-
-/// Whether the scene turns the body by a moment at a place of one of its joints: a hinge that is driven.
-bool at_a_joint(const Prepared& prepared, const PreparedPlace& load) {
-  for (const auto& places : prepared.joints)
-    for (const PreparedPlace& place : places)
-      if (place.body == load.body && place.node == load.node) return true;
-  return false;
-}
-
-/// Unit loads where joints and loads act. A moment at a joint counts as the joint's: no mode has a moment at a hinge.
-/// Where the ground holds a body and its modes are those of the held body, the
-/// joint brings no column of its own.
-std::vector<reduction::Attachment> attachments(const Prepared& prepared, int index) {
-  using Choice = ReductionSpec::Attachment;
-  const PreparedBody& body = prepared.bodies[index];
-  const Choice choice = body.spec.reduction.attachment;
-  std::vector<reduction::Attachment> all;
-  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
-    if (choice != Choice::joints && choice != Choice::all) break;
-    const Joint& joint = prepared.scene.joints[j];
-    const bool to_ground = prepared.joints[j][0].body < 0 || prepared.joints[j][1].body < 0;
-    if (to_ground && joint.kind != Joint::Kind::spring && !of_frame(body)) continue;
-    const bool moment = joint.kind == Joint::Kind::spring
-                            ? joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0
-                            : joint.kind != Joint::Kind::revolute;
-    for (const PreparedPlace& place : prepared.joints[j])
-      for (int c = 0; place.body == index && c < (moment ? 3 : 2); ++c)
-        all.push_back(unit_load(body, place.node, c, joint.name));
-  }
-  for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
-    const Load& load = prepared.scene.loads[l];
-    if (prepared.loads[l].body != index || load.kind == Load::Kind::distributed) continue;
-    const bool moment = load.kind == Load::Kind::moment;
-    const bool of_joint = choice == Choice::joints && moment && at_a_joint(prepared, prepared.loads[l]);
-    if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
-    for (int c = moment ? 2 : 0; c < (moment ? 3 : 2); ++c)
-      all.push_back(unit_load(body, prepared.loads[l].node, c, load.name));
-  }
-  return all;
-}
 
 /// C = sum 2 zeta_i omega_i (V'M phi_i)(V'M phi_i)' + alpha V'MV + beta V'KV.
 Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
@@ -85,6 +34,7 @@ struct Stage {
   fem::Holding for_modes, for_statics;
   std::unique_ptr<reduction::Statics> statics;
   std::unique_ptr<reduction::ModeSolver> solver;
+  std::vector<reduction::Attachment> attachments;
   reduction::Generators generators;
   reduction::Pairs pairs;
 };
@@ -95,7 +45,7 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   const double start = MPI_Wtime();
   try {
     stage.generators = reduction::generators(body.structure, *stage.statics, stage.solver->solve(modes),
-                                             attachments(prepared, index), body.spec.reduction.drop_tolerance);
+                                             stage.attachments, body.spec.reduction.drop_tolerance);
   } catch (const InputError& error) {
     throw InputError(body.spec.reduction.modes.where.text() + ": " + error.what());
   }
@@ -111,6 +61,7 @@ void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyRep
       of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
+  stage.attachments = attachments(prepared, index);
   generate(prepared, index, modes, stage, report);
 }
 

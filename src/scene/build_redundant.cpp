@@ -20,6 +20,7 @@ struct HeldBody {
     int joint = 0;
     dynamics::Marker marker;
     Eigen::Matrix<double, Eigen::Dynamic, 3> directions;  ///< of the marker's pose, a row each
+    bool driven = false;                                  ///< its last row follows a function of time
   };
   std::vector<Hold> holds;
   /// q at the start, and how far its entries go: deformations by a hundredth of the extent, followed by the frame
@@ -54,6 +55,7 @@ HeldBody held_body(const Prepared& prepared, const ReducedBody& reduced, int b, 
     const body::PlaceMap map = reduction::place_map(body.structure, *reduced.basis, place.node);
     HeldBody::Hold& hold = held.holds.emplace_back();
     hold.joint = j;
+    hold.driven = joint.kind == Joint::Kind::driven;
     hold.directions = Eigen::Matrix3d::Identity().topRows(joint_rows(joint));
     if (joint.kind == Joint::Kind::prismatic) {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
@@ -87,9 +89,22 @@ std::vector<Eigen::Index> independent(const Eigen::MatrixXd& G) {
   return kept;
 }
 
-/// Greatest change of any row where the kept ones have met their values, the body deformed.
-double departure(const HeldBody& held, const std::vector<Eigen::Index>& kept, int sample) {
-  const VectorXd wanted = held.rows(held.start, nullptr);
+/// The joint of a row.
+const HeldBody::Hold& hold_of(const HeldBody& held, Eigen::Index row) {
+  std::size_t h = 0;
+  for (; row >= held.holds[h].directions.rows(); ++h) row -= held.holds[h].directions.rows();
+  return held.holds[h];
+}
+
+/// The row that is furthest from its value where the kept ones have met theirs, the body deformed and driven; and how
+/// far.
+std::pair<Eigen::Index, double> departure(const HeldBody& held, const std::vector<Eigen::Index>& kept, int sample) {
+  VectorXd wanted = held.rows(held.start, nullptr);
+  Eigen::Index end = 0;
+  for (const HeldBody::Hold& hold : held.holds) {
+    end += hold.directions.rows();
+    if (hold.driven) wanted[end - 1] += 0.1 * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
+  }
   VectorXd q = held.start;
   for (Eigen::Index i = 3; i < q.size(); ++i) q[i] += held.scale[i] * std::sin(1 + 1.7 * i + 2.3 * sample);
   Eigen::MatrixXd gradient;
@@ -98,7 +113,32 @@ double departure(const HeldBody& held, const std::vector<Eigen::Index>& kept, in
     const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_squares(gradient(kept, Eigen::all));
     q -= held.scale.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
   }
-  return (held.rows(q, nullptr) - wanted).lpNorm<Eigen::Infinity>();
+  Eigen::Index row = 0;
+  const double far = (held.rows(q, nullptr) - wanted).cwiseAbs().maxCoeff(&row);
+  return {row, far};
+}
+
+/// @throws InputError  a row that is not kept does not follow from those that are
+void check_left_out(const Prepared& prepared, const HeldBody& held, int b, const std::vector<Eigen::Index>& kept) {
+  const Body& body = prepared.bodies[b].spec;
+  Eigen::Index end = 0;
+  for (const HeldBody::Hold& hold : held.holds) {
+    end += hold.directions.rows();
+    const Joint& joint = prepared.scene.joints[hold.joint];
+    if (hold.driven && !std::binary_search(kept.begin(), kept.end(), end - 1))
+      throw InputError(
+          fmt::format("{}: no column of body {} follows the rotation that joint {} drives, because other joints hold "
+                      "it too; expected attachment: joints, or modes: {{of: frame}}",
+                      joint.where.text(), body.name, joint.name));
+  }
+  for (int sample = 0; sample < 3; ++sample) {
+    const auto [row, far] = departure(held, kept, sample);
+    if (!(far > 1e-9 * prepared.extent)) continue;
+    throw InputError(fmt::format(
+        "{}: several joints hold body {} to the ground, and its columns meet joint {} only while it is undeformed; "
+        "expected frame: pinned, from one joint to the other, with attachment: joints, or modes: {{of: frame}}",
+        body.frame.where.text(), body.name, prepared.scene.joints[hold_of(held, row).joint].name));
+  }
 }
 
 void leave_out(const Prepared& prepared, const HeldBody& held, int b, std::vector<std::vector<int>>& standing) {
@@ -106,12 +146,7 @@ void leave_out(const Prepared& prepared, const HeldBody& held, int b, std::vecto
   held.rows(held.start, &gradient);
   const std::vector<Eigen::Index> kept = independent(gradient);
   if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
-  for (int sample = 0; sample < 3; ++sample)
-    if (departure(held, kept, sample) > 1e-9 * prepared.extent)
-      throw InputError(
-          fmt::format("{}: several joints hold body {} to the ground, and its columns meet them only while "
-                      "it is undeformed; expected frame: pinned, from one joint to the other",
-                      prepared.bodies[b].spec.frame.where.text(), prepared.bodies[b].spec.name));
+  check_left_out(prepared, held, b, kept);
   Eigen::Index first = 0;
   for (const HeldBody::Hold& hold : held.holds) {
     const Eigen::Index n = hold.directions.rows();
@@ -148,7 +183,6 @@ std::vector<std::vector<int>> standing_rows(const Prepared& prepared, const std:
     if (prepared.bodies[b].spec.rigid || !reduced[b].basis) continue;
     std::vector<int> joints;
     std::set<PetscInt> nodes;
-    bool driven = false;
     for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
       const auto& [first, second] = prepared.joints[j];
       const Joint& joint = prepared.scene.joints[j];
@@ -156,9 +190,8 @@ std::vector<std::vector<int>> standing_rows(const Prepared& prepared, const std:
         continue;
       joints.push_back(static_cast<int>(j));
       nodes.insert(first.body < 0 ? second.node : first.node);
-      driven = driven || joint.kind == Joint::Kind::driven;
     }
-    if (nodes.size() < 2 || nodes.size() < joints.size() || driven) continue;  // joints at one place contradict
+    if (nodes.size() < 2 || nodes.size() < joints.size()) continue;  // joints at one place contradict
     leave_out(prepared, held_body(prepared, reduced[b], b, joints), b, standing);
   }
   return standing;

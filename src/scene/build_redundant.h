@@ -13,7 +13,8 @@ int joint_rows(const Joint& joint);
 /// again what the first one said along the beam. A row is left out if its gradient at the start depends on those before
 /// it, and if it stays satisfied wherever these do: shown at positions with the other rows met and the columns drawn at
 /// random.
-/// @throws InputError  the row is implied to first order only: the columns leave the joints as the body deforms (the
+/// @throws InputError  a row that a function of time drives depends on others: no column follows it; or
+///                     the row is implied to first order only: the columns leave the joints as the body deforms (the
 ///                     frame does not pass through them). Collective; replicated.
 std::vector<std::vector<int>> standing_rows(const Prepared& prepared, const std::vector<ReducedBody>& reduced);
 

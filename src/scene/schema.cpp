@@ -189,7 +189,8 @@ const SchemaSection initial_section{
         {"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"},
         {"velocity", Type::point, "m/s", "[0, 0]", "of the mesh's origin, world axes"},
         {"angular_velocity", Type::number, "rad/s", "0", "of the mesh's axes"},
-        {"deformation", Type::formula_of_place, "m", "", "displacements u, v; absent: undeformed"},
+        {"deformation", Type::formula_of_place, "m", "",
+         "displacements u, v; absent: undeformed; the frame goes along"},
         {"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"},
     }};
 

@@ -25,6 +25,7 @@ class Case:
     environment: dict = dataclasses.field(default_factory=dict)
     file_size: Optional[int] = None  # no file grows beyond so many KiB
     ranks: tuple = (1, 4)
+    stdout: str = "stdout"  # where it goes, from the folder
     signal: Optional[int] = None  # is sent when rows are written
     check: Optional[Callable] = None
 
@@ -52,13 +53,20 @@ COMMANDS = [
     Case("version", ["--version"], shows=("floe 0",), lines=0),
     Case("schema", ["schema"], shows=("motion", "spectral_radius")),
     Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
+    Case("check of many elements", ["check", "scene.yaml"], shows=("300003", "is not built"),
+         scene=scene({"bodies.beam.mesh.line.elements": 100000})),
     Case("modes", ["modes", "scene.yaml"], shows=("rad/s",)),
+    *(Case(f"full standard output of {words[0]}", words, 1, ("cannot write to ",),
+           lines=1, stdout="/dev/full", ranks=(1,))
+      for words in (["modes", "scene.yaml"], run(), ["check", "scene.yaml"], ["schema"], ["--help"])),
     Case("no command", [], 2, ("subcommand is required",), lines=1),
     Case("unknown command", ["rnu", "scene.yaml"], 2, ('"rnu" is no command', "floe --help"), lines=1, check=nothing),
     Case("unknown option", ["run", "scene.yaml", "--formulaton", "vm"], 2, ("--formulaton",), lines=1, check=nothing),
     Case("no scene", ["run"], 2, ("SCENE is required",), lines=1),
     Case("unknown formulation", run("vm+mb"), 2,
          ('"vm+mb" is not one of', 'did you mean "vm+md"?'), lines=1, check=nothing),
+    Case("formulation named twice", ["compare", "scene.yaml", "--formulations", "vm,lffr,vm", "-o", "out"], 2,
+         ('"vm" is named twice',), lines=1, check=nothing),
     Case("unknown formulation of several", ["compare", "scene.yaml", "--formulations", "cfr,nlfr", "-o", "out"], 2,
          ('"nlfr" is not one of', 'did you mean "nlffr"?'), lines=1, check=nothing),
 ]
@@ -106,6 +114,9 @@ SCENES = [
 FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
+    Case("folder without a name", ["run", "scene.yaml", "-o", ""], 2, ("needs a name",), lines=1, check=nothing),
+    *case("folder that nothing came into", codes=1, lines=1, says=("PETSc error", "in EPSGetStartVector", "EPSSolve"),
+          never=("epssolve.c",), changes={"bodies.beam.section.rhoA": 1e-320}, check=nothing),
     Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": "old"},
          check=lambda folder: (kept("out/mine.txt", "mine")(folder), files("finished", 51)(folder))),
     Case("folder is a file", run(), 2, ("exists and is not a folder",), lines=1, files={"out": "mine"},
@@ -184,6 +195,20 @@ FAULTS = [
 OPTIONS = [
     *case("prefix nearly ours", codes=2, lines=1, options=("-mode_eps_nev", "3"), check=nothing,
           says=("-mode_eps_nev", "did you mean -modes_eps_nev?")),
+    *case("prefix left out", codes=2, lines=1, options=("-ts_dt", "1e-4"), check=nothing,
+          says=("-ts_dt", "did you mean -motion_ts_dt?")),
+    *case("prefix unknown", codes=2, lines=1, options=("-foo_bar", "1"), check=nothing,
+          says=("option -foo_bar: no solver of floe has this prefix; expected -modes_...",)),
+    *case("options of PETSc as a whole", options=("-options_left", "-options_view", "-malloc_view", ":/dev/null",
+                                                  "-log_view", ":/dev/null"),
+          lines=0, shows=("#PETSc Option Table entries", "There are no unused options"), check=files("finished", 51)),
+    *(c for value in ("-1", "0", "nan") for option in ("-motion_ts_dt", "-motion_ts_max_time")
+      for c in case(f"{option} {value}", codes=2, lines=1, options=(option, value), ranks=(1,), check=nothing,
+                    says=(f"option {option} {value}: is not a positive number",))),
+    *case("modes by a solver that needs more", codes=1, lines=1, options=("-modes_eps_type", "lanczos"), check=nothing,
+          says=("reorthogonalization type", "in EPSSetUp_Lanczos, called by EPSSolve"), never=("lanczos.c",)),
+    *case("factors of a package that has none", codes=1, lines=1, check=nothing, never=("matrix.c",),
+          options=("-derivatives_pc_factor_mat_solver_type", "superlu"), says=("MatSolverType superlu does not",)),
     *case("option unused", codes=2, lines=1, options=("-motion_ts_foo", "1"), says=("-motion_ts_foo 1: nothing",)),
     *case("option of no solver", codes=2, lines=1, options=("-modes_eps_nve", "3"), says=("-modes_eps_nve 3",)),
     *case("options from a file", options=("-options_file", "options"), files={"options": "-motion_ts_dt 0.005\n"},
@@ -226,6 +251,13 @@ UNUSUAL = [
                                               "--no-reference-error"], 1,
          ("nlffr: ", "vm: ", "no formulation came to the end"), scene=scene({"loads.tip.force": [0, GAP]}),
          check=files("failed", 21, out="out/vm")),
+    Case("one formulation of several fails",
+         ["compare", "scene.yaml", "--formulations", "nlffr,vm+md,lffr", "-o", "out",
+          "-derivatives_pc_factor_mat_solver_type", "superlu"], 1,
+         ("vm+md: PETSc error", "1 of 3 formulations failed: vm+md"), lines=2,
+         shows=("vm+md        failed", "Failed (vm+md): "),
+         check=lambda folder: (files("finished", 51, out="out/lffr")(folder), stands("out/compare.csv")(folder),
+                               absent("out/vm+md")(folder))),
     Case("error against round-off", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
                                      "--no-reference-error"], 0, lines=0, scene=scene({"loads.tip.force": [1, 0]}),
          check=no_error_of("tip.y", "tip.x")),

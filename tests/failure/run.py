@@ -42,7 +42,7 @@ class Run:
     def execute(self):
         began = time.monotonic()
         environment = {**cases.ENVIRONMENT, **self.case.environment}
-        with open(self.folder / "stdout", "wb") as out, open(self.folder / "stderr", "wb") as err:
+        with open(self.folder / self.case.stdout, "wb") as out, open(self.folder / "stderr", "wb") as err:
             process = subprocess.Popen(self.words, cwd=self.folder, stdout=out, stderr=err, env=environment)
             try:
                 if self.case.signal:
@@ -53,7 +53,7 @@ class Run:
                 process.wait(10)
                 raise
         self.seconds = time.monotonic() - began
-        self.stdout = (self.folder / "stdout").read_text(errors="replace")
+        self.stdout = (self.folder / "stdout").read_text(errors="replace") if self.case.stdout == "stdout" else ""
         self.stderr = (self.folder / "stderr").read_text(errors="replace")
 
     def send(self, process):
@@ -99,6 +99,7 @@ def attempt(case, floe, ranks):
         except Exception as fault:
             expected = isinstance(fault, (AssertionError, subprocess.TimeoutExpired))
             text = str(fault) if expected else traceback.format_exc()
+            (run.folder / "stdout").touch()
             out, err = ((run.folder / file).read_text(errors="replace")[-1500:] for file in ("stdout", "stderr"))
             return f"FAIL {case.name}: {text}\n  {' '.join(case.arguments)}\n--- stdout\n{out}\n--- stderr\n{err}\n"
         return ""

@@ -36,7 +36,8 @@ Eigen::VectorXd stiffness_derivative(const ElementMaps& maps, const Eigen::Vecto
 std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped);
 
 /// Rows sqrt(w) D^(1/2) [ L V | e(V_a, V_b) for the pairs ] of one element, V = dofs x k.
-Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
+/// @param strained  V, or V less a rigid motion of the element, which L does not see but for round-off
+Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V, const Eigen::MatrixXd& strained,
                             const std::vector<std::pair<int, int>>& pairs);
 
 /// Elastic energy of the element on the columns of V, as a sum of squares.

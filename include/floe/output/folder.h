@@ -9,6 +9,7 @@ namespace floe::output {
 /// Where a run leaves its results, and what they are called.
 struct ResultFolder {
   std::filesystem::path path;
+  std::filesystem::path made = {};  ///< `path`, or its first parent, that was not there before (rank 0); else empty
   std::filesystem::path summary() const { return path / "summary.json"; }
   std::filesystem::path probes() const { return path / "probes.csv"; }
   std::filesystem::path result() const { return path / "result.h5"; }
@@ -21,6 +22,11 @@ struct ResultFolder {
 /// @throws InputError  not empty, not a folder, cannot be made, not writable: one line, the same on every rank
 /// Collective; rank 0 alone touches the file system.
 ResultFolder prepare_folder(MPI_Comm comm, const std::filesystem::path& path, bool overwrite);
+
+/// Removes the folder, and the parents that were made for it, if nothing was written into them: for runs that fail at
+/// their start.
+/// Rank-local; throws nothing.
+void discard_if_empty(const ResultFolder& folder) noexcept;
 
 /// Replaces the file so that whoever reads it, at any moment, finds the old text or the new one, whole.
 ///

@@ -2,9 +2,12 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace floe::output {
 
@@ -34,6 +37,28 @@ class Progress {
   std::FILE* stream_;
   bool shown_ = false;
   Clock::time_point began_, next_;
+};
+
+/// `reducing body beam ... 12 s` on a terminal, for work whose end is not known, from its first second on, every
+/// second.
+///
+/// Silent where `stream` is no terminal, and on all ranks but the first. A thread of its own writes the line.
+/// Rank-local.
+class Waiting {
+ public:
+  Waiting(MPI_Comm comm, const std::string& what, std::FILE* stream = stderr);
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+  /// Wipes the line.
+  ~Waiting();
+
+ private:
+  void show(const std::string& what);
+  std::FILE* stream_;
+  bool done_ = false;
+  std::mutex mutex_;
+  std::condition_variable end_;
+  std::thread writer_;
 };
 
 }  // namespace floe::output

@@ -10,7 +10,8 @@
 
 namespace floe::petsc {
 
-/// A PETSc call failed; what() holds PETSc's own message and the functions it passed through.
+/// A PETSc call failed; what() holds one line: the first of PETSc's own message, the function that failed and the one
+/// that was called.
 class Error : public RunError {
  public:
   Error(PetscErrorCode code, const std::string& text) : RunError(text), code_(code) {}
@@ -20,7 +21,7 @@ class Error : public RunError {
   PetscErrorCode code_;
 };
 
-/// Makes PETSc collect its traceback in silence instead of printing it: check() throws with it. Call after
+/// Makes PETSc keep its message instead of printing it with a traceback: check() throws with it. Call after
 /// PetscInitialize.
 void collect_errors();
 

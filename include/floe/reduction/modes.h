@@ -5,8 +5,8 @@ namespace floe::reduction {
 
 /// Vibration modes of a body under conditions, mass-normalised: K phi = omega^2 M phi.
 struct Modes {
-  std::vector<double> omega;     ///< [rad/s], ascending
-  std::vector<double> residual;  ///< |K phi - omega^2 M phi| / |omega^2 M phi|
+  std::vector<double> omega;     ///< [rad/s], ascending, by Rayleigh's quotient of the elements' strain energy
+  std::vector<double> residual;  ///< |K^-1 (K phi - omega^2 M phi)|_M, at least the relative error of omega^2
   Columns raw;                   ///< phi as the body is held in space
   Columns shapes;                ///< phi in the floating frame, P phi
 };
@@ -26,8 +26,8 @@ class ModeSolver {
              const Statics& statics);
   ModeSolver(const ModeSolver&) = delete;
   ~ModeSolver();
-  /// @throws InputError  more modes asked than dofs; RunError  EPS did not converge. Collective. Factors at the first
-  /// call.
+  /// @throws InputError  more modes asked than dofs; RunError  EPS did not converge, or round-off of K leaves a
+  /// frequency uncertain by 1 %. Collective. Factors at the first call.
   Modes solve(int count);
   /// How many there are.
   PetscInt available() const;
@@ -38,7 +38,7 @@ class ModeSolver {
   const fem::ReferenceFrame& frame_;
   const fem::Holding& holding_;
   const Statics& statics_;
-  petsc::MatHandle K_, M_;  ///< K_ only where the one of `statics` does not serve
+  petsc::MatHandle K_, M_, exact_;  ///< K_ only where the one of `statics` does not serve; exact_ without round-off
   petsc::EpsHandle eps_;
 };
 

@@ -6,10 +6,11 @@
 
 namespace floe::reduction {
 
-/// A static column asked for: the response to a unit load.
+/// A static column asked for: the response to a unit load, or to a unit displacement of a dof that joints hold.
 struct Attachment {
-  std::string label;  ///< `root.moment`
-  petsc::VecHandle load;
+  std::string label;      ///< `root.moment`
+  petsc::VecHandle load;  ///< null: a displacement
+  PetscInt moved = -1;    ///< the dof displaced, one of Statics::conditions
 };
 
 /// Which derivatives join the basis.

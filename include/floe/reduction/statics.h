@@ -1,6 +1,8 @@
 #pragma once
+#include <string>
 #include <vector>
 
+#include "floe/fem/element_stiffness.h"
 #include "floe/fem/reference_frame.h"
 
 namespace floe::reduction {
@@ -11,28 +13,52 @@ using Columns = std::vector<petsc::VecHandle>;
 ///
 /// K stands under Holding::statics: where joints hold the body they restrict u (an axially immovable end stays put),
 /// where they leave it free any supplement gives the same answer, because P' f is self-equilibrated. KSP prefix
-/// derivatives_ (default: Cholesky by MUMPS, blocks of right-hand sides).
+/// derivatives_ (default: Cholesky by MUMPS, blocks of right-hand sides; where round-off spoils the factor, conjugate
+/// gradients on the exact operator, preconditioned by it).
 class Statics {
  public:
   /// Factors K at the first solve. Collective.
   Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding);
   /// @throws RunError  not converged. Collective. One block solve.
   Columns solve(const Columns& loads) const;
+  /// Static constraint modes, in the floating frame: one of conditions() displaced by one and the others held at zero,
+  /// u = e + v, K v = -K e. Source: Craig and Bampton 1968. Collective. One block solve, the same factor.
+  Columns constraint_modes(const fem::Structure& structure, const std::vector<PetscInt>& dofs) const;
 
   /// For those who need K under the same conditions: the matrix, its conditions, and the solver with its factor.
   Mat stiffness() const { return K_; }
   const fem::Conditions& conditions() const { return conditions_; }
-  KSP solver() const { return ksp_; }
+  KSP solver() const;
+  /// Whether this is the solver; unlike solver(), measures nothing.
+  bool owns(KSP ksp) const { return ksp == ksp_; }
+
+  /// K without its round-off: by elements, and as an operator under the conditions.
+  const std::shared_ptr<const fem::ElementStiffness>& elements() const { return elements_; }
+  Mat exact_stiffness() const { return exact_; }
+  /// Whether the factor misses too much to be a solver by itself: for one smooth load f and u = K^-1 f,
+  /// |K^-1 (f - K_exact u)| > 1e-8 |u|. It grows as eps (L/h)^4. Collective; factors, and solves twice, at first.
+  bool refines() const;
 
  private:
+  double measured_error() const;
   const fem::ReferenceFrame& frame_;
   fem::Conditions conditions_;
   petsc::MatHandle K_;
+  std::shared_ptr<const fem::ElementStiffness> elements_;
+  petsc::MatHandle exact_;
   petsc::KspHandle ksp_;
+  mutable double factor_error_ = -1;  ///< not measured yet
 };
 
 /// A direct solver for A (MATSBAIJ) by MUMPS' Cholesky / LDL', with `prefix` for the user's options. Collective.
 petsc::KspHandle direct_solver(Mat A, const char* prefix);
+
+/// Turns a direct solver into an iteration that its factor preconditions: a few steps, to 1e-12 of the preconditioned
+/// residual (the other norm is all round-off of u, multiplied by EI/h^3). The operator is set by the caller.
+void iterate(KSP ksp, KSPType type);
+
+/// `the mesh of N elements is finer than double precision resolves: WHAT; take fewer elements`
+RunError too_fine(const fem::Structure& structure, const std::string& what);
 
 /// X with A X = B for all columns at once. @throws RunError with prefix, reason and residual. Collective.
 Columns block_solve(KSP ksp, const Columns& B);

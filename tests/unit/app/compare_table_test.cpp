@@ -46,16 +46,16 @@ TEST_CASE("errors of components and of vectors") {
 TEST_CASE("a comparison shows components where they fit, else vectors") {
   const std::vector<Compared> rows = {run("cfr", 0), run("vm", 0.5)};
   const std::vector<const Compared*> references = {&rows[0]};
-  const std::string wide = comparison_text(rows, references, nullptr, 120);
+  const std::string wide = comparison_text(rows, references, {}, nullptr, 120);
   CHECK(wide.find("[% cfr]") != std::string::npos);
   CHECK(wide.find("tip.x") != std::string::npos);
   CHECK(widest(wide) <= 120);
-  const std::string narrow = comparison_text(rows, references, nullptr, static_cast<int>(widest(wide)) - 1);
+  const std::string narrow = comparison_text(rows, references, {}, nullptr, static_cast<int>(widest(wide)) - 1);
   CHECK(narrow.find("tip.x") == std::string::npos);
   CHECK(narrow.find("    tip ") != std::string::npos);
   CHECK(narrow.find("compare.csv") != std::string::npos);
-  CHECK(comparison_text(rows, references, nullptr, static_cast<int>(widest(wide))) == wide);
-  const output::Table table = comparison(rows, references, nullptr, true);
+  CHECK(comparison_text(rows, references, {}, nullptr, static_cast<int>(widest(wide))) == wide);
+  const output::Table table = comparison(rows, references, {}, nullptr, true);
   REQUIRE(table.columns.size() == 3 + 4 + 3);
   CHECK(table.columns[3].name == "tip.x vs cfr");
 }
@@ -63,9 +63,19 @@ TEST_CASE("a comparison shows components where they fit, else vectors") {
 TEST_CASE("a comparison leaves out the second reference where both do not fit") {
   const std::vector<Compared> rows = {run("cfr", 0), run("nlffr", 0.1), run("vm", 0.5)};
   const std::vector<const Compared*> references = {&rows[0], &rows[1]};
-  CHECK(comparison_text(rows, references, nullptr, 200).find("[% nlffr]") != std::string::npos);
-  const std::string narrow = comparison_text(rows, references, nullptr, 80);
+  CHECK(comparison_text(rows, references, {}, nullptr, 200).find("[% nlffr]") != std::string::npos);
+  const std::string narrow = comparison_text(rows, references, {}, nullptr, 80);
   CHECK(narrow.find("[% cfr]") != std::string::npos);
   CHECK(narrow.find("[% nlffr]") == std::string::npos);
   CHECK(widest(narrow) <= 80);
+}
+
+TEST_CASE("a comparison marks the formulations that failed") {
+  const std::vector<Compared> rows = {run("cfr", 0), run("vm", 0.5)};
+  const output::Table table = comparison(rows, {&rows[0]}, {"lffr"}, &rows[0], true);
+  REQUIRE(table.rows.size() == 4);
+  CHECK(std::get<std::string>(table.rows[2][0]) == "lffr");
+  CHECK(std::get<std::string>(table.rows[2][1]) == "failed");
+  CHECK(table.rows[2].size() == table.columns.size());
+  CHECK(comparison_text(rows, {&rows[0]}, {"lffr"}, nullptr, 200).find("failed") != std::string::npos);
 }

@@ -86,3 +86,18 @@ TEST_CASE("a summary keeps the order of its keys, and its failure is every rank'
   CHECK(text_of(scratch / "summary.json") == "{\n  \"status\": \"running\",\n  \"basis\": 17,\n  \"a\": 0.1\n}\n");
   CHECK_THROWS_AS(write_summary(PETSC_COMM_WORLD, {scratch / "missing"}, {}), RunError);
 }
+
+TEST_CASE("a folder that nothing was written into is removed with the parents made for it, and nothing else") {
+  Scratch scratch;
+  discard_if_empty(prepare_folder(PETSC_COMM_WORLD, scratch / "new/a/b", false));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  CHECK_FALSE(std::filesystem::exists(scratch / "new"));
+  MPI_Barrier(PETSC_COMM_WORLD);  // all have looked before it is made again
+  const auto kept = prepare_folder(PETSC_COMM_WORLD, scratch / "new/c/", false);
+  if (scratch.rank() == 0) write_file_atomically(kept.summary(), "text");
+  discard_if_empty(kept);
+  discard_if_empty(prepare_folder(PETSC_COMM_WORLD, scratch / "new/d", false));
+  MPI_Barrier(PETSC_COMM_WORLD);
+  CHECK(std::filesystem::exists(scratch / "new/c/summary.json"));
+  CHECK_FALSE(std::filesystem::exists(scratch / "new/d"));
+}

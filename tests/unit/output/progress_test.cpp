@@ -49,12 +49,32 @@ TEST_CASE("progress goes to a terminal, from the first second on, at most five t
   close(ours);
 }
 
+TEST_CASE("waiting is told on a terminal, after each second, and wiped") {
+  const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+  REQUIRE((ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0));
+  std::FILE* terminal = std::fopen(ptsname(ours), "w");
+  REQUIRE(terminal);
+  { Waiting brief(PETSC_COMM_SELF, "too short to be told", terminal); }
+  {
+    Waiting waiting(PETSC_COMM_SELF, "reducing body beam", terminal);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  }
+  std::fputs("end", terminal);
+  std::fflush(terminal);
+  std::string text;
+  for (char next = 0; text.find("end") == std::string::npos && read(ours, &next, 1) == 1;) text += next;
+  CHECK(text == "\rreducing body beam ... 1 s\033[K\r\033[Kend");
+  std::fclose(terminal);
+  close(ours);
+}
+
 TEST_CASE("progress says nothing in a pipe") {
   Scratch scratch;
   const auto path = scratch / ("pipe" + std::to_string(scratch.rank()));
   std::FILE* file = std::fopen(path.c_str(), "w");
   {
     Progress progress(PETSC_COMM_SELF, 0, 3, "s", file);
+    Waiting waiting(PETSC_COMM_SELF, "reducing", file);
     std::this_thread::sleep_for(std::chrono::milliseconds(1100));
     progress.update(1, 10);
   }

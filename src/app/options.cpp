@@ -1,0 +1,115 @@
+#include "options.h"
+
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <vector>
+
+#include "floe/petsc/error.h"
+#include "floe/scene/nearest.h"
+
+namespace floe::app {
+
+using petsc::check;
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Of floe's solvers: EPS of the modes; KSP of the static solutions; TS of the motion (and, below it, start_: the KSP
+/// of the first accelerations); SNES of the start in equilibrium; TS of the motion that ranks derivatives.
+const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_"};
+/// Of PETSc's objects that have no prefix of their own, and of its viewers.
+const Words objects = {"mat_", "vec_", "bv_", "is_", "sf_", "vecscatter_", "viewer_", "draw_"};
+/// What PETSc itself reads, at its start or its end.
+const Words globals = {
+    "options_",          "log_",         "info",  "malloc",  "memory_view",       "objects_dump",
+    "get_total_flops",   "on_error_",    "help",  "version", "fp_trap",           "mpidump",
+    "citations",         "petsc_sleep",  "debug", "python",  "start_in_debugger", "stop_for_debugger",
+    "no_signal_handler", "error_output", "nox"};
+/// Whose solver reads what a user of PETSc knows without prefix.
+const std::vector<std::pair<std::string, std::string>> homes = {{"ts_", "motion_"},  {"snes_", "motion_"},
+                                                                {"ksp_", "motion_"}, {"pc_", "derivatives_"},
+                                                                {"eps_", "modes_"},  {"st_", "modes_"}};
+
+bool begins(const std::string& name, const std::string& with) { return name.rfind(with, 0) == 0; }
+bool begins(const std::string& name, const Words& with) {
+  for (const std::string& word : with)
+    if (begins(name, word)) return true;
+  return false;
+}
+
+/// The option that was probably meant, or empty.
+std::string meant(const std::string& name) {
+  for (const auto& [family, prefix] : homes)
+    if (begins(name, family)) return prefix + name;
+  const std::string global = scene::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
+                                                   "malloc_dump", "malloc_view", "memory_view", "help"});
+  if (!global.empty()) return global;
+  const auto end = name.find('_');
+  if (end == std::string::npos) return "";
+  const std::string prefix = scene::nearest(name.substr(0, end + 1), solvers);
+  return prefix.empty() ? "" : prefix + name.substr(end + 1);
+}
+
+/// Whether PETSc would take `value` for a number that is no positive, finite one.
+bool not_positive(const std::string& value) {
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  return end != value.c_str() && *end == '\0' && !(number > 0 && std::isfinite(number));
+}
+
+void for_each_left(const std::function<void(const std::string& name, const std::string& value)>& visit) {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+  for (PetscInt i = 0; i < count; ++i) visit(names[i], values[i] ? values[i] : "");
+  check(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+}
+
+}  // namespace
+
+std::string option_fault(const std::string& name, const std::string& value) {
+  if (begins(name, objects) || begins(name, globals)) return "";
+  if (!begins(name, solvers)) {
+    const std::string near = meant(name);
+    return fmt::format("option -{}: no solver of floe has this prefix; {}", name,
+                       near.empty() ? fmt::format("expected -{}..., or an option of PETSc as a whole (-log_view)",
+                                                  fmt::join(solvers, "..., -"))
+                                    : fmt::format("did you mean -{}?", near));
+  }
+  for (const char* time : {"motion_ts_dt", "motion_ts_max_time", "ranking_ts_dt", "ranking_ts_max_time"})
+    if (name == time && not_positive(value)) return fmt::format("option -{} {}: is not a positive number", name, value);
+  return "";
+}
+
+void check_options() {
+  Words faults;
+  for_each_left([&](const std::string& name, const std::string& value) {
+    const std::string fault = option_fault(name, value);
+    if (!fault.empty()) faults.push_back(fault);
+  });
+  if (!faults.empty()) throw InputError(faults);
+}
+
+void check_unused() {
+  Words faults;
+  for_each_left([&](const std::string& name, const std::string& value) {
+    if (begins(name, globals)) return;
+    faults.push_back(fmt::format("option -{}{}{}: nothing in this run has read it; floe's solvers read -{}...", name,
+                                 value.empty() ? "" : " ", value, fmt::join(solvers, "..., -")));
+  });
+  if (!faults.empty()) throw InputError(faults);
+}
+
+void silence_options_left() {
+  PetscBool left = PETSC_FALSE, view = PETSC_FALSE;
+  PetscOptionsHasName(nullptr, nullptr, "-options_left", &left);
+  PetscOptionsHasName(nullptr, nullptr, "-options_view", &view);
+  if (!left && !view) PetscOptionsSetValue(nullptr, "-options_left", "no");
+}
+
+}  // namespace floe::app

@@ -1,0 +1,129 @@
+#include "build_attachments.h"
+
+#include <algorithm>
+
+#include "floe/petsc/values.h"
+
+namespace floe::scene {
+
+bool of_frame(const PreparedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
+
+namespace {
+
+using Attachments = std::vector<reduction::Attachment>;
+
+reduction::Attachment unit_load(const PreparedBody& body, PetscInt node, int component, const std::string& where) {
+  static const char* names[3] = {"fx", "fy", "moment"};
+  reduction::Attachment attachment{where + "." + names[component], fem::field(body.structure)};
+  petsc::Values values(attachment.load);
+  const PetscInt dof = 3 * node + component;
+  if (dof >= values.first && dof < values.end) values[dof] = 1;
+  return attachment;
+}
+
+reduction::Attachment unit_displacement(PetscInt dof, const std::string& where) {
+  static const char* names[3] = {"x", "y", "rotation"};
+  reduction::Attachment attachment;
+  attachment.label = where + "." + names[dof % 3];
+  attachment.moved = dof;
+  return attachment;
+}
+
+/// Whether the scene turns the body by a moment at a place of one of its joints: a hinge that is driven.
+bool at_a_joint(const Prepared& prepared, const PreparedPlace& load) {
+  for (const auto& places : prepared.joints)
+    for (const PreparedPlace& place : places)
+      if (place.body == load.body && place.node == load.node) return true;
+  return false;
+}
+
+bool contains(const fem::Conditions& dofs, PetscInt dof) {
+  return std::find(dofs.begin(), dofs.end(), dof) != dofs.end();
+}
+
+int rigid_motions_left(const PreparedBody& body, fem::Conditions held) {
+  std::sort(held.begin(), held.end());
+  return static_cast<int>(fem::holding(body.structure, body.frame, std::move(held)).left.cols());
+}
+
+/// Held displacements that the frame's own conditions and held rotations determine already, if the frame turns.
+fem::Conditions repeated_displacements(const PreparedBody& body) {
+  const fem::Conditions& held = body.held;
+  const PetscInt a = body.frame_places[0].node, b = body.frame_places[1].node;
+  if (body.spec.frame.kind != FrameSpec::Kind::pinned || held.size() < 3) return {};
+  if (contains(held, 3 * a + 1) && contains(held, 3 * b + 1)) return {};
+  fem::Conditions ordered = held;
+  const auto rank = [&](PetscInt dof) { return contains(body.frame.conditions, dof) ? 0 : dof % 3 == 2 ? 1 : 2; };
+  std::stable_sort(ordered.begin(), ordered.end(), [&](PetscInt i, PetscInt j) { return rank(i) < rank(j); });
+  fem::Conditions kept, repeated;
+  for (PetscInt dof : ordered) {
+    fem::Conditions more = kept;
+    more.push_back(dof);
+    if (rigid_motions_left(body, more) < rigid_motions_left(body, kept))
+      kept = std::move(more);
+    else if (dof % 3 != 2)
+      repeated.push_back(dof);
+  }
+  return repeated;
+}
+
+/// Whether the rest holds the body as well as all.
+bool rest_holds(const PreparedBody& body, PetscInt dof) {
+  fem::Conditions rest = body.held;
+  rest.erase(std::remove(rest.begin(), rest.end(), dof), rest.end());
+  return rigid_motions_left(body, rest) == rigid_motions_left(body, body.held);
+}
+
+void add_constraint_modes(const Prepared& prepared, int index, Attachments& all) {
+  const PreparedBody& body = prepared.bodies[index];
+  const fem::Conditions repeated = repeated_displacements(body);
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const auto& [first, second] = prepared.joints[j];
+    const Joint& joint = prepared.scene.joints[j];
+    if ((first.body < 0) == (second.body < 0) || std::max(first.body, second.body) != index) continue;
+    if (joint.kind == Joint::Kind::spring) continue;
+    const PetscInt dof = 3 * (first.body < 0 ? second : first).node;
+    for (PetscInt c = 0; c < 2; ++c)
+      if (contains(repeated, dof + c)) all.push_back(unit_displacement(dof + c, joint.name));
+    if (joint.kind == Joint::Kind::driven && rest_holds(body, dof + 2))
+      all.push_back(unit_displacement(dof + 2, joint.name));
+  }
+}
+
+void add_joints(const Prepared& prepared, int index, Attachments& all) {
+  const PreparedBody& body = prepared.bodies[index];
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const Joint& joint = prepared.scene.joints[j];
+    const bool to_ground = prepared.joints[j][0].body < 0 || prepared.joints[j][1].body < 0;
+    if (to_ground && joint.kind != Joint::Kind::spring && !of_frame(body)) continue;
+    const bool moment = joint.kind == Joint::Kind::spring
+                            ? joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0
+                            : joint.kind != Joint::Kind::revolute;
+    for (const PreparedPlace& place : prepared.joints[j])
+      for (int c = 0; place.body == index && c < (moment ? 3 : 2); ++c)
+        all.push_back(unit_load(body, place.node, c, joint.name));
+  }
+  add_constraint_modes(prepared, index, all);
+}
+
+}  // namespace
+
+Attachments attachments(const Prepared& prepared, int index) {
+  using Choice = ReductionSpec::Attachment;
+  const PreparedBody& body = prepared.bodies[index];
+  const Choice choice = body.spec.reduction.attachment;
+  Attachments all;
+  if (choice == Choice::joints || choice == Choice::all) add_joints(prepared, index, all);
+  for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
+    const Load& load = prepared.scene.loads[l];
+    if (prepared.loads[l].body != index || load.kind == Load::Kind::distributed) continue;
+    const bool moment = load.kind == Load::Kind::moment;
+    const bool of_joint = choice == Choice::joints && moment && at_a_joint(prepared, prepared.loads[l]);
+    if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
+    for (int c = moment ? 2 : 0; c < (moment ? 3 : 2); ++c)
+      all.push_back(unit_load(body, prepared.loads[l].node, c, load.name));
+  }
+  return all;
+}
+
+}  // namespace floe::scene

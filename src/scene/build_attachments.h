@@ -1,0 +1,24 @@
+#pragma once
+#include "build_prepare.h"
+#include "floe/reduction/reduce.h"
+
+namespace floe::scene {
+
+/// Whether the modes are those of the body in its frame alone, not as joints hold it.
+bool of_frame(const PreparedBody& body);
+
+/// The static columns that a body's `attachment` asks for. Collective.
+///
+/// Unit loads where joints and loads act; a moment at a joint counts as the joint's, because no mode has a moment at a
+/// hinge. Where the ground holds a body and its modes are those of the held body, the joint brings no unit load.
+///
+/// Joints to the ground that hold more than the three rigid motions hold deformations besides, at zero in all these
+/// columns. Where the body has to deform to follow its joints, it gets the static constraint mode of the dof (Craig and
+/// Bampton 1968), `attachment JOINT.rotation` or `.x`, `.y` in the frame:
+///
+///   - of a driven rotation, if the rest holds the body already;
+///   - of a displacement that the other held dofs determine, if the pinned frame turns as the body deforms: a guided
+///     end at the distance L keeps L = cos(theta) (L + u), u = 0 to first order only.
+std::vector<reduction::Attachment> attachments(const Prepared& prepared, int index);
+
+}  // namespace floe::scene

@@ -1,0 +1,72 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "bodies.h"
+
+// A beam with L = EI = rhoA = 1, of so many elements that an assembled stiffness misses eps (L/h)^4 of the energy.
+
+using namespace floe;
+using testing::Held;
+using testing::Kind;
+
+namespace {
+
+fem::Structure beam(PetscInt elements) { return testing::straight(PETSC_COMM_WORLD, elements, 1, {1e4, 1, 1, 0}); }
+
+const double clamped_free[] = {3.51601526850015, 22.0344915646688};  // roots of 1 + cos cosh, squared
+
+}  // namespace
+
+TEST_CASE("a held beam of many elements keeps its frequencies, its static answers and its reduced stiffness") {
+  const PetscInt n = GENERATE(4096, 20000);
+  const Held body(beam(n), Kind::clamped, {0, 1, 2});
+  const auto modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 2);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(modes.omega[i] == Approx(clamped_free[i]).epsilon(1e-7));
+    CHECK(modes.residual[i] < 1e-6);
+  }
+  reduction::Columns loads;
+  const PetscInt tip = 3 * n + 1;
+  loads.push_back(testing::field_of(body.structure, Eigen::VectorXd::Unit(body.structure.dofs(), tip)));
+  CHECK(testing::everywhere(body.statics.solve(loads)[0])[tip] == Approx(1. / 3).epsilon(1e-7));  // F L^3 / 3 EI
+
+  std::vector<reduction::ColumnOrigin> origins(2);
+  const reduction::Basis basis = reduction::orthonormal_basis(body.structure, modes.shapes, origins, 1e-7);
+  const body::FlexibleBody reduced = reduction::project(body.structure, basis);
+  const Eigen::MatrixXd K = reduced.elasticity.linear_stiffness(),
+                        M = reduced.inertia.M[0][0] + reduced.inertia.M[1][1];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, M);
+  for (int i = 0; i < 2; ++i) CHECK(std::sqrt(eigen.eigenvalues()[i]) == Approx(clamped_free[i]).epsilon(1e-6));
+}
+
+TEST_CASE("a free beam of many elements keeps its frequencies") {
+  const Held body(beam(8192), Kind::mean_axis, {});
+  const auto modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 2);
+  CHECK(modes.omega[0] == Approx(22.3732854481).epsilon(1e-7));  // 1 - cos cosh
+  CHECK(modes.omega[1] == Approx(61.6728228676).epsilon(1e-7));
+}
+
+TEST_CASE("a mesh that double precision does not resolve is refused, or right") {
+  const Held body(beam(200000), Kind::clamped, {0, 1, 2});
+  try {
+    const auto modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 1);
+    CHECK(modes.omega[0] == Approx(clamped_free[0]).epsilon(1e-4));
+  } catch (const RunError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("the mesh of 200000 elements is finer than double precision resolves") &&
+                                 Catch::Contains("take fewer elements"));
+  }
+}
+
+TEST_CASE("with a solver of the user's own, a spoilt factor's frequency is as uncertain as its residual says") {
+  const PetscInt n = GENERATE(2000, 20000);
+  petsc::check(PetscOptionsSetValue(nullptr, "-modes_st_ksp_type", "preonly"));
+  const Held body(beam(n), Kind::clamped, {0, 1, 2});
+  try {
+    const auto modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 1);
+    CHECK(modes.residual[0] > 1e-9);
+    CHECK(std::abs(std::pow(modes.omega[0] / clamped_free[0], 2) - 1) < modes.residual[0]);
+  } catch (const RunError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("is finer than double precision resolves: mode 1 lies between"));
+  }
+  petsc::check(PetscOptionsClearValue(nullptr, "-modes_st_ksp_type"));
+}
