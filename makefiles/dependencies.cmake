@@ -14,7 +14,16 @@ find_path(CATCH_INCLUDE catch2/catch.hpp)
 # floe registers a TS type of its own; PETSc ships the header that this needs beside its public ones.
 find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS /usr/share/petsc/3.18/include ${PETSC_INCLUDE_DIRS} REQUIRED)
 
+# METIS partitions meshes; its integers must be PETSc's.
+find_path(METIS_INCLUDE metis.h REQUIRED)
+find_library(METIS_LIBRARY metis REQUIRED)
+file(STRINGS ${METIS_INCLUDE}/metis.h METIS_WIDTH REGEX "^#define IDXTYPEWIDTH")
+if(NOT METIS_WIDTH MATCHES "32")
+  message(FATAL_ERROR "${METIS_INCLUDE}/metis.h has integers of another width than PETSc's 32 bits: ${METIS_WIDTH}")
+endif()
+
 add_library(floe_outside INTERFACE)
 target_link_libraries(floe_outside INTERFACE PkgConfig::SLEPC PkgConfig::PETSC PkgConfig::HDF5 MPI::MPI_CXX
-  PkgConfig::MUPARSER PkgConfig::EIGEN yaml-cpp fmt::fmt)
-target_include_directories(floe_outside SYSTEM INTERFACE ${PETSC_PRIVATE} ${CLI11_INCLUDE} ${NLOHMANN_INCLUDE})
+  PkgConfig::MUPARSER PkgConfig::EIGEN ${METIS_LIBRARY} yaml-cpp fmt::fmt)
+target_include_directories(floe_outside SYSTEM INTERFACE ${PETSC_PRIVATE} ${CLI11_INCLUDE} ${NLOHMANN_INCLUDE}
+  ${METIS_INCLUDE})

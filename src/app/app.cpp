@@ -16,7 +16,7 @@ namespace floe::app {
 namespace {
 
 struct Choices {
-  std::string scene, formulation = "vm+md";
+  std::string scene, formulation = "vm+md", body;
   std::optional<std::string> out;
   std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
   bool force = false, no_reference_error = false;
@@ -35,6 +35,15 @@ std::string stem(const std::string& path) {
 scene::Scene read(const std::string& path) {
   scene::Scene scene;
   petsc::agree(PETSC_COMM_WORLD, [&] { scene = scene::read_scene(path); });
+  return scene;
+}
+
+/// The scene of a command that moves it.
+scene::Scene read_moving(const std::string& path) {
+  scene::Scene scene = read(path);
+  if (scene.motion.end <= 0)
+    throw InputError(path +
+                     ": motion: is missing; expected how long and how finely, as `motion: {end: 3, step: 1e-3}`");
   return scene;
 }
 
@@ -79,7 +88,7 @@ int main(int argc, char** argv) {
   run_command->callback([&] {
     work = [&] {
       const scene::Formulation formulation = scene::formulation_of(choices.formulation);
-      const scene::Scene scene = read(choices.scene);
+      const scene::Scene scene = read_moving(choices.scene);
       run_one(scene, formulation, PETSC_COMM_WORLD,
               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force));
     };
@@ -102,7 +111,7 @@ int main(int argc, char** argv) {
           throw InputError(fmt::format("--formulations: \"{}\" is named twice", name));
         formulations.push_back(one);
       }
-      compare(read(choices.scene), formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
+      compare(read_moving(choices.scene), formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
     };
   });
@@ -111,9 +120,26 @@ int main(int argc, char** argv) {
   add_scene(modes_command, choices);
   modes_command->callback([&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD); }; });
 
+  CLI::App* reduce_command =
+      app.add_subcommand("reduce", "reduce one body, offline and in parallel, into a file that needs no mesh");
+  add_scene(reduce_command, choices);
+  reduce_command->add_option("--body", choices.body, "which one (default: the only one)");
+  reduce_command->add_option("-o,--out", choices.out, "the file (default: NAME.h5)");
+  reduce_command->add_flag("--force", choices.force, "replace the file if it is there");
+  reduce_command->callback([&] {
+    work = [&] {
+      const std::string path = choices.out ? *choices.out : stem(choices.scene) + ".h5";
+      reduce(read(choices.scene), choices.body, PETSC_COMM_WORLD, path, choices.force);
+    };
+  });
+
+  CLI::App* info_command = app.add_subcommand("info", "what a reduced body's file holds");
+  info_command->add_option("FILE", choices.scene, "made by floe reduce")->required();
+  info_command->callback([&] { work = [&] { info(choices.scene, PETSC_COMM_WORLD); }; });
+
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
-  check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
+  check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
   schema_command->callback([&] { work = [&] { on_first_rank([] { fmt::print("{}", scene::schema_reference()); }); }; });
@@ -127,7 +153,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
-      what = fmt::format("\"{}\" is no command; expected run, compare, modes, check or schema", line.own.front());
+      what = fmt::format("\"{}\" is no command; expected run, compare, modes, reduce, info, check or schema",
+                         line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }
   return in_session(line, work);

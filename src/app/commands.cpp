@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floe/output/table.h"
+#include "floe/scene/reduced.h"
 #include "run.h"
 
 namespace floe::app {
@@ -109,6 +110,21 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
   if (model && model->velocity_correction > 1e-9)
     fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",
                model->velocity_correction);
+}
+
+void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path,
+            bool overwrite) {
+  std::vector<std::string> warnings;
+  const output::ReducedBodyFile file = scene::reduce_body(scene, body, comm, path, overwrite, warnings);
+  if (!first_rank(comm)) return;
+  fmt::print("{}", output::describe(file));
+  for (const std::string& warning : warnings) fmt::print("Note: {}\n", warning);
+  fmt::print("Reduced body: {}\n", path);
+}
+
+void info(const std::string& path, MPI_Comm comm) {
+  const output::ReducedBodyFile file = output::read_reduced_body(comm, path);
+  if (first_rank(comm)) fmt::print("{}", output::describe(file));
 }
 
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,

@@ -8,6 +8,10 @@ namespace floe::app {
 void modes(const scene::Scene& scene, MPI_Comm comm);
 /// `floe check`: what would be simulated; nothing is moved. Collective.
 void check(const scene::Scene& scene, MPI_Comm comm);
+/// `floe reduce`: one body of a scene into a file. Collective.
+void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path, bool overwrite);
+/// `floe info`: what such a file holds. Collective.
+void info(const std::string& path, MPI_Comm comm);
 /// `floe run`. Collective.
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
              const output::ResultFolder& folder);

@@ -43,8 +43,11 @@ std::string draw(const std::string& folder) {
 
 scene::Scene refined(const scene::Scene& scene) {
   scene::Scene fine = scene;
-  for (scene::Body& body : fine.bodies)
+  for (scene::Body& body : fine.bodies) {
     for (int& elements : body.mesh.elements) elements *= 2;
+    if (body.mesh.plate)
+      for (int& elements : body.mesh.plate->elements) elements *= 2;
+  }
   fine.motion.step /= 2;
   fine.motion.every *= 2;
   if (fine.motion.tolerance) *fine.motion.tolerance /= 4;
@@ -101,11 +104,13 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
   Compared own;
   if (reference_error && !references.empty()) {
     own.name = references.front()->name;
+    for (const scene::Body& body : scene.bodies)
+      if (body.mesh.file) own.refined = "step halved";  // a file has one mesh
     try {
       own.result = run(refined(scene), scene::formulation_of(own.name), comm, std::nullopt);
     } catch (const RunError& error) {
       if (Interruption::happened(comm)) throw;
-      stopped.emplace_back(own.name + ", mesh and step halved", error.what());
+      stopped.emplace_back(own.name + ", " + own.refined, error.what());
       own.name.clear();
     }
   }
@@ -152,8 +157,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     fmt::print("{}\n", comparison_text(rows, references, failed, finer, terminal_columns()));
     fmt::print("Errors: relative L2 over the horizon.");
     if (!own.name.empty())
-      fmt::print(" The last row is the error of the reference itself, {} against a mesh and step twice as fine.",
-                 own.name);
+      fmt::print(" The last row is the error of the reference itself, {} with {}.", own.name, own.refined);
     fmt::print("\n");
     for (const Compared& row : rows)
       for (const std::string& warning : row.result.warnings) fmt::print("Note ({}): {}\n", row.name, warning);

@@ -105,7 +105,7 @@ output::Table comparison(const std::vector<Compared>& rows, const std::vector<co
     cells[0] = name, cells[1] = "failed";
     table.rows.push_back(std::move(cells));
   }
-  if (own) add(*own, own->result.label + ", mesh and step halved");
+  if (own) add(*own, own->result.label + ", " + own->refined);
   return table;
 }
 

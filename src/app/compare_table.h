@@ -12,6 +12,7 @@ namespace floe::app {
 struct Compared {
   std::string name;  ///< `vm+md`
   RunResult result;
+  std::string refined = "mesh and step halved";  ///< of the run that shows the reference's own error
 };
 
 /// sqrt(sum (p - r)^2 / sum r^2) for each column; the reference is taken at the times of `series` by linear

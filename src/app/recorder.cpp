@@ -127,10 +127,11 @@ void Recorder::write_basis() {
       }
       check(BVRestoreColumn(body.basis->V, j, &column));
     }
-    file_->write_distributed_rows("bodies/" + body.name + "/basis", body.dofs, body.columns, first, rows,
-                                  {"", "V: nodal (u, v, rotation) of each reduced coordinate, in the floating frame"});
-    file_->write_distributed_rows("bodies/" + body.name + "/nodes", body.nodes, 2, body.first_node, body.positions,
-                                  {"m", "undeformed positions in the floating frame"});
+    file_->write_distributed_rows(
+        "bodies/" + body.name + "/basis", body.dofs, body.columns, first, rows,
+        {"", "V: nodal (displacements, rotations) of each reduced coordinate, in the floating frame"});
+    file_->write_distributed_rows("bodies/" + body.name + "/nodes", body.nodes, body.dimension, body.first_node,
+                                  body.positions, {"m", "undeformed positions in the floating frame"});
   }
   for (const auto& body : model_.bodies) {
     const double where[2] = {static_cast<double>(body.first_coordinate), static_cast<double>(body.first_elastic)};

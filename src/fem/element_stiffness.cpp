@@ -22,17 +22,17 @@ void take_rigid_motion(Eigen::Ref<Eigen::MatrixXd> q, const Eigen::Matrix3Xd& ar
 }
 
 Eigen::Matrix3Xd arms(const Mesh& mesh, const Mesh::Cell& cell) {
-  Eigen::Matrix3Xd arms(3, cell.nodes.size());
-  for (std::size_t i = 0; i < cell.nodes.size(); ++i)
-    arms.col(i) = mesh.positions[cell.nodes[i]] - mesh.positions[cell.nodes[0]];
+  const auto nodes = cell.nodes();
+  Eigen::Matrix3Xd arms(3, nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) arms.col(i) = mesh.positions[nodes[i]] - mesh.positions[nodes[0]];
   return arms;
 }
 
 ElementStiffness::ElementStiffness(const Structure& structure) : structure_(structure) {
   for (const Mesh::Cell& cell : structure.mesh.cells) {
-    K_.push_back(structure.maps(cell).stiffness());
-    arms_.push_back(arms(structure.mesh, cell));
-    largest_ = std::max(largest_, K_.back().diagonal().cwiseAbs().maxCoeff());
+    const Eigen::MatrixXd K = structure.matrix(cell, 1, 0);
+    largest_ = std::max(largest_, K.diagonal().cwiseAbs().maxCoeff());
+    if (structure.dimension() == 2) K_.push_back(K);
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
 }
@@ -40,21 +40,25 @@ ElementStiffness::ElementStiffness(const Structure& structure) : structure_(stru
 template <class Sink>
 void ElementStiffness::each(Vec q, Sink&& sink) const {
   const Eigen::VectorXd all = structure_.exchange.gather(q);
-  const Eigen::Index dofs = Structure::dofs_per_node;
+  const Eigen::Index dofs = structure_.dofs_per_node;
   Eigen::VectorXd own, force;
-  for (std::size_t c = 0; c < K_.size(); ++c) {
-    const auto& nodes = structure_.mesh.cells[c].nodes;
+  for (std::size_t c = 0; c < structure_.mesh.cells.size(); ++c) {
+    const Mesh::Cell& cell = structure_.mesh.cells[c];
+    const auto nodes = cell.nodes();
     own.resize(dofs * static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 0; i < nodes.size(); ++i) own.segment(dofs * i, dofs) = all.segment(dofs * nodes[i], dofs);
-    take_rigid_motion(own, arms_[c]);
-    force.noalias() = K_[c] * own;
+    take_rigid_motion(own, arms(structure_.mesh, cell));
+    if (K_.empty())
+      force.noalias() = structure_.matrix(cell, 1, 0) * own;
+    else
+      force.noalias() = K_[c] * own;
     sink(nodes, own, force);
   }
 }
 
 void ElementStiffness::multiply(Vec q, Vec f) const {
-  const Eigen::Index dofs = Structure::dofs_per_node;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(dofs * static_cast<Eigen::Index>(structure_.mesh.positions.size()));
+  const Eigen::Index dofs = structure_.dofs_per_node;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(structure_.local_dofs());
   each(q, [&](const auto& nodes, const Eigen::VectorXd&, const Eigen::VectorXd& force) {
     for (std::size_t i = 0; i < nodes.size(); ++i) sum.segment(dofs * nodes[i], dofs) += force.segment(dofs * i, dofs);
   });
@@ -103,7 +107,7 @@ PetscErrorCode destroy(Mat K) {
 
 petsc::MatHandle stiffness_operator(std::shared_ptr<const ElementStiffness> elements, const Conditions& conditions) {
   const Structure& structure = elements->structure();
-  const PetscInt owned = Structure::dofs_per_node * structure.mesh.owned_nodes, n = structure.dofs();
+  const PetscInt owned = structure.owned_dofs(), n = structure.dofs();
   petsc::MatHandle K;
   auto shell = std::make_unique<Shell>();
   shell->free = field(structure);

@@ -81,7 +81,7 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments) {
     if ((node >= mesh.first_node && node < end) || std::binary_search(mesh.foreign.begin(), mesh.foreign.end(), node))
       mesh.positions[local(node)] = x;
   for (const Element& element : mine)
-    mesh.cells.push_back({{local(element.nodes[0]), local(element.nodes[1])}, element.part});
+    mesh.cells.push_back({CellKind::line, element.part, {local(element.nodes[0]), local(element.nodes[1])}});
   return mesh;
 }
 
@@ -90,19 +90,26 @@ void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Ma
 }
 
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
-  double best = std::numeric_limits<double>::infinity();
-  PetscInt node = mesh.node_count;
+  struct Candidate {
+    double distance = std::numeric_limits<double>::infinity();
+    PetscInt original = PETSC_MAX_INT, local = -1;
+  } best;
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     const double distance = (mesh.positions[i] - point).norm();
-    if (distance < best) best = distance, node = mesh.first_node + i;
+    const PetscInt original = mesh.original_node(static_cast<int>(i));
+    if (distance < best.distance || (distance == best.distance && original < best.original))
+      best = {distance, original, i};
   }
-  double least = best;
-  MPI_Allreduce(&best, &least, 1, MPI_DOUBLE, MPI_MIN, mesh.comm);
-  const PetscInt candidate = best == least ? node : mesh.node_count;
-  NearestNode found{candidate, least, Eigen::Vector3d::Zero()};
-  MPI_Allreduce(&candidate, &found.node, 1, MPIU_INT, MPI_MIN, mesh.comm);
-  const PetscInt mine = found.node - mesh.first_node;
-  if (mine >= 0 && mine < mesh.owned_nodes) found.position = mesh.positions[mine];
+  double least = best.distance;
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  PetscInt first = best.distance == least ? best.original : PETSC_MAX_INT;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, mesh.comm);
+  NearestNode found{0, least, Eigen::Vector3d::Zero()};
+  if (best.local >= 0 && best.distance == least && best.original == first) {
+    found.node = mesh.first_node + best.local;
+    found.position = mesh.positions[best.local];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &found.node, 1, MPIU_INT, MPI_SUM, mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, found.position.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
   return found;
 }

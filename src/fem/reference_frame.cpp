@@ -27,26 +27,27 @@ double extent(const Structure& structure) {
   return (high - low).norm();
 }
 
-/// Entries of the rigid motions at some dofs, (dofs x 3), rotations scaled by 1 / extent. Collective.
-Eigen::MatrixX3d rigid_rows(const ReferenceFrame& frame, const Conditions& dofs, double length) {
-  Eigen::MatrixX3d rows = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(dofs.size()), 3);
-  MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(frame.rigid[0].get()));
-  for (int motion = 0; motion < 3; ++motion) {
+/// Entries of the rigid motions at some dofs, (dofs x motions), rotations scaled by 1 / extent. Collective.
+Eigen::MatrixXd rigid_rows(const Structure& structure, const ReferenceFrame& frame, const Conditions& dofs,
+                           double length) {
+  const int motions = structure.rigid_motion_count(), d = structure.dimension();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(dofs.size()), motions);
+  for (int motion = 0; motion < motions; ++motion) {
     PetscInt first = 0, end = 0;
     const double* values = nullptr;
     check(VecGetOwnershipRange(frame.rigid[motion], &first, &end));
     check(VecGetArrayRead(frame.rigid[motion], &values));
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (dofs[i] >= first && dofs[i] < end)
-        rows(i, motion) = values[dofs[i] - first] * (dofs[i] % Structure::dofs_per_node == 2 ? length : 1);
+        rows(i, motion) = values[dofs[i] - first] * (dofs[i] % structure.dofs_per_node >= d ? length : 1);
     check(VecRestoreArrayRead(frame.rigid[motion], &values));
   }
-  rows.col(2) /= length;
-  MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM, comm);
+  rows.rightCols(motions - d) /= length;
+  MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
   return rows;
 }
 
-int rank_of(const Eigen::MatrixX3d& rows) {
+int rank_of(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0) return 0;
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows);
   return static_cast<int>((svd.singularValues().array() > 1e-9).count());
@@ -65,55 +66,74 @@ ReferenceFrame reference_frame(const Structure& structure, ReferenceFrame::Kind 
       check(MatMult(M, motion, frame.functionals.back()));
     }
   } else {
-    frame.conditions = {3 * a, 3 * a + 1, kind == ReferenceFrame::Kind::pinned ? 3 * b + 1 : 3 * a + 2};
+    const PetscInt n = structure.dofs_per_node;
+    for (PetscInt i = 0; i < n; ++i) frame.conditions.push_back(n * a + i);
+    if (kind == ReferenceFrame::Kind::pinned) {
+      frame.conditions.resize(n == 3 ? 2 : 4);
+      for (PetscInt i = 1; i < structure.dimension(); ++i) frame.conditions.push_back(n * b + i);
+    }
     for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
     std::sort(frame.conditions.begin(), frame.conditions.end());
   }
-  Eigen::Matrix3d values;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) check(VecDot(frame.functionals[i], frame.rigid[j], &values(i, j)));
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu(values);
+  const int r = structure.rigid_motion_count();
+  Eigen::MatrixXd values(r, r);
+  for (int i = 0; i < r; ++i)
+    for (int j = 0; j < r; ++j) check(VecDot(frame.functionals[i], frame.rigid[j], &values(i, j)));
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(values);
   if (!lu.isInvertible()) throw InputError("the reference conditions leave a rigid motion of the body free");
   frame.inverse = lu.inverse();
   return frame;
 }
 
+namespace {
+
+/// field += sum_i weights_i directions_i
+void add(Vec field, const Eigen::VectorXd& weights, const std::vector<petsc::VecHandle>& directions) {
+  const std::vector<Vec> plain(directions.begin(), directions.end());
+  check(VecMAXPY(field, static_cast<PetscInt>(plain.size()), weights.data(), const_cast<Vec*>(plain.data())));
+}
+
+Eigen::VectorXd dots(Vec field, const std::vector<petsc::VecHandle>& directions) {
+  const std::vector<Vec> plain(directions.begin(), directions.end());
+  Eigen::VectorXd values(static_cast<Eigen::Index>(plain.size()));
+  check(VecMDot(field, static_cast<PetscInt>(plain.size()), plain.data(), values.data()));
+  return values;
+}
+
+}  // namespace
+
 void to_frame(const ReferenceFrame& frame, Vec q) {
-  Eigen::Vector3d c;
-  for (int i = 0; i < 3; ++i) check(VecDot(frame.functionals[i], q, &c[i]));
-  c = -frame.inverse * c;
-  for (int i = 0; i < 3; ++i) check(VecAXPY(q, c[i], frame.rigid[i]));
+  add(q, -frame.inverse * dots(q, frame.functionals), frame.rigid);
   hold(q, frame.conditions);
 }
 
 void balance(const ReferenceFrame& frame, Vec f) {
-  Eigen::Vector3d c;
-  for (int i = 0; i < 3; ++i) check(VecDot(frame.rigid[i], f, &c[i]));
-  c = -frame.inverse.transpose() * c;
-  for (int i = 0; i < 3; ++i) check(VecAXPY(f, c[i], frame.functionals[i]));
+  add(f, -frame.inverse.transpose() * dots(f, frame.rigid), frame.functionals);
 }
 
 Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions held) {
   const double length = extent(structure);
   Holding result;
   result.held = held;
-  const Eigen::MatrixX3d rows = rigid_rows(frame, held, length);
+  const int d = structure.dimension(), motions = structure.rigid_motion_count();
+  const Eigen::MatrixXd rows = rigid_rows(structure, frame, held, length);
   if (held.empty()) {
-    result.left = Eigen::Matrix3d::Identity();
+    result.left = Eigen::MatrixXd::Identity(motions, motions);
   } else {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
     const int rank = static_cast<int>((svd.singularValues().array() > 1e-9).count());
-    result.left = svd.matrixV().rightCols(3 - rank);
-    result.left.row(2) /= length;
+    result.left = svd.matrixV().rightCols(motions - rank);
+    result.left.bottomRows(motions - d) /= length;
   }
   // Frame conditions, then plain ones at the first node, until K is regular.
   Conditions candidates = frame.conditions;
-  candidates.insert(candidates.end(), {0, 1, 2});
+  for (PetscInt dof = 0; dof < structure.dofs_per_node; ++dof) candidates.push_back(dof);
   result.statics = std::move(held);
   for (PetscInt dof : candidates) {
     Conditions more = result.statics;
     more.push_back(dof);
-    if (rank_of(rigid_rows(frame, more, length)) > rank_of(rigid_rows(frame, result.statics, length)))
+    if (rank_of(rigid_rows(structure, frame, more, length)) >
+        rank_of(rigid_rows(structure, frame, result.statics, length)))
       result.statics = std::move(more);
   }
   std::sort(result.statics.begin(), result.statics.end());

@@ -16,11 +16,8 @@ Pairs all_pairs(int m) {
 
 Columns static_derivatives(const fem::Structure& structure, const Statics& statics, const Columns& fields,
                            const Pairs& pairs) {
-  Columns loads;
-  for (const auto& [i, j] : pairs) {
-    loads.push_back(fem::stiffness_derivative(structure, fields[i], fields[j]));
-    check(VecScale(loads.back(), -1));
-  }
+  const Columns loads = fem::stiffness_derivatives(structure, fields, pairs);
+  for (const auto& load : loads) check(VecScale(load, -1));
   return statics.solve(loads);
 }
 
@@ -53,9 +50,7 @@ Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFr
     fem::Conditions conditions = holding.held;
     conditions.push_back(greatest_dof(modes.raw[i]));
     std::sort(conditions.begin(), conditions.end());
-    const petsc::MatHandle A = fem::assemble(structure, conditions, 1, [&](const fem::ElementMaps& maps) {
-      return Eigen::MatrixXd(maps.stiffness() - lambda * maps.mass_matrix());
-    });
+    const petsc::MatHandle A = fem::assemble(structure, conditions, 1, 1, -lambda);
     const petsc::KspHandle ksp = direct_solver(A, "derivatives_");
     const petsc::VecHandle Mphi = fem::field(structure);
     check(MatMult(M, modes.raw[i], Mphi));

@@ -6,20 +6,24 @@
 #include <cmath>
 #include <string>
 
+#include "floe/petsc/values.h"
+
 namespace floe::reduction {
 
 using petsc::check;
 
 namespace {
 
-/// A rough field that depends on the global dof numbers only, zero at the conditions: the start of the Krylov space.
+/// A rough field that depends on the dofs' original numbers only, not on ranks, zero at the conditions: the start of
+/// the Krylov space.
 petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& conditions) {
   petsc::VecHandle x = fem::field(structure);
   PetscInt first = 0, end = 0;
   double* values = nullptr;
   check(VecGetOwnershipRange(x, &first, &end));
   check(VecGetArrayWrite(x, &values));
-  for (PetscInt i = first; i < end; ++i) values[i - first] = std::sin(12.9898 * double(i + 1)) + 0.5;
+  for (PetscInt i = 0; i < end - first; ++i)
+    values[i] = std::sin(12.9898 * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5;
   check(VecRestoreArrayWrite(x, &values));
   fem::hold(x, conditions);
   return x;
@@ -75,9 +79,7 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   ST st = nullptr;
   KSP ksp = nullptr;
   if (!own_transformation(eps, shift)) return;
-  const petsc::MatHandle factored = fem::assemble(structure, held, 1, [&](const fem::ElementMaps& maps) {
-    return Eigen::MatrixXd(maps.stiffness() - shift * maps.mass_matrix());
-  });
+  const petsc::MatHandle factored = fem::assemble(structure, held, 1, 1, -shift);
   check(MatSetOption(factored, MAT_SPD, PETSC_TRUE));
   check(EPSSetOperators(eps, exact, M));
   check(EPSGetST(eps, &st));
@@ -115,7 +117,8 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
   Columns rigid;
   for (Eigen::Index r = 0; r < holding.left.cols(); ++r) {
     rigid.push_back(fem::field(structure));
-    for (int i = 0; i < 3; ++i) check(VecAXPY(rigid.back(), holding.left(i, r), frame.rigid[i]));
+    for (Eigen::Index i = 0; i < holding.left.rows(); ++i)
+      check(VecAXPY(rigid.back(), holding.left(i, r), frame.rigid[i]));
     fem::hold(rigid.back(), holding.held);
   }
   return rigid;
@@ -183,30 +186,35 @@ void check_converged(EPS eps, int count) {
                     converged, count, iterations, EPSConvergedReasons[reason]));
 }
 
+/// Of the first translation, by original numbers, that is above half the greatest one. Collective.
+double sign_of(const fem::Structure& structure, Vec shape) {
+  petsc::Values values(shape);
+  const int n = structure.dofs_per_node;
+  const auto translation = [&](PetscInt i) { return i % n < structure.dimension(); };
+  double greatest = 0;
+  for (PetscInt i = 0; i < values.end - values.first; ++i)
+    if (translation(i)) greatest = std::max(greatest, std::abs(values[values.first + i]));
+  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  struct {
+    double sign;
+    PetscInt where;
+  } first{0, PETSC_MAX_INT};
+  for (PetscInt i = 0; i < values.end - values.first; ++i) {
+    const PetscInt dof = structure.original_dof(static_cast<int>(i));
+    const double value = values[values.first + i];
+    if (translation(i) && dof < first.where && std::abs(value) > 0.5 * greatest) first = {value < 0 ? -1.0 : 1.0, dof};
+  }
+  PetscInt lowest = first.where;
+  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, structure.mesh.comm);
+  double sign = first.where == lowest ? first.sign : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &sign, 1, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  return sign;
+}
+
 }  // namespace
 
-void fix_sign(Vec shape) {
-  PetscInt first = 0, end = 0;
-  const double* values = nullptr;
-  check(VecGetOwnershipRange(shape, &first, &end));
-  check(VecGetArrayRead(shape, &values));
-  auto translation = [&](PetscInt dof) { return dof % fem::Structure::dofs_per_node != 2; };
-  double greatest = 0;
-  for (PetscInt i = first; i < end; ++i)
-    if (translation(i)) greatest = std::max(greatest, std::abs(values[i - first]));
-  const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(shape));
-  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, comm);
-  PetscInt where = PETSC_MAX_INT;
-  double sign = 0;
-  for (PetscInt i = first; i < end && where == PETSC_MAX_INT; ++i)
-    if (translation(i) && std::abs(values[i - first]) > 0.5 * greatest)
-      where = i, sign = values[i - first] < 0 ? -1 : 1;
-  check(VecRestoreArrayRead(shape, &values));
-  PetscInt lowest = where;
-  MPI_Allreduce(&where, &lowest, 1, MPIU_INT, MPI_MIN, comm);
-  if (where != lowest) sign = 0;
-  MPI_Allreduce(MPI_IN_PLACE, &sign, 1, MPI_DOUBLE, MPI_SUM, comm);
-  if (sign < 0) check(VecScale(shape, -1));
+void fix_sign(const fem::Structure& structure, Vec shape) {
+  if (sign_of(structure, shape) < 0) check(VecScale(shape, -1));
 }
 
 ModeSolver::ModeSolver(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
@@ -268,7 +276,7 @@ Modes ModeSolver::solve(int count) {
     modes.raw.push_back(fem::field(structure_));
     check(EPSGetEigenpair(eps_, i, &of_matrix[i], nullptr, modes.raw.back(), nullptr));
     fem::hold(modes.raw.back(), holding_.held);
-    fix_sign(modes.raw.back());
+    fix_sign(structure_, modes.raw.back());
     lambda.push_back(rayleigh(*statics_.elements(), M_, modes.raw.back()));
     modes.omega.push_back(std::sqrt(lambda.back()));
     modes.shapes.push_back(copy(modes.raw.back()));

@@ -12,8 +12,7 @@ namespace {
 
 /// Local rows (foreign nodes included) of the basis.
 Eigen::MatrixXd local_rows(const fem::Structure& structure, const Basis& basis) {
-  const Eigen::Index rows = fem::Structure::dofs_per_node * static_cast<Eigen::Index>(structure.mesh.positions.size());
-  Eigen::MatrixXd V(rows, basis.columns);
+  Eigen::MatrixXd V(structure.local_dofs(), basis.columns);
   for (int j = 0; j < basis.columns; ++j) {
     Vec column = nullptr;
     check(BVGetColumn(basis.V, j, &column));
@@ -145,7 +144,8 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
 
 body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, PetscInt node) {
   const int d = structure.mesh.dimension, k = basis.columns;
-  body::PlaceMap place{Eigen::VectorXd::Zero(d), Eigen::MatrixXd::Zero(d, k), Eigen::MatrixXd::Zero(1, k)};
+  const int n = structure.dofs_per_node;
+  body::PlaceMap place{Eigen::VectorXd::Zero(d), Eigen::MatrixXd::Zero(d, k), Eigen::MatrixXd::Zero(n - d, k)};
   const PetscInt local = node - structure.mesh.first_node;
   const bool mine = local >= 0 && local < structure.mesh.owned_nodes;
   if (mine) place.x = structure.mesh.positions[local].head(d);
@@ -155,8 +155,8 @@ body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, Pe
     check(BVGetColumn(basis.V, j, &column));
     check(VecGetArrayRead(column, &values));
     if (mine) {
-      for (int i = 0; i < d; ++i) place.S(i, j) = values[fem::Structure::dofs_per_node * local + i];
-      place.psi(0, j) = values[fem::Structure::dofs_per_node * local + d];
+      for (int i = 0; i < d; ++i) place.S(i, j) = values[n * local + i];
+      for (int i = d; i < n; ++i) place.psi(i - d, j) = values[n * local + i];
     }
     check(VecRestoreArrayRead(column, &values));
     check(BVRestoreColumn(basis.V, j, &column));

@@ -68,7 +68,7 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
       result.dropped.push_back(origin);
       continue;
     }
-    fix_sign(responses[i]);
+    fix_sign(structure, responses[i]);
     candidates.push_back(std::move(responses[i]));
     origins.push_back(origin);
   }

@@ -8,7 +8,7 @@ namespace floe::reference {
 
 namespace {
 
-constexpr int dofs = fem::Structure::dofs_per_node;
+constexpr int dofs = 3;  // of a node in the plane
 
 bool is_held(const fem::Conditions& conditions, PetscInt dof) {
   return std::binary_search(conditions.begin(), conditions.end(), dof);
@@ -35,7 +35,8 @@ std::vector<int> with_frame(int frame, const std::vector<int>& cell, const NodeC
 }  // namespace
 
 NodeCoordinates::NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh,
-                                 const std::vector<PetscInt>& visited) {
+                                 const std::vector<PetscInt>& visited, int dofs_per_node)
+    : dofs_(dofs_per_node) {
   int rank = 0, size = 1;
   MPI_Comm_rank(mesh.comm, &rank);
   MPI_Comm_size(mesh.comm, &size);
@@ -47,12 +48,12 @@ NodeCoordinates::NodeCoordinates(dynamics::Coordinates& coordinates, const fem::
     }
   std::vector<PetscInt> foreign;
   for (PetscInt node : nodes)
-    for (int d = 0; d < dofs; ++d) foreign.push_back(dofs * node + d);
-  first_ = coordinates.add_distributed(dofs * mesh.owned_nodes, foreign);
+    for (int d = 0; d < dofs_; ++d) foreign.push_back(dofs_ * node + d);
+  first_ = coordinates.add_distributed(dofs_ * mesh.owned_nodes, foreign);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
-    first_of_node_[mesh.first_node + i] = first_ + dofs * static_cast<int>(i);
+    first_of_node_[mesh.first_node + i] = first_ + dofs_ * static_cast<int>(i);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    first_of_node_[nodes[i]] = first_ + dofs * static_cast<int>(mesh.owned_nodes + i);
+    first_of_node_[nodes[i]] = first_ + dofs_ * static_cast<int>(mesh.owned_nodes + i);
 }
 
 std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structure& structure,
@@ -137,8 +138,8 @@ dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates&
 std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes) {
   std::vector<dynamics::Marker> markers;
   for (const auto& cell : structure.mesh.cells) {
-    const double length = (structure.mesh.positions[cell.nodes[1]] - structure.mesh.positions[cell.nodes[0]]).norm();
-    for (int node : cell.nodes) {
+    const double length = (structure.mesh.positions[cell.corner[1]] - structure.mesh.positions[cell.corner[0]]).norm();
+    for (int node : cell.nodes()) {
       dynamics::Marker marker;
       const int first = nodes.of_local_node(node);
       marker.coordinates = {first, first + 1};

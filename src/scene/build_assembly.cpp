@@ -113,11 +113,11 @@ void Assembly::add_body_terms(int b) {
   const Eigen::Vector2d gravity(prepared_.scene.gravity[0], prepared_.scene.gravity[1]);
   for (const auto& cell : s.mesh.cells) {
     std::vector<int> coordinates;
-    for (int node : cell.nodes)
+    for (int node : cell.nodes())
       for (int d = 0; d < 3; ++d) coordinates.push_back(slot.nodes->of_local_node(node) + d);
-    const fem::BeamSection& section = s.sections[cell.part];
+    const fem::BeamSection& section = std::get<fem::BeamSection>(s.sections[cell.part]);
     terms_.push_back(std::make_unique<reference::CorotationalBeam>(
-        coordinates, world(body, s.mesh.positions[cell.nodes[0]]), world(body, s.mesh.positions[cell.nodes[1]]),
+        coordinates, world(body, s.mesh.positions[cell.corner[0]]), world(body, s.mesh.positions[cell.corner[1]]),
         reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}, gravity));
   }
 }

@@ -12,12 +12,18 @@ namespace {
 
 using Attachments = std::vector<reduction::Attachment>;
 
-reduction::Attachment unit_load(const PreparedBody& body, PetscInt node, int component, const std::string& where) {
-  static const char* names[3] = {"fx", "fy", "moment"};
-  reduction::Attachment attachment{where + "." + names[component], fem::field(body.structure)};
+/// A unit force or moment, shared equally by the nodes of the place.
+reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& place, int component,
+                                const std::string& where) {
+  static const char* names[2][6] = {{"fx", "fy", "moment"}, {"fx", "fy", "fz", "mx", "my", "mz"}};
+  const int n = body.structure.dofs_per_node;
+  reduction::Attachment attachment{where + "." + names[n == 6][component], fem::field(body.structure)};
   petsc::Values values(attachment.load);
-  const PetscInt dof = 3 * node + component;
-  if (dof >= values.first && dof < values.end) values[dof] = 1;
+  const std::vector<PetscInt> nodes = place.nodes.empty() ? std::vector<PetscInt>{place.node} : place.nodes;
+  for (PetscInt node : nodes) {
+    const PetscInt dof = n * node + component;
+    if (dof >= values.first && dof < values.end) values[dof] = 1.0 / static_cast<double>(nodes.size());
+  }
   return attachment;
 }
 
@@ -100,10 +106,11 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
                             ? joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0
                             : joint.kind != Joint::Kind::revolute;
     for (const PreparedPlace& place : prepared.joints[j])
-      for (int c = 0; place.body == index && c < (moment ? 3 : 2); ++c)
-        all.push_back(unit_load(body, place.node, c, joint.name));
+      for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
+           ++c)
+        all.push_back(unit_load(body, place, c, joint.name));
   }
-  add_constraint_modes(prepared, index, all);
+  if (body.structure.dimension() == 2) add_constraint_modes(prepared, index, all);
 }
 
 }  // namespace
@@ -120,8 +127,9 @@ Attachments attachments(const Prepared& prepared, int index) {
     const bool moment = load.kind == Load::Kind::moment;
     const bool of_joint = choice == Choice::joints && moment && at_a_joint(prepared, prepared.loads[l]);
     if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
-    for (int c = moment ? 2 : 0; c < (moment ? 3 : 2); ++c)
-      all.push_back(unit_load(body, prepared.loads[l].node, c, load.name));
+    const int d = body.structure.dimension();
+    for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
+      all.push_back(unit_load(body, prepared.loads[l], c, load.name));
   }
   return all;
 }

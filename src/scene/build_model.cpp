@@ -1,4 +1,5 @@
 #include "build_assembly.h"
+#include "build_held.h"
 #include "floe/dynamics/simulation.h"
 
 namespace floe::scene {
@@ -7,7 +8,8 @@ namespace {
 /// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
 /// fields.
 std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
-  Model model = Assembly(prepared, Formulation::vm, linear).model();
+  Model model = prepared.scene.dimension == 3 ? held_model(prepared, Formulation::vm, linear)
+                                              : Assembly(prepared, Formulation::vm, linear).model();
   std::vector<Eigen::MatrixXd> sums;
   for (const ReducedBody& body : linear)
     sums.push_back(Eigen::MatrixXd::Zero(body.body.coordinates(), body.body.coordinates()));
@@ -45,8 +47,9 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
     for (std::size_t b = 0; b < reduced.size(); ++b)
       if (prepared.bodies[b].spec.rigid) reduced[b] = rigid(prepared.bodies[b]);
   }
-  Model model = Assembly(prepared, formulation, reduced).model();
-  model.warnings = std::move(warnings);
+  Model model = scene.dimension == 3 ? held_model(prepared, formulation, reduced)
+                                     : Assembly(prepared, formulation, reduced).model();
+  model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
   return model;
 }
 

@@ -7,6 +7,7 @@
 
 #include "build_start.h"
 #include "floe/scene/places.h"
+#include "prepare_spatial.h"
 
 namespace floe::scene {
 
@@ -87,7 +88,7 @@ PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
   fem::express_in_frame(mesh, Eigen::Vector3d(nodes.origin.x(), nodes.origin.y(), 0), rotation);
   const fem::BeamSection section{spec.section.EA, spec.section.EI, spec.section.rhoA,
                                  spec.rotary_inertia ? spec.section.rhoI : 0};
-  fem::Structure structure(
+  fem::Structure structure = fem::planar_structure(
       std::move(mesh), std::vector<fem::BeamSection>(spec.mesh.segments.size(), section),
       spec.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise);
   fem::ReferenceFrame frame;
@@ -109,6 +110,7 @@ PreparedPlace find(const std::vector<PreparedBody>& bodies, const Place& place) 
     found.x = place.point ? spatial(*place.point) : Eigen::Vector3d::Constant(std::nan(""));
     return found;
   }
+  if (place.body.empty()) return found;  // of a body that is not here
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].spec.name != place.body) continue;
     const Point p = place_point(bodies[b].spec.mesh, place);
@@ -128,6 +130,7 @@ int body_index(const Scene& scene, const std::string& name) {
 }  // namespace
 
 Prepared prepare(const Scene& scene, MPI_Comm comm) {
+  if (scene.dimension == 3) return prepare_spatial(scene, comm);
   Prepared prepared{scene, comm, {}, {}, {}, {}, 0};
   for (const Body& body : scene.bodies) {
     prepared.bodies.push_back(prepare_body(body, comm));

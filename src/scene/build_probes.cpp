@@ -7,6 +7,10 @@ namespace floe::scene {
 std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
+    if (probe.held && probe.quantity == Probe::Quantity::rotation) {
+      for (const char* axis : {".rx", ".ry", ".rz"}) columns.push_back({probe.name + axis, "rad"});
+      continue;
+    }
     if (probe.quantity == Probe::Quantity::rotation) {
       columns.push_back({probe.name + ".angle", "rad"});
       continue;
@@ -14,6 +18,7 @@ std::vector<ProbeColumn> probe_columns(const Model& model) {
     const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
     columns.push_back({probe.name + ".x", unit});
     columns.push_back({probe.name + ".y", unit});
+    if (probe.held) columns.push_back({probe.name + ".z", unit});
   }
   return columns;
 }
@@ -44,8 +49,19 @@ Eigen::Vector2d corotational_deflection(const ModelProbe& probe, const Eigen::Ve
   return turn(-angle) * (y - a).head<2>() - rest;
 }
 
+void add_values(const HeldProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                std::vector<double>& values) {
+  const Eigen::VectorXd elastic = q(probe.coordinates), rate = v(probe.coordinates);
+  Eigen::Vector3d value = probe.axes * (probe.S * elastic);
+  if (quantity == Probe::Quantity::position) value += probe.origin + probe.axes * probe.x;
+  if (quantity == Probe::Quantity::velocity) value = probe.axes * (probe.S * rate);
+  if (quantity == Probe::Quantity::rotation) value = probe.axes * (probe.psi * elastic);
+  values.insert(values.end(), value.data(), value.data() + 3);
+}
+
 void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
+  if (probe.held) return add_values(*probe.held, probe.quantity, q, v, values);
   Placed at = placed(probe.marker, q, v);
   Eigen::Vector3d start = probe.start;
   if (probe.relative_to) {  // seen from axes that move with the other place

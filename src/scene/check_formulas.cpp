@@ -26,6 +26,7 @@ void check_formulas(Document& document, const Scene& scene) {
     check(document, load.moment, end, load.where, "moment");
     check(document, load.force[0], end, load.where, "force[1]");
     check(document, load.force[1], end, load.where, "force[2]");
+    check(document, load.force[2], end, load.where, "force[3]");
   }
 }
 

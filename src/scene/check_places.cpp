@@ -36,7 +36,7 @@ void check_place(Document& document, const Scene& scene, const Place& place, boo
     return;
   }
   const Body* body = find_body(document, scene, place.body, place.where, may_be_ground);
-  if (!body || body->mesh.points.empty()) return;
+  if (!body || body->mesh.points.empty() || scene.dimension == 3) return;  // in space found on the mesh itself
   try {
     place_point(body->mesh, place);
   } catch (const InputError& error) {

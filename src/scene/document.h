@@ -24,6 +24,7 @@ class Document {
  public:
   std::string file;
   std::map<std::string, double> parameters;
+  int dimension = 2;  ///< of the scene: how many coordinates a point has
 
   /// Notes `FILE:LINE:COLUMN: KEY: wrong; expected EXPECTED; did you mean "NEAREST"?`, the last two where there are
   /// any.

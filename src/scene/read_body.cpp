@@ -12,7 +12,9 @@ const std::vector<std::pair<std::string, FrameKind>> frame_kinds{
 
 FrameSpec read_frame(Document& document, Reading& body, const std::string& name) {
   FrameSpec frame;
-  Value value = *body.value("frame");
+  Value value{YAML::Node("pinned"), body.where()};
+  frame.given = body.given("frame");
+  if (frame.given) value = *body.value("frame");
   frame.where = value.where;
   if (value.node.IsScalar()) {  // the type alone
     YAML::Node mapping(YAML::NodeType::Map);
@@ -51,9 +53,9 @@ InitialSpec read_initial(Document& document, Reading& body) {
   if (!value) return initial;
   initial.where = value->where;
   Reading reading(document, *value, "initial");
-  initial.position = reading.point("position");
+  if (reading.given("position")) initial.position = reading.point("position");
   initial.angle = reading.number("angle");
-  initial.velocity = reading.point("velocity");
+  if (reading.given("velocity")) initial.velocity = reading.point("velocity");
   initial.angular_velocity = reading.number("angular_velocity");
   initial.deformation = reading.formulas("deformation", {"x", "y"});
   initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
@@ -81,7 +83,13 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   if (!value.node.IsMap()) return body;
   if (const auto mesh = reading.value("mesh")) body.mesh = read_mesh(document, *mesh);
   body.rigid = reading.flag("rigid");
-  body.section = read_section(document, reading, body.rigid);
+  const bool in_space = document.dimension == 3;
+  if (in_space)
+    body.parts = read_parts(document, reading);
+  else
+    body.section = read_section(document, reading, body.rigid);
+  if (!in_space && reading.given("parts"))
+    document.fault(reading.where("parts"), "does not apply here", "it only in a scene in space");
   body.strain = reading.choice<Strain>("strain", {{"averaged", Strain::averaged}, {"pointwise", Strain::pointwise}});
   body.rotary_inertia = reading.flag("rotary_inertia");
   body.frame = read_frame(document, reading, name);
@@ -91,6 +99,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing));
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
+  if (in_space) return body;  // its mesh is checked when it is there
   fit_default_modes(reading, body);
   if (document.fault_count() == before) check_body(document, body);
   return body;

@@ -27,8 +27,9 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
     }
   }
   if (known && joint.kind == Kind::driven) joint.angle = reading.formula("angle");
-  joint.axis = reading.point("axis");
-  if (joint.axis[0] == 0 && joint.axis[1] == 0) document.fault(reading.where("axis"), "is [0, 0]", "a direction");
+  if (reading.given("axis")) joint.axis = reading.point("axis");
+  if (joint.axis == Point{})
+    document.fault(reading.where("axis"), document.dimension == 2 ? "is [0, 0]" : "is [0, 0, 0]", "a direction");
   joint.stiffness = reading.number("stiffness");
   joint.viscosity = reading.number("viscosity");
   joint.length = reading.optional_number("length");

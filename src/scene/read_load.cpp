@@ -19,10 +19,12 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   } else if (const auto at = reading.value("at")) {
     load.at = read_place(document, *at, reading.key("at"));
   }
-  if (load.kind == Kind::moment) {
+  if (load.kind == Kind::moment && document.dimension == 3) {
+    document.fault(reading.where("type"), "is a moment", "force or distributed in a scene in space");
+  } else if (load.kind == Kind::moment) {
     load.moment = reading.formula("moment");
-  } else if (const auto force = reading.formulas("force", {"t"})) {
-    load.force = *force;
+  } else {
+    load.force = reading.force("force");
   }
   load.axes = reading.choice<Load::Axes>("axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}});
   return load;

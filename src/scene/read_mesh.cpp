@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include "readers.h"
@@ -81,12 +82,37 @@ void read_segments(Document& document, const Value& value, MeshSpec& mesh) {
   mesh.elements = read_elements(document, reading, mesh.segments.size());
 }
 
+void read_plate(Document& document, const Value& value, MeshSpec& mesh) {
+  Reading reading(document, value, "plate");
+  PlateSpec plate;
+  plate.origin = reading.point("origin");
+  plate.along = reading.point("along");
+  plate.across = reading.point("across");
+  const auto elements = reading.value("elements");
+  const auto counts = elements ? read_list(document, *elements, reading.key("elements"), 2) : std::vector<Value>{};
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    plate.elements[i] = read_integer(document, counts[i], reading.key("elements"));
+  using Cells = PlateSpec::Cells;
+  plate.cells =
+      reading.choice<Cells>("cells", {{"triangles", Cells::triangles}, {"quadrilaterals", Cells::quadrilaterals}});
+  mesh.plate = plate;
+}
+
+void read_file(Document& document, const Value& value, MeshSpec& mesh) {
+  Reading reading(document, value, "file");
+  mesh.file = MeshFileSpec{reading.text("path"), {}, reading.number("scale")};
+  const std::filesystem::path beside = std::filesystem::path(document.file).parent_path();
+  mesh.file->path = (beside / mesh.file->path).lexically_normal().string();
+}
+
 // Two points at one place would give two nodes that nothing holds together, and a segment between them no direction.
 void refuse_coincident_points(Document& document, const MeshSpec& mesh) {
-  const auto projection = [&](int i) { return mesh.points[i][0] + 0.6180339887 * mesh.points[i][1]; };
+  const auto projection = [&](int i) {
+    return mesh.points[i][0] + 0.6180339887 * mesh.points[i][1] + 0.3819660113 * mesh.points[i][2];
+  };
   double size = 0;
   for (const Point& p : mesh.points)
-    size = std::max(size, std::hypot(p[0] - mesh.points[0][0], p[1] - mesh.points[0][1]));
+    size = std::max(size, std::hypot(p[0] - mesh.points[0][0], p[1] - mesh.points[0][1], p[2] - mesh.points[0][2]));
   std::vector<int> order(mesh.points.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) { return projection(a) < projection(b); });
@@ -94,7 +120,7 @@ void refuse_coincident_points(Document& document, const MeshSpec& mesh) {
     for (std::size_t b = a + 1; b < order.size(); ++b) {
       if (projection(order[b]) - projection(order[a]) > 2e-9 * size) break;
       const auto &p = mesh.points[order[a]], &q = mesh.points[order[b]];
-      if (std::hypot(p[0] - q[0], p[1] - q[1]) > 1e-9 * size) continue;
+      if (std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1e-9 * size) continue;
       const auto [first, second] = std::minmax(order[a], order[b]);
       document.fault(mesh.where,
                      fmt::format("points {} and {} coincide at ({}, {})", first + 1, second + 1, p[0], p[1]),
@@ -127,10 +153,15 @@ MeshSpec read_mesh(Document& document, const Value& value) {
   mesh.where = value.where;
   Reading reading(document, value, "mesh");
   const bool line = reading.given("line"), polyline = reading.given("polyline"), segments = reading.given("segments");
-  if (value.node.IsMap() && line + polyline + segments != 1) {
-    document.fault(value.where, fmt::format("has {} shapes", line + polyline + segments),
-                   "exactly one of line, polyline, segments");
+  const bool plate = reading.given("plate"), file = reading.given("file");
+  const int shapes = line + polyline + segments + plate + file;
+  if (value.node.IsMap() && shapes != 1) {
+    document.fault(value.where, fmt::format("has {} shapes", shapes),
+                   "exactly one of line, polyline, segments, plate, file");
   }
+  if (plate && shapes == 1) read_plate(document, *reading.value("plate"), mesh);
+  if (file && shapes == 1) read_file(document, *reading.value("file"), mesh);
+  if (plate || file) return mesh;
   if (line)
     read_line(document, *reading.value("line"), mesh);
   else if (polyline)

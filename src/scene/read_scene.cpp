@@ -31,6 +31,25 @@ std::vector<Part> read_named(Document& document, Reading& scene, const std::stri
   return parts;
 }
 
+// A scene is in space as soon as a mesh has a point of three coordinates, is a plate or comes from a file.
+bool in_space(const YAML::Node& root) {
+  const auto three = [](const YAML::Node& point) { return point && point.IsSequence() && point.size() == 3; };
+  const YAML::Node bodies = root["bodies"];
+  if (!bodies || !bodies.IsMap()) return false;
+  for (const auto& body : bodies) {
+    const YAML::Node mesh = body.second.IsMap() ? body.second["mesh"] : YAML::Node();
+    if (!mesh || !mesh.IsMap()) continue;
+    if (mesh["file"] || mesh["plate"]) return true;
+    for (const auto& shape : mesh) {
+      if (!shape.second.IsMap()) continue;
+      const YAML::Node points = shape.second["points"];
+      if (three(shape.second["from"]) || (points && points.IsSequence() && points.size() > 0 && three(points[0])))
+        return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name) {
@@ -42,9 +61,10 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   scene.text = text;
   Reading reading(document, root, "scene");
   if (!root.node.IsMap()) document.throw_faults();
+  scene.dimension = document.dimension = in_space(root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   scene.title = reading.text("title");
-  scene.gravity = reading.point("gravity");
+  if (reading.given("gravity")) scene.gravity = reading.point("gravity");
   scene.bodies = read_named<Body>(document, reading, "bodies", read_body);
   scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
   scene.loads = read_named<Load>(document, reading, "loads", read_load);

@@ -33,6 +33,7 @@ Section read_section(Document& document, Reading& body, bool rigid) {
   Section section;
   const auto material = read_material(document, body);
   const auto value = body.value("section");
+  if (!value) document.fault(body.where("section"), "is missing", describe(body.key("section")));
   if (!value) return section;
   section.where = value->where;
   Reading reading(document, *value, "section");

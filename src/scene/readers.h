@@ -12,6 +12,8 @@ MeshSpec read_mesh(Document& document, const Value& value);
 Body read_body(Document& document, const std::string& name, const Value& value);
 /// The keys section and material of a body.
 Section read_section(Document& document, Reading& body, bool rigid);
+/// The keys section, material and parts of a body in space.
+std::vector<PartSpec> read_parts(Document& document, Reading& body);
 ReductionSpec read_reduction(Document& document, const Value& value);
 Joint read_joint(Document& document, const std::string& name, const Value& value);
 Load read_load(Document& document, const std::string& name, const Value& value);

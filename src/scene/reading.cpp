@@ -102,6 +102,15 @@ math::Formula Reading::formula(const std::string& name) {
   return found ? read_formula(document_, *found, key(name), {"t"}) : math::Formula(NAN);
 }
 
+std::array<math::Formula, 3> Reading::force(const std::string& name) {
+  std::array<math::Formula, 3> force{0.0, 0.0, 0.0};
+  const auto found = value(name);
+  if (!found) return force;
+  const auto parts = read_list(document_, *found, key(name), document_.dimension);
+  for (std::size_t i = 0; i < parts.size(); ++i) force[i] = read_formula(document_, parts[i], key(name), {"t"});
+  return force;
+}
+
 std::optional<std::array<math::Formula, 2>> Reading::formulas(const std::string& name,
                                                               const std::vector<std::string>& variables) {
   const auto found = value(name);

@@ -41,6 +41,8 @@ class Reading {
     return values.front().second;
   }
   math::Formula formula(const std::string& key);
+  /// As many formulas of t as the scene has dimensions, zero behind.
+  std::array<math::Formula, 3> force(const std::string& key);
   std::optional<std::array<math::Formula, 2>> formulas(const std::string& key,
                                                        const std::vector<std::string>& variables);
   /// As it stands in the file, or the default; nothing when it is absent (a fault when it is required).

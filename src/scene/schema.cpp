@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "schema_spatial.h"
+
 namespace floe::scene {
 namespace {
 
@@ -33,11 +35,12 @@ const SchemaSection scene_section{
         {"title", Type::text, "", "", "what the scene shows"},
         {"parameters", Type::parameters, "", "",
          "numbers by name, for use in every number and formula below; each may use those above it"},
-        {"gravity", Type::point, "m/s2", "[0, 0]", "acceleration of gravity, world axes"},
+        {"gravity", Type::point, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
         part("bodies", Type::named_sections, required, "the bodies by name", "body"),
         part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "the loads by name", "load"),
-        part("motion", Type::section, required, "how long and how finely", "motion"),
+        part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
+             "motion"),
         part("probes", Type::named_sections, "", "what to record, by name", "probe"),
     }};
 
@@ -49,15 +52,22 @@ const SchemaSection body_section{
     "frame: pinned\nreduction: {modes: 12}",
     {
         part("mesh", Type::section, required, "the undeformed shape, in the axes of the mesh", "mesh"),
-        part("section", Type::section, required, "cross-section, or stiffness and mass per length", "section"),
+        part("section", Type::section, "",
+             "cross-section, or stiffness and mass per length; in space: of all parts that `parts` does not name",
+             "section"),
         part("material", Type::section, "", "absent: section gives EA, EI and rhoA", "material"),
+        part("parts", Type::named_sections, "", "in space: sections and materials of the mesh's parts, by name",
+             "part"),
         choice("strain", "averaged",
                "membrane strain in an element: averaged over it (free of locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
         {"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"},
         {"rigid", Type::flag, "", "false",
          "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},
-        part("frame", Type::frame, "pinned", "where the floating frame is attached", "frame"),
+        part("frame", Type::frame, "",
+             "where the floating frame is attached; absent: pinned from start to end; in space clamped where the "
+             "ground holds the body, else mean-axis",
+             "frame"),
         {"frames", Type::integer, "", "1",
          "split a straight line into so many floating frames, joined rigidly; divides the elements", counts},
         part("reduction", Type::section, "", "the reduced basis", "reduction"),
@@ -73,6 +83,9 @@ const SchemaSection mesh_section{
         part("line", Type::section, "", "one straight line", "line"),
         part("polyline", Type::section, "", "straight segments, one after another", "polyline"),
         part("segments", Type::section, "", "a frame: points and the segments between them", "segments"),
+        part("plate", Type::section, "", "a flat rectangle of shells, in space", "plate"),
+        part("file", Type::section, "", "a mesh file, in space: Gmsh 4.1 (.msh) or a CalculiX/Abaqus deck (.inp)",
+             "file"),
     }};
 
 const SchemaSection line_section{"line",
@@ -185,9 +198,9 @@ const SchemaSection initial_section{
     "Position and velocity of the axes of the mesh, deformation in them.",
     "position: [0, 1]\nangle: pi/2\nangular_velocity: 6\ndeformation: [0, \"0.01*sin(pi*x/L)\"]",
     {
-        {"position", Type::point, "m", "[0, 0]", "of the mesh's origin, world axes"},
+        {"position", Type::point, "m", "", "of the mesh's origin, world axes; absent: 0"},
         {"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"},
-        {"velocity", Type::point, "m/s", "[0, 0]", "of the mesh's origin, world axes"},
+        {"velocity", Type::point, "m/s", "", "of the mesh's origin, world axes; absent: 0"},
         {"angular_velocity", Type::number, "rad/s", "0", "of the mesh's axes"},
         {"deformation", Type::formula_of_place, "m", "",
          "displacements u, v; absent: undeformed; the frame goes along"},
@@ -207,8 +220,8 @@ const SchemaSection joint_section{
          "`ground` alone is the point of the ground that meets the other place at the start"},
         only({"driven"}, {"angle", Type::formula, "rad", required,
                           "turn of the second place against the first since the start; 0 at t = 0"}),
-        only({"prismatic"}, {"axis", Type::point, "", "[1, 0]",
-                             "direction of sliding at the start, world axes; turns with the first place"}),
+        only({"prismatic"}, {"axis", Type::point, "", "",
+                             "direction of sliding at the start, world axes; turns with the first place; absent: x"}),
         only({"spring"}, {"stiffness", Type::number, "N/m", "0", "along the line between the places", nonnegative}),
         only({"spring"}, {"viscosity", Type::number, "N s/m", "0", "along the line between the places", nonnegative}),
         only({"spring"},
@@ -277,10 +290,14 @@ const SchemaSection place_section{
 }  // namespace
 
 const std::vector<SchemaSection>& schema() {
-  static const std::vector<SchemaSection> all{
-      scene_section,   body_section,     mesh_section,  line_section,      polyline_section, segments_section,
-      section_section, material_section, frame_section, reduction_section, modes_section,    damping_section,
-      initial_section, joint_section,    load_section,  place_section,     motion_section,   probe_section};
+  static const std::vector<SchemaSection> all = [] {
+    std::vector<SchemaSection> sections{
+        scene_section,   body_section,     mesh_section,  line_section,      polyline_section, segments_section,
+        section_section, material_section, frame_section, reduction_section, modes_section,    damping_section,
+        initial_section, joint_section,    load_section,  place_section,     motion_section,   probe_section};
+    for (const SchemaSection& section : spatial_sections()) sections.push_back(section);
+    return sections;
+  }();
   return all;
 }
 

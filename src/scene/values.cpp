@@ -122,7 +122,7 @@ std::string read_choice(Document& document, const Value& value, const Key& key) 
 
 Point read_point(Document& document, const Value& value, const Key& key) {
   Point point{};
-  const auto parts = read_list(document, value, key, 2);
+  const auto parts = read_list(document, value, key, document.dimension);
   for (std::size_t i = 0; i < parts.size(); ++i) point[i] = read_number(document, parts[i], key);
   return point;
 }

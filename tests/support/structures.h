@@ -11,7 +11,7 @@ inline fem::BeamSection paper_section() { return {1.12e6, 9.36e6, 0.546, 4.563};
 inline fem::Structure straight(MPI_Comm comm, PetscInt elements, double length, const fem::BeamSection& section,
                                fem::MembraneStrain strain = fem::MembraneStrain::averaged) {
   const fem::Segments line{{{0, 0, 0}, {length, 0, 0}}, {{0, 1}}, {elements}};
-  return fem::Structure(fem::mesh_of(comm, line), {section}, strain);
+  return fem::planar_structure(fem::mesh_of(comm, line), {section}, strain);
 }
 
 /// Along x from the origin to (a, 0), then up to (a, b).

@@ -17,8 +17,9 @@ struct Derivatives {
 };
 
 Derivatives derivatives(bool fixed_ends) {
-  const fem::Structure structure(fem::mesh_of(PETSC_COMM_WORLD, {{{0, 0, 0}, {L, 0, 0}}, {{0, 1}}, {elements}}),
-                                 {{1e5, 1, 1, 0}}, fem::MembraneStrain::averaged);
+  const fem::Structure structure =
+      fem::planar_structure(fem::mesh_of(PETSC_COMM_WORLD, {{{0, 0, 0}, {L, 0, 0}}, {{0, 1}}, {elements}}),
+                            {{1e5, 1, 1, 0}}, fem::MembraneStrain::averaged);
   const fem::ReferenceFrame frame = fem::reference_frame(structure, fem::ReferenceFrame::Kind::pinned, 0, elements);
   fem::Conditions held = {0, 1, 3 * elements + 1};
   if (fixed_ends) held.insert(held.begin() + 2, 3 * elements);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <vector>
 
 #include "floe/body/elasticity.h"
@@ -31,6 +32,10 @@ struct ElementMaps {
 
 /// (dK/deta_j) phi_i for one element: sum w [ L'D e(a, b) + e(a, .)'D L b + e(b, .)'D L a ]. Exact; symmetric in a, b.
 Eigen::VectorXd stiffness_derivative(const ElementMaps& maps, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
+/// The same for pairs of columns of Q (dofs x fields): a column each, dofs x pairs.
+Eigen::MatrixXd stiffness_derivatives(const ElementMaps& maps, const Eigen::MatrixXd& Q,
+                                      const std::vector<std::array<int, 2>>& pairs);
 
 /// Pairs (a <= b) of columns that have slope in this element or in any: all pairs of `sloped`.
 std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped);

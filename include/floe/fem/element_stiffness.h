@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "floe/fem/structure.h"
+#include "floe/fem/assembly.h"
 
 namespace floe::fem {
 
@@ -20,7 +20,8 @@ Eigen::Matrix3Xd arms(const Mesh& mesh, const Mesh::Cell& cell);
 /// K as the sum of its elements, never assembled: element by element the rigid motion is taken off first.
 ///
 /// An assembled K, and with it every factor of K, misses the energy of the lowest modes by eps (L/h)^4 of it, h the
-/// size of an element: 1e-3 at 4096 elements along a beam, more than all of it at 16384. Keeps each element's matrix.
+/// size of an element: 1e-3 at 4096 elements along a beam, more than all of it at 16384. Keeps each
+/// element's matrix in the plane; in space they would fill the memory, and are made anew.
 class ElementStiffness {
  public:
   /// @param structure  borrowed. Rank-local.
@@ -37,9 +38,8 @@ class ElementStiffness {
   template <class Sink>
   void each(Vec q, Sink&& sink) const;
   const Structure& structure_;
-  double largest_ = 0;  ///< of all ranks
-  std::vector<Eigen::MatrixXd> K_;
-  std::vector<Eigen::Matrix3Xd> arms_;
+  double largest_ = 0;              ///< of all ranks
+  std::vector<Eigen::MatrixXd> K_;  ///< in the plane
 };
 
 /// The same K as a MATSHELL under conditions: their rows and columns are empty but for the largest diagonal entry, as

@@ -1,22 +1,24 @@
 #pragma once
-#include "floe/fem/structure.h"
+#include "floe/fem/assembly.h"
 
 namespace floe::fem {
 
-/// Where the floating frame sits on a body: three conditions that make the elastic displacement unique.
+/// Where the floating frame sits on a body: r conditions (3 in the plane, 6 in space) that make the elastic
+/// displacement unique.
 ///
-///   pinned     u_a = v_a = 0, v_b = 0: origin at node a, x axis through node b (both on the x axis of the mesh)
-///   clamped    u_a = v_a = rotation_a = 0: origin and axes at node a
+///   pinned     u_a = v_a = 0, v_b = 0: origin at node a, x axis through node b (both on the x axis of the mesh);
+///              in space also w_a = w_b = 0 and no rotation of a about x
+///   clamped    u_a = 0, rotation_a = 0: origin and axes at node a
 ///   mean_axis  Phi_r' M q = 0: q is M-orthogonal to the rigid motions (Tisserand, Buckens)
 ///
-/// As functionals c(q) = f' q (3) with rigid motions Phi_r: the projector P = 1 - Phi_r (f' Phi_r)^-1 f' takes any
+/// As functionals c(q) = f' q (r) with rigid motions Phi_r: the projector P = 1 - Phi_r (f' Phi_r)^-1 f' takes any
 /// displacement to the frame (it subtracts the rigid motion), its transpose takes any load to a self-equilibrated one.
 struct ReferenceFrame {
   enum class Kind { pinned, clamped, mean_axis } kind = Kind::pinned;
   Conditions conditions;                      ///< dofs at zero; none for mean_axis
   std::vector<petsc::VecHandle> rigid;        ///< Phi_r
   std::vector<petsc::VecHandle> functionals;  ///< f
-  Eigen::Matrix3d inverse;                    ///< (f' Phi_r)^-1
+  Eigen::MatrixXd inverse;                    ///< (f' Phi_r)^-1, r x r
 };
 
 /// @param a, b  global nodes (b: pinned only). @throws InputError if the conditions leave a rigid motion free.
@@ -30,9 +32,9 @@ void balance(const ReferenceFrame& frame, Vec f);
 
 /// How a body is held by its joints to the ground, seen in the linear displacements of the body in space.
 struct Holding {
-  Conditions held;     ///< dofs that joints hold
-  Conditions statics;  ///< held, and frame conditions besides until no rigid motion is left: K is regular under these
-  Eigen::Matrix3Xd left;  ///< rigid motions that the joints leave free, as combinations of ReferenceFrame::rigid
+  Conditions held;       ///< dofs that joints hold
+  Conditions statics;    ///< held, and frame conditions besides until no rigid motion is left: K is regular under these
+  Eigen::MatrixXd left;  ///< rigid motions that the joints leave free, as combinations of ReferenceFrame::rigid
 };
 
 /// @param held  dofs that the joints hold, global, ascending. Collective.

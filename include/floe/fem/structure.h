@@ -1,9 +1,12 @@
 #pragma once
-#include <functional>
+#include <memory>
+#include <variant>
 #include <vector>
 
 #include "floe/fem/mesh.h"
 #include "floe/fem/planar_beam.h"
+#include "floe/fem/shell_section.h"
+#include "floe/fem/spatial_beam.h"
 
 namespace floe::fem {
 
@@ -22,49 +25,72 @@ class Exchange {
   petsc::VecHandle local_;
 };
 
-/// A body's finite elements: assembles and never solves. n = 3 x nodes dofs (u, v, rotation), numbered by node.
+/// A spatial beam's section, and a vector in body axes that turns it (BeamPlace).
+struct SpatialBeam {
+  SpatialBeamSection section;
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
+  SpatialBeamStrain strain;
+};
+
+/// A rigid mass at a node, in body axes.
+struct PointMass {
+  double mass;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< of its centre from the node
+};
+
+/// What a part of the mesh is made of: planar or spatial lines, triangles and quadrilaterals, points.
+using Section = std::variant<BeamSection, SpatialBeam, ShellSection, PointMass>;
+
+/// The same section in the axes of a frame, v -> R'v.
+Section turned(const Section& section, const Eigen::Matrix3d& rotation);
+
+/// Which nodes share cells with which, by global numbers, for the rows of this rank: the pattern of K and M.
+struct NodeGraph;
+
+/// A body's finite elements: assembles and never solves. Dofs are numbered by node: in the plane (u, v, rotation), in
+/// space (u, v, w, rotation vector), body axes.
 struct Structure {
   Mesh mesh;
-  std::vector<BeamSection> sections;  ///< of each part
+  std::vector<Section> sections;  ///< of each part
   MembraneStrain strain = MembraneStrain::averaged;
+  int dofs_per_node = 3;
   Exchange exchange;
-  static constexpr int dofs_per_node = 3;
+  std::shared_ptr<const NodeGraph> graph;
 
-  Structure(Mesh mesh, std::vector<BeamSection> sections, MembraneStrain strain);
+  /// Dofs by the mesh's dimension. @throws InputError  a section that its cell cannot have. Collective.
+  Structure(Mesh mesh, std::vector<Section> sections, MembraneStrain strain);
+
+  int dimension() const { return mesh.dimension; }
   PetscInt dofs() const { return dofs_per_node * mesh.node_count; }
+  PetscInt owned_dofs() const { return dofs_per_node * mesh.owned_nodes; }
+  Eigen::Index local_dofs() const { return dofs_per_node * static_cast<Eigen::Index>(mesh.positions.size()); }
+  /// Rigid motions that the body has: 3 in the plane, 6 in space.
+  int rigid_motion_count() const { return dimension() == 2 ? 3 : 6; }
   /// Local dof numbers of a cell.
   std::vector<int> cell_dofs(const Mesh::Cell& cell) const;
   PetscInt global_dof(int local) const {
     return dofs_per_node * mesh.global_node(local / dofs_per_node) + local % dofs_per_node;
   }
+  /// The same by the numbering that does not depend on ranks.
+  PetscInt original_dof(int local) const {
+    return dofs_per_node * mesh.original_node(local / dofs_per_node) + local % dofs_per_node;
+  }
   ElementMaps maps(const Mesh::Cell& cell) const;
-  /// Samples of the cell with unit density per length.
+  /// k K + m M of the cell, without its maps where the element has a shorter way.
+  Eigen::MatrixXd matrix(const Mesh::Cell& cell, double k, double m) const;
+  /// Samples of the cell with unit density per length (lines) or area (surfaces); none of points.
   std::vector<body::MassPoint> line(const Mesh::Cell& cell) const;
 };
 
-/// Global dofs held at zero, ascending, the same on all ranks.
-using Conditions = std::vector<PetscInt>;
+/// A planar frame of beams. Collective.
+Structure planar_structure(Mesh mesh, const std::vector<BeamSection>& sections, MembraneStrain strain);
 
 /// A zero field on the structure's dofs. Collective.
 petsc::VecHandle field(const Structure& structure);
 
-/// Sum over cells of a matrix each, MATSBAIJ (blocks of a node). Rows and columns of `conditions` are empty but for
-/// `diagonal` times the largest diagonal entry. Collective.
-petsc::MatHandle assemble(const Structure& structure, const Conditions& conditions, double diagonal,
-                          const std::function<Eigen::MatrixXd(const ElementMaps&)>& matrix);
-
-/// K under conditions: K_b + sum w L'DL, with the conditions' diagonal positive. Collective.
-petsc::MatHandle stiffness(const Structure& structure, const Conditions& conditions);
-/// M under conditions; their diagonal is zero. Collective.
-petsc::MatHandle mass(const Structure& structure, const Conditions& conditions);
-
-/// f = (dK/deta_j) phi_i, exact, element by element; symmetric in i and j. Collective.
-petsc::VecHandle stiffness_derivative(const Structure& structure, Vec phi_i, Vec phi_j);
-
-/// The three rigid motions of the plane, linearised: (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node. Collective.
+/// Rigid motions, linearised: in the plane (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node; in space three translations,
+/// then rotations about x, y, z through the origin. Collective.
 std::vector<petsc::VecHandle> rigid_motions(const Structure& structure);
-
-/// Sets the entries of `conditions` to zero. Collective.
-void hold(Vec field, const Conditions& conditions);
 
 }  // namespace floe::fem

@@ -47,6 +47,6 @@ Modes vibration_modes(const fem::Structure& structure, const fem::ReferenceFrame
                       const Statics& statics, int count);
 
 /// Flips a field's sign by the rule above. Collective.
-void fix_sign(Vec shape);
+void fix_sign(const fem::Structure& structure, Vec shape);
 
 }  // namespace floe::reduction

@@ -16,15 +16,16 @@ namespace floe::reference {
 class NodeCoordinates {
  public:
   /// @param visited  global nodes that the last rank must see. Collective (in order with other blocks).
-  NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh, const std::vector<PetscInt>& visited);
+  NodeCoordinates(dynamics::Coordinates& coordinates, const fem::Mesh& mesh, const std::vector<PetscInt>& visited,
+                  int dofs_per_node = 3);
   /// Local index of the first dof of a node that this rank sees.
-  int of_local_node(int local) const { return first_ + fem::Structure::dofs_per_node * local; }
+  int of_local_node(int local) const { return first_ + dofs_ * local; }
   /// Likewise from the global number; throws std::out_of_range where it is not seen.
   int of_node(PetscInt global) const { return first_of_node_.at(global); }
   int first() const { return first_; }
 
  private:
-  int first_ = 0;
+  int first_ = 0, dofs_ = 3;
   std::map<PetscInt, int> first_of_node_;
 };
 

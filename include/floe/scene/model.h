@@ -24,7 +24,8 @@ bool is_reduced(Formulation formulation);
 struct PreparedPlace {
   int body = -1;  ///< index of prepared bodies, -1: ground
   PetscInt node = 0;
-  Eigen::Vector3d x;  ///< in the frame's axes; ground: world
+  Eigen::Vector3d x;                 ///< in the frame's axes; ground: world
+  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
 };
 
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
@@ -32,13 +33,18 @@ struct PreparedBody {
   Body spec;
   fem::Structure structure;  ///< positions in the axes of the floating frame
   fem::ReferenceFrame frame;
-  Eigen::Vector2d frame_origin;                    ///< in mesh axes
-  double frame_angle = 0;                          ///< of the frame in mesh axes
-  std::array<PreparedPlace, 2> frame_places;       ///< pinned: a, b; clamped: a, a
-  Eigen::Vector3d pose;                            ///< of the frame at the start, world: (R_x, R_y, theta)
-  Eigen::Vector3d velocity;                        ///< likewise
-  petsc::VecHandle deformation, deformation_rate;  ///< at the start, in the frame; null if none
-  fem::Conditions held;                            ///< dofs that joints to the ground hold
+  Eigen::Vector2d frame_origin;                              ///< in mesh axes
+  double frame_angle = 0;                                    ///< of the frame in mesh axes
+  std::array<PreparedPlace, 2> frame_places;                 ///< pinned: a, b; clamped: a, a
+  Eigen::Vector3d pose;                                      ///< of the frame at the start, world: (R_x, R_y, theta)
+  Eigen::Vector3d velocity;                                  ///< likewise
+  petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none
+  fem::Conditions held;                                      ///< dofs that joints to the ground hold
+  std::map<std::string, std::vector<PetscInt>> places = {};  ///< in space: global nodes by name
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
+  std::vector<std::string> parts = {};                       ///< in space: names
+  std::vector<std::string> notices = {};                     ///< in space: of the mesh
 };
 
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
@@ -46,6 +52,7 @@ struct BodyReport {
   std::string name;
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
+  int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
   std::vector<reduction::ColumnOrigin> origins;
@@ -54,7 +61,16 @@ struct BodyReport {
   int first_elastic = 0;     ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
   PetscInt first_node = 0;        ///< of this rank
-  std::vector<double> positions;  ///< of this rank's own nodes, x y x y, in the frame
+  std::vector<double> positions;  ///< of this rank's own nodes, x y (z), in the frame
+};
+
+/// A place of a body in space whose frame stands still: displacement axes S q, rotation axes psi q.
+struct HeldProbe {
+  Eigen::Vector3d origin;
+  Eigen::Matrix3d axes;
+  Eigen::Vector3d x;
+  Eigen::MatrixXd S, psi;
+  std::vector<int> coordinates;
 };
 
 struct ModelProbe {
@@ -64,6 +80,7 @@ struct ModelProbe {
   std::optional<dynamics::Marker> relative_to;
   std::vector<dynamics::Marker> frame;  ///< deflection of corotational bodies: the nodes that define the frame
   Eigen::Vector3d start, start_relative;
+  std::optional<HeldProbe> held = {};  ///< in space; the rest stands for the plane
 };
 
 /// A scene in one formulation, ready to move.

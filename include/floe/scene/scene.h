@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "floe/fem/structure.h"
 #include "floe/math/formula.h"
 
 namespace floe::scene {
@@ -20,8 +21,9 @@ struct Where {
   std::string text() const;  ///< `scene.yaml:12:5: bodies.beam.section.A`
 };
 
-/// A node of a body, by name (start, end, middle, or a point pN of the polyline, N from 1) or by coordinates in the axes of
-/// the body's mesh; or a point of the ground (world axes). Written `beam.end`, `{body: beam, node: [50, 0]}`, `ground`,
+/// A node of a body, by name (start, end, middle, or a point pN of the polyline, N from 1) or by coordinates in the
+/// axes of the body's mesh; or a point of the ground (world axes). Written `beam.end`, `{body: beam, node: [50, 0]}`,
+/// `ground`,
 /// `{body: ground, node: [0, 3]}`. A ground without a point follows the other place of the joint as it is at the start.
 struct Place {
   std::string body;
@@ -31,8 +33,24 @@ struct Place {
   bool ground() const { return body == "ground"; }
 };
 
-/// Straight segments between points, each divided into elements of equal length.
+/// A rectangular plate: elements[0] along its first edge, elements[1] across.
+struct PlateSpec {
+  Point origin{}, along{}, across{};
+  std::array<int, 2> elements{};
+  enum class Cells { triangles, quadrilaterals } cells = Cells::triangles;
+};
+
+/// A mesh file (.msh, .inp).
+struct MeshFileSpec {
+  std::string path;
+  std::vector<std::string> parts;  ///< empty: those that the body's `parts` name, or all
+  double scale = 1;
+};
+
+/// Straight segments between points, each divided into elements of equal length; or a plate; or a file.
 struct MeshSpec {
+  std::optional<PlateSpec> plate;
+  std::optional<MeshFileSpec> file;
   std::vector<Point> points;
   std::vector<std::array<int, 2>> segments;  ///< indices of points
   std::vector<int> elements;                 ///< of each segment
@@ -45,10 +63,18 @@ struct Section {
   Where where;
 };
 
+/// What a part of a mesh in space is made of. The part "" stands for all that are not named.
+struct PartSpec {
+  std::string part;
+  fem::Section section;
+  Where where;
+};
+
 enum class Strain { averaged, pointwise };
 
 struct FrameSpec {
   enum class Kind { pinned, clamped, mean_axis } kind = Kind::pinned;
+  bool given = false;
   Place from, to;  ///< pinned: origin, and the place on the frame's x axis
   Place at;        ///< clamped
   Where where;
@@ -63,9 +89,9 @@ struct ModesSpec {
 
 struct DerivativesSpec {
   enum class Choice { none, all, count, pairs } choice = Choice::all;
-  int count = 0;                           ///< choice count: this many, first by maximum modal interaction
-  std::vector<std::array<int, 2>> pairs;   ///< choice pairs: from 1, i <= j
-  bool full = false;                       ///< METHOD: full (with inertia) instead of static
+  int count = 0;                          ///< choice count: this many, first by maximum modal interaction
+  std::vector<std::array<int, 2>> pairs;  ///< choice pairs: from 1, i <= j
+  bool full = false;                      ///< METHOD: full (with inertia) instead of static
   Where where;
 };
 
@@ -96,7 +122,8 @@ struct InitialSpec {
 struct Body {
   std::string name;
   MeshSpec mesh;
-  Section section;
+  Section section;              ///< in the plane
+  std::vector<PartSpec> parts;  ///< in space
   Strain strain = Strain::averaged;
   bool rotary_inertia = true;
   bool rigid = false;
@@ -112,11 +139,11 @@ struct Joint {
   enum class Kind { fixed, revolute, prismatic, driven, spring } kind = Kind::fixed;
   std::string name;
   Place first, second;
-  math::Formula angle;         ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
-  Point axis{1, 0, 0};         ///< prismatic: sliding direction in world axes at the start, carried by the first place
-  double stiffness = 0;        ///< spring [N/m]
-  double viscosity = 0;        ///< spring [N s/m]
-  std::optional<double> length;  ///< spring, unstretched; absent: the distance at the start
+  math::Formula angle;   ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
+  Point axis{1, 0, 0};   ///< prismatic: sliding direction in world axes at the start, carried by the first place
+  double stiffness = 0;  ///< spring [N/m]
+  double viscosity = 0;  ///< spring [N s/m]
+  std::optional<double> length;                             ///< spring, unstretched; absent: the distance at the start
   double torsional_stiffness = 0, torsional_viscosity = 0;  ///< spring [N m/rad], [N m s/rad]
   Where where;
 };
@@ -124,16 +151,16 @@ struct Joint {
 struct Load {
   enum class Kind { force, moment, distributed } kind = Kind::force;
   std::string name;
-  Place at;          ///< force, moment
-  std::string body;  ///< distributed: uniform along all its segments
-  std::array<math::Formula, 2> force;  ///< of t [N], distributed [N/m]
-  math::Formula moment;                ///< of t [N m]
+  Place at;                                            ///< force, moment
+  std::string body;                                    ///< distributed: uniform along all its segments
+  std::array<math::Formula, 3> force{0.0, 0.0, 0.0};   ///< of t [N], distributed [N/m], [N/m2]
+  math::Formula moment;                                ///< of t [N m]
   enum class Axes { world, body } axes = Axes::world;  ///< body: follows the frame
   Where where;
 };
 
 struct Motion {
-  double end = 0;
+  double end = 0;  ///< 0: the scene has no motion
   double step = 0;
   double spectral_radius = 0.8;
   std::optional<double> tolerance;  ///< adaptive step, relative
@@ -152,6 +179,7 @@ struct Probe {
 /// A scene: plain data, checked, all numbers finite. Nothing is built yet.
 struct Scene {
   std::string file;
+  int dimension = 2;  ///< 3 as soon as a mesh has three coordinates or comes from a file
   std::string title;
   std::string text;  ///< the file as read
   std::map<std::string, double> parameters;
@@ -163,7 +191,8 @@ struct Scene {
   std::vector<Probe> probes;
 };
 
-/// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected, nearest name).
+/// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected,
+/// nearest name).
 Scene read_scene(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 TEST_CASE("the operator by elements is the assembled matrix, conditions and all") {
   const fem::Conditions held = GENERATE(fem::Conditions{}, fem::Conditions{0, 1, 2, 22});
   const fem::Mesh mesh = fem::mesh_of(PETSC_COMM_WORLD, testing::l_shape(2, 1, 4));
-  const fem::Structure s(mesh, {{50, 1, 1, 0}, {70, 2, 1, 0}}, fem::MembraneStrain::averaged);
+  const fem::Structure s = fem::planar_structure(mesh, {{50, 1, 1, 0}, {70, 2, 1, 0}}, fem::MembraneStrain::averaged);
   const auto elements = std::make_shared<fem::ElementStiffness>(s);
   const petsc::MatHandle exact = fem::stiffness_operator(elements, held), assembled = fem::stiffness(s, held);
   const VectorXd q = testing::Random(81).vector(s.dofs());

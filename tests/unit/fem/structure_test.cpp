@@ -15,8 +15,8 @@ namespace {
 
 /// Two members of different sections at a right angle.
 fem::Structure angle(MPI_Comm comm) {
-  return fem::Structure(fem::mesh_of(comm, testing::l_shape(2, 1, 3)), {{50, 0.7, 3, 0.2}, {20, 0.5, 2, 0}},
-                        fem::MembraneStrain::averaged);
+  return fem::planar_structure(fem::mesh_of(comm, testing::l_shape(2, 1, 3)), {{50, 0.7, 3, 0.2}, {20, 0.5, 2, 0}},
+                               fem::MembraneStrain::averaged);
 }
 
 /// Dense sum over the cells, by global dofs.

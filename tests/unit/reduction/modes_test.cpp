@@ -114,9 +114,9 @@ TEST_CASE("the sign rule: the first translation above half the greatest is posit
   VectorXd shape = VectorXd::Zero(12);
   shape << 0.1, 0.4, -9, -0.6, 0, 5, 1, 0, 0, 0, 0, 0;  // rotations do not count; -0.6 decides
   const petsc::VecHandle field = testing::field_of(s, shape);
-  reduction::fix_sign(field);
+  reduction::fix_sign(s, field);
   CHECK(everywhere(field) == -shape);
-  reduction::fix_sign(field);
+  reduction::fix_sign(s, field);
   CHECK(everywhere(field) == -shape);
 }
 

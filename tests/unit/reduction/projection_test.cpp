@@ -70,7 +70,7 @@ TEST_CASE("reduced elastic energy, force and tangent equal the projected full on
 
 TEST_CASE("an L-shaped body reduces as exactly as a straight one") {
   const fem::Mesh mesh = fem::mesh_of(PETSC_COMM_WORLD, testing::l_shape(2, 1, 4));
-  const Held body(fem::Structure(mesh, {{1e4, 1, 1, 0.01}, {1e4, 2, 1, 0}}, fem::MembraneStrain::averaged),
+  const Held body(fem::planar_structure(mesh, {{1e4, 1, 1, 0.01}, {1e4, 2, 1, 0}}, fem::MembraneStrain::averaged),
                   Kind::clamped, {0, 1, 2});
   const reduction::Basis basis = body.basis(3);
   const body::FlexibleBody reduced = reduction::project(body.structure, basis);

@@ -23,8 +23,8 @@ VectorXd response(const Held& body, PetscInt dof, double load) {
 TEST_CASE("L-shaped frame, clamped at its foot: the unit-load theorem") {
   const double a = 2, b = 1.5, EA = 50, EI = 0.7;
   const fem::Mesh mesh = fem::mesh_of(PETSC_COMM_WORLD, testing::l_shape(a, b, 4));
-  const Held body(fem::Structure(mesh, {{EA, EI, 3, 0}, {EA, EI, 3, 0}}, fem::MembraneStrain::averaged), Kind::clamped,
-                  {0, 1, 2});
+  const Held body(fem::planar_structure(mesh, {{EA, EI, 3, 0}, {EA, EI, 3, 0}}, fem::MembraneStrain::averaged),
+                  Kind::clamped, {0, 1, 2});
   const PetscInt tip = 3 * (mesh.node_count - 1);
   // F_x at the free end: moment F (b - y) in the post, F b along the foot; normal force F in the foot
   const VectorXd sideways = response(body, tip, 1);
@@ -48,13 +48,15 @@ TEST_CASE("three members that meet in a rigid knot share its moment as 3 EI/l, 4
   fem::Conditions held;
   for (PetscInt n : {node(0, 0), node(1, 2), node(4, 0)}) held.insert(held.end(), {3 * n, 3 * n + 1, 3 * n + 2});
   std::sort(held.begin(), held.end());
-  const Held body(fem::Structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped, held);
+  const Held body(fem::planar_structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped,
+                  held);
   const PetscInt knot = 3 * node(1, 0);
   CHECK(response(body, knot + 2, M)[knot + 2] == Approx(M / (4 * EI * (1 / 1. + 1 / 2. + 1 / 3.))).epsilon(1e-7));
   // the far end of the second member hinged: 3 EI/l of it
   fem::Conditions hinged = held;
   hinged.erase(std::find(hinged.begin(), hinged.end(), 3 * node(1, 2) + 2));
-  const Held other(fem::Structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped, hinged);
+  const Held other(fem::planar_structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped,
+                   hinged);
   CHECK(response(other, knot + 2, M)[knot + 2] == Approx(M / EI / (4 / 1. + 3 / 2. + 4 / 3.)).epsilon(1e-7));
 }
 

@@ -12,9 +12,11 @@ namespace {
 Place named(const std::string& name) { return {"beam", name, {}, {"scene.yaml", 3, 4, "probes.tip.at"}}; }
 Place at(double x, double y) { return {"beam", "", Point{x, y, 0}, {"scene.yaml", 3, 4, "probes.tip.at"}}; }
 
-MeshSpec line(int elements) { return {{{0, 0, 0}, {3, 4, 0}}, {{0, 1}}, {elements}, {}}; }
-MeshSpec corner() { return {{{0, 0, 0}, {1, 0, 0}, {1, 3, 0}}, {{0, 1}, {1, 2}}, {2, 6}, {}}; }
-MeshSpec forked() { return {{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, -1, 0}}, {{0, 1}, {1, 2}, {1, 3}}, {3, 2, 2}, {}}; }
+MeshSpec line(int elements) { return {{}, {}, {{0, 0, 0}, {3, 4, 0}}, {{0, 1}}, {elements}, {}}; }
+MeshSpec corner() { return {{}, {}, {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}}, {{0, 1}, {1, 2}}, {2, 6}, {}}; }
+MeshSpec forked() {
+  return {{}, {}, {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, -1, 0}}, {{0, 1}, {1, 2}, {1, 3}}, {3, 2, 2}, {}};
+}
 
 }  // namespace
 
@@ -39,7 +41,7 @@ TEST_CASE("the middle is the node at half the length or the last before it") {
   CHECK(place_point(line(5), named("middle")) == Point{3 * 0.4, 4 * 0.4, 0});
   CHECK(place_point(line(1), named("middle")) == Point{0, 0, 0});
   CHECK(place_point(corner(), named("middle")) == Point{1, 1, 0});
-  const MeshSpec halves{{{0, 0, 0}, {0.3, 0, 0}, {0.6, 0, 0}}, {{0, 1}, {1, 2}}, {3, 7}, {}};
+  const MeshSpec halves{{}, {}, {{0, 0, 0}, {0.3, 0, 0}, {0.6, 0, 0}}, {{0, 1}, {1, 2}}, {3, 7}, {}};
   CHECK(place_point(halves, named("middle")) == Point{0.3, 0, 0});
 }
 
@@ -51,7 +53,7 @@ TEST_CASE("coordinates lead to the node within a millionth of its element") {
                     "scene.yaml:3:4: probes.tip.at: no node of beam at (1, 0.7); "
                     "the nearest node is at (1, 0.5)");
   CHECK(nearest_node(corner(), {9, 9, 0}) == Point{1, 3, 0});
-  const MeshSpec fine{{{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {100000000}, {}};
+  const MeshSpec fine{{}, {}, {{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {100000000}, {}};
   CHECK(place_point(fine, at(0.33, 0))[0] == Approx(0.33).epsilon(1e-14));
 }
 

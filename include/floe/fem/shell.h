@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+
+#include "floe/fem/element.h"
+#include "floe/fem/shell_section.h"
+
+/// Flat thin shells: nodes of six dofs (u, v, w, rotation vector), displacements and right-handed rotations both in
+/// body axes, d = 3. Normals follow the order of the nodes (right hand); in an element's own axes (x along the
+/// section's axis, z along the normal) rotation_x = w_y and rotation_y = -w_x.
+namespace floe::fem {
+
+using TriangleNodes = std::array<Eigen::Vector3d, 3>;       ///< positions in body axes [m]
+using QuadrilateralNodes = std::array<Eigen::Vector3d, 4>;  ///< around the element, convex; may be warped
+
+/// StrainPoint of a triangle in fixed size: eps = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y), (w_x, w_y) = G q.
+struct ShellStrain {
+  double weight;      ///< area [m2]
+  Eigen::Matrix3d D;  ///< A of the section [N/m]
+  Eigen::Matrix<double, 3, 18> L;
+  Eigen::Matrix<double, 2, 18> G;
+};
+
+/// A sample of an element's surface at its nodes' plane: what pressures act on. Force f per area: sum area N' f.
+struct SurfacePoint {
+  double area;             ///< quadrature weight [m2]
+  Eigen::Vector3d x;       ///< position
+  Eigen::MatrixXd N;       ///< 3 x dofs, its displacement
+  Eigen::Vector3d normal;  ///< unit
+};
+
+/// Thin triangle: DKT bending, OPT membrane with drilling rotations, von Karman strain.
+///
+///   U(q) = 1/2 a [ e' A e + mean of kappa' D* kappa ] + 3/8 beta_0 theta' K_theta theta,
+///   e = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y),   L q = mean membrane strain + C mean curvature,   C = A^-1 B
+///
+/// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
+/// (lumping with alpha = 3/2); theta are the drilling rotations less the rotation of that triangle. e is one point and
+/// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
+/// follows a developable surface, so nothing locks. The membrane force is taken as constant over the element: coupling
+/// B acts on the mean curvature, and the rest of the curvature bends with D*. Exact for states of constant strain and
+/// curvature with any A, B, D; a sum of squares whenever [A B; B D] is positive definite.
+///
+/// Mass points stand at the middles of the edges, above and below the centre of mass by the radius of inertia: there
+/// DKT's deflection (the edge's cubic) and rotations are known. Mass and its first and second moments are exact;
+/// drilling rotations carry none.
+/// @throws InputError  no area; the section's axis is normal to the element
+/// Sources: Batoz, Bathe & Ho 1980; Felippa 2003, A study of optimal membrane triangles with drilling freedoms.
+ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& section);
+std::vector<SurfacePoint> shell_triangle_surface(const TriangleNodes& nodes);  ///< three
+
+/// The same in fixed size, without allocation. K = bending + w L'DL, as ElementMaps has it.
+Eigen::Matrix<double, 18, 18> shell_triangle_stiffness(const TriangleNodes& nodes, const ShellSection& section);
+Eigen::Matrix<double, 18, 18> shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section);
+Eigen::Matrix<double, 18, 18> shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& section);
+ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section);
+
+/// Quadrilateral: the triangles on either side of each diagonal, at half weight: the mean of two triangulated surfaces.
+/// Passes the patch tests of the triangle, flat or warped (a warped element is the mean of its two folded surfaces, and
+/// has the mean of their areas and masses). 24 dofs, four strain points.
+/// @throws InputError  as the triangle; it is not convex, or folds by a right angle or more
+ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section);
+std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes);  ///< twelve
+Eigen::Matrix<double, 24, 24> shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes,
+                                                            const ShellSection& section);
+Eigen::Matrix<double, 24, 24> shell_quadrilateral_mass(const QuadrilateralNodes& nodes, const ShellSection& section);
+
+/// Corners of its four triangles; each counts half.
+inline constexpr std::array<std::array<int, 3>, 4> quadrilateral_triangles{
+    {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}}};
+
+}  // namespace floe::fem

@@ -1,0 +1,59 @@
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+namespace floe::fem {
+
+/// Orthotropic plane-stress material: moduli [Pa], density [kg/m3]; axis 1 is the one that a ply's angle turns.
+struct ShellMaterial {
+  double E1, E2, nu12, G12, density;
+};
+
+/// E1 = E2 = E, G12 = E / (2 + 2 nu).
+ShellMaterial isotropic(double E, double nu, double density);
+
+struct Ply {
+  ShellMaterial material;
+  double thickness;  ///< [m]
+  double angle = 0;  ///< from the section's axis to the material's axis 1, right-handed about the normal [rad]
+};
+
+/// A thin shell's stiffness and mass per area, referred to the plane of its nodes (z = 0, along the normal).
+///
+///   (N, M) = [A B; B D] (eps, kappa),   eps(z) = eps + z kappa,   kappa = -(w_xx, w_yy, 2 w_xy)
+///
+/// kept as the sum of squares that the elements use,
+///
+///   2 U = (eps + C kappa)' A (eps + C kappa) + kappa' D* kappa,   C = A^-1 B,   D* = D - B A^-1 B.
+///
+/// D* and the radius of inertia do not depend on the plane of reference, so that no digits cancel for a thin shell far
+/// from it.
+struct ShellSection {
+  Eigen::Matrix3d A;         ///< membrane [N/m]
+  Eigen::Matrix3d coupling;  ///< C [m]
+  Eigen::Matrix3d bending;   ///< D* [N m]
+  double higher_order;       ///< beta_0 of the membrane triangle
+  double mass;               ///< [kg/m2]
+  double mass_centre;        ///< its height above the plane of the nodes [m]
+  double mass_radius;        ///< radius of inertia about that centre [m]
+  Eigen::Vector3d axis;      ///< projected on an element it is the axis of angle 0; zero: isotropic, any axis
+
+  Eigen::Matrix3d B() const { return A * coupling; }                                   ///< [N]
+  Eigen::Matrix3d D() const { return bending + coupling.transpose() * A * coupling; }  ///< [N m]
+  double first_moment() const { return mass * mass_centre; }                           ///< int rho z dz [kg/m]
+  double rotary_inertia() const {                                                      ///< int rho z^2 dz [kg]
+    return mass * (mass_centre * mass_centre + mass_radius * mass_radius);
+  }
+};
+
+/// Classical lamination theory of a stack.
+///
+/// @param plies   from the lowest z to the highest
+/// @param offset  height of the stack's middle above the plane of the nodes [m]
+/// @param axis    direction in body axes, any length; needed unless all plies are isotropic
+/// @throws InputError  no ply, a thickness or modulus not positive, nu12^2 >= E1 / E2, no axis
+/// Source: Jones, Mechanics of composite materials, ch. 4; beta_0: Felippa 2003 (isotropic: (1 - 4 nu^2) / 2).
+ShellSection shell_section(const std::vector<Ply>& plies, double offset = 0,
+                           const Eigen::Vector3d& axis = Eigen::Vector3d::Zero());
+
+}  // namespace floe::fem

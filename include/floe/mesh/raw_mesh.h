@@ -1,0 +1,53 @@
+#pragma once
+#include <petscsys.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace floe::mesh {
+
+enum class CellKind : signed char { point = -1, line, triangle, quadrilateral };
+
+/// Nodes of a cell: 1 to 4.
+constexpr int node_count(CellKind kind) { return static_cast<int>(kind) + 2; }
+
+/// A straight-sided cell: its nodes in the order of the file, and the part that it belongs to.
+struct Cell {
+  CellKind kind;
+  std::array<PetscInt, 4> nodes;  // global; -1 where unused
+  int part;
+};
+
+/// A mesh as a file holds it: no elements, no unknowns.
+///
+/// Each rank holds a contiguous share of the nodes and of the cells, in the order of the file; nodes are numbered from
+/// 0 to node_count - 1. Every node is used by a cell, or by something else that the file says about it.
+struct RawMesh {
+  MPI_Comm comm = MPI_COMM_NULL;
+  PetscInt node_count = 0, cell_count = 0, first_node = 0, first_cell = 0;
+  std::vector<Eigen::Vector3d> positions;          // of the share's nodes
+  std::vector<Cell> cells;                         // of the share
+  std::vector<std::string> parts;                  // names, same on all ranks; Cell::part indexes it
+  std::vector<std::string> places;                 // names of node sets, same on all ranks
+  std::vector<std::vector<PetscInt>> place_nodes;  // of each place: nodes that this rank found (the union is the set)
+  std::vector<long long> node_labels;              // of the share's nodes: their numbers in the file
+  std::vector<long long> cell_labels;              // of the share's cells
+  std::string source;                              // the file, for messages
+};
+
+/// The part of 0..count-1 that a rank holds when all hold the same number, give or take one.
+struct Share {
+  PetscInt first, count;
+};
+Share share_of(PetscInt count, int rank, int ranks);
+
+/// First entry of every rank when this one holds `count`; one number more than ranks, the last is the total.
+/// Collective.
+std::vector<PetscInt> starts_of(MPI_Comm comm, PetscInt count);
+
+/// The rank that holds entry i.
+int owner_of(const std::vector<PetscInt>& starts, PetscInt i);
+
+}  // namespace floe::mesh

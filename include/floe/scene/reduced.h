@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+
+#include "floe/output/reduced_file.h"
+#include "floe/scene/model.h"
+
+namespace floe::scene {
+
+/// Reduces one body of a scene and writes it, with its basis at every node, so that no later motion needs its mesh.
+///
+/// Places in the file: all that the mesh names, and those that joints, loads and probes of the scene name by
+/// coordinates (as `at(x, y, z)`, mesh axes).
+/// @param body       its name; empty: the only body of the scene
+/// @param warnings   receives what the user should know of the choice of columns and of the mesh
+/// @return what was written, but for the shapes
+/// @throws InputError  no such body, a rigid one, several bodies and no name; derivatives by count in space (they need
+///                     a motion). Collective.
+output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& body, MPI_Comm comm,
+                                    const std::filesystem::path& path, bool overwrite,
+                                    std::vector<std::string>& warnings);
+
+}  // namespace floe::scene

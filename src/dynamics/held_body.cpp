@@ -1,0 +1,40 @@
+#include "floe/dynamics/held_body.h"
+
+namespace floe::dynamics {
+
+HeldBody::HeldBody(std::vector<int> coordinates, Eigen::MatrixXd mass, body::Elasticity elasticity,
+                   Eigen::MatrixXd damping)
+    : coordinates_(std::move(coordinates)),
+      mass_(std::move(mass)),
+      damping_(std::move(damping)),
+      elasticity_(std::move(elasticity)) {}
+
+void HeldBody::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  r.noalias() += mass_ * motion.a;
+  body::add_force(elasticity_, motion.q, work_, r);
+  if (damping_.size() > 0) r.noalias() += damping_ * motion.v;
+}
+
+void HeldBody::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  J += weights.a * mass_;
+  if (weights.q != 0) body::add_tangent(elasticity_, motion.q, weights.q, work_, J);
+  if (damping_.size() > 0) J += weights.v * damping_;
+}
+
+Energy HeldBody::energy(const Motion& motion) const {
+  return {0.5 * motion.v.dot(mass_ * motion.v), body::energy(elasticity_, motion.q), 0};
+}
+
+DeadForce::DeadForce(std::vector<int> coordinates, Eigen::MatrixXd S, std::function<Eigen::VectorXd(double)> force)
+    : coordinates_(std::move(coordinates)), S_(std::move(S)), force_(std::move(force)) {}
+
+void DeadForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  r.noalias() -= S_.transpose() * force_(motion.t);
+}
+
+Energy DeadForce::energy(const Motion& motion) const {
+  if (!conservative) return {};
+  return {0, 0, -force_(motion.t).dot(S_ * motion.q)};
+}
+
+}  // namespace floe::dynamics

@@ -1,0 +1,155 @@
+#include "cells.h"
+
+#include <fmt/format.h>
+
+#include "floe/error.h"
+#include "floe/fem/point_mass.h"
+#include "floe/fem/shell.h"
+#include "floe/fem/spatial_beam_fixed.h"
+
+namespace floe::fem {
+namespace {
+
+/// The nodes of a cell, as the elements want them.
+struct Corners {
+  const Mesh& mesh;
+  const Mesh::Cell& cell;
+  MembraneStrain strain;
+  const Eigen::Vector3d& operator[](int i) const { return mesh.positions[cell.corner[i]]; }
+  Eigen::Vector2d planar(int i) const { return mesh.positions[cell.corner[i]].head<2>(); }
+  TriangleNodes triangle() const { return {(*this)[0], (*this)[1], (*this)[2]}; }
+  QuadrilateralNodes quadrilateral() const { return {(*this)[0], (*this)[1], (*this)[2], (*this)[3]}; }
+  bool three() const { return cell.kind == CellKind::triangle; }
+};
+
+BeamPlace place_of(const Corners& at, const SpatialBeam& beam) { return {at[0], at[1], beam.orientation}; }
+
+ElementMaps maps_of(const Corners& at, const BeamSection& section) {
+  return planar_beam(at.planar(0), at.planar(1), section, at.strain);
+}
+ElementMaps maps_of(const Corners& at, const SpatialBeam& beam) {
+  return spatial_beam(place_of(at, beam), beam.section, beam.strain);
+}
+ElementMaps maps_of(const Corners& at, const ShellSection& section) {
+  return at.three() ? shell_triangle(at.triangle(), section) : shell_quadrilateral(at.quadrilateral(), section);
+}
+ElementMaps maps_of(const Corners& at, const PointMass& point) {
+  return point_mass(at[0], point.mass, point.inertia, point.offset);
+}
+
+template <class Section>
+Eigen::MatrixXd matrix_of(const Corners& at, const Section& section, double k, double m) {
+  const ElementMaps maps = maps_of(at, section);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(maps.bending.rows(), maps.bending.cols());
+  if (k != 0) A += k * maps.stiffness();
+  if (m != 0) A += m * maps.mass_matrix();
+  return A;
+}
+Eigen::MatrixXd matrix_of(const Corners& at, const SpatialBeam& beam, double k, double m) {
+  Matrix12 A = Matrix12::Zero();
+  if (k != 0) A += k * stiffness(fixed_spatial_beam(place_of(at, beam), beam.section, beam.strain.wagner));
+  if (m != 0) A += m * spatial_beam_mass(place_of(at, beam), beam.section);
+  return A;
+}
+Eigen::MatrixXd matrix_of(const Corners& at, const ShellSection& section, double k, double m) {
+  const auto sum = [&](auto A, auto stiffness, auto mass, const auto& nodes) {
+    A.setZero();
+    if (k != 0) A += k * stiffness(nodes, section);
+    if (m != 0) A += m * mass(nodes, section);
+    return Eigen::MatrixXd(A);
+  };
+  if (at.three())
+    return sum(Eigen::Matrix<double, 18, 18>(), shell_triangle_stiffness, shell_triangle_mass, at.triangle());
+  return sum(Eigen::Matrix<double, 24, 24>(), shell_quadrilateral_stiffness, shell_quadrilateral_mass,
+             at.quadrilateral());
+}
+
+std::vector<body::MassPoint> line_of(const Corners& at, const BeamSection&) {
+  return planar_beam_line(at.planar(0), at.planar(1));
+}
+std::vector<body::MassPoint> line_of(const Corners& at, const SpatialBeam& beam) {
+  return spatial_beam_line(place_of(at, beam), beam.section);
+}
+std::vector<body::MassPoint> line_of(const Corners& at, const ShellSection&) {
+  std::vector<body::MassPoint> points;
+  for (const SurfacePoint& point :
+       at.three() ? shell_triangle_surface(at.triangle()) : shell_quadrilateral_surface(at.quadrilateral()))
+    points.push_back({point.area, point.x, point.N});
+  return points;
+}
+std::vector<body::MassPoint> line_of(const Corners&, const PointMass&) { return {}; }
+
+void check_of(const Corners&, const BeamSection&) {}
+void check_of(const Corners& at, const SpatialBeam& beam) { element_axes(place_of(at, beam)); }
+void check_of(const Corners& at, const ShellSection& section) {
+  if (at.three())
+    shell_triangle_strain(at.triangle(), section);
+  else
+    for (const auto& corner : quadrilateral_triangles)
+      shell_triangle_strain({at[corner[0]], at[corner[1]], at[corner[2]]}, section);
+}
+void check_of(const Corners& at, const PointMass& point) { maps_of(at, point); }
+
+bool belongs(CellKind kind, const BeamSection&) { return kind == CellKind::line; }
+bool belongs(CellKind kind, const SpatialBeam&) { return kind == CellKind::line; }
+bool belongs(CellKind kind, const ShellSection&) {
+  return kind == CellKind::triangle || kind == CellKind::quadrilateral;
+}
+bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; }
+
+}  // namespace
+
+ElementMaps Structure::maps(const Mesh::Cell& cell) const {
+  return std::visit([&](const auto& section) { return maps_of({mesh, cell, strain}, section); }, sections[cell.part]);
+}
+
+Eigen::MatrixXd Structure::matrix(const Mesh::Cell& cell, double k, double m) const {
+  return std::visit(
+      [&](const auto& section) {
+        return matrix_of({mesh, cell, strain}, section, k, m);
+      },
+      sections[cell.part]);
+}
+
+std::vector<body::MassPoint> Structure::line(const Mesh::Cell& cell) const {
+  return std::visit([&](const auto& section) { return line_of({mesh, cell, strain}, section); }, sections[cell.part]);
+}
+
+void check_cell(const Structure& structure, const Mesh::Cell& cell) {
+  const Corners at{structure.mesh, cell, structure.strain};
+  std::visit(
+      [&](const auto& section) {
+        if (!belongs(cell.kind, section))
+          throw InputError(
+              fmt::format("the cell at ({:.6g}, {:.6g}, {:.6g}) has a section of another kind: lines are "
+                          "beams, triangles and quadrilaterals shells",
+                          at[0].x(), at[0].y(), at[0].z()));
+        check_of(at, section);
+      },
+      structure.sections[cell.part]);
+}
+
+namespace {
+
+Section turn(const BeamSection& section, const Eigen::Matrix3d&) { return section; }
+Section turn(SpatialBeam beam, const Eigen::Matrix3d& R) {
+  beam.orientation = R.transpose() * beam.orientation;
+  return beam;
+}
+Section turn(ShellSection section, const Eigen::Matrix3d& R) {
+  section.axis = R.transpose() * section.axis;
+  return section;
+}
+Section turn(PointMass point, const Eigen::Matrix3d& R) {
+  point.inertia = R.transpose() * point.inertia * R;
+  point.offset = R.transpose() * point.offset;
+  return point;
+}
+
+}  // namespace
+
+Section turned(const Section& section, const Eigen::Matrix3d& rotation) {
+  return std::visit([&](const auto& s) { return turn(s, rotation); }, section);
+}
+
+}  // namespace floe::fem

@@ -1,0 +1,72 @@
+#pragma once
+#include "floe/fem/shell.h"
+
+namespace floe::fem::shell {
+
+using Row18 = Eigen::Matrix<double, 1, 18>;
+using Rows18 = Eigen::Matrix<double, 3, 18>;
+
+/// From one corner to the next, in the element's axes.
+struct Edge {
+  int from, to;
+  Eigen::Vector2d along;  ///< [m]
+  double factor;          ///< 3 / (2 length^2)
+};
+
+struct Geometry {
+  double area;
+  Eigen::Matrix3d axes;                     ///< columns x, y, z in body axes
+  std::array<Eigen::Vector2d, 3> corner;    ///< from the centroid, in the element's axes
+  std::array<Eigen::Vector2d, 3> gradient;  ///< of the corner's area coordinate [1/m]
+  std::array<Edge, 3> edge;                 ///< edge k is opposite to corner k
+};
+
+Geometry geometry(const TriangleNodes& nodes, const Eigen::Vector3d& axis);
+
+/// Four triples of an element's deformations, each with its stiffness per area: U = 1/2 area sum R'SR. Together they
+/// and the rigid motions span the 18 dofs.
+enum Deformation { mean_strain, mean_curvature, edge_bending, drilling };
+struct Deformations {
+  Eigen::Matrix<double, 12, 18> rows;  ///< three for each, on the dofs in body axes
+  std::array<Eigen::Matrix3d, 4> stiffness;
+};
+
+Deformations deformations(const Geometry& geometry, const ShellSection& section);
+
+/// Adds the coefficients of the normal's rotation, beta = (rotation_y, -rotation_x), of a corner to a row.
+template <class Row>
+void add_beta(Row&& row, int corner, const Eigen::Vector2d& coefficients) {
+  row[6 * corner + 3] -= coefficients.y();
+  row[6 * corner + 4] += coefficients.x();
+}
+
+/// Adds `times` the bending of an edge, a = 3/2 [(w_j - w_i) + d.(beta_i + beta_j) / 2] / l^2, d from i to j, l = |d|:
+/// the cubic of the edge has the slope -d.beta / l at its middle, beta = (beta_i + beta_j) / 2 - d a.
+template <class Row>
+void add_edge_bending(Row&& row, const Edge& edge, double times) {
+  row[6 * edge.from + 2] -= times * edge.factor;
+  row[6 * edge.to + 2] += times * edge.factor;
+  const Eigen::Vector2d half = times * edge.factor / 2 * edge.along;
+  add_beta(row, edge.from, half);
+  add_beta(row, edge.to, half);
+}
+
+/// Rows on dofs in the element's axes -> on dofs in body axes.
+template <class Rows>
+void to_body_axes(Rows& rows, const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d turn = axes.transpose();
+  for (int block = 0; block < 6; ++block) {
+    auto columns = rows.template middleCols<3>(3 * block);
+    columns = columns.lazyProduct(turn).eval();
+  }
+}
+
+/// Motion at the middle of an edge: (u, v, w) of the plane of the nodes and beta, in the element's axes, on the dofs in
+/// body axes. w is the cubic of the edge; beta is linear across it and follows the cubic's slope along it.
+struct Middle {
+  Eigen::Vector2d at;                 ///< from the centroid
+  Eigen::Matrix<double, 5, 18> rows;  ///< u, v, w, beta_x, beta_y
+};
+Middle middle(const Geometry& geometry, int edge);
+
+}  // namespace floe::fem::shell

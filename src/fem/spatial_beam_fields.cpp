@@ -1,0 +1,106 @@
+#include "spatial_beam_fields.h"
+
+#include "floe/error.h"
+
+namespace floe::fem {
+
+Eigen::Matrix3d element_axes(const BeamPlace& place) {
+  const Eigen::Vector3d along = place.to - place.from;
+  const double length = along.norm(), size = place.orientation.norm();
+  if (!(length > 0) || !along.allFinite()) throw InputError("a beam element's nodes coincide");
+  if (!(size > 0) || !place.orientation.allFinite()) throw InputError("a beam's orientation vector is zero");
+  const Eigen::Vector3d x = along / length, side = place.orientation / size;
+  const Eigen::Vector3d across = side - side.dot(x) * x;
+  if (across.norm() < 1e-6) throw InputError("a beam's orientation vector is parallel to the beam");
+  Eigen::Matrix3d axes;
+  const Eigen::Vector3d y = (across - across.dot(x) * x).normalized();
+  axes << x, y, x.cross(y);
+  return axes;
+}
+
+namespace spatial {
+namespace {
+
+/// Hermite cubics on (value, slope) at both ends and their derivatives with respect to x.
+using Row4 = Eigen::Matrix<double, 1, 4>;
+Row4 cubics(double s, double l) {
+  return {1 - 3 * s * s + 2 * s * s * s, l * s * (1 - s) * (1 - s), 3 * s * s - 2 * s * s * s, l * s * s * (s - 1)};
+}
+Row4 cubic_slopes(double s, double l) {
+  return {6 * s * (s - 1) / l, 1 - 4 * s + 3 * s * s, 6 * s * (1 - s) / l, s * (3 * s - 2)};
+}
+
+Row12 in_y(const Row4& h) {
+  Row12 row = Row12::Zero();
+  row[1] = h[0], row[5] = h[1], row[7] = h[2], row[11] = h[3];  // v' = rz
+  return row;
+}
+Row12 in_z(const Row4& h) {
+  Row12 row = Row12::Zero();
+  row[2] = h[0], row[4] = -h[1], row[8] = h[2], row[10] = -h[3];  // w' = -ry
+  return row;
+}
+
+}  // namespace
+
+BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section) {
+  check(section);
+  BeamFrame frame;
+  frame.axes = element_axes(place);
+  frame.length = (place.to - place.from).norm();
+  frame.C = section.centroid, frame.S = section.shear_centre;
+  const Eigen::Matrix3d turn = frame.axes.transpose();
+  frame.node.setZero();
+  frame.node.topLeftCorner<3, 3>() = turn;
+  frame.node.bottomRightCorner<3, 3>() = turn;
+  Eigen::Matrix3d arms;  // u_C = u + z_C ry - y_C rz,  v_S = v - z_S rx,  w_S = w + y_S rx
+  arms << 0, frame.C[1], -frame.C[0], -frame.S[1], 0, 0, frame.S[0], 0, 0;
+  frame.node.topRightCorner<3, 3>() = arms * turn;
+  return frame;
+}
+
+Row12 stretch(double s) {
+  Row12 row = Row12::Zero();
+  row[0] = 1 - s, row[6] = s;
+  return row;
+}
+Row12 twist(double s) {
+  Row12 row = Row12::Zero();
+  row[3] = 1 - s, row[9] = s;
+  return row;
+}
+Row12 deflection_y(double s, double l) { return in_y(cubics(s, l)); }
+Row12 deflection_z(double s, double l) { return in_z(cubics(s, l)); }
+Row12 slope_y(double s, double l) { return in_y(cubic_slopes(s, l)); }
+Row12 slope_z(double s, double l) { return in_z(cubic_slopes(s, l)); }
+
+Row12 stretch_rate(double l) {
+  Row12 row = Row12::Zero();
+  row[0] = -1 / l, row[6] = 1 / l;
+  return row;
+}
+Row12 twist_rate(double l) {
+  Row12 row = Row12::Zero();
+  row[3] = -1 / l, row[9] = 1 / l;
+  return row;
+}
+Row12 centroid_slope_y(double s, const BeamFrame& f) {
+  return slope_y(s, f.length) - (f.C[1] - f.S[1]) * twist_rate(f.length);
+}
+Row12 centroid_slope_z(double s, const BeamFrame& f) {
+  return slope_z(s, f.length) + (f.C[0] - f.S[0]) * twist_rate(f.length);
+}
+
+SectionMotion section_motion(double s, const BeamFrame& f) {
+  const double l = f.length;
+  const Row12 turn = twist(s), none = Row12::Zero();
+  SectionMotion motion;
+  motion.centre << stretch(s), deflection_y(s, l) - (f.C[1] - f.S[1]) * turn,
+      deflection_z(s, l) + (f.C[0] - f.S[0]) * turn;
+  motion.along_y << -slope_y(s, l), none, turn;
+  motion.along_z << -slope_z(s, l), -turn, none;
+  return motion;
+}
+
+}  // namespace spatial
+}  // namespace floe::fem

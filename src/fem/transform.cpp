@@ -1,0 +1,54 @@
+#include "floe/fem/transform.h"
+
+#include "floe/error.h"
+
+namespace floe::fem {
+namespace {
+
+void expect_rows(const Eigen::MatrixXd& T, Eigen::Index dofs) {
+  if (T.rows() != dofs)
+    throw InputError("a transformation has " + std::to_string(T.rows()) + " rows, its element " + std::to_string(dofs) +
+                     " dofs");
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& a) {
+  Eigen::Matrix<double, 6, 6> T = Eigen::Matrix<double, 6, 6>::Identity();
+  T.topRightCorner<3, 3>() << 0, a.z(), -a.y(), -a.z(), 0, a.x(), a.y(), -a.x(), 0;
+  return T;
+}
+
+Eigen::Matrix3d rigid_arm(const Eigen::Vector2d& a) {
+  return (Eigen::Matrix3d() << 1, 0, -a.y(), 0, 1, a.x(), 0, 0, 1).finished();
+}
+
+Eigen::MatrixXd rigid_arms(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(12, 12);
+  T.topLeftCorner<6, 6>() = rigid_arm(first);
+  T.bottomRightCorner<6, 6>() = rigid_arm(second);
+  return T;
+}
+
+ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T) {
+  expect_rows(T, maps.bending.rows());
+  ElementMaps result = maps;
+  result.bending = T.transpose() * maps.bending * T;
+  for (StrainPoint& g : result.membrane) {
+    g.L = (g.L * T).eval();
+    g.G = (g.G * T).eval();
+  }
+  result.mass = transformed(maps.mass, T);
+  return result;
+}
+
+std::vector<body::MassPoint> transformed(const std::vector<body::MassPoint>& points, const Eigen::MatrixXd& T) {
+  std::vector<body::MassPoint> result;
+  for (const body::MassPoint& point : points) {
+    expect_rows(T, point.N.cols());
+    result.push_back({point.mass, point.x, point.N * T});
+  }
+  return result;
+}
+
+}  // namespace floe::fem

@@ -1,0 +1,20 @@
+#include "floe/mesh/generate.h"
+#include "generate_share.h"
+
+namespace floe::mesh {
+
+RawMesh scaled(RawMesh mesh, double factor) {
+  Checks checks("scaled");
+  checks.positive("factor", factor);
+  checks.finish();
+  for (auto& x : mesh.positions) x *= factor;
+  return mesh;
+}
+
+RawMesh prefixed(RawMesh mesh, const std::string& prefix) {
+  for (auto* names : {&mesh.parts, &mesh.places})
+    for (auto& name : *names) name = prefix + name;
+  return mesh;
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,57 @@
+#include "floe/mesh/gmsh.h"
+
+#include <limits>
+#include <memory>
+
+#include "floe/petsc/error.h"
+#include "gmsh_records.h"
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+void refuse_too_many(const GmshStructure& structure, Faults& faults) {
+  constexpr long long most = std::numeric_limits<PetscInt>::max();
+  long long elements = 0;
+  for (const auto& block : structure.elements) elements += block.count;
+  if (structure.node_count > most || elements > most)
+    faults.add({0, 1}, "more than " + std::to_string(most) + " nodes or elements");
+}
+
+std::vector<std::string> notices_of(const std::string& path, long long left_out, PetscInt dropped) {
+  std::vector<std::string> notices;
+  if (left_out > 0)
+    notices.push_back(path + ": " + std::to_string(left_out) + " elements that are in no physical group are left out");
+  if (dropped > 0) notices.push_back(path + ": " + std::to_string(dropped) + " nodes that no cell uses are left out");
+  return notices;
+}
+
+}  // namespace
+
+GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std::string>& wanted_parts) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  std::unique_ptr<Faults> faults;
+  FileMesh file;
+  long long left_out = 0;
+  petsc::agree(comm, [&] {
+    const MappedFile mapped(path);
+    const GmshStructure structure = gmsh_structure(mapped);
+    faults = std::make_unique<Faults>(structure.nodes.front().labels.binary);
+    faults->add_file(path);
+    refuse_too_many(structure, *faults);
+    const GmshSelection selection = select_parts(structure, wanted_parts, *faults);
+    if (faults->any()) return;
+    left_out = selection.left_out;
+    file.parts = selection.parts;
+    read_nodes(structure, share_of(static_cast<PetscInt>(structure.node_count), rank, ranks), file, *faults);
+    read_elements(structure, selection, rank, ranks, file, *faults);
+  });
+  faults->throw_together(comm);
+  Numbered numbered = number_labels(comm, std::move(file), *faults);
+  numbered.mesh.source = path;
+  return {std::move(numbered.mesh), notices_of(path, left_out, numbered.dropped)};
+}
+
+}  // namespace floe::mesh

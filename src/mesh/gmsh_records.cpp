@@ -1,0 +1,145 @@
+#include "gmsh_records.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+constexpr int most_nodes = 125;
+
+std::string_view next_record(GmshCursor& cursor, Where& where) {
+  where = cursor.where(cursor.at);
+  return cursor.rest_of_line();
+}
+
+// `count` labels of one record; nothing where the line holds something else.
+bool read_labels(GmshCursor& cursor, int count, const char* what, long long* labels, Where& where, Faults& faults) {
+  if (cursor.binary) {
+    where = cursor.where(cursor.at);
+    for (int i = 0; i < count; ++i, cursor.at += cursor.count_width) labels[i] = cursor.count_at(cursor.at);
+    return true;
+  }
+  auto line = next_record(cursor, where);
+  const auto whole = line;
+  for (int i = 0; i < count; ++i) {
+    const auto read = number<long long>(next_word(line));
+    if (!read) {
+      faults.add(where, std::string("expected ") + what + ", found " + quoted(whole));
+      return false;
+    }
+    labels[i] = *read;
+  }
+  if (next_word(line).empty()) return true;
+  faults.add(where, std::string("expected ") + what + " and no more, found " + quoted(whole));
+  return false;
+}
+
+std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faults& faults) {
+  Eigen::Vector3d position;
+  if (cursor.binary) {
+    for (int i = 0; i < 3; ++i) position[i] = cursor.value<double>(cursor.at + 8 * i);
+    cursor.at += 8 * reals;
+    return position;
+  }
+  Where where;
+  auto line = next_record(cursor, where);
+  const auto whole = line;
+  for (int i = 0; i < reals; ++i) {
+    const auto read = number<double>(next_word(line));
+    if (!read) {
+      faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node, found " + quoted(whole));
+      return std::nullopt;
+    }
+    if (i < 3) position[i] = *read;
+  }
+  if (next_word(line).empty()) return position;
+  faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node and no more, found " + quoted(whole));
+  return std::nullopt;
+}
+
+// Moves past `count` records of `width` bytes, or lines.
+void pass(GmshCursor& cursor, long long count, long long width) {
+  cursor.binary ? cursor.skip_bytes(count, width, "records") : cursor.skip_lines(count, "records");
+}
+
+// The records of a block of `count` between first and last of the whole count, which starts at `start` with this block.
+struct Window {
+  long long skipped, count;
+};
+Window window(long long start, long long count, long long first, long long last) {
+  const long long begin = std::max(start, first), end = std::min(start + count, last);
+  return {begin - start, std::max(0LL, end - begin)};
+}
+
+void read_block(const GmshElementBlock& block, const GmshUse& use, Window part, FileMesh& mesh, Faults& faults) {
+  const auto& type = *gmsh_type(block.type);
+  GmshCursor cursor = block.begin;
+  pass(cursor, part.skipped, cursor.count_width * (1 + type.nodes));
+  const std::string what = "an element number and " + std::to_string(type.nodes) + " nodes (" + type.name + ")";
+  long long labels[1 + most_nodes];
+  std::vector<long long> used;
+  for (long long i = 0; i < part.count; ++i) {
+    Where where;
+    if (!read_labels(cursor, 1 + type.nodes, what.c_str(), labels, where, faults)) continue;
+    if (use.part >= 0) {
+      FileCell cell{labels[0], static_cast<CellKind>(block.type - 1), use.part, {-1, -1, -1, -1}, where};
+      std::copy(labels + 1, labels + 1 + type.nodes, cell.nodes.begin());
+      mesh.cells.push_back(cell);
+    }
+    if (!use.places.empty()) used.insert(used.end(), labels + 1, labels + 1 + type.nodes);
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const int place : use.places) {
+    auto& target = mesh.places[place].labels;
+    target.insert(target.end(), used.begin(), used.end());
+  }
+}
+
+}  // namespace
+
+void read_nodes(const GmshStructure& structure, Share share, FileMesh& mesh, Faults& faults) {
+  for (const auto& block : structure.nodes) {
+    const auto part = window(block.first, block.count, share.first, static_cast<long long>(share.first) + share.count);
+    if (part.count == 0) continue;
+    GmshCursor labels = block.labels, positions = block.positions;
+    pass(labels, part.skipped, labels.count_width);
+    pass(positions, part.skipped, 8 * block.reals);
+    for (long long i = 0; i < part.count; ++i) {
+      Where where;
+      long long label = 0;
+      const bool labelled = read_labels(labels, 1, "a node number", &label, where, faults);
+      const auto position = read_position(positions, block.reals, faults);
+      if (!labelled || !position) continue;
+      mesh.node_labels.push_back(label);
+      mesh.positions.push_back(*position);
+      mesh.node_where.push_back(where);
+    }
+  }
+}
+
+void read_elements(const GmshStructure& structure, const GmshSelection& selection, int rank, int ranks, FileMesh& mesh,
+                   Faults& faults) {
+  for (const auto& name : selection.places) mesh.places.push_back({name, {0, 1}, {}});
+  long long cells = 0, start = 0;
+  for (std::size_t b = 0; b < selection.uses.size(); ++b)
+    if (selection.uses[b].part >= 0) cells += structure.elements[b].count;
+  const Share share = share_of(static_cast<PetscInt>(cells), rank, ranks);
+  for (std::size_t b = 0; b < selection.uses.size(); ++b) {
+    const auto& use = selection.uses[b];
+    const auto& block = structure.elements[b];
+    if (use.part >= 0) {
+      read_block(block, use, window(start, block.count, share.first, static_cast<long long>(share.first) + share.count),
+                 mesh, faults);
+      start += block.count;
+    } else if (!use.places.empty()) {
+      const Share own = share_of(static_cast<PetscInt>(block.count), rank, ranks);
+      read_block(block, use, {own.first, own.count}, mesh, faults);
+    }
+  }
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,171 @@
+#include "gmsh_structure.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+void read_format(GmshCursor& cursor) {
+  const std::string version(cursor.word("a format version"));
+  if (version != "4.1")
+    cursor.refuse("format " + quoted(version) +
+                  " of Gmsh is not read, only 4.1: convert with  gmsh old.msh -save -format msh41 -o new.msh");
+  const long long kind = cursor.integer("0 (text) or 1 (binary)");
+  if (kind != 0 && kind != 1) cursor.refuse("expected 0 (text) or 1 (binary), found " + std::to_string(kind));
+  const long long width = cursor.integer("the bytes of a count, 4 or 8");
+  if (width != 4 && width != 8) cursor.refuse("expected 4 or 8 bytes of a count, found " + std::to_string(width));
+  cursor.count_width = static_cast<int>(width);
+  if (kind == 1) {
+    cursor.rest_of_line();
+    if (cursor.end - cursor.at < 4) cursor.refuse("the file ends where the number 1 in binary was expected");
+    const auto one = cursor.value<std::int32_t>(cursor.at);
+    constexpr std::int32_t other_one = 0x01000000;
+    if (one != 1 && one != other_one) cursor.refuse("expected the number 1 in binary, in either byte order");
+    cursor.swapped = one == other_one;
+    cursor.at += 4;
+  }
+  cursor.expect("$EndMeshFormat");
+  cursor.binary = kind == 1;
+}
+
+void read_names(GmshCursor& cursor, GmshStructure& result) {
+  const bool binary = std::exchange(cursor.binary, false);  // this section is always text
+  const long long count = cursor.count("the number of physical names");
+  for (long long i = 0; i < count; ++i) {
+    const auto dimension = cursor.integer("the dimension of a physical group");
+    if (dimension < 0 || dimension > 3) cursor.refuse("a physical group has dimension 0 to 3");
+    const auto tag = cursor.integer("the number of a physical group");
+    auto text = trimmed(cursor.rest_of_line());
+    if (text.size() < 3 || text.front() != '"' || text.back() != '"') {
+      --cursor.line;
+      cursor.refuse("expected the name of a physical group in quotes, found " + quoted(text));
+    }
+    result.group_names[{static_cast<int>(dimension), tag}] = std::string(text.substr(1, text.size() - 2));
+  }
+  cursor.expect("$EndPhysicalNames");
+  cursor.binary = binary;
+}
+
+void read_entities(GmshCursor& cursor, GmshStructure& result) {
+  constexpr int dimensions = 4, corner_reals = 3, box_reals = 6;
+  long long counts[dimensions];
+  for (auto& count : counts) count = cursor.count("the number of entities");
+  for (int dimension = 0; dimension < dimensions; ++dimension) {
+    for (long long i = 0; i < counts[dimension]; ++i) {
+      const auto tag = cursor.integer("the number of an entity");
+      for (int k = 0; k < (dimension ? box_reals : corner_reals); ++k) cursor.real();
+      auto& groups = result.groups_of[{dimension, tag}];
+      const long long group_count = cursor.count("the number of physical groups");
+      for (long long k = 0; k < group_count; ++k)
+        groups.push_back(std::abs(cursor.integer("the number of a physical group")));
+      const long long bounds = dimension ? cursor.count("the number of bounding entities") : 0;
+      for (long long k = 0; k < bounds; ++k) cursor.integer("the number of a bounding entity");
+    }
+  }
+  cursor.expect("$EndEntities");
+}
+
+void begin_records(GmshCursor& cursor) {
+  if (!cursor.binary) cursor.rest_of_line();
+}
+
+void read_node_blocks(GmshCursor& cursor, GmshStructure& result) {
+  if (!result.nodes.empty()) cursor.refuse("there is a second $Nodes section");
+  const long long blocks = cursor.count("the number of node blocks");
+  const long long nodes = cursor.count("the number of nodes");
+  for (const char* of : {"the least node number", "the greatest node number"}) cursor.count(of);
+  for (long long i = 0; i < blocks; ++i) {
+    const long long dimension = cursor.integer("the dimension of a node block");
+    cursor.integer("the entity of a node block");
+    const long long parametric = cursor.integer("0 or 1 (parametric)");
+    if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
+      cursor.refuse("expected the header of a node block: dimension, entity, parametric, number of nodes");
+    const long long count = cursor.count("the number of nodes of a block");
+    begin_records(cursor);
+    const GmshCursor labels = cursor;
+    const int reals = 3 + static_cast<int>(parametric ? dimension : 0);
+    cursor.binary ? cursor.skip_bytes(count, cursor.count_width, "node numbers")
+                  : cursor.skip_lines(count, "lines of node numbers");
+    const GmshCursor positions = cursor;
+    cursor.binary ? cursor.skip_bytes(count, 8 * reals, "node positions")
+                  : cursor.skip_lines(count, "lines of node positions");
+    result.nodes.push_back({labels, positions, result.node_count, count, reals});
+    result.node_count += count;
+  }
+  if (result.node_count != nodes)
+    cursor.refuse("$Nodes announces " + std::to_string(nodes) + " nodes, its blocks have " +
+                  std::to_string(result.node_count));
+  cursor.expect("$EndNodes");
+}
+
+void read_element_blocks(GmshCursor& cursor, GmshStructure& result) {
+  if (!result.elements.empty()) cursor.refuse("there is a second $Elements section");
+  const long long blocks = cursor.count("the number of element blocks");
+  const long long elements = cursor.count("the number of elements");
+  for (const char* of : {"the least element number", "the greatest element number"}) cursor.count(of);
+  long long total = 0;
+  for (long long i = 0; i < blocks; ++i) {
+    const auto dimension = cursor.integer("the dimension of an element block");
+    if (dimension < 0 || dimension > 3) cursor.refuse("an element block has dimension 0 to 3");
+    const auto tag = cursor.integer("the entity of an element block");
+    const long long type = cursor.integer("an element type");
+    if (!gmsh_type(type)) cursor.refuse("element type " + std::to_string(type) + " is unknown");
+    const long long count = cursor.count("the number of elements of a block");
+    begin_records(cursor);
+    result.elements.push_back({{static_cast<int>(dimension), tag}, type, count, cursor});
+    cursor.binary ? cursor.skip_bytes(count, cursor.count_width * (1 + gmsh_type(type)->nodes), "elements")
+                  : cursor.skip_lines(count, "lines of elements");
+    total += count;
+  }
+  if (total != elements)
+    cursor.refuse("$Elements announces " + std::to_string(elements) + " elements, its blocks have " +
+                  std::to_string(total));
+  cursor.expect("$EndElements");
+}
+
+void skip_section(GmshCursor& cursor, const std::string& name) {
+  const std::string_view text(cursor.at, static_cast<std::size_t>(cursor.end - cursor.at));
+  const std::string last = "$End" + name.substr(1);
+  const auto found = text.find(last);
+  if (found == std::string_view::npos) cursor.refuse("section " + quoted(name) + " has no " + quoted(last));
+  cursor.line += std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(found), '\n');
+  cursor.at += found + last.size();
+}
+
+void read_section(GmshCursor& cursor, const std::string& name, GmshStructure& result) {
+  if (name == "$PhysicalNames") return read_names(cursor, result);
+  if (name == "$Entities") return read_entities(cursor, result);
+  if (name == "$Nodes") return read_node_blocks(cursor, result);
+  if (name == "$Elements") return read_element_blocks(cursor, result);
+  if (name == "$PartitionedEntities")
+    cursor.refuse("a partitioned mesh is not read: save the mesh that was not partitioned");
+  skip_section(cursor, name);
+}
+
+}  // namespace
+
+GmshStructure gmsh_structure(const MappedFile& file) {
+  GmshCursor cursor(file);
+  GmshStructure result;
+  std::string name(cursor.word("'$MeshFormat'"));
+  for (; name == "$Comments"; name = cursor.word("'$MeshFormat'")) skip_section(cursor, name);
+  if (name != "$MeshFormat") cursor.refuse("expected '$MeshFormat', found " + quoted(name) + ": is this a Gmsh file?");
+  read_format(cursor);
+  while (!cursor.done()) {
+    const char* place = cursor.at;
+    name = cursor.word("a section");
+    if (name.size() < 2 || name[0] != '$' || name.starts_with("$End"))
+      cursor.refuse_at(place, "expected a section ($Nodes, ...), found " + quoted(name));
+    cursor.rest_of_line();
+    read_section(cursor, name, result);
+  }
+  for (const auto& [missing, text] : {std::pair(result.nodes.empty(), "nodes"), {result.elements.empty(), "elements"}})
+    if (missing) cursor.refuse(std::string("the file ends, and it has no ") + text);
+  return result;
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,120 @@
+#include <Eigen/Geometry>
+
+#include "inp_reading.h"
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+// The material that *ELASTIC or *DENSITY belongs to.
+Material* current(const InpBlock& block, InpReading& reading) {
+  if (!reading.deck.materials.empty()) return &reading.deck.materials.back();
+  reading.faults.add(block.where, block.name + " stands before any *MATERIAL");
+  return nullptr;
+}
+
+bool positive(const std::vector<double>& values, std::initializer_list<int> which) {
+  for (const int i : which)
+    if (!(values[i] > 0)) return false;
+  return true;
+}
+
+std::optional<std::vector<double>> engineering_constants(const InpBlock& block, InpReading& reading) {
+  constexpr std::size_t on_first = 8;
+  const auto lines =
+      data_lines(block, 2, 2, "E1 E2 E3 nu12 nu13 nu23 G12 G13 and, on a second line, G23", reading.faults);
+  if (lines.empty()) return std::nullopt;
+  auto values =
+      numbers(lines[0].second, lines[0].first, on_first, on_first, "E1 E2 E3 nu12 nu13 nu23 G12 G13", reading.faults);
+  const auto last = numbers(lines[1].second, lines[1].first, 1, 2, "G23[, temperature]", reading.faults);
+  if (!values || !last) return std::nullopt;
+  values->push_back(last->front());
+  if (positive(*values, {0, 1, 2, 6, 7, 8})) return values;
+  reading.faults.add(lines[0].first, "moduli of " + block.name + " must be greater than 0");
+  return std::nullopt;
+}
+
+std::optional<std::vector<double>> one_line(const InpBlock& block, std::size_t count, const char* what,
+                                            std::initializer_list<int> moduli, InpReading& reading) {
+  const auto lines = data_lines(block, 1, 1, std::string(what) + " at one temperature", reading.faults);
+  if (lines.empty()) return std::nullopt;
+  auto values = numbers(lines[0].second, lines[0].first, count, count + 1, what, reading.faults);
+  if (!values) return std::nullopt;
+  values->resize(count);
+  if (positive(*values, moduli)) return values;
+  reading.faults.add(lines[0].first, std::string("moduli must be greater than 0 in ") + what);
+  return std::nullopt;
+}
+
+}  // namespace
+
+void read_material(const InpBlock& block, InpReading& reading) {
+  Material material;
+  material.name = required(block, "NAME", reading);
+  for (const auto& other : reading.deck.materials)
+    if (upper(other.name) == upper(material.name))
+      reading.faults.add(block.where, "material " + quoted(material.name) + " is defined a second time");
+  reading.deck.materials.push_back(material);
+}
+
+void read_elastic(const InpBlock& block, InpReading& reading) {
+  Material* material = current(block, reading);
+  if (!material) return;
+  const auto found = block.parameters.find("TYPE");
+  const std::string type = found == block.parameters.end() ? "ISO" : folded(found->second);
+  std::optional<std::vector<double>> constants;
+  if (type == "ISO" || type == "ISOTROPIC") {
+    material->elasticity = Elasticity::isotropic;
+    constants = one_line(block, 2, "E, nu", {0}, reading);
+    if (constants && !((*constants)[1] > -1 && (*constants)[1] <= 0.5))
+      reading.faults.add(block.where, block.name + " expects nu between -1 and 1/2");
+  } else if (type == "ENGINEERINGCONSTANTS") {
+    material->elasticity = Elasticity::engineering_constants;
+    constants = engineering_constants(block, reading);
+  } else if (type == "LAMINA") {
+    material->elasticity = Elasticity::lamina;
+    constants = one_line(block, 6, "E1, E2, nu12, G12, G13, G23", {0, 1, 3, 4, 5}, reading);
+  } else {
+    reading.faults.add(block.where, block.name + " is read with TYPE=ISO, ENGINEERING CONSTANTS or LAMINA, not " +
+                                        quoted(found->second));
+  }
+  if (constants) material->constants = *constants;
+}
+
+void read_density(const InpBlock& block, InpReading& reading) {
+  Material* material = current(block, reading);
+  if (!material) return;
+  const auto density = one_line(block, 1, "a density", {0}, reading);
+  if (density) material->density = density->front();
+}
+
+void read_orientation(const InpBlock& block, InpReading& reading) {
+  auto& faults = reading.faults;
+  Orientation orientation{required(block, "NAME", reading), {}, {}, 0, 0};
+  for (const auto& [key, expected] : {std::pair("SYSTEM", "RECTANGULAR"), {"DEFINITION", "COORDINATES"}}) {
+    const auto found = block.parameters.find(key);
+    if (found != block.parameters.end() && upper(found->second) != expected)
+      return faults.add(block.where, block.name + " is read with " + key + "=" + expected + " only");
+  }
+  const auto lines = data_lines(block, 1, 2, "two points, and perhaps an axis and an angle", faults);
+  if (lines.empty()) return;
+  const auto points = numbers(lines[0].second, lines[0].first, 4, 6, "two points of three coordinates", faults);
+  if (!points) return;
+  auto p = *points;
+  p.resize(6, 0.0);
+  orientation.a = {p[0], p[1], p[2]};
+  orientation.b = {p[3], p[4], p[5]};
+  if (orientation.a.cross(orientation.b).norm() <= 1e-12 * orientation.a.norm() * orientation.b.norm())
+    faults.add(lines[0].first, "the points of an orientation lie on one line with the origin");
+  if (lines.size() == 2) {
+    const auto turn = numbers(lines[1].second, lines[1].first, 1, 2, "an axis (1, 2, 3) and an angle", faults);
+    if (!turn) return;
+    orientation.axis = static_cast<int>((*turn)[0]);
+    orientation.angle = turn->size() > 1 ? (*turn)[1] : 0.0;
+    if (orientation.axis != (*turn)[0] || orientation.axis < 1 || orientation.axis > 3)
+      faults.add(lines[1].first, "expected an axis (1, 2, 3) and an angle, found " + quoted(lines[1].second));
+  }
+  reading.deck.orientations.push_back(orientation);
+}
+
+}  // namespace floe::mesh

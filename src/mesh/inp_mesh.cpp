@@ -1,0 +1,136 @@
+#include <algorithm>
+
+#include "inp_reading.h"
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+const std::map<std::string, int>& element_nodes() {
+  static const std::map<std::string, int> nodes{{"B31", 2},   {"B33", 2}, {"S3", 3},  {"S3R", 3},
+                                                {"STRI3", 3}, {"S4", 4},  {"S4R", 4}, {"MASS", 1}};
+  return nodes;
+}
+
+// 0: not one that is read.
+int nodes_of(const InpBlock& block) {
+  const auto type = block.parameters.find("TYPE");
+  if (type == block.parameters.end()) return 0;
+  const auto found = element_nodes().find(upper(type->second));
+  return found == element_nodes().end() ? 0 : found->second;
+}
+
+// Lines that the first record takes: it goes on after a comma at the end while nodes are missing.
+long long lines_of_record(const InpBlock& block, int nodes) {
+  long long lines = 0, found = 0;
+  bool open = true;
+  std::vector<std::string_view> fields;
+  block.each_line(0, 1 + nodes, [&](Where, std::string_view line) {
+    if (!open) return;
+    split_fields(line, fields);
+    found += static_cast<long long>(fields.size());
+    ++lines;
+    open = found < 1 + nodes && trimmed(line).ends_with(',');
+  });
+  return std::max(1LL, lines);
+}
+
+struct Window {
+  long long skipped, count;
+};
+Window window(long long start, long long count, const Share& share) {
+  const long long begin = std::max<long long>(start, share.first);
+  const long long end = std::min<long long>(start + count, static_cast<long long>(share.first) + share.count);
+  return {begin - start, std::max(0LL, end - begin)};
+}
+
+bool add_element(const std::vector<std::string_view>& fields, InpElement element, InpReading& reading) {
+  if (static_cast<int>(fields.size()) != 1 + element.nodes) return false;
+  for (int i = 0; i <= element.nodes; ++i) {
+    const auto label = number<long long>(fields[i]);
+    if (!label) return false;
+    (i ? element.node_labels[i - 1] : element.label) = *label;
+  }
+  reading.elements.push_back(element);
+  return true;
+}
+
+}  // namespace
+
+InpShares shares_of(const std::vector<InpBlock>& blocks, int rank, int ranks, Faults& faults) {
+  constexpr long long most = std::numeric_limits<PetscInt>::max();
+  long long nodes = 0, elements = 0;
+  bool in_step = false;
+  for (const auto& block : blocks) {
+    in_step = block.keyword == "STEP" || (in_step && block.keyword != "ENDSTEP");
+    if (in_step) continue;
+    if (block.keyword == "NODE") nodes += block.lines();
+    if (block.keyword == "ELEMENT" && nodes_of(block))
+      elements += block.lines() / lines_of_record(block, nodes_of(block));
+  }
+  if (nodes > most || elements > most) {
+    faults.add({0, 1}, "more than " + std::to_string(most) + " nodes or elements");
+    nodes = elements = 0;
+  }
+  InpShares shares;
+  shares.nodes = share_of(static_cast<PetscInt>(nodes), rank, ranks);
+  shares.elements = share_of(static_cast<PetscInt>(elements), rank, ranks);
+  return shares;
+}
+
+void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& reading) {
+  const auto named = block.parameters.find("NSET");
+  const int set = named == block.parameters.end() ? -1 : reading.node_sets.named(named->second, block.where);
+  const Window part = window(shares.nodes_before, block.lines(), shares.nodes);
+  shares.nodes_before += block.lines();
+  std::vector<std::string_view> fields;
+  block.each_line(part.skipped, part.count, [&](Where where, std::string_view line) {
+    split_fields(line, fields);
+    const auto label = fields.empty() ? std::nullopt : number<long long>(fields[0]);
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    bool good = label && fields.size() >= 3 && fields.size() <= 4;
+    for (std::size_t i = 1; good && i < fields.size(); ++i) {
+      const auto value = number<double>(fields[i]);
+      good = value.has_value();
+      position[static_cast<Eigen::Index>(i) - 1] = value.value_or(0);
+    }
+    if (!good) return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + quoted(line));
+    reading.mesh.node_labels.push_back(*label);
+    reading.mesh.positions.push_back(position);
+    reading.mesh.node_where.push_back(where);
+    if (set >= 0) reading.node_sets.sets[set].labels.push_back(*label);
+  });
+}
+
+void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading) {
+  const std::string type = required(block, "TYPE", reading);
+  const int nodes = nodes_of(block);
+  if (!nodes && !type.empty()) {
+    std::vector<std::string> known;
+    for (const auto& [name, unused] : element_nodes()) known.push_back(name);
+    reading.faults.add(block.where, "elements of type " + quoted(type) + " are not read (" + listed(known) + " are)");
+  }
+  const auto named = block.parameters.find("ELSET");
+  const int set = named == block.parameters.end() ? -1 : reading.element_sets.named(named->second, block.where);
+  if (!nodes) return;
+  const long long lines = lines_of_record(block, nodes), records = block.lines() / lines;
+  const std::string what = "an element number and " + std::to_string(nodes) + " nodes" +
+                           (lines > 1 ? " on " + std::to_string(lines) + " lines, as in the first record" : "");
+  if (records * lines != block.lines()) reading.faults.add(block.where, block.name + " expects records of " + what);
+  const Window part = window(shares.elements_before, records, shares.elements);
+  shares.elements_before += records;
+  std::vector<std::string_view> fields, more;
+  InpElement element{0, nodes, set, -1, {-1, -1, -1, -1}, {}};
+  long long line_of_record = 0;
+  block.each_line(part.skipped * lines, part.count * lines, [&](Where where, std::string_view line) {
+    if (line_of_record == 0) element.where = where;
+    split_fields(line, line_of_record ? more : fields);
+    if (line_of_record) fields.insert(fields.end(), more.begin(), more.end());
+    if (++line_of_record < lines) return;
+    line_of_record = 0;
+    if (!add_element(fields, element, reading))
+      reading.faults.add(element.where, "expected " + what + ", found " + quoted(line));
+  });
+}
+
+}  // namespace floe::mesh

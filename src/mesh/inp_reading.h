@@ -1,0 +1,126 @@
+#pragma once
+#include <optional>
+
+#include "file_mesh.h"
+#include "floe/mesh/deck.h"
+#include "inp_blocks.h"
+
+namespace floe::mesh {
+
+/// A set of nodes or elements while the deck is read.
+struct InpSet {
+  struct Range {
+    long long first, last, step;
+    bool holds(long long label) const { return label >= first && label <= last && (label - first) % step == 0; }
+  };
+  std::string name;
+  Where where;
+  std::vector<long long> labels;     // that this rank found
+  std::vector<Range> ranges;         // of GENERATE; same on all ranks
+  std::vector<std::string> members;  // other sets, by name; same on all ranks after agree_members
+};
+
+/// Sets in the order of their first mention, which is the same on all ranks.
+struct InpSets {
+  std::vector<InpSet> sets;
+  int named(const std::string& name, Where where);  // its number; made where it does not exist
+  int find(const std::string& name) const;          // -1: none
+  std::vector<int> with_members(int set) const;     // itself and all that it holds
+  std::vector<std::string> names() const;
+};
+
+struct InpElement {
+  long long label;
+  int nodes;  // 1: a mass
+  int set;    // of *ELEMENT, ELSET=; -1: none
+  int use;    // number in InpReading::uses; -1: none yet
+  std::array<long long, 4> node_labels;
+  Where where;
+};
+
+/// An element set that a section or *MASS names.
+struct InpUse {
+  enum Kind { shell, beam, mass } kind;
+  std::string set;
+  Where where;
+  double amount;  // of a mass
+};
+
+struct InpLink {
+  Where where;
+  std::string reference;  // a node, or a set of one
+  std::string nodes;      // a node or a set
+};
+
+/// All that is known of a deck while it is read. What is not of this rank's share is the same on all ranks.
+struct InpReading {
+  Faults& faults;
+  int rank, ranks;
+  FileMesh mesh;                     // its nodes
+  std::vector<InpElement> elements;  // of this rank's share
+  InpSets node_sets, element_sets;
+  std::vector<InpUse> uses;
+  std::vector<InpLink> links;
+  Deck deck;
+  std::vector<std::string> notices;
+  std::string instance;             // of Abaqus; "" where there is none
+  std::optional<InpLink> coupling;  // that waits for its *KINEMATIC
+  std::vector<std::pair<std::string, Where>> materials_used, orientations_used;
+};
+
+/// The records of this rank among all nodes, or all elements, of the deck.
+struct InpShares {
+  long long nodes_before = 0, elements_before = 0;  // of the blocks so far
+  Share nodes{0, 0}, elements{0, 0};
+};
+
+// One function a keyword; each adds what is wrong to reading.faults and goes on. Rank-local.
+InpShares shares_of(const std::vector<InpBlock>& blocks, int rank, int ranks, Faults& faults);
+void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& reading);
+void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading);
+void read_set(const InpBlock& block, InpReading& reading);
+void read_surface(const InpBlock& block, InpReading& reading);
+void read_material(const InpBlock& block, InpReading& reading);
+void read_elastic(const InpBlock& block, InpReading& reading);
+void read_density(const InpBlock& block, InpReading& reading);
+void read_orientation(const InpBlock& block, InpReading& reading);
+void read_shell_section(const InpBlock& block, InpReading& reading);
+void read_beam_section(const InpBlock& block, InpReading& reading);
+void read_beam_general_section(const InpBlock& block, InpReading& reading);
+void read_mass(const InpBlock& block, InpReading& reading);
+void read_rigid_body(const InpBlock& block, InpReading& reading);
+void read_mpc(const InpBlock& block, InpReading& reading);
+void read_coupling(const InpBlock& block, InpReading& reading);
+void read_kinematic(const InpBlock& block, InpReading& reading);
+void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading);
+
+/// Tells all ranks which sets the sets hold by name; names that are no sets become faults. Collective.
+void agree_members(MPI_Comm comm, InpReading& reading);
+
+/// Gives each element of the share the section or mass of its set, and turns elements into cells. Collective.
+/// @return  of each mention of a mass's node that was added to reading.mesh: the mass
+std::vector<double> assign_sections(MPI_Comm comm, InpReading& reading);
+
+/// The node sets become places; nodes of links become mentions. Collective.
+/// @return  of each link the mentions that are its reference and this rank's nodes
+struct LinkMentions {
+  std::size_t reference;
+  std::vector<std::size_t> nodes;
+};
+std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading);
+
+/// A parameter's value; where it is missing a fault and "".
+std::string required(const InpBlock& block, const std::string& key, InpReading& reading);
+
+/// The numbers of one data line; a fault and nothing where it has others than least..most of them. Empty fields are 0.
+std::optional<std::vector<double>> numbers(std::string_view line, Where where, std::size_t least, std::size_t most,
+                                           const std::string& what, Faults& faults);
+
+/// The data lines, each with its place; a fault where there are fewer than least or more than most.
+std::vector<std::pair<Where, std::string_view>> data_lines(const InpBlock& block, std::size_t least, std::size_t most,
+                                                           const std::string& what, Faults& faults);
+
+/// A set's name without the name of the deck's one instance before it.
+std::string without_instance(const std::string& name, const InpReading& reading);
+
+}  // namespace floe::mesh

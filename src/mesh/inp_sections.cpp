@@ -1,0 +1,172 @@
+#include <cmath>
+
+#include "inp_reading.h"
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+std::string value_of(const InpBlock& block, const std::string& key) {
+  const auto found = block.parameters.find(key);
+  return found == block.parameters.end() ? "" : found->second;
+}
+
+double number_of(const InpBlock& block, const std::string& key, InpReading& reading) {
+  const std::string text = value_of(block, key);
+  if (text.empty()) return 0;
+  if (upper(text) == "SPOS") return 0.5;
+  if (upper(text) == "SNEG") return -0.5;
+  if (const auto value = number<double>(text); value && std::isfinite(*value)) return *value;
+  reading.faults.add(block.where, block.name + " expects a number after " + key + "=, found " + quoted(text));
+  return 0;
+}
+
+std::string set_of(const InpBlock& block, InpUse::Kind kind, InpReading& reading) {
+  const std::string set = without_instance(required(block, "ELSET", reading), reading);
+  if (!set.empty()) reading.uses.push_back({kind, set, block.where, 0});
+  return set;
+}
+
+void use_orientation(const std::string& name, Where where, InpReading& reading) {
+  if (!name.empty()) reading.orientations_used.emplace_back(name, where);
+}
+
+std::optional<Ply> ply(std::string_view line, Where where, InpReading& reading) {
+  std::vector<std::string_view> fields;
+  split_fields(line, fields);
+  fields.resize(std::max<std::size_t>(fields.size(), 4));
+  const auto thickness = number<double>(fields[0]);
+  if (!thickness || !(*thickness > 0) || fields[2].empty() || fields.size() > 5) {
+    reading.faults.add(where, "a ply is: thickness, (points), material[, angle or orientation], found " + quoted(line));
+    return std::nullopt;
+  }
+  Ply result{*thickness, std::string(fields[2]), "", 0};
+  if (const auto angle = number<double>(fields[3]))
+    result.angle = *angle;
+  else
+    result.orientation = std::string(fields[3]);
+  reading.materials_used.emplace_back(result.material, where);
+  use_orientation(result.orientation, where, reading);
+  return result;
+}
+
+// Dimensions of a profile: how many, and what they are called.
+struct Shape {
+  const char* name;
+  Profile profile;
+  std::size_t least, most;
+  const char* dimensions;
+};
+constexpr Shape shapes[] = {{"RECT", Profile::rectangle, 2, 2, "a, b"},
+                            {"CIRC", Profile::circle, 1, 2, "a radius, or two equal diameters"},
+                            {"PIPE", Profile::pipe, 2, 2, "outer radius, wall"},
+                            {"BOX", Profile::box, 6, 6, "a, b, t1, t2, t3, t4"},
+                            {"I", Profile::i_section, 7, 7, "l, h, b1, b2, t1, t2, t3"}};
+
+void refuse_bad_dimensions(const BeamSection& section, Where where, Faults& faults) {
+  const auto& d = section.dimensions;
+  bool good = true;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    good = good && std::isfinite(d[i]) && (d[i] > 0 || (section.profile == Profile::i_section && i == 0));
+  if (section.profile == Profile::pipe) good = good && d[1] <= d[0];
+  if (section.profile == Profile::box) good = good && d[3] + d[5] < d[1] && d[2] + d[4] < d[0];
+  if (section.profile == Profile::i_section) good = good && d[4] + d[5] < d[1];
+  if (!good) faults.add(where, "the dimensions make no section: they are greater than 0, walls thinner than the whole");
+}
+
+void read_direction(const std::pair<Where, std::string_view>& line, BeamSection& section, Faults& faults) {
+  const auto n = numbers(line.second, line.first, 1, 3, "the direction of the local 1-axis", faults);
+  if (!n) return;
+  section.direction_1.setZero();
+  for (std::size_t i = 0; i < n->size(); ++i) section.direction_1[static_cast<Eigen::Index>(i)] = (*n)[i];
+  if (!(section.direction_1.norm() > 0)) faults.add(line.first, "the direction of the local 1-axis has no length");
+}
+
+BeamSection named_beam(const BeamSection& plain, const InpBlock& block, InpReading& reading) {
+  BeamSection section = plain;
+  section.part = set_of(block, InpUse::beam, reading);
+  section.offset_1 = number_of(block, "OFFSET1", reading);
+  section.offset_2 = number_of(block, "OFFSET2", reading);
+  return section;
+}
+
+}  // namespace
+
+void read_shell_section(const InpBlock& block, InpReading& reading) {
+  ShellSection section{
+      set_of(block, InpUse::shell, reading), value_of(block, "ORIENTATION"), number_of(block, "OFFSET", reading), {}};
+  use_orientation(section.orientation, block.where, reading);
+  if (block.parameters.contains("COMPOSITE")) {
+    constexpr std::size_t most_plies = 1000;
+    for (const auto& [where, line] : data_lines(block, 1, most_plies, "a line for each ply", reading.faults))
+      if (const auto layer = ply(line, where, reading)) section.plies.push_back(*layer);
+  } else {
+    const std::string material = required(block, "MATERIAL", reading);
+    if (!material.empty()) reading.materials_used.emplace_back(material, block.where);
+    for (const auto& [where, line] : data_lines(block, 1, 1, "a thickness", reading.faults)) {
+      const auto values = numbers(line, where, 1, 2, "a thickness[, points]", reading.faults);
+      if (values && !(values->front() > 0)) reading.faults.add(where, "a thickness must be greater than 0");
+      if (values) section.plies.push_back({values->front(), material, "", 0});
+    }
+  }
+  reading.deck.shell_sections.push_back(section);
+}
+
+void read_beam_section(const InpBlock& block, InpReading& reading) {
+  BeamSection section = named_beam({}, block, reading);
+  section.material = required(block, "MATERIAL", reading);
+  if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
+  const std::string name = upper(required(block, "SECTION", reading));
+  const Shape* shape = nullptr;
+  for (const auto& candidate : shapes)
+    if (name == candidate.name) shape = &candidate;
+  if (!shape) return reading.faults.add(block.where, "*BEAM SECTION is read with SECTION=RECT, CIRC, PIPE, BOX or I");
+  section.profile = shape->profile;
+  const auto lines = data_lines(block, 1, 2, "dimensions and perhaps a direction", reading.faults);
+  if (lines.empty()) return;
+  const auto values =
+      numbers(lines[0].second, lines[0].first, shape->least, shape->most, shape->dimensions, reading.faults);
+  if (!values) return;
+  section.dimensions = *values;
+  if (section.profile == Profile::circle && values->size() == 2) {
+    if ((*values)[0] != (*values)[1]) reading.faults.add(lines[0].first, "an elliptical section is not read");
+    section.dimensions = {values->front() / 2};
+  }
+  refuse_bad_dimensions(section, lines[0].first, reading.faults);
+  if (lines.size() == 2) read_direction(lines[1], section, reading.faults);
+  reading.deck.beam_sections.push_back(section);
+}
+
+void read_beam_general_section(const InpBlock& block, InpReading& reading) {
+  auto& faults = reading.faults;
+  BeamSection section = named_beam({}, block, reading);
+  section.profile = Profile::general;
+  section.material = value_of(block, "MATERIAL");
+  if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
+  const std::string shape = value_of(block, "SECTION");
+  if (!shape.empty() && upper(shape) != "GENERAL")
+    return faults.add(block.where, block.name + " is read with SECTION=GENERAL only");
+  section.density = number_of(block, "DENSITY", reading);
+  const bool own = section.material.empty();
+  const auto lines =
+      data_lines(block, own ? 3 : 1, own ? 3 : 2,
+                 own ? "A I11 I12 I22 J, a direction, and E G" : "A I11 I12 I22 J, and a direction", faults);
+  if (lines.empty()) return;
+  const auto values = numbers(lines[0].second, lines[0].first, 5, 5, "A, I11, I12, I22, J", faults);
+  if (!values) return;
+  section.dimensions = *values;
+  const auto& d = section.dimensions;
+  if (!(d[0] > 0 && d[1] > 0 && d[3] > 0 && d[4] > 0 && d[1] * d[3] > d[2] * d[2]))
+    faults.add(lines[0].first, "A, I11, I22, J and I11 I22 - I12^2 must be greater than 0");
+  if (lines.size() > 1) read_direction(lines[1], section, faults);
+  if (own) {
+    const auto moduli = numbers(lines[2].second, lines[2].first, 2, 4, "E, G", faults);
+    if (!moduli) return;
+    section.youngs = (*moduli)[0];
+    section.shear = (*moduli)[1];
+    if (!(section.youngs > 0 && section.shear > 0)) faults.add(lines[2].first, "E and G must be greater than 0");
+  }
+  reading.deck.beam_sections.push_back(section);
+}
+
+}  // namespace floe::mesh

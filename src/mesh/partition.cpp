@@ -1,0 +1,62 @@
+#include "floe/mesh/partition.h"
+
+#include "floe/mesh/exchange.h"
+#include "floe/petsc/handle.h"
+#include "node_graph.h"
+
+namespace floe::mesh {
+namespace {
+
+using PartitioningHandle = petsc::Handle<MatPartitioning, MatPartitioningDestroy>;
+
+petsc::MatHandle adjacency(const RawMesh& mesh) {
+  const NodeGraph graph = node_graph(mesh);
+  PetscInt *rows, *columns;  // the matrix frees them
+  petsc::check(PetscMalloc1(graph.rows.size(), &rows));
+  petsc::check(PetscMalloc1(graph.columns.size() + 1, &columns));
+  std::copy(graph.rows.begin(), graph.rows.end(), rows);
+  std::copy(graph.columns.begin(), graph.columns.end(), columns);
+  petsc::MatHandle matrix;
+  petsc::check(MatCreateMPIAdj(mesh.comm, static_cast<PetscInt>(mesh.positions.size()), mesh.node_count, rows, columns,
+                               nullptr, matrix.out()));
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<int> partition(const RawMesh& mesh) {
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  if (ranks == 1) return std::vector<int>(mesh.positions.size(), 0);
+  register_metis();
+  const petsc::MatHandle graph = adjacency(mesh);
+  PartitioningHandle partitioning;
+  petsc::check(MatPartitioningCreate(mesh.comm, partitioning.out()));
+  petsc::check(PetscObjectSetOptionsPrefix(reinterpret_cast<PetscObject>(partitioning.get()), "mesh_"));
+  petsc::check(MatPartitioningSetAdjacency(partitioning, graph));
+  petsc::check(MatPartitioningSetNParts(partitioning, ranks));
+  petsc::check(MatPartitioningSetType(partitioning, "metis"));
+  petsc::check_options(MatPartitioningSetFromOptions(partitioning), "mesh_mat_partitioning");
+  petsc::IsHandle parts;
+  petsc::check(MatPartitioningApply(partitioning, parts.out()));
+  const PetscInt* indices;
+  petsc::check(ISGetIndices(parts, &indices));
+  const std::vector<int> result(indices, indices + mesh.positions.size());
+  petsc::check(ISRestoreIndices(parts, &indices));
+  return result;
+}
+
+long long edge_cut(const RawMesh& mesh, const std::vector<int>& ranks) {
+  const NodeGraph graph = node_graph(mesh);
+  const auto starts = starts_of(mesh.comm, static_cast<PetscInt>(mesh.positions.size()));
+  const auto others = ask<int>(
+      mesh.comm, graph.columns, [&](PetscInt node) { return owner_of(starts, node); },
+      [&](PetscInt node) { return ranks[node - mesh.first_node]; });
+  long long mine = 0, all = 0;
+  for (std::size_t i = 0; i < ranks.size(); ++i)
+    for (PetscInt k = graph.rows[i]; k < graph.rows[i + 1]; ++k) mine += others[k] != ranks[i];
+  MPI_Allreduce(&mine, &all, 1, MPI_LONG_LONG, MPI_SUM, mesh.comm);
+  return all / 2;
+}
+
+}  // namespace floe::mesh

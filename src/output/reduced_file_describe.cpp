@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "floe/output/reduced_file.h"
+#include "floe/output/table.h"
+
+namespace floe::output {
+namespace {
+
+Cell known(bool is, double value) { return is ? Cell(value) : Cell(std::string()); }
+double hertz(double omega) { return omega / (2 * std::numbers::pi); }
+
+std::string vector_text(const Eigen::VectorXd& x) {
+  std::string text;
+  for (const double each : x) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", each);
+  return "(" + text + ")";
+}
+
+std::string frame_text(const ReducedFrame& frame) {
+  std::string text = fmt::format("{}, origin {} m", frame.kind, vector_text(frame.origin));
+  for (Eigen::Index i = 0; i < frame.axes.cols(); ++i)
+    text += fmt::format(", {} along {}", "xyz"[i], vector_text(frame.axes.col(i)));
+  return text;
+}
+
+Table frequencies(const ReducedBodyFile& file) {
+  Table table{{{"frequency", ""}, {"value", "Hz", 6}, {"residual", "", 2}}, {}};
+  for (std::size_t i = 0; i < file.omega.size(); ++i)
+    table.rows.push_back({static_cast<std::int64_t>(i + 1), hertz(file.omega[i]), file.residual[i]});
+  return table;
+}
+
+Table columns(const ReducedBodyFile& file) {
+  Table table{{{"column", ""}, {"frequency", "Hz", 6}, {"new part", "", 3}, {"kept", ""}}, {}};
+  for (const auto& column : file.columns) {
+    const bool named = column.label.starts_with(column.kind);
+    table.rows.push_back({named ? column.label : column.kind + " " + column.label,
+                          known(column.kind == "mode", hertz(column.omega)), column.new_part,
+                          column.kept ? "yes" : "no"});
+  }
+  return table;
+}
+
+Table places(const ReducedBodyFile& file) {
+  Table table{{{"place", ""}}, {}};
+  for (int i = 0; i < file.dimension; ++i) table.columns.push_back({std::string(1, "xyz"[i]), "m", 6});
+  for (const auto& place : file.places) {
+    table.rows.push_back({place.name});
+    for (const double each : place.map.x) table.rows.back().emplace_back(each);
+  }
+  return table;
+}
+
+std::string made_text(const MadeBy& made) {
+  std::string text = fmt::format("made by     floe {} ({}) on {}, {} rank{}\n", made.version, made.commit, made.date,
+                                 made.ranks, made.ranks == 1 ? "" : "s");
+  if (!made.command.empty()) text += "command     " + made.command + "\n";
+  if (!made.options.empty()) text += "options     " + made.options + "\n";
+  for (const auto& [phase, seconds] : made.seconds) text += fmt::format("            {:.3g} s {}\n", seconds, phase);
+  return text;
+}
+
+std::int64_t numbers_of(const body::Inertia& inertia) {
+  const std::int64_t d = inertia.dimension(), k = inertia.coordinates();
+  return 1 + d + d * d + d * k + d * d * (k + k * k);
+}
+
+}  // namespace
+
+std::int64_t online_bytes(const ReducedBodyFile& file) {
+  const auto& elasticity = file.body.elasticity;
+  std::int64_t numbers = numbers_of(file.body.inertia) + numbers_of(file.body.line) + elasticity.bending.size() +
+                         elasticity.F.size() + file.damping.size();
+  for (const auto& place : file.places) numbers += place.map.x.size() + place.map.S.size() + place.map.psi.size();
+  return numbers * static_cast<std::int64_t>(sizeof(double)) +
+         static_cast<std::int64_t>(elasticity.pairs.size() * sizeof(elasticity.pairs[0]));
+}
+
+std::string describe(const ReducedBodyFile& file) {
+  const auto& elasticity = file.body.elasticity;
+  const auto kept = std::count_if(file.columns.begin(), file.columns.end(), [](const auto& each) { return each.kept; });
+  std::string text =
+      fmt::format("body        {}, {} dimensions, {:.6g} kg\n", file.name, file.dimension, file.body.inertia.m);
+  text += fmt::format("mesh        {} dofs, {} nodes, {} cells\n", file.dofs, file.nodes, file.cells);
+  text += fmt::format("frame       {}\n", frame_text(file.frame));
+  text += fmt::format("basis       {} coordinates of {} columns\n", kept, file.columns.size());
+  text += fmt::format("energy      {} squares of {} coordinates and {} products\n", elasticity.F.rows(),
+                      elasticity.bending.rows(), elasticity.pairs.size());
+  text += fmt::format("damping     {}\n", file.damping.size() ? "yes" : "none");
+  text += fmt::format("in motion   {:.1f} kB\n", static_cast<double>(online_bytes(file)) / 1000);
+  text += fmt::format("shapes      {}\n", file.has_shapes ? "of all nodes" : "none");
+  text += made_text(file.made);
+  for (const Table& table : {frequencies(file), columns(file), places(file)})
+    if (!table.rows.empty()) text += "\n" + to_text(table);
+  return text;
+}
+
+}  // namespace floe::output

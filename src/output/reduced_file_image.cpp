@@ -1,0 +1,194 @@
+#include "reduced_file_image.h"
+
+#include <fmt/format.h>
+
+#include "reduced_file_hdf5.h"
+
+namespace floe::output {
+namespace {
+
+using Numbers = std::vector<double>;
+
+hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
+
+void append(Numbers& all, const Eigen::MatrixXd& matrix) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) all.push_back(matrix(i, j));
+}
+
+/// Puts datasets into a file and sums them up: FNV-1a, 64 bits.
+class Writer {
+ public:
+  explicit Writer(hid_t file) : file_(file) {}
+  std::int64_t checksum() const { return static_cast<std::int64_t>(sum_); }
+  void numbers(const std::string& name, const Extent& shape, const Numbers& data, const std::string& unit,
+               const std::string& description = "") {
+    write_whole<double>(file_, name, shape, data, {unit, description});
+    add(name), add(std::as_bytes(std::span(data)));
+  }
+  void integers(const std::string& name, const Extent& shape, const std::vector<std::int64_t>& data,
+                const std::string& description = "") {
+    write_whole<std::int64_t>(file_, name, shape, data, {"", description});
+    add(name), add(std::as_bytes(std::span(data)));
+  }
+  void matrix(const std::string& name, const Eigen::MatrixXd& matrix, const std::string& unit,
+              const std::string& description = "") {
+    Numbers all;
+    append(all, matrix);
+    numbers(name, {extent(matrix.rows()), extent(matrix.cols())}, all, unit, description);
+  }
+  void texts(const std::string& name, const std::vector<std::string>& all, const std::string& description = "") {
+    write_texts(file_, name, all, {"", description});
+    add(name);
+    for (const auto& each : all) add(each);
+  }
+  void text(const std::string& name, const std::string& one) {
+    write_text(file_, name, one);
+    add(name), add(one);
+  }
+
+ private:
+  void add(std::span<const std::byte> bytes) {
+    for (const std::byte byte : bytes) sum_ = (sum_ ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
+  }
+  void add(const std::string& text) { add(std::as_bytes(std::span(text.c_str(), text.size() + 1))); }
+  hid_t file_;
+  std::uint64_t sum_ = 0xcbf29ce484222325u;
+};
+
+/// Units of m, s0, C0, S, h and M.
+using InertiaUnits = std::array<const char*, 6>;
+constexpr InertiaUnits of_mass = {"kg", "kg m", "kg m^2", "kg^1/2", "kg^1/2 m", "1"};
+constexpr InertiaUnits of_line = {"m", "m^2", "m^3", "m kg^-1/2", "m^2 kg^-1/2", "m kg^-1"};
+
+void put(Writer& to, const std::string& group, const body::Inertia& inertia, const InertiaUnits& units) {
+  const hsize_t d = extent(inertia.dimension()), k = extent(inertia.coordinates());
+  to.numbers(group + "/m", {}, {inertia.m}, units[0]);
+  to.numbers(group + "/s0", {d}, {inertia.s0.begin(), inertia.s0.end()}, units[1]);
+  to.matrix(group + "/C0", inertia.C0, units[2]);
+  to.matrix(group + "/S", inertia.S, units[3]);
+  Numbers h, M;
+  for (const auto& row : inertia.h)
+    for (const auto& each : row) append(h, each);
+  for (const auto& row : inertia.M)
+    for (const auto& each : row) append(M, each);
+  to.numbers(group + "/h", {d, d, k}, h, units[4], "[a][b]: int rho x_a N_b");
+  to.numbers(group + "/M", {d, d, k, k}, M, units[5], "[a][b]: int rho N_a' N_b");
+}
+
+void put(Writer& to, const body::Elasticity& elasticity) {
+  std::vector<std::int64_t> pairs;
+  for (const auto& [a, b] : elasticity.pairs) pairs.insert(pairs.end(), {a, b});
+  to.matrix("elasticity/bending", elasticity.bending, "s^-2");
+  to.matrix("elasticity/F", elasticity.F, "s^-1; pairs: kg^-1/2 m^-1 s^-1",
+            "U = 1/2 q' bending q + 1/2 |F (q, s)|^2, s = q_a q_b of the pairs, 1/2 q_a^2 where a = b");
+  to.integers("elasticity/pairs", {elasticity.pairs.size(), 2}, pairs, "a <= b, from 0");
+}
+
+void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t k) {
+  std::vector<std::string> names;
+  Numbers x, S, psi;
+  for (const auto& place : places) {
+    names.push_back(place.name);
+    append(x, place.map.x);
+    append(S, place.map.S);
+    append(psi, place.map.psi);
+  }
+  const hsize_t n = places.size();
+  to.texts("places/names", names);
+  to.numbers("places/x", {n, d}, x, "m", "undeformed, in the axes of the floating frame");
+  to.numbers("places/S", {n, d, k}, S, "kg^-1/2", "displacement S q");
+  to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "rotation psi q");
+}
+
+void put(Writer& to, const std::vector<ReducedColumn>& columns) {
+  std::vector<std::string> kinds, labels;
+  Numbers omega, new_part, interaction;
+  std::vector<std::int64_t> kept;
+  for (const auto& column : columns) {
+    kinds.push_back(column.kind);
+    labels.push_back(column.label);
+    omega.push_back(column.omega);
+    new_part.push_back(column.new_part);
+    interaction.push_back(column.interaction);
+    kept.push_back(column.kept);
+  }
+  const Extent shape{columns.size()};
+  to.texts("columns/kind", kinds, "mode, derivative or attachment");
+  to.texts("columns/label", labels);
+  to.numbers("columns/omega", shape, omega, "rad/s", "of modes");
+  to.numbers("columns/new_part", shape, new_part, "1", "share that the columns before it lack");
+  to.numbers("columns/interaction", shape, interaction, "1", "against the greatest");
+  to.integers("columns/kept", shape, kept, "1: in the basis");
+}
+
+void put(Writer& to, const MadeBy& made) {
+  to.text("made/version", made.version);
+  to.text("made/commit", made.commit);
+  to.text("made/date", made.date);
+  to.text("made/command", made.command);
+  to.text("made/options", made.options);
+  to.text("made/scene", made.scene);
+  to.integers("made/ranks", {}, {made.ranks});
+  std::vector<std::string> phases;
+  Numbers seconds;
+  for (const auto& [phase, time] : made.seconds) phases.push_back(phase), seconds.push_back(time);
+  to.texts("made/phases", phases);
+  to.numbers("made/seconds", {phases.size()}, seconds, "s", "of each phase");
+}
+
+void put(Writer& to, const ReducedBodyFile& file) {
+  const hsize_t d = file.dimension, k = extent(file.body.coordinates());
+  to.text("body/name", file.name);
+  to.integers("body/dimension", {}, {file.dimension});
+  to.integers("body/dofs", {}, {file.dofs});
+  to.integers("body/nodes", {}, {file.nodes});
+  to.integers("body/cells", {}, {file.cells});
+  put(to, "inertia", file.body.inertia, of_mass);
+  put(to, "line", file.body.line, of_line);
+  put(to, file.body.elasticity);
+  to.matrix("damping", file.damping, "s^-1", "of the coordinates; 0 x 0 for none");
+  put(to, file.places, d, k);
+  put(to, file.columns);
+  to.numbers("frequencies/omega", {file.omega.size()}, file.omega, "rad/s");
+  to.numbers("frequencies/residual", {file.residual.size()}, file.residual, "1", "relative, of each omega");
+  to.text("frame/kind", file.frame.kind);
+  to.numbers("frame/origin", {d}, {file.frame.origin.begin(), file.frame.origin.end()}, "m", "in the mesh");
+  to.matrix("frame/axes", file.frame.axes, "1", "columns: x_mesh = origin + axes x");
+  put(to, file.made);
+}
+
+Hid in_memory() {
+  silence_hdf5();
+  Hid access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  check_hdf5(H5Pset_fapl_core(access, 1 << 20, false));
+  return access;
+}
+
+}  // namespace
+
+Image image_of(const ReducedBodyFile& file, bool complete) {
+  const Hid access = in_memory(), how = plain_object(H5P_FILE_CREATE);
+  const Hid memory(H5Fcreate("reduced body", H5F_ACC_TRUNC, how, access), H5Fclose);
+  write_attribute(memory, "format", reduced_format);
+  write_flag(memory, "version", reduced_version);
+  write_flag(memory, "shapes", file.has_shapes);
+  Writer writer(memory);
+  put(writer, file);
+  write_flag(memory, "checksum", writer.checksum());
+  write_flag(memory, "complete", complete);
+  check_hdf5(H5Fflush(memory, H5F_SCOPE_LOCAL));
+  const ssize_t size = H5Fget_file_image(memory, nullptr, 0);
+  check_hdf5(size < 0 ? -1 : 0);
+  std::vector<char> bytes(size);
+  check_hdf5(H5Fget_file_image(memory, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  return {std::move(bytes), writer.checksum()};
+}
+
+Hid open_image(std::vector<char>& bytes) {
+  const Hid access = in_memory();
+  check_hdf5(H5Pset_file_image(access, bytes.data(), bytes.size()));
+  return Hid(H5Fopen("reduced body", H5F_ACC_RDONLY, access), H5Fclose);
+}
+
+}  // namespace floe::output

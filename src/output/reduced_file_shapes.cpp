@@ -1,0 +1,239 @@
+#include "reduced_file_shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "floe/petsc/error.h"
+#include "reduced_file_hdf5.h"
+#include "reduced_file_shares.h"
+#include "reserve.h"
+
+namespace floe::output {
+namespace {
+
+using Integers = std::vector<std::int64_t>;
+constexpr int cell_width = 6;  // four nodes (sorted by them), part, kind
+
+void need(bool condition, const std::string& what) {
+  if (!condition) throw RunError("shapes: " + what);
+}
+
+std::int64_t sum(MPI_Comm comm, std::int64_t mine) {
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT64_T, MPI_SUM, comm);
+  return mine;
+}
+
+std::int64_t sum_before(MPI_Comm comm, std::int64_t mine) {
+  std::int64_t before = 0;
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Exscan(&mine, &before, 1, MPI_INT64_T, MPI_SUM, comm);
+  return rank == 0 ? 0 : before;
+}
+
+int corners(ReducedShapes::Kind kind) {
+  using Kind = ReducedShapes::Kind;
+  return kind == Kind::vertex ? 1 : kind == Kind::line ? 2 : kind == Kind::triangle ? 3 : 4;
+}
+
+/// Everything that can be seen without other ranks.
+void check_mine(const ReducedBodyFile& file, const ReducedShapes& shapes) {
+  const auto known = [&](std::int64_t node) { return node >= 0 && node < file.nodes; };
+  need(shapes.dofs_per_node > 0 && shapes.dofs_per_node * file.nodes == file.dofs,
+       fmt::format("{} dofs are not {} for each of {} nodes", file.dofs, shapes.dofs_per_node, file.nodes));
+  need(shapes.positions.size() == shapes.nodes.size(), "each node needs a position");
+  need(std::all_of(shapes.nodes.begin(), shapes.nodes.end(), known), "a node without place in the body");
+  for (const auto& cell : shapes.cells) {
+    const auto end = cell.nodes.begin() + corners(cell.kind);
+    need(std::all_of(cell.nodes.begin(), end, known), "a cell with a node that the body lacks");
+    need(std::all_of(end, cell.nodes.end(), [](auto node) { return node == -1; }), "a cell with too many nodes");
+    need(cell.part >= 0 && cell.part < std::ssize(shapes.parts), "a cell of a part without name");
+  }
+  for (const auto& [name, nodes] : shapes.sets)
+    need(std::all_of(nodes.begin(), nodes.end(), known), fmt::format("set '{}': a node that the body lacks", name));
+}
+
+/// One shared dataset to which every rank gives its rows.
+template <class Number>
+void write_shared(MPI_Comm comm, hid_t file, const std::string& name, const Extent& shape, hsize_t first,
+                  const std::vector<Number>& rows, const Label& label) {
+  petsc::agree(comm, [&] {
+    Hid dataset = create_dataset<Number>(file, name, shape, label);
+    Extent start(shape.size(), 0), count = shape;
+    start[0] = first;
+    const hsize_t width = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
+    count[0] = rows.size() / width;
+    write_rows<Number>(dataset, start, count, rows, true);
+    dataset.close();
+  });
+}
+
+/// Nodes' rows as they came, put in their original order.
+class NodeRows {
+ public:
+  NodeRows(MPI_Comm comm, const Shares& shares, const Integers& nodes) : route_(comm, shares, nodes) {
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    first_ = shares.first(rank);
+    numbers_ = route_.send<std::int64_t>(nodes, 1);
+    petsc::agree(comm, [&] {
+      Integers sorted = numbers_, all(shares.size(rank));
+      std::sort(sorted.begin(), sorted.end());
+      std::iota(all.begin(), all.end(), first_);
+      need(sorted == all, "each node must be on exactly one rank");
+    });
+  }
+  std::vector<double> in_order(std::span<const double> rows, int width) const {
+    const auto came = route_.send<double>(rows, width);
+    std::vector<double> sorted(came.size());
+    for (std::size_t i = 0; i < numbers_.size(); ++i)
+      std::copy_n(came.begin() + i * width, width, sorted.begin() + (numbers_[i] - first_) * width);
+    return sorted;
+  }
+  std::int64_t first() const { return first_; }
+
+ private:
+  Route route_;
+  std::int64_t first_ = 0;
+  Integers numbers_;
+};
+
+/// Cells at the share of their first node, in ascending order there: an order that no partition changes.
+Integers cells_in_order(MPI_Comm comm, const Shares& shares, const std::vector<ReducedShapes::Cell>& cells) {
+  Integers firsts, rows;
+  for (const auto& cell : cells) {
+    firsts.push_back(cell.nodes[0]);
+    rows.insert(rows.end(), cell.nodes.begin(), cell.nodes.end());
+    rows.insert(rows.end(), {cell.part, static_cast<std::int64_t>(cell.kind)});
+  }
+  const Integers came = Route(comm, shares, firsts).send<std::int64_t>(rows, cell_width);
+  std::vector<std::array<std::int64_t, cell_width>> sorted(came.size() / cell_width);
+  for (std::size_t i = 0; i < sorted.size(); ++i) std::copy_n(&came[i * cell_width], cell_width, sorted[i].begin());
+  std::sort(sorted.begin(), sorted.end());
+  Integers all;
+  for (const auto& cell : sorted) all.insert(all.end(), cell.begin(), cell.end());
+  return all;
+}
+
+Integers columns_of(const Integers& rows, int from, int count) {
+  Integers part;
+  for (auto row = rows.begin(); row != rows.end(); row += cell_width)
+    part.insert(part.end(), row + from, row + from + count);
+  return part;
+}
+
+void write_cells(MPI_Comm comm, hid_t file, const Integers& rows, hsize_t count) {
+  const hsize_t first = sum_before(comm, std::ssize(rows) / cell_width);
+  write_shared(comm, file, "shapes/cells/nodes", {count, 4}, first, columns_of(rows, 0, 4),
+               {"", "original numbers, from 0; -1 where unused"});
+  write_shared(comm, file, "shapes/cells/part", {count}, first, columns_of(rows, 4, 1), {"", "index of shapes/parts"});
+  write_shared(comm, file, "shapes/cells/kind", {count}, first, columns_of(rows, 5, 1),
+               {"", "VTK cell types: 1 vertex, 3 line, 5 triangle, 9 quadrilateral"});
+}
+
+void write_basis(MPI_Comm comm, hid_t file, const NodeRows& rows, const ReducedBodyFile& body,
+                 const ReducedShapes& shapes) {
+  const hsize_t k = body.body.coordinates(), n = body.nodes, width = shapes.dofs_per_node;
+  Hid dataset;
+  petsc::agree(comm, [&] {
+    dataset = create_dataset<double>(file, "shapes/basis", {k, n, width},
+                                     {"kg^-1/2; rotations: rad m^-1 kg^-1/2", "in the axes of the floating frame"});
+  });
+  std::vector<double> mine(shapes.nodes.size() * width);
+  for (hsize_t j = 0; j < k; ++j) {
+    petsc::agree(comm, [&] { shapes.column(static_cast<int>(j), mine); });
+    const auto share = rows.in_order(mine, static_cast<int>(width));
+    petsc::agree(comm, [&] {
+      need(std::all_of(share.begin(), share.end(), [](double x) { return std::isfinite(x); }),
+           fmt::format("column {} is not finite", j));
+      write_rows<double>(dataset, {j, hsize_t(rows.first()), 0}, {1, share.size() / width, width}, share, true);
+    });
+  }
+  petsc::agree(comm, [&] { dataset.close(); });
+}
+
+/// Each set ascending, each node once.
+std::vector<Integers> sets_in_order(MPI_Comm comm, const Shares& shares, const ReducedShapes& shapes) {
+  std::vector<Integers> all;
+  for (const auto& [name, nodes] : shapes.sets) {
+    Integers came = Route(comm, shares, nodes).send<std::int64_t>(nodes, 1);
+    std::sort(came.begin(), came.end());
+    came.erase(std::unique(came.begin(), came.end()), came.end());
+    all.push_back(std::move(came));
+  }
+  return all;
+}
+
+Integers starts_of_sets(MPI_Comm comm, const std::vector<Integers>& sets) {
+  Integers starts{0};
+  for (const Integers& nodes : sets) starts.push_back(starts.back() + sum(comm, std::ssize(nodes)));
+  return starts;
+}
+
+void write_sets(MPI_Comm comm, hid_t file, const std::vector<Integers>& sets, const Integers& starts) {
+  Hid dataset;
+  petsc::agree(comm, [&] {
+    dataset = create_dataset<std::int64_t>(file, "shapes/sets/nodes", {hsize_t(starts.back())},
+                                           {"", "original numbers; of set i from start[i] up to start[i+1]"});
+  });
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const hsize_t first = starts[i] + sum_before(comm, std::ssize(sets[i]));
+    petsc::agree(comm, [&] { write_rows<std::int64_t>(dataset, {first}, {sets[i].size()}, sets[i], true); });
+  }
+  petsc::agree(comm, [&] { dataset.close(); });
+}
+
+/// Of texts that are filled up to the longest.
+std::uint64_t bytes_of(const std::vector<std::string>& texts) {
+  std::size_t longest = 1;
+  for (const auto& text : texts) longest = std::max(longest, text.size());
+  return longest * texts.size();
+}
+
+/// Names and starts: what rank 0 writes by itself, before the file is opened by all.
+void write_lists(const std::filesystem::path& draft, const ReducedShapes& shapes, const Integers& starts) {
+  std::vector<std::string> names;
+  for (const auto& [name, nodes] : shapes.sets) names.push_back(name);
+  reserve(draft, starts.size() * sizeof(std::int64_t) + bytes_of(names) + bytes_of(shapes.parts));
+  Hid file = open_file(draft, Open::change, MPI_COMM_NULL);
+  write_texts(file, "shapes/parts", shapes.parts, {});
+  write_texts(file, "shapes/sets/names", names, {});
+  write_whole<std::int64_t>(file, "shapes/sets/start", {starts.size()}, starts, {});
+  file.close();
+}
+
+}  // namespace
+
+void add_shapes(MPI_Comm comm, const std::filesystem::path& draft, const ReducedBodyFile& body,
+                const ReducedShapes& shapes) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  petsc::agree(comm, [&] { check_mine(body, shapes); });
+  const std::int64_t cells = sum(comm, std::ssize(shapes.cells));
+  petsc::agree(comm, [&] { need(cells == body.cells, fmt::format("{} cells, the body has {}", cells, body.cells)); });
+  const Shares shares(comm, body.nodes);
+  const NodeRows rows(comm, shares, shapes.nodes);
+  const auto sets = sets_in_order(comm, shares, shapes);
+  const Integers starts = starts_of_sets(comm, sets);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    write_lists(draft, shapes, starts);
+    reserve(draft, sizeof(double) * (body.nodes * 3 + body.dofs * body.body.coordinates() + body.cells * cell_width +
+                                     starts.back()));
+  });
+  Hid file;
+  petsc::agree(comm, [&] { file = open_file(draft, Open::change, comm); });
+  std::vector<double> positions;
+  for (const auto& x : shapes.positions) positions.insert(positions.end(), {x[0], x[1], x[2]});
+  write_shared(comm, file, "shapes/positions", {hsize_t(body.nodes), 3}, rows.first(), rows.in_order(positions, 3),
+               {"m", "in the axes of the floating frame"});
+  write_cells(comm, file, cells_in_order(comm, shares, shapes.cells), cells);
+  write_sets(comm, file, sets, starts);
+  write_basis(comm, file, rows, body, shapes);
+  petsc::agree(comm, [&] { file.close(); });
+}
+
+}  // namespace floe::output

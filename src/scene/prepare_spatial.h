@@ -1,0 +1,23 @@
+#pragma once
+#include "build_prepare.h"
+
+namespace floe::scene {
+
+/// A body in space on its mesh: read or generated, inspected, spread over the ranks, with its sections.
+struct SpatialMesh {
+  fem::Structure structure;                             ///< in mesh axes
+  std::map<std::string, std::vector<PetscInt>> places;  ///< global nodes by name, the same on all ranks
+  std::vector<std::string> parts;                       ///< names
+  std::vector<std::string> notices;
+};
+/// @throws InputError  the same on all ranks. Collective.
+SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm);
+
+/// Nodes of a place of the body, with their mean position. @throws InputError  no such set, no node there. Collective.
+PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
+                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place);
+
+/// Bodies, frames and held dofs of a scene in space. Collective.
+Prepared prepare_spatial(const Scene& scene, MPI_Comm comm);
+
+}  // namespace floe::scene

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "readers.h"
+
+namespace floe::scene {
+namespace {
+
+/// A material or section as far as the file says, where it stands, and for what.
+struct Material {
+  std::optional<double> E, nu, G, E1, E2, nu12, G12;
+  double rho = 0;
+  Where where;
+};
+
+Material read_material(Document& document, const Value& value) {
+  Reading reading(document, value, "spatial material");
+  const auto number = [&](const char* key) { return reading.optional_number(key); };
+  Material material{number("E"),    number("nu"),  number("G"),           number("E1"), number("E2"),
+                    number("nu12"), number("G12"), reading.number("rho"), value.where};
+  const bool orthotropic = material.E1 || material.E2 || material.nu12 || material.G12;
+  if (orthotropic && !(material.E1 && material.E2 && material.nu12 && material.G12))
+    document.fault(value.where, "is not complete", "E1, E2, nu12 and G12, or E and nu");
+  if (orthotropic ? material.E.has_value() : !material.E)
+    document.fault(value.where, orthotropic ? "has E besides E1" : "has no E", "E and nu, or E1, E2, nu12 and G12");
+  return material;
+}
+
+fem::ShellMaterial shell_material(Document& document, const Material& m) {
+  if (m.E1) return {*m.E1, m.E2.value_or(NAN), m.nu12.value_or(NAN), m.G12.value_or(NAN), m.rho};
+  if (!m.nu) document.fault(m.where, "has no nu", "E and nu for shells");
+  return fem::isotropic(m.E.value_or(NAN), m.nu.value_or(NAN), m.rho);
+}
+
+fem::Section shell_of(Document& document, Reading& reading, const Material& material) {
+  const fem::ShellMaterial of = shell_material(document, material);
+  std::vector<fem::Ply> plies;
+  if (const auto thickness = reading.optional_number("thickness")) plies.push_back({of, *thickness, 0});
+  if (const auto value = reading.value("plies")) {
+    Key pair = reading.key("plies");
+    pair.type = Type::numbers;
+    for (const Value& ply : read_list(document, *value, reading.key("plies"))) {
+      const auto numbers = read_list(document, ply, pair, 2);
+      if (numbers.size() != 2) continue;
+      const double t = read_number(document, numbers[0], pair), angle = read_number(document, numbers[1], pair);
+      plies.push_back({of, t, angle * M_PI / 180});
+    }
+  }
+  const Point axis = reading.given("axis") ? reading.point("axis") : Point{};
+  return fem::shell_section(plies, reading.number("offset"), Eigen::Vector3d(axis[0], axis[1], axis[2]));
+}
+
+fem::SectionShape shape_of(Document& document, Reading& reading) {
+  const auto measure = [&](const char* key) {
+    const auto number = reading.optional_number(key);
+    if (!number) document.fault(reading.where(key), "is missing", describe(reading.key(key)));
+    return number.value_or(NAN);
+  };
+  if (!reading.given("shape")) {
+    fem::SectionShape shape;
+    shape.A = measure("A"), shape.Iy = measure("Iy"), shape.Iz = measure("Iz"), shape.J = measure("J");
+    shape.Iyz = reading.number("Iyz");
+    return shape;
+  }
+  const std::string shape = reading.choice("shape");
+  if (shape == "rectangle") return fem::rectangle(measure("width"), measure("height"));
+  if (shape == "circle") return fem::circle(measure("radius"));
+  if (shape == "tube") {
+    const double radius = measure("radius");
+    return fem::tube(radius, radius - measure("wall"));
+  }
+  const double width = measure("width"), height = measure("height"), wall = measure("wall");
+  return shape == "box" ? fem::box(width, height, wall, wall) : fem::i_section(width, height, measure("flange"), wall);
+}
+
+fem::Section beam_of(Document& document, Reading& reading, const Material& material) {
+  const std::size_t before = document.fault_count();
+  if (!material.E) document.fault(material.where, "has no E", "E with nu or G for beams");
+  if (!material.nu && !material.G) document.fault(material.where, "has neither nu nor G", "one of them for beams");
+  const fem::SectionShape shape = shape_of(document, reading);
+  const auto centroid = reading.numbers("centroid");
+  if (centroid.size() != 2) document.fault(reading.where("centroid"), "has not two numbers", "[y, z]");
+  if (!reading.given("orientation"))
+    document.fault(reading.where(), "has no orientation", "a vector that turns the section of beams");
+  const Point y = reading.given("orientation") ? reading.point("orientation") : Point{};
+  if (document.fault_count() != before) return fem::SpatialBeam{};
+  const double E = *material.E, G = material.G ? *material.G : fem::shear_modulus(E, *material.nu);
+  fem::SpatialBeam beam{fem::spatial_section(shape, {E, G, material.rho}, {centroid[0], centroid[1]}),
+                        Eigen::Vector3d(y[0], y[1], y[2]),
+                        {}};
+  beam.strain.wagner = reading.flag("wagner");
+  return beam;
+}
+
+/// Keys of the section that belong to what it describes: shells, a shape of beams, or beams by their constants ("A").
+std::vector<std::string> keys_of(const std::string& kind) {
+  if (kind == "shells") return {"thickness", "plies", "offset", "axis"};
+  std::vector<std::string> keys{"orientation", "centroid", "wagner"};
+  const auto add = [&](std::initializer_list<const char*> more) {
+    keys.insert(keys.begin(), more.begin(), more.end());
+  };
+  if (kind == "A") add({"A", "Iy", "Iz", "Iyz", "J"});
+  if (kind == "rectangle") add({"shape", "width", "height"});
+  if (kind == "circle") add({"shape", "radius"});
+  if (kind == "tube") add({"shape", "radius", "wall"});
+  if (kind == "box") add({"shape", "width", "height", "wall"});
+  if (kind == "i") add({"shape", "width", "height", "flange", "wall"});
+  return keys;
+}
+
+void refuse_other_keys(Document& document, const Reading& reading, const std::string& kind) {
+  const std::vector<std::string> keys = keys_of(kind);
+  for (const Key& key : schema_section("spatial section").keys)
+    if (reading.given(key.name) && std::count(keys.begin(), keys.end(), key.name) == 0)
+      document.fault(reading.where(key.name),
+                     kind == "shells" ? "does not apply to shells"
+                     : kind == "A"    ? "does not apply to beams without shape"
+                                      : fmt::format("does not apply to shape {}", kind),
+                     fmt::format("one of {}", fmt::join(keys, ", ")));
+}
+
+fem::Section section_of(Document& document, const Value& value, const Material& material) {
+  Reading reading(document, value, "spatial section");
+  const bool shell = reading.given("thickness") || reading.given("plies");
+  const bool beam = reading.given("shape") || reading.given("A");
+  if (shell == beam || (reading.given("thickness") && reading.given("plies")))
+    document.fault(value.where, "is neither of shells nor of beams, or both",
+                   "thickness or plies (shells), or shape or A (beams)");
+  const std::size_t before = document.fault_count();
+  if (shell == beam) return fem::SpatialBeam{};
+  const std::string shape = !shell && reading.given("shape") ? reading.choice("shape") : "";
+  if (document.fault_count() != before) return fem::SpatialBeam{};
+  refuse_other_keys(document, reading, shell ? "shells" : shape.empty() ? "A" : shape);
+  try {
+    return shell ? shell_of(document, reading, material) : beam_of(document, reading, material);
+  } catch (const InputError& error) {
+    if (document.fault_count() == before) document.fault(value.where, error.what());
+  }
+  return fem::SpatialBeam{};
+}
+
+}  // namespace
+
+std::vector<PartSpec> read_parts(Document& document, Reading& body) {
+  std::vector<PartSpec> parts;
+  const auto section = body.value("section"), material = body.value("material");
+  const auto add = [&](const std::string& name, const std::optional<Value>& of, const std::optional<Value>& made,
+                       const Where& where) {
+    if (!of) return document.fault(where, "has no section", "section, here or in the body");
+    if (!made) return document.fault(where, "has no material", "material, here or in the body");
+    const std::size_t before = document.fault_count();
+    const Material read = read_material(document, *made);
+    if (document.fault_count() == before) parts.push_back({name, section_of(document, *of, read), of->where});
+  };
+  if (const auto named = body.value("parts")) {
+    for (const auto& entry : read_mapping(document, *named, describe(body.key("parts")))) {
+      Reading part(document, entry.value, "part");
+      const auto own = part.value("section"), of = part.value("material");
+      add(entry.name, own ? own : section, of ? of : material, entry.where);
+    }
+  }
+  if (section && (material || !body.given("parts"))) add("", section, material, section->where);
+  return parts;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,206 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "build_reduce.h"
+#include "floe/petsc/values.h"
+#include "floe/reduction/place_set.h"
+#include "floe/scene/nearest.h"
+#include "floe/scene/places.h"
+#include "floe/scene/reduced.h"
+
+namespace floe::scene {
+
+using petsc::check;
+
+namespace {
+
+int index_of(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) names.push_back(body.name);
+  if (name.empty() && names.size() != 1)
+    throw InputError(fmt::format("{}: has {} bodies ({}); expected the name of one, --body NAME", scene.file,
+                                 names.size(), fmt::join(names, ", ")));
+  const auto found = name.empty() ? names.begin() : std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    const std::string near = nearest(name, names);
+    throw InputError(fmt::format("{}: there is no body \"{}\"; expected one of {}{}", scene.file, name,
+                                 fmt::join(names, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  const Body& body = scene.bodies[found - names.begin()];
+  if (body.rigid) throw InputError(fmt::format("{}: is rigid; expected a body with modes", body.where.text()));
+  const DerivativesSpec& derivatives = body.reduction.derivatives;
+  if (derivatives.choice == DerivativesSpec::Choice::count)
+    throw InputError(
+        fmt::format("{}: are chosen by count, from a motion of the whole scene; expected all, none or pairs",
+                    derivatives.where.text()));
+  return static_cast<int>(found - names.begin());
+}
+
+/// Scene with the body alone, and what the ground and loads do to it.
+Scene alone(const Scene& scene, int index) {
+  Scene part = scene;
+  const std::string& name = scene.bodies[index].name;
+  part.bodies = {scene.bodies[index]};
+  const auto stays = [&](const Place& place) { return place.ground() || place.body == name; };
+  std::erase_if(part.joints,
+                [&](const Joint& joint) { return (joint.first.body != name && joint.second.body != name); });
+  for (Joint& joint : part.joints)  // another body is, for this one, a place that is not held
+    for (Place* place : {&joint.first, &joint.second})
+      if (!stays(*place)) *place = Place{}, place->where = joint.where;
+  std::erase_if(part.loads, [&](const Load& load) {
+    return load.kind == Load::Kind::distributed ? load.body != name : load.at.body != name;
+  });
+  std::erase_if(part.probes, [&](const Probe& probe) {
+    return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
+  });
+  return part;
+}
+
+std::string kind_of(fem::ReferenceFrame::Kind kind) {
+  switch (kind) {
+    case fem::ReferenceFrame::Kind::pinned:
+      return "pinned";
+    case fem::ReferenceFrame::Kind::clamped:
+      return "clamped";
+    default:
+      return "mean-axis";
+  }
+}
+
+output::ReducedFrame frame_of(const PreparedBody& body) {
+  if (body.structure.dimension() == 3) return {kind_of(body.frame.kind), body.origin, body.axes};
+  return {kind_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
+}
+
+std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const PreparedBody& body,
+                                            const reduction::Basis& basis) {
+  std::map<std::string, std::vector<PetscInt>> nodes = body.places;
+  const auto add = [&](const Place& place, const PreparedPlace& found) {
+    if (found.body < 0) return;
+    std::string name = place.name;
+    if (place.point)
+      name = fmt::format("at({})",
+                         fmt::join(place.point->begin(), place.point->begin() + body.structure.dimension(), ", "));
+    nodes.emplace(name, found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes);
+  };
+  const Scene& scene = prepared.scene;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    add(scene.joints[j].first, prepared.joints[j][0]), add(scene.joints[j].second, prepared.joints[j][1]);
+  for (std::size_t l = 0; l < scene.loads.size(); ++l)
+    if (scene.loads[l].kind != Load::Kind::distributed) add(scene.loads[l].at, prepared.loads[l]);
+  for (std::size_t p = 0; p < scene.probes.size(); ++p) add(scene.probes[p].at, prepared.probes[p][0]);
+  if (body.structure.dimension() == 2) {
+    for (const std::string& name : place_names(body.spec.mesh)) {
+      const Point p = place_point(body.spec.mesh, {body.spec.name, name, {}, {}});
+      const Eigen::Vector2d x = turn(-body.frame_angle) * (Eigen::Vector2d(p[0], p[1]) - body.frame_origin);
+      nodes.emplace(name, std::vector{fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0}).node});
+    }
+  }
+  std::vector<output::ReducedPlace> places;
+  for (const auto& [name, at] : nodes)
+    if (!at.empty()) places.push_back({name, reduction::place_map(body.structure, basis, at)});
+  return places;
+}
+
+std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
+  using Kind = reduction::ColumnOrigin::Kind;
+  std::vector<output::ReducedColumn> columns;
+  for (const reduction::ColumnOrigin& o : report.origins)
+    columns.push_back({o.kind == Kind::mode         ? "mode"
+                       : o.kind == Kind::derivative ? "derivative"
+                                                    : "attachment",
+                       o.label, o.omega, o.new_part, o.kept, o.interaction});
+  return columns;
+}
+
+output::ReducedShapes::Kind vtk_kind(fem::CellKind kind) {
+  using Kind = output::ReducedShapes::Kind;
+  switch (kind) {
+    case fem::CellKind::point:
+      return Kind::vertex;
+    case fem::CellKind::line:
+      return Kind::line;
+    case fem::CellKind::triangle:
+      return Kind::triangle;
+    default:
+      return Kind::quadrilateral;
+  }
+}
+
+/// Copies of the mesh in original numbers; the columns are read from the basis when they are written.
+output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis& basis) {
+  const fem::Mesh& mesh = body.structure.mesh;
+  output::ReducedShapes shapes;
+  shapes.dofs_per_node = body.structure.dofs_per_node;
+  for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
+    shapes.nodes.push_back(mesh.original_node(static_cast<int>(i)));
+    shapes.positions.push_back(mesh.positions[i]);
+  }
+  for (const fem::Mesh::Cell& cell : mesh.cells) {
+    output::ReducedShapes::Cell copy{vtk_kind(cell.kind), cell.part, {-1, -1, -1, -1}};
+    for (std::size_t i = 0; i < cell.nodes().size(); ++i) copy.nodes[i] = mesh.original_node(cell.nodes()[i]);
+    shapes.cells.push_back(copy);
+  }
+  shapes.parts = body.parts;
+  if (shapes.parts.empty())
+    for (std::size_t s = 0; s < body.structure.sections.size(); ++s)
+      shapes.parts.push_back(fmt::format("part {}", s + 1));
+  for (const auto& [name, nodes] : body.places) {
+    std::vector<std::int64_t>& mine = shapes.sets[name];
+    for (PetscInt node : nodes)
+      if (node >= mesh.first_node && node < mesh.first_node + mesh.owned_nodes)
+        mine.push_back(mesh.original_node(static_cast<int>(node - mesh.first_node)));
+  }
+  shapes.column = [&basis](int j, std::span<double> values) {
+    Vec column = nullptr;
+    check(BVGetColumn(basis.V, j, &column));
+    {
+      petsc::Values own(column);
+      std::copy(own.begin(), own.begin() + values.size(), values.begin());
+    }
+    check(BVRestoreColumn(basis.V, j, &column));
+  };
+  return shapes;
+}
+
+}  // namespace
+
+output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name, MPI_Comm comm,
+                                    const std::filesystem::path& path, bool overwrite,
+                                    std::vector<std::string>& warnings) {
+  const int index = index_of(scene, name);
+  output::check_reduced_path(comm, path, overwrite);
+  const double start = MPI_Wtime();
+  const Scene part = alone(scene, index);
+  const Prepared prepared = prepare(part, comm);
+  const PreparedBody& body = prepared.bodies[0];
+  warnings = body.notices;
+  const double meshed = MPI_Wtime();
+  const std::vector<ReducedBody> reduced = reduce_bodies(
+      prepared, Formulation::vm_md, [](const std::vector<ReducedBody>&) { return std::vector<Eigen::MatrixXd>(); },
+      warnings);
+  const BodyReport& report = reduced[0].report;
+  output::ReducedBodyFile file;
+  file.name = body.spec.name;
+  file.dimension = body.structure.dimension();
+  file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
+  file.cells = body.structure.mesh.cell_count;
+  file.body = reduced[0].body;
+  file.damping = reduced[0].damping;
+  file.places = places_of(prepared, body, *reduced[0].basis);
+  file.columns = columns_of(report);
+  file.omega = report.omega, file.residual = report.residual;
+  file.frame = frame_of(body);
+  file.made = output::made_here(comm, scene.text);
+  file.made.seconds = {{"mesh", meshed - start},
+                       {"modes", report.seconds_modes},
+                       {"derivatives", report.seconds_derivatives},
+                       {"projection", report.seconds_projection}};
+  const output::ReducedShapes shapes = shapes_of(body, *reduced[0].basis);
+  output::write_reduced_body(comm, path, file, overwrite, &shapes);
+  return file;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,232 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "deck_sections.h"
+#include "floe/mesh/generate.h"
+#include "floe/mesh/gmsh.h"
+#include "floe/mesh/inp.h"
+#include "floe/mesh/inspect.h"
+#include "floe/mesh/partition.h"
+#include "floe/scene/nearest.h"
+#include "prepare_spatial.h"
+
+namespace floe::scene {
+namespace {
+
+Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+/// A mesh with what its file says besides.
+struct Source {
+  mesh::RawMesh mesh;
+  std::vector<PartSpec> parts;  ///< a deck's own
+  std::vector<std::string> notices;
+};
+
+std::vector<std::string> wanted_parts(const Body& body) {
+  std::vector<std::string> wanted;
+  for (const PartSpec& part : body.parts)
+    if (!part.part.empty()) wanted.push_back(part.part);
+  const bool rest = wanted.size() < body.parts.size();
+  return rest ? std::vector<std::string>() : wanted;
+}
+
+/// What the readers say of a file names its lines; that there is none concerns the scene. Collective.
+void refuse_missing(const Body& body, MPI_Comm comm) {
+  int rank = 0, found = 1;
+  MPI_Comm_rank(comm, &rank);
+  std::error_code ignored;
+  if (rank == 0) found = std::filesystem::is_regular_file(body.mesh.file->path, ignored) ? 1 : 0;
+  MPI_Bcast(&found, 1, MPI_INT, 0, comm);
+  if (found == 0)
+    throw InputError(fmt::format("{}.file.path: there is no file \"{}\"; expected one relative to the scene's folder",
+                                 body.mesh.where.text(), body.mesh.file->path));
+}
+
+Source read_file(const Body& body, MPI_Comm comm) {
+  const MeshFileSpec& file = *body.mesh.file;
+  Source source;
+  if (file.path.ends_with(".msh") || file.path.ends_with(".inp")) refuse_missing(body, comm);
+  if (file.path.ends_with(".msh")) {
+    mesh::GmshFile read = mesh::read_gmsh(comm, file.path, wanted_parts(body));
+    source = {std::move(read.mesh), {}, std::move(read.notices)};
+  } else if (file.path.ends_with(".inp")) {
+    mesh::InpFile read = mesh::read_inp(comm, file.path);
+    std::vector<PartSpec> parts = deck_sections(read);
+    add_masses(read, parts);
+    source = {std::move(read.mesh), std::move(parts), std::move(read.notices)};
+  } else {
+    throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh or .inp",
+                                 body.mesh.where.text(), file.path));
+  }
+  for (Eigen::Vector3d& x : source.mesh.positions) x *= file.scale;
+  return source;
+}
+
+Source generated(const Body& body, MPI_Comm comm) {
+  if (body.mesh.plate) {
+    const PlateSpec& spec = *body.mesh.plate;
+    mesh::Plate plate;
+    plate.origin = vector(spec.origin);
+    plate.a = vector(spec.along), plate.b = vector(spec.across);
+    plate.na = spec.elements[0], plate.nb = spec.elements[1];
+    plate.cells =
+        spec.cells == PlateSpec::Cells::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals;
+    return {mesh::plate(comm, plate), {}, {}};
+  }
+  mesh::Polyline line;
+  for (const Point& p : body.mesh.points) line.points.push_back(vector(p));
+  line.segments = body.mesh.segments;
+  line.elements.assign(body.mesh.elements.begin(), body.mesh.elements.end());
+  return {mesh::polyline(comm, line), {}, {}};
+}
+
+Source raw_mesh(const Body& body, MPI_Comm comm) {
+  if (body.mesh.file) return read_file(body, comm);
+  try {
+    return generated(body, comm);
+  } catch (const InputError& error) {
+    throw InputError(body.mesh.where.text() + ": " + error.what());
+  }
+}
+
+void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
+  std::vector<std::string> faults;
+  for (const std::string& fault : inspection.faults) faults.push_back(body.mesh.where.text() + ": " + fault);
+  if (inspection.component_count > 1) {
+    std::vector<std::string> pieces;
+    for (const mesh::Component& piece : inspection.components)
+      pieces.push_back(fmt::format("{} nodes about node {}", piece.nodes, piece.label));
+    faults.push_back(
+        fmt::format("{}: the mesh falls into {} pieces ({}{}), so that {} rigid motions are free; expected "
+                    "one connected mesh (join them by common nodes)",
+                    body.mesh.where.text(), inspection.component_count, fmt::join(pieces, ", "),
+                    inspection.component_count > static_cast<PetscInt>(pieces.size()) ? ", ..." : "",
+                    6 * (inspection.component_count - 1)));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+/// A section for each part of the mesh: the scene's by name, the deck's, the scene's for all.
+std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
+  std::vector<fem::Section> sections;
+  std::vector<std::string> faults;
+  const auto find = [&](const std::vector<PartSpec>& specs, const std::string& name) {
+    return std::find_if(specs.begin(), specs.end(), [&](const PartSpec& spec) { return spec.part == name; });
+  };
+  for (const std::string& part : source.mesh.parts) {
+    auto spec = find(body.parts, part);
+    if (spec == body.parts.end()) {
+      if (const auto own = find(source.parts, part); own != source.parts.end()) {
+        sections.push_back(own->section);
+        continue;
+      }
+      spec = find(body.parts, "");
+    }
+    if (spec == body.parts.end())
+      faults.push_back(
+          fmt::format("{}: no section for part \"{}\" of the mesh; expected section, or parts: {{{}: ...}}",
+                      body.where.text(), part, part));
+    else
+      sections.push_back(spec->section);
+  }
+  for (const PartSpec& spec : body.parts) {
+    const auto& known = source.mesh.parts;
+    if (spec.part.empty() || std::count(known.begin(), known.end(), spec.part) > 0) continue;
+    const std::string near = nearest(spec.part, known);
+    faults.push_back(fmt::format("{}: the mesh has no part \"{}\"; expected one of {}{}", spec.where.text(), spec.part,
+                                 fmt::join(known, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return sections;
+}
+
+/// Union over the ranks, ascending. Collective.
+std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(size), starts(size + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  std::vector<PetscInt> all(starts.back());
+  MPI_Allgatherv(mine.data(), count, MPIU_INT, all.data(), counts.data(), starts.data(), MPIU_INT, comm);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace
+
+SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
+  Source source = raw_mesh(body, comm);
+  const mesh::Inspection inspection = mesh::inspect(source.mesh);
+  refuse_faults(body, inspection);
+  std::vector<fem::Section> sections = sections_of(body, source);
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  const std::vector<int> ranks =
+      size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
+  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks);
+  std::map<std::string, std::vector<PetscInt>> places;
+  for (std::size_t p = 0; p < source.mesh.places.size(); ++p)  // originals: the order of the file, on every rank
+    places[source.mesh.places[p]] = fem::global_nodes(mesh, gathered(comm, source.mesh.place_nodes[p]));
+  const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
+  for (fem::Section& section : sections)
+    if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) beam->strain.membrane = strain;
+  try {
+    SpatialMesh found{
+        fem::Structure(std::move(mesh), std::move(sections), strain), std::move(places), source.mesh.parts, {}};
+    found.notices = std::move(source.notices);
+    found.notices.insert(found.notices.end(), inspection.notices.begin(), inspection.notices.end());
+    return found;
+  } catch (const InputError& error) {
+    throw InputError(body.where.text() + ": " + error.what());
+  }
+}
+
+PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
+                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place) {
+  PreparedPlace found;
+  if (place.point) {
+    const fem::NearestNode nearest = fem::nearest_node(structure.mesh, vector(*place.point));
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+    for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
+    MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+    if (nearest.distance > 1e-6 * (high - low).norm())
+      throw InputError(fmt::format("{}: no node of {} at ({}, {}, {}); the nearest node is at ({:.9g}, {:.9g}, {:.9g})",
+                                   place.where.text(), place.body, (*place.point)[0], (*place.point)[1],
+                                   (*place.point)[2], nearest.position.x(), nearest.position.y(),
+                                   nearest.position.z()));
+    found.nodes = {nearest.node};
+  } else {
+    const auto set = places.find(place.name);
+    if (set == places.end()) {
+      std::vector<std::string> names;
+      for (const auto& entry : places) names.push_back(entry.first);
+      const std::string near = nearest(place.name, names);
+      throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(),
+                                   place.body, place.name,
+                                   names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),
+                                   near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (set->second.empty())
+      throw InputError(
+          fmt::format("{}: the place \"{}\" of {} has no node", place.where.text(), place.name, body.name));
+    found.nodes = set->second;
+  }
+  found.node = found.nodes.front();
+  const fem::Mesh& m = structure.mesh;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (PetscInt node : found.nodes)
+    if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) sum += m.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
+  found.x = sum / static_cast<double>(found.nodes.size());
+  return found;
+}
+
+}  // namespace floe::scene

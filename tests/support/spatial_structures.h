@@ -1,0 +1,123 @@
+#pragma once
+#include <numeric>
+
+#include "floe/mesh/generate.h"
+#include "floe/mesh/partition.h"
+#include "random.h"
+#include "structures.h"
+
+/// Bodies in space with all kinds of cells, on any partition of their nodes over the ranks.
+namespace floe::testing {
+
+enum class Spread { metis, shuffled, reversed, last };  ///< reversed: the first nodes on the last rank; last: all
+
+inline int size_of(MPI_Comm comm) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  return size;
+}
+
+/// Ranks of the nodes of this rank's share; on one rank all are its own.
+inline std::vector<int> ranks_of(const mesh::RawMesh& raw, Spread spread) {
+  const int size = size_of(raw.comm);
+  if (spread == Spread::metis && size > 1) return mesh::partition(raw);
+  Random random(5);
+  std::vector<int> all(static_cast<std::size_t>(raw.node_count), size - 1);
+  if (spread == Spread::shuffled)
+    for (int& rank : all) rank = std::min(size - 1, static_cast<int>(size * (random.number() + 1) / 2));
+  if (spread == Spread::reversed)
+    for (PetscInt i = 0; i < raw.node_count; ++i) all[i] = size - 1 - static_cast<int>(i * size / raw.node_count);
+  return {all.begin() + raw.first_node, all.begin() + raw.first_node + static_cast<long>(raw.positions.size())};
+}
+
+inline fem::Structure structure_of(const mesh::RawMesh& raw, std::vector<fem::Section> sections, Spread spread) {
+  return {fem::mesh_of(raw, ranks_of(raw, spread)), std::move(sections), fem::MembraneStrain::averaged};
+}
+
+/// A cell of one node, in a part of its own. Collective.
+inline void add_point(mesh::RawMesh& raw, PetscInt node) {
+  int rank = 0;
+  MPI_Comm_rank(raw.comm, &rank);
+  raw.parts.push_back("point");
+  const int part = static_cast<int>(raw.parts.size()) - 1;
+  if (node >= raw.first_node && node < raw.first_node + static_cast<PetscInt>(raw.positions.size())) {
+    raw.cells.push_back({mesh::CellKind::point, {node, -1, -1, -1}, part});
+    raw.cell_labels.push_back(0);
+  }
+  const std::vector<PetscInt> starts = mesh::starts_of(raw.comm, static_cast<PetscInt>(raw.cells.size()));
+  raw.first_cell = starts[rank], raw.cell_count = starts.back();
+}
+
+/// Triangles on [0, 1] x [0, 1], quadrilaterals that go on from x = 1 upwards to (1.8, y, 0.6), a mast of beams from
+/// (1.8, 0, 0.6) to (1.8, -0.5, 1.4), and a point mass on its top. Collective.
+inline mesh::RawMesh mixed_mesh(MPI_Comm comm) {
+  mesh::Plate floor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, 2}, ramp{{1, 0, 0}, {0.8, 0, 0.6}, {0, 1, 0}, 2, 2};
+  ramp.cells = mesh::ShellCells::quadrilaterals;
+  const auto shells =
+      mesh::merged(mesh::prefixed(mesh::plate(comm, floor), "floor."), mesh::prefixed(mesh::plate(comm, ramp), "ramp."),
+                   {{"floor.right", "ramp.left"}}, 1e-9);
+  const auto mast = mesh::polyline(comm, {{{1.8, 0, 0.6}, {1.8, -0.5, 1.4}}, {}, {3}, {"mast"}});
+  mesh::RawMesh raw = mesh::merged(shells, mast, {{"ramp.p2", "start"}}, 1e-9);
+  add_point(raw, raw.node_count - 1);
+  return raw;
+}
+
+/// Sections of the mixed mesh: a soft shell, a layered one with coupling, an unsymmetric beam, a mass with an offset.
+inline std::vector<fem::Section> mixed_sections() {
+  const fem::ShellMaterial ply{900, 300, 0.25, 150, 2};
+  fem::SpatialBeam beam{{400, 3, 5, 1, 2, 3, 0.02, 0.03, 0.005, {0.02, -0.01}, {0.01, 0.03}}, {1, 0, 0}, {}};
+  return {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}}),
+          fem::shell_section({{ply, 0.06, 0}, {ply, 0.04, 0.9}}, 0.02, {0, 1, 0}), beam,
+          fem::PointMass{0.7, Eigen::Vector3d(0.03, 0.04, 0.05).asDiagonal(), {0.1, 0, 0.2}}};
+}
+
+inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread) {
+  return structure_of(mixed_mesh(comm), mixed_sections(), spread);
+}
+
+/// Values by original dofs, the same on every rank, of a field; and the way back. Collective.
+inline Eigen::VectorXd in_original_order(const fem::Structure& s, Vec field) {
+  petsc::Values own(field);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(s.dofs());
+  for (PetscInt i = 0; i < s.owned_dofs(); ++i) all[s.original_dof(static_cast<int>(i))] = own[own.first + i];
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, s.mesh.comm);
+  return all;
+}
+inline petsc::VecHandle field_of_originals(const fem::Structure& s, const Eigen::VectorXd& values) {
+  petsc::VecHandle field = fem::field(s);
+  petsc::Values own(field);
+  for (PetscInt i = 0; i < s.owned_dofs(); ++i) own[own.first + i] = values[s.original_dof(static_cast<int>(i))];
+  return field;
+}
+
+/// A x for x by original dofs, which y is too. Collective.
+inline Eigen::VectorXd product_in_originals(const fem::Structure& s, Mat A, const Eigen::VectorXd& x) {
+  const petsc::VecHandle from = field_of_originals(s, x), to = fem::field(s);
+  petsc::check(MatMult(A, from, to));
+  return in_original_order(s, to);
+}
+
+/// Global dofs, ascending, of nodes given by original numbers. Collective.
+inline fem::Conditions dofs_of(const fem::Structure& s, const std::vector<PetscInt>& originals,
+                               const std::vector<int>& directions) {
+  fem::Conditions dofs;
+  for (PetscInt node : fem::global_nodes(s.mesh, originals))
+    for (int d : directions) dofs.push_back(s.dofs_per_node * node + d);
+  std::sort(dofs.begin(), dofs.end());
+  return dofs;
+}
+
+/// Original numbers of nodes where a function of the position holds, ascending, on every rank. Collective.
+template <class Where>
+std::vector<PetscInt> nodes_where(const fem::Structure& s, Where&& where) {
+  std::vector<int> found(static_cast<std::size_t>(s.mesh.node_count), 0);
+  for (PetscInt i = 0; i < s.mesh.owned_nodes; ++i)
+    if (where(s.mesh.positions[i])) found[s.mesh.original_node(static_cast<int>(i))] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, found.data(), static_cast<int>(found.size()), MPI_INT, MPI_SUM, s.mesh.comm);
+  std::vector<PetscInt> nodes;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] > 0) nodes.push_back(static_cast<PetscInt>(i));
+  return nodes;
+}
+
+}  // namespace floe::testing

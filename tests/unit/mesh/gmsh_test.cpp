@@ -1,0 +1,93 @@
+#include "floe/mesh/gmsh.h"
+
+#include "gmsh_text.h"
+#include "mesh_files.h"
+
+using namespace floe;
+using Catch::Matchers::Contains;
+using testing::gmsh_grid;
+using testing::GmshFormat;
+using testing::written;
+
+namespace {
+
+const std::string folder = "tests/unit/mesh/files/";  // made by Gmsh 4.8 from plate.geo
+
+mesh::GmshFile read(const std::string& path, const std::vector<std::string>& parts = {}) {
+  return mesh::read_gmsh(PETSC_COMM_WORLD, path, parts);
+}
+
+}  // namespace
+
+TEST_CASE("files that Gmsh wrote, as text and binary, give the same mesh") {
+  for (const std::string name : {"plate_msh41.msh", "plate_msh41_binary.msh"}) {
+    INFO(name);
+    const auto file = read(folder + name);
+    const auto& raw = file.mesh;
+    CHECK(raw.parts == std::vector<std::string>{"skin"});
+    CHECK(testing::measure(raw, 0) == Approx(2.0));  // the rectangle 2 x 1
+    CHECK(testing::labels_at(raw, "corner") == std::vector<long long>{1});
+    CHECK(testing::labels_at(raw, "root") == std::vector<long long>{1, 4, 13});  // x = 0
+    CHECK(raw.places == std::vector<std::string>{"corner", "root", "stiffener", "skin"});
+    REQUIRE(file.notices.size() == 1);
+    CHECK_THAT(file.notices[0], Contains("nodes that no cell uses are left out"));  // of the free end of "stiffener"
+  }
+}
+
+TEST_CASE("wanted parts are taken in the order that they are named in, curves as lines") {
+  for (const std::string name : {"plate_msh41.msh", "plate_msh41_binary.msh"}) {
+    const auto file = read(folder + name, {"stiffener", "skin"});
+    CHECK(file.mesh.parts == std::vector<std::string>{"stiffener", "skin"});
+    CHECK(testing::measure(file.mesh, 0) == Approx(1 + std::sqrt(5.0)));
+    CHECK(testing::measure(file.mesh, 1) == Approx(2.0));
+    CHECK(file.notices.empty());
+    CHECK(file.mesh.node_count == 22);
+  }
+}
+
+TEST_CASE("every format holds the same grid") {
+  for (const auto& format : {GmshFormat{}, GmshFormat{true, false, 8}, GmshFormat{true, true, 8},
+                             GmshFormat{true, false, 4}, GmshFormat{true, true, 4}}) {
+    for (const long long step : {1LL, 1000003LL % (format.width == 4 ? 1000LL : 2000000LL)}) {
+      INFO("binary " << format.binary << ", swapped " << format.swapped << ", width " << format.width << ", step "
+                     << step);
+      const auto file = read(written("grid.msh", gmsh_grid(5, 3, false, step, format)));
+      const auto& raw = file.mesh;
+      CHECK(raw.node_count == 24);
+      CHECK(raw.cell_count == 15);
+      CHECK(testing::measure(raw, 0) == Approx(15.0));
+      CHECK(testing::labels_at(raw, "left") == std::vector<long long>{step, 7 * step, 13 * step, 19 * step});
+      const auto cells = testing::of_all_ranks(raw.cells);
+      REQUIRE(cells.size() == 15);
+      CHECK(cells[6].nodes == std::array<PetscInt, 4>{7, 8, 14, 13});  // second row, second square
+      CHECK(testing::of_all_ranks(raw.cell_labels)[6] == 10);          // after three lines
+      CHECK(raw.positions.size() ==
+            static_cast<std::size_t>(mesh::share_of(24, testing::this_rank(), testing::ranks()).count));
+    }
+  }
+}
+
+TEST_CASE("line ends of Windows are accepted") {
+  std::string text = gmsh_grid(2, 2, true);
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
+  CHECK(read(written("windows.msh", text)).mesh.cell_count == 8);
+}
+
+TEST_CASE("without physical groups all elements of the highest dimension are one part") {
+  std::string text = gmsh_grid(2, 2, true);
+  text.erase(text.find("$PhysicalNames"), text.find("$Nodes") - text.find("$PhysicalNames"));
+  const auto raw = read(written("bare.msh", text)).mesh;
+  CHECK(raw.parts == std::vector<std::string>{"mesh"});
+  CHECK(testing::measure(raw, 0) == Approx(4.0));
+}
+
+TEST_CASE("parts that cannot be made are refused") {
+  const auto path = folder + "plate_msh41.msh";
+  CHECK_THAT(testing::fault_of([&] { read(path, {"skim"}); }), Contains("'skim'") && Contains("did you mean skin?"));
+  CHECK_THAT(testing::fault_of([&] { read(path, {"corner"}); }), Contains("no physical group 'corner' with curves"));
+  CHECK_THAT(testing::fault_of([&] { read(path, {"skin", "skin"}); }), Contains("two parts"));
+  CHECK_THAT(testing::fault_of([&] { read(folder + "plate_second_order.msh"); }),
+             Contains("'skin'") && Contains("second-order triangle of 6 nodes"));
+  CHECK_THAT(testing::fault_of([&] { read(folder + "plate_msh22.msh"); }),
+             Contains("plate_msh22.msh:2: format '2.2'") && Contains("-format msh41"));
+}

@@ -1,0 +1,104 @@
+#include "floe/mesh/inp.h"
+#include "mesh_files.h"
+
+using namespace floe;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string said(const std::string& content) {
+  const auto path = testing::written("bad.inp", content);
+  return testing::fault_of([&] { mesh::read_inp(PETSC_COMM_WORLD, path); });
+}
+
+const std::string nodes = "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n";              // lines 1 to 5
+const std::string elements = "*ELEMENT, TYPE=S3, ELSET=E\n1, 1, 2, 3\n2, 1, 3, 4\n";  // 6 to 8
+const std::string section = "*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SHELL SECTION, ELSET=E, MATERIAL=M\n1\n";  // 9 to 13
+
+}  // namespace
+
+TEST_CASE("files that are no deck are refused") {
+  CHECK_THAT(testing::fault_of([] { mesh::read_inp(PETSC_COMM_WORLD, "no/such.inp"); }), Contains("cannot be opened"));
+  CHECK(said("") == "bad.inp: is empty");
+  CHECK_THAT(said("\x7f"
+                  "ELF\x01\x02 garbage\n\x80\x81"),
+             Contains("bad.inp:1: expected a keyword"));
+  CHECK_THAT(said("*HEADING\n"), Contains("the deck has no *NODE") && Contains("the deck has no *ELEMENT"));
+}
+
+TEST_CASE("the parts of the deck that these tests spoil are good") {
+  CHECK(said(nodes + elements + section) == "nothing was thrown");
+}
+
+TEST_CASE("keywords, parameters and types that are not read are told, all of them") {
+  const std::string text = said(nodes + elements + section +
+                                "*ELEMNT, TYPE=S3\n3, 1, 2, 4\n*NSET, NST=a\n1\n*ELEMENT, TYPE=S8R\n"
+                                "9, 1, 2, 3, 4, 1, 2, 3, 4\n*PLASTIC\n1, 0\n*STEP\n*END\n");
+  CHECK_THAT(text, Contains("bad.inp:14: keyword '*ELEMNT' is not read, did you mean *ELEMENT?"));
+  CHECK_THAT(text, Contains("bad.inp:16: parameter 'NST' of *NSET is not known, did you mean NSET?"));
+  CHECK_THAT(text, Contains("bad.inp:18: elements of type 'S8R' are not read (B31, B33, MASS, S3,"));
+  CHECK_THAT(text, Contains("bad.inp:20: keyword '*PLASTIC' is not read"));
+  CHECK_THAT(text, Contains("bad.inp:22: *STEP has no *END STEP"));
+}
+
+TEST_CASE("nodes and elements that are wrong are refused with their lines") {
+  CHECK(said(nodes + "2, 5, 5\n" + elements + section) == "bad.inp:6: node 2 is defined a second time");
+  CHECK(said(nodes + elements + "2, 2, 3, 4\n" + section) == "bad.inp:9: element 2 is defined a second time");
+  CHECK(said(nodes + elements + "3, 1, 2, 7\n" + section) == "bad.inp:9: element 3 names node 7, which is not defined");
+  CHECK_THAT(said(nodes + "5, 1\n" + elements + section), Contains("bad.inp:6: expected a node number and 2 or 3"));
+  CHECK_THAT(said(nodes + "5, 1, 1e999\n" + elements + section), Contains("bad.inp:6: expected"));
+  CHECK_THAT(said(nodes + elements + "3, 1, 2\n" + section),
+             Contains("bad.inp:9: expected an element number and 3 nodes, found '3, 1, 2'"));
+  CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\n1, 77\n" + section),
+             Contains("bad.inp:9: node set n names node 77"));
+  CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\nm\n" + section), Contains("holds 'm', which is no set"));
+}
+
+TEST_CASE("sections that do not fit the elements are refused") {
+  CHECK_THAT(said(nodes + elements), Contains("bad.inp:7: element 1 has no section"));
+  CHECK_THAT(said(nodes + elements + section + "*ELSET, ELSET=F\n2\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"),
+             Contains("bad.inp:8: element 2 is in two sections, of 'E' and 'F'"));
+  CHECK_THAT(said(nodes + elements + "*ELEMENT, TYPE=B31, ELSET=E\n3, 1, 3\n" + section),
+             Contains("bad.inp:10: element 3 needs a *BEAM SECTION, set 'E' has another section"));
+  CHECK_THAT(said(nodes + elements + "*SHELL SECTION, ELSET=EE, MATERIAL=N\n1\n" + section),
+             Contains("there is no material 'N', did you mean M?"));
+  CHECK_THAT(said(nodes + elements + section + "*ELSET, ELSET=F\n8\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"),
+             Contains("element set F names element 8, which is not defined"));
+  CHECK_THAT(said(nodes + elements + section + "*SHELL SECTION, ELSET=E, MATERIAL=M\n0\n"),
+             Contains("bad.inp:15: a thickness must be greater than 0"));
+  CHECK_THAT(
+      said(nodes + elements + section + "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=BOX\n1, 1, .6, .6, .6, .6\n"),
+      Contains("bad.inp:15: the dimensions make no section"));
+}
+
+TEST_CASE("links that are not rigid in all directions are refused") {
+  const std::string good = nodes + elements + section + "*NSET, NSET=n\n1, 2\n";
+  CHECK_THAT(said(good + "*RIGID BODY, PIN NSET=n, REF NODE=3\n"), Contains("not with PINNSET"));
+  CHECK_THAT(said(good + "*RIGID BODY, NSET=n, REF NODE=n\n"), Contains("a node set of one node, found 'n'"));
+  CHECK_THAT(said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*KINEMATIC\n1, 3\n"), Contains("all six directions"));
+  CHECK_THAT(
+      said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*MPC\nPIN, 1, 2\n"),
+      Contains("bad.inp:16: *COUPLING is read with *KINEMATIC only") && Contains("bad.inp:18: *MPC expects BEAM"));
+}
+
+TEST_CASE("a deck that ends early is refused, or lacks what follows") {
+  const std::string good = nodes + elements + section;
+  for (std::size_t size = 1; size + 3 < good.size(); size += 3) {
+    INFO("size " << size);
+    CHECK_THAT(said(good.substr(0, size)), Contains("bad.inp:"));
+  }
+  CHECK(said(nodes + "*ELEMENT, TYPE=S3\n") == "bad.inp: the deck has no beams or shells");
+}
+
+TEST_CASE("a byte 0 in a name does no harm") {
+  const std::string zero(1, '\0');
+  CHECK_THAT(said(nodes + elements + section + "*NSET, NSET=n\na" + zero + "b\n"),
+             Contains("holds 'a', which is no set"));
+}
+
+TEST_CASE("at most twenty faults are told") {
+  std::string text = nodes + elements + section;
+  for (int i = 0; i < 50; ++i) text += "*NONSENSE\n";
+  CHECK_THAT(said(text),
+             Contains("bad.inp:33: keyword") && !Contains("bad.inp:34:") && Contains("the first 20 are told"));
+}

@@ -1,0 +1,115 @@
+#include "floe/mesh/inp.h"
+
+#include "mesh_files.h"
+
+using namespace floe;
+using Catch::Matchers::Contains;
+using mesh::Elasticity;
+
+namespace {
+
+mesh::InpFile read(const std::string& path) { return mesh::read_inp(PETSC_COMM_WORLD, path); }
+
+// Square of side 1 with its section; `more` comes after.
+std::string square(const std::string& more) {
+  return "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, 3, 4\n"
+         "*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SHELL SECTION, ELSET=E, MATERIAL=M\n1\n" +
+         more;
+}
+
+}  // namespace
+
+TEST_CASE("a deck's mesh is read") {
+  const auto file = read("tests/unit/mesh/files/frame.inp");
+  const auto& raw = file.mesh;
+  CHECK(raw.node_count == 7);  // without 99
+  CHECK(raw.cell_count == 5);
+  CHECK(raw.parts == std::vector<std::string>{"SHELLS", "THICK", "STIFF"});
+  CHECK(testing::measure(raw, 0) == Approx(1.0));
+  CHECK(testing::measure(raw, 1) == Approx(1.0));
+  CHECK(testing::measure(raw, 2) == Approx(2.0));
+  CHECK(testing::of_all_ranks(raw.cell_labels) == std::vector<long long>{1, 2, 5, 7, 8});
+  CHECK(testing::labels_at(raw, "both") == std::vector<long long>{10, 30, 40, 60});
+  CHECK(testing::labels_at(raw, "All") == std::vector<long long>{10, 20, 30, 40, 50, 60, 70});
+  CHECK(testing::labels_at(raw, "every") == std::vector<long long>{10, 30, 50, 70});
+}
+
+TEST_CASE("a deck's sections, materials, masses and links are read") {
+  const auto deck = read("tests/unit/mesh/files/frame.inp").deck;
+  REQUIRE(deck.materials.size() == 2);
+  CHECK(deck.materials[0].elasticity == Elasticity::isotropic);
+  CHECK(deck.materials[0].constants == std::vector<double>{2.1e11, 0.3});
+  CHECK(deck.materials[0].density == 7800);
+  CHECK(deck.materials[1].constants == std::vector<double>{1.3e11, 9e9, 9e9, .3, .3, .4, 5e9, 5e9, 3e9});
+  REQUIRE(deck.shell_sections.size() == 2);
+  CHECK(deck.shell_sections[0].offset == 0.5);
+  CHECK(deck.shell_sections[0].plies.at(0).thickness == 0.01);
+  CHECK(deck.shell_sections[1].orientation == "Or1");
+  REQUIRE(deck.shell_sections[1].plies.size() == 2);
+  CHECK(deck.shell_sections[1].plies[0].orientation == "Or1");
+  CHECK(deck.shell_sections[1].plies[1].angle == -45);
+  REQUIRE(deck.orientations.size() == 1);
+  CHECK(deck.orientations[0].axis == 3);
+  CHECK(deck.orientations[0].angle == 30);
+  REQUIRE(deck.beam_sections.size() == 1);
+  CHECK(deck.beam_sections[0].profile == mesh::Profile::pipe);
+  CHECK(deck.beam_sections[0].dimensions == std::vector<double>{0.02, 0.002});
+  CHECK(deck.beam_sections[0].direction_1 == Eigen::Vector3d(0, 0, 1));
+  const auto masses = testing::of_all_ranks(deck.masses);
+  REQUIRE(masses.size() == 1);
+  CHECK(masses[0].node == 6);  // 70
+  CHECK(masses[0].mass == 2.5);
+  REQUIRE(deck.links.size() == 1);
+  CHECK(deck.links[0].reference == 6);
+  auto slaves = testing::of_all_ranks(deck.links[0].nodes);
+  std::sort(slaves.begin(), slaves.end());
+  CHECK(slaves == std::vector<PetscInt>{2, 5});
+}
+
+TEST_CASE("what a deck has and a body does not need is named") {
+  const auto notices = read("tests/unit/mesh/files/frame.inp").notices;
+  REQUIRE(notices.size() == 4);
+  CHECK_THAT(notices[0], Contains("frame.inp:43: *EXPANSION is left out"));
+  CHECK_THAT(notices[1], Contains("*BOUNDARY is left out: supports are joints"));
+  CHECK_THAT(notices[2], Contains("*STEP and *END STEP (line 72) is left out (*FREQUENCY, *NODE FILE)"));
+  CHECK_THAT(notices[3], Contains("1 nodes that nothing uses"));
+}
+
+TEST_CASE("includes, also of data, and Windows line ends are read") {
+  testing::written("nodes.inp", "1, 0, 0\r\n2, 1, 0\r\n");
+  testing::written("rest.inp", "4, 0, 1\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, 3, 4\n");
+  const auto path = testing::written(
+      "deck.inp",
+      "*NODE\r\n*INCLUDE, INPUT=nodes.inp\r\n3, 1, 1\r\n*INCLUDE, INPUT=\"rest.inp\"\r\n*MATERIAL, NAME=M\r\n"
+      "*ELASTIC\r\n1, 0\r\n*SHELL SECTION, ELSET=E, MATERIAL=M\r\n1\r\n");
+  CHECK(testing::measure(read(path).mesh, 0) == Approx(1.0));
+  const auto round = testing::written("round.inp", "*INCLUDE, INPUT=round.inp\n");
+  CHECK_THAT(testing::fault_of([&] { read(round); }), Contains("20 files deep"));
+}
+
+TEST_CASE("one part and one instance of Abaqus are looked through") {
+  const std::string body = square("");
+  const std::string assembly =
+      "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I-1, PART=P\n*END INSTANCE\n"
+      "*NSET, NSET=tip, INSTANCE=I-1\n3\n*NSET, NSET=again\nI-1.tip\n*END ASSEMBLY\n";
+  const auto raw = read(testing::written("abaqus.inp", "*PART, NAME=P\n" + body + assembly)).mesh;
+  CHECK(testing::labels_at(raw, "again") == std::vector<long long>{3});
+  std::string moved = assembly;
+  moved.replace(moved.find("*END INSTANCE"), 0, "1., 0., 0.\n");
+  const auto path = testing::written("moved.inp", "*PART, NAME=P\n" + body + moved);
+  CHECK_THAT(testing::fault_of([&] { read(path); }), Contains("moved.inp:16: an *INSTANCE that is moved"));
+}
+
+TEST_CASE("*MPC BEAM and *COUPLING are rigid links") {
+  const auto path = testing::written(
+      "links.inp",
+      square("*NODE\n9, 5, 5\n*NSET, NSET=ref\n9\n*SURFACE, NAME=S, TYPE=NODE\n1, 1.\n4\n*MPC\nBEAM, 2, 9\n"
+             "*COUPLING, CONSTRAINT NAME=c, REF NODE=ref, SURFACE=S\n*KINEMATIC\n1, 6\n"));
+  const auto deck = read(path).deck;
+  REQUIRE(deck.links.size() == 2);
+  CHECK(testing::of_all_ranks(deck.links[0].nodes) == std::vector<PetscInt>{1});
+  auto coupled = testing::of_all_ranks(deck.links[1].nodes);
+  std::sort(coupled.begin(), coupled.end());
+  CHECK(coupled == std::vector<PetscInt>{0, 3});
+  CHECK(deck.links[1].reference == 4);
+}

@@ -1,0 +1,95 @@
+#pragma once
+#include "bodies.h"
+#include "spatial_structures.h"
+
+namespace floe::testing {
+
+/// A body in space with its frame, held by joints, and what its reduction needs.
+struct SpatiallyHeld {
+  fem::Structure structure;
+  fem::ReferenceFrame frame;
+  fem::Holding holding;
+  reduction::Statics statics;
+
+  /// Frame: at original node 0. @param nodes  original numbers of those that are clamped
+  SpatiallyHeld(fem::Structure s, Kind kind, const std::vector<PetscInt>& nodes)
+      : structure(std::move(s)),
+        frame(fem::reference_frame(structure, kind, fem::global_nodes(structure.mesh, {0})[0], 0)),
+        holding(fem::holding(structure, frame, dofs_of(structure, nodes, {0, 1, 2, 3, 4, 5}))),
+        statics(structure, frame, holding) {}
+  SpatiallyHeld(const SpatiallyHeld&) = delete;
+
+  reduction::Modes modes(int count) const {
+    return reduction::vibration_modes(structure, frame, holding, statics, count);
+  }
+  reduction::Basis basis(int modes, bool full = false) const {
+    const auto g = reduction::generators(structure, frame, holding, statics, modes, {}, 1e-7);
+    return reduction::basis_of(
+        structure, g,
+        reduction::derivative_columns(structure, frame, holding, statics, g, reduction::all_pairs(modes), full), 1e-7);
+  }
+};
+
+/// A plate of 1 x 0.7 x 0.02 of triangles or quadrilaterals; original nodes row by row along x.
+inline fem::Structure small_plate(MPI_Comm comm, mesh::ShellCells cells, Spread spread) {
+  mesh::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 4, 3};
+  plate.cells = cells;
+  return structure_of(mesh::plate(comm, plate), {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})}, spread);
+}
+
+/// The corners of a plate's edge x = 0.
+inline std::vector<PetscInt> root_of_plate() { return {0, 5, 10, 15}; }
+
+/// A portal with a spur out of its plane, of one section whose bending stiffnesses differ.
+inline fem::Structure small_frame(MPI_Comm comm, Spread spread) {
+  const mesh::Polyline lines{{{0, 0, 0}, {0, 0, 1}, {1.2, 0, 1}, {1.2, 0.1, 0}, {0.6, 0.8, 1.1}},
+                             {{0, 1}, {1, 2}, {2, 3}, {1, 4}},
+                             {3, 4, 3, 3},
+                             {}};
+  const fem::SpatialBeam beam{{2e4, 2, 3, 0, 1.5, 1.1, 2e-3, 3e-3, 0, {0, 0}, {0, 0}}, {0.3, 1, 0.2}, {}};
+  return structure_of(mesh::polyline(comm, lines), {beam}, spread);
+}
+
+/// Columns of a basis by original dofs, on every rank. Collective.
+inline Eigen::MatrixXd columns_in_originals(const fem::Structure& s, const reduction::Basis& basis) {
+  Eigen::MatrixXd V(s.dofs(), basis.columns);
+  for (int j = 0; j < basis.columns; ++j) {
+    Vec column = nullptr;
+    petsc::check(BVGetColumn(basis.V, j, &column));
+    V.col(j) = in_original_order(s, column);
+    petsc::check(BVRestoreColumn(basis.V, j, &column));
+  }
+  return V;
+}
+
+/// A symmetric matrix by original dofs on every rank. Collective, for small structures.
+inline Eigen::MatrixXd dense(const fem::Structure& s, Mat A) {
+  Eigen::MatrixXd all(s.dofs(), s.dofs());
+  for (Eigen::Index j = 0; j < all.cols(); ++j)
+    all.col(j) = product_in_originals(s, A, Eigen::VectorXd::Unit(all.rows(), j));
+  return all;
+}
+
+/// Energy and force of the whole structure element by element, by original dofs. Collective.
+struct SpatialElasticity {
+  double energy = 0;
+  Eigen::VectorXd force;
+
+  SpatialElasticity(const fem::Structure& s, const Eigen::VectorXd& q) : force(Eigen::VectorXd::Zero(s.dofs())) {
+    body::ElasticityWork work;
+    for (const auto& cell : s.mesh.cells) {
+      std::vector<PetscInt> dofs;
+      for (int local : s.cell_dofs(cell)) dofs.push_back(s.original_dof(local));
+      const auto n = static_cast<Eigen::Index>(dofs.size());
+      const body::Elasticity e = fem::elasticity(s.maps(cell), Eigen::MatrixXd::Identity(n, n));
+      const Eigen::VectorXd own = q(dofs);
+      Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
+      body::add_force(e, own, work, f);
+      energy += body::energy(e, own), force(dofs) += f;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &energy, 1, MPI_DOUBLE, MPI_SUM, s.mesh.comm);
+    MPI_Allreduce(MPI_IN_PLACE, force.data(), static_cast<int>(force.size()), MPI_DOUBLE, MPI_SUM, s.mesh.comm);
+  }
+};
+
+}  // namespace floe::testing

@@ -1,0 +1,135 @@
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "bodies_in_space.h"
+
+using namespace floe;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using mesh::ShellCells;
+using testing::Kind;
+using testing::SpatiallyHeld;
+using testing::Spread;
+
+namespace {
+
+enum class What { triangles, quadrilaterals, beams, mixed };
+
+fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
+  if (what == What::mixed) return testing::mixed_structure(comm, spread);
+  if (what == What::beams) return testing::small_frame(comm, spread);
+  return testing::small_plate(comm, what == What::triangles ? ShellCells::triangles : ShellCells::quadrilaterals,
+                              spread);
+}
+
+/// Clamped at original node 0, on its modes and all their derivatives.
+struct Reduced {
+  SpatiallyHeld held;
+  reduction::Basis basis;
+  body::FlexibleBody body;
+  Reduced(What what, MPI_Comm comm, Spread spread, int modes)
+      : held(body_of(what, comm, spread), Kind::clamped, {0}),
+        basis(held.basis(modes)),
+        body(reduction::project(held.structure, basis)) {}
+};
+
+VectorXd force_of(const body::Elasticity& e, const VectorXd& eta) {
+  VectorXd f = VectorXd::Zero(eta.size());
+  body::ElasticityWork work;
+  body::add_force(e, eta, work, f);
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("reduced energy and force of bodies in space equal the projected full ones") {
+  const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed);
+  const Reduced r(what, PETSC_COMM_WORLD, Spread::shuffled, 3);
+  CHECK(r.basis.columns > 3);
+  const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
+  for (const double deflection : {1e-3, 0.05, 0.5}) {  // of a body of size 1: linear, moderate, far
+    VectorXd eta = testing::Random(81).vector(V.cols());
+    eta *= deflection / (V * eta).cwiseAbs().maxCoeff();
+    const testing::SpatialElasticity full(r.held.structure, V * eta);
+    CHECK(body::energy(r.body.elasticity, eta) == Approx(full.energy).epsilon(1e-11));
+    CHECK(testing::relative_error(force_of(r.body.elasticity, eta), V.transpose() * full.force) < 1e-10);
+  }
+  const MatrixXd K = testing::dense(r.held.structure, fem::stiffness(r.held.structure, {}));
+  CHECK(testing::relative_error(r.body.elasticity.linear_stiffness(), V.transpose() * K * V) < 1e-11);
+}
+
+TEST_CASE("reduced inertia constants of bodies in space are V' times those of the full body") {
+  const What what = GENERATE(What::quadrilaterals, What::mixed);
+  const Reduced r(what, PETSC_COMM_WORLD, Spread::metis, 3);
+  const fem::Structure& s = r.held.structure;
+  const MatrixXd V = testing::columns_in_originals(s, r.basis), M = testing::dense(s, fem::mass(s, {}));
+  MatrixXd rigid(s.dofs(), 6);
+  for (int i = 0; i < 6; ++i) rigid.col(i) = testing::in_original_order(s, r.held.frame.rigid[i]);
+  const MatrixXd mass = rigid.transpose() * M * rigid;
+  const body::Inertia& in = r.body.inertia;
+  REQUIRE(in.dimension() == 3);
+  CHECK(in.m == Approx(mass(0, 0)).epsilon(1e-12));
+  for (int a = 0; a < 3; ++a)  // e_b x x has the component -x_a along e_c (a, b, c in turn)
+    CHECK(in.s0[a] == Approx(-mass((a + 2) % 3, 3 + (a + 1) % 3)).epsilon(1e-11).margin(1e-13));
+  CHECK(testing::relative_error(in.C0.trace() * Eigen::Matrix3d::Identity() - in.C0, mass.bottomRightCorner(3, 3)) <
+        1e-11);
+  CHECK(testing::relative_error(in.S, rigid.leftCols(3).transpose() * M * V) < 1e-10);
+  // int rho (e_r x x)' N: about x it is h_yz - h_zy
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    const MatrixXd found = in.h[b][c] - in.h[c][b], expected = rigid.col(3 + a).transpose() * M * V;
+    CHECK((found.reshaped() - expected.reshaped()).cwiseAbs().maxCoeff() < 1e-10 * std::sqrt(mass(3 + a, 3 + a)));
+  }
+  const MatrixXd sum = in.M[0][0] + in.M[1][1] + in.M[2][2];
+  CHECK((sum - MatrixXd::Identity(V.cols(), V.cols())).cwiseAbs().maxCoeff() < 1e-10);
+}
+
+TEST_CASE("energies and inertia of a reduced body in space do not depend on the partition") {
+  const What what = GENERATE(What::triangles, What::beams, What::mixed);
+  const auto numbers = [&](MPI_Comm comm, Spread spread) {
+    const Reduced r(what, comm, spread, 3);
+    std::vector<double> all{double(r.basis.columns)};
+    for (unsigned seed : {1u, 2u, 3u}) {
+      VectorXd z = VectorXd::Zero(r.basis.columns);
+      z.head(3) = 0.3 * testing::Random(seed).vector(3);  // of the modes: signs and order are fixed
+      all.insert(all.end(), {body::energy(r.body.elasticity, z), (r.body.inertia.S * z).norm(),
+                             z.dot(r.body.inertia.M[0][1] * z), z.dot(r.body.inertia.M[2][2] * z)});
+    }
+    all.push_back(r.body.inertia.m);
+    all.push_back(r.body.inertia.C0.trace());
+    all.push_back(r.body.elasticity.linear_stiffness().trace());
+    all.push_back(r.body.inertia.S.squaredNorm());
+    all.push_back(r.body.line.m);
+    return all;
+  };
+  const std::vector<double> expected = numbers(PETSC_COMM_SELF, Spread::last);
+  for (const Spread spread : {Spread::metis, Spread::shuffled}) {
+    const std::vector<double> found = numbers(PETSC_COMM_WORLD, spread);
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      INFO("number " << i);
+      CHECK(found[i] == Approx(expected[i]).epsilon(1e-9).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place map holds the rows of V at its node") {
+  const Reduced r(What::mixed, PETSC_COMM_WORLD, Spread::shuffled, 2);
+  const auto same = [](const double* values, Eigen::Index count) {
+    std::vector<double> first(values, values + count);
+    MPI_Bcast(first.data(), static_cast<int>(count), MPI_DOUBLE, 0, PETSC_COMM_WORLD);
+    CHECK(std::memcmp(first.data(), values, sizeof(double) * static_cast<std::size_t>(count)) == 0);
+  };
+  same(r.body.elasticity.F.data(), r.body.elasticity.F.size());
+  same(r.body.elasticity.bending.data(), r.body.elasticity.bending.size());
+  same(r.body.inertia.S.data(), r.body.inertia.S.size());
+  const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
+  const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
+  for (PetscInt original : {0, 7, 20}) {
+    const PetscInt node = fem::global_nodes(r.held.structure.mesh, {original})[0];
+    const body::PlaceMap place = reduction::place_map(r.held.structure, r.basis, node);
+    CHECK(place.x == Eigen::VectorXd(raw.positions[original]));
+    CHECK(place.S == V.middleRows(6 * original, 3));
+    CHECK(place.psi == V.middleRows(6 * original + 3, 3));
+  }
+}
