@@ -199,8 +199,7 @@ OPTIONS = [
           says=("-ts_dt", "did you mean -motion_ts_dt?")),
     *case("prefix unknown", codes=2, lines=1, options=("-foo_bar", "1"), check=nothing,
           says=("option -foo_bar: no solver of floe has this prefix; expected -modes_...",)),
-    *case("options of PETSc as a whole", options=("-options_left", "-options_view", "-malloc_view", ":/dev/null",
-                                                  "-log_view", ":/dev/null"),
+    *case("options of PETSc as a whole", options=("-options_left", "-options_view", "-log_view", ":/dev/null"),
           lines=0, shows=("#PETSc Option Table entries", "There are no unused options"), check=files("finished", 51)),
     *(c for value in ("-1", "0", "nan") for option in ("-motion_ts_dt", "-motion_ts_max_time")
       for c in case(f"{option} {value}", codes=2, lines=1, options=(option, value), ranks=(1,), check=nothing,
