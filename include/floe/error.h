@@ -11,7 +11,8 @@ namespace floe {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& fault) : InputError(std::vector<std::string>{fault}) {}
-  explicit InputError(std::vector<std::string> faults) : std::runtime_error(joined(faults)), faults_(std::move(faults)) {}
+  explicit InputError(std::vector<std::string> faults)
+      : std::runtime_error(joined(faults)), faults_(std::move(faults)) {}
   const std::vector<std::string>& faults() const { return faults_; }
 
  private:
@@ -23,7 +24,8 @@ class InputError : public std::runtime_error {
   std::vector<std::string> faults_;
 };
 
-/// The input was good and the run failed all the same: a solver did not converge, a file could not be written. Exit code 1.
+/// The input was good and the run failed all the same: a solver did not converge, a file could not be written. Exit
+/// code 1.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -1,6 +1,7 @@
 #define CATCH_CONFIG_RUNNER
-#include <catch2/catch.hpp>
 #include <slepcsys.h>
+
+#include <catch2/catch.hpp>
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/petsc/error.h"
