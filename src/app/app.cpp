@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "compare.h"
+#include "equilibrium.h"
 #include "floe/version.h"
 #include "session.h"
 
@@ -19,6 +20,8 @@ struct Choices {
   std::string scene, formulation = "vm+md", body;
   std::optional<std::string> out;
   std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
+  std::optional<double> at;
+  int steps = 10;
   bool force = false, no_reference_error = false;
 };
 
@@ -116,6 +119,27 @@ int main(int argc, char** argv) {
     };
   });
 
+  CLI::App* static_command = app.add_subcommand("static", "equilibria of a scene under loads that grow with t");
+  add_scene(static_command, choices);
+  static_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
+      ->capture_default_str();
+  static_command
+      ->add_option("--at", choices.at, "t of the last equilibrium, from 0 (default: the end of the motion, or 1)")
+      ->check(CLI::PositiveNumber);
+  static_command->add_option("--steps", choices.steps, "equilibria on the way, at equal distances in t")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  add_folder(static_command, choices);
+  static_command->callback([&] {
+    work = [&] {
+      const scene::Formulation formulation = scene::formulation_of(choices.formulation);
+      const scene::Scene scene = read(choices.scene);
+      const double at = choices.at.value_or(scene.motion.end > 0 ? scene.motion.end : 1);
+      rest_one(scene, formulation, PETSC_COMM_WORLD, {at, choices.steps},
+               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "static"), choices.force));
+    };
+  });
+
   CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
   add_scene(modes_command, choices);
   modes_command->callback([&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD); }; });
@@ -153,7 +177,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
-      what = fmt::format("\"{}\" is no command; expected run, compare, modes, reduce, info, check or schema",
+      what = fmt::format("\"{}\" is no command; expected run, compare, static, modes, reduce, info, check or schema",
                          line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

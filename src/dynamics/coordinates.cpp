@@ -17,8 +17,10 @@ std::vector<PetscInt> ranges(MPI_Comm comm, PetscInt owned) {
 
 }  // namespace
 
+void Coordinates::belongs_to(std::string owner) { owners_.push_back(std::move(owner)); }
+
 int Coordinates::add_shared(int count, bool multipliers) {
-  blocks_.push_back({true, multipliers, count, {}, local_size_});
+  blocks_.push_back({true, multipliers, count, {}, local_size_, static_cast<int>(owners_.size()) - 1});
   local_size_ += count;
   return blocks_.back().first;
 }
@@ -26,8 +28,17 @@ int Coordinates::add_shared(int count, bool multipliers) {
 int Coordinates::add_distributed(PetscInt owned, std::vector<PetscInt> foreign) {
   const int first = local_size_;
   local_size_ += static_cast<int>(owned + foreign.size());
-  blocks_.push_back({false, false, owned, std::move(foreign), first});
+  blocks_.push_back({false, false, owned, std::move(foreign), first, static_cast<int>(owners_.size()) - 1});
   return first;
+}
+
+std::vector<int> Coordinates::owner_of_local() const {
+  std::vector<int> owner(local_size_, -1);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const int end = b + 1 < blocks_.size() ? blocks_[b + 1].first : local_size_;
+    std::fill(owner.begin() + blocks_[b].first, owner.begin() + end, blocks_[b].owner);
+  }
+  return owner;
 }
 
 void Coordinates::number() {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "floe/petsc/values.h"
+#include "undetermined.h"
 
 namespace floe::dynamics {
 
@@ -79,7 +80,7 @@ petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec 
   try {
     check(KSPSolve(ksp, right, x));
   } catch (const petsc::Error& error) {
-    throw RunError(is_singular(error.code()) ? singular_start : error.what());
+    throw RunError(is_singular(error.code()) ? singular_start + undetermined(system, kept) : error.what());
   }
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   double size = 0, residual = 0, given = 0;
@@ -89,7 +90,8 @@ petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec 
   check(VecAXPY(product, -1, right));
   check(VecNorm(product, NORM_INFINITY, &residual));
   check(VecNorm(right, NORM_INFINITY, &given));
-  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given)) throw RunError(singular_start);
+  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given))
+    throw RunError(singular_start + undetermined(system, kept));
   check(VecPointwiseMult(x, x, scale));
   return x;
 }
@@ -168,9 +170,19 @@ PetscErrorCode equilibrium_tangent(SNES, Vec U, Mat J, Mat, void* context) {
   return c.guard.run([&] { c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J); });
 }
 
+/// What nothing holds at the start of the search, in words; empty where all is held.
+std::string loose(const System& system, double t, Vec U, Vec V, Mat J) {
+  const petsc::VecHandle A = system.create_vector();
+  system.tangent(t, U, V, A, {1, 0, 0}, J);
+  const std::string names = undetermined(system, J);
+  return names.empty() ? "" : "; nothing holds the configuration in some direction" + names;
+}
+
 }  // namespace
 
-void equilibrium(const System& system, double t, Vec U, Vec V) {
+PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle start = system.create_vector();
+  check(VecCopy(U, start));
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   EquilibriumContext context{system, t, V, A, {}};
@@ -188,14 +200,21 @@ void equilibrium(const System& system, double t, Vec U, Vec V) {
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
   petsc::check_options(SNESSetFromOptions(snes), "static_");
-  context.guard.check(SNESSolve(snes, nullptr, U));
+  std::string why;
+  try {
+    context.guard.check(SNESSolve(snes, nullptr, U));
+  } catch (const petsc::Error& error) {
+    if (!is_singular(error.code())) throw;
+    why = "singular tangent";
+  }
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
-  if (reason < 0)
-    throw RunError(fmt::format("no equilibrium at t = {} (options -static_snes_...): {} after {} iterations", t,
-                               SNESConvergedReasons[reason], iterations));
+  if (why.empty() && reason >= 0) return iterations;
+  if (why.empty()) why = SNESConvergedReasons[reason];
+  throw RunError(fmt::format("no equilibrium at t = {} (options -static_snes_...): {} after {} iterations{}", t, why,
+                             iterations, loose(system, t, start, V, J)));
 }
 
 }  // namespace floe::dynamics

@@ -33,10 +33,38 @@ PetscInt greatest_dof(Vec field) {
   return dof;
 }
 
+/// K - lambda M under the conditions, K without its round-off.
+petsc::MatHandle exact_operator(const fem::Structure& structure, const Statics& statics, double lambda,
+                                const fem::Conditions& conditions) {
+  const petsc::MatHandle K = fem::stiffness_operator(statics.elements(), conditions),
+                         M = fem::mass(structure, conditions);
+  Mat parts[2] = {K, M};
+  double scalings[2] = {1, -lambda};
+  petsc::MatHandle sum;
+  check(MatCreateComposite(structure.mesh.comm, 2, parts, sum.out()));
+  check(MatCompositeSetScalings(sum, scalings));
+  check(MatAssemblyBegin(sum, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(sum, MAT_FINAL_ASSEMBLY));
+  return sum;
+}
+
+/// A solver of (K - lambda M) x = b under the conditions.
+petsc::KspHandle shifted_solver(const fem::Structure& structure, const Statics& statics, double lambda,
+                                const fem::Conditions& conditions) {
+  const petsc::MatHandle A = fem::assemble(structure, conditions, 1, 1, -lambda);
+  petsc::KspHandle ksp = direct_solver(A, "derivatives_");
+  if (!statics.refines()) return ksp;
+  const petsc::MatHandle exact = exact_operator(structure, statics, lambda, conditions);
+  check(KSPSetOperators(ksp, exact, A));
+  iterate(ksp, KSPGMRES);
+  petsc::check_options(KSPSetFromOptions(ksp), "derivatives_");
+  return ksp;
+}
+
 }  // namespace
 
 Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
-                         const Modes& modes, const Pairs& pairs, Pairs& which) {
+                         const Statics& statics, const Modes& modes, const Pairs& pairs, Pairs& which) {
   std::map<int, std::vector<int>> partners;  // of each i, the j
   which.clear();
   for (const auto& [i, j] : pairs) {
@@ -50,8 +78,7 @@ Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFr
     fem::Conditions conditions = holding.held;
     conditions.push_back(greatest_dof(modes.raw[i]));
     std::sort(conditions.begin(), conditions.end());
-    const petsc::MatHandle A = fem::assemble(structure, conditions, 1, 1, -lambda);
-    const petsc::KspHandle ksp = direct_solver(A, "derivatives_");
+    const petsc::KspHandle ksp = shifted_solver(structure, statics, lambda, conditions);
     const petsc::VecHandle Mphi = fem::field(structure);
     check(MatMult(M, modes.raw[i], Mphi));
     Columns loads;

@@ -125,7 +125,7 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
   for (const auto& pair : pairs) (full && pair[0] < modes && pair[1] < modes ? with_inertia : without).push_back(pair);
   Pairs which;
   if (!with_inertia.empty()) {
-    result.columns = full_derivatives(structure, frame, holding, generators.modes, with_inertia, which);
+    result.columns = full_derivatives(structure, frame, holding, statics, generators.modes, with_inertia, which);
   }
   Columns more = static_derivatives(structure, statics, generators.fields, without);
   for (auto& column : more) result.columns.push_back(std::move(column));

@@ -66,6 +66,7 @@ void Assembly::add_coordinates() {
     const PreparedBody& body = prepared_.bodies[b];
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
+    coordinates_.belongs_to("body " + body.spec.name);
     if (compact(index) || formulation_ != Formulation::cfr) slot.frame = coordinates_.add_shared(3);
     if (compact(index)) {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
@@ -77,8 +78,10 @@ void Assembly::add_coordinates() {
       slot.multipliers = coordinates_.add_shared(3, true);
   }
   joint_rows_ = standing_rows(prepared_, reduced_);
-  for (const auto& rows : joint_rows_)
-    joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(rows.size()), true));
+  for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
+    coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
+    joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
+  }
   coordinates_.number();
 }
 

@@ -85,6 +85,7 @@ struct HeldAssembly {
 
   void add_coordinates() {
     for (std::size_t b = 0; b < first.size(); ++b) {
+      coordinates.belongs_to("body " + prepared.bodies[b].spec.name);
       if (is_reduced(formulation))
         first[b] = coordinates.add_shared(reduced[b].body.coordinates());
       else

@@ -3,6 +3,17 @@
 #include "readers.h"
 
 namespace floe::scene {
+namespace {
+
+/// A spring of which nothing is said does nothing; an explicit zero is a choice.
+void check_spring(Document& document, const Reading& reading, const Where& where) {
+  for (const char* key : {"stiffness", "viscosity", "torsional_stiffness", "torsional_viscosity"})
+    if (reading.given(key)) return;
+  document.fault(where, "has no stiffness and no viscosity",
+                 "one of stiffness, viscosity, torsional_stiffness, torsional_viscosity");
+}
+
+}  // namespace
 
 Joint read_joint(Document& document, const std::string& name, const Value& value) {
   using Kind = Joint::Kind;
@@ -18,6 +29,8 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
                                              {"driven", Kind::driven},
                                              {"spring", Kind::spring}});
   const bool known = document.fault_count() == before;
+  if (known && document.dimension == 3 && joint.kind != Kind::fixed && joint.kind != Kind::revolute)
+    document.fault(reading.where("type"), "is " + reading.text("type"), "fixed or revolute in a scene in space");
   if (known) reading.set_kind(reading.text("type"));
   if (const auto between = reading.value("between")) {
     const auto places = read_list(document, *between, reading.key("between"), 2);
@@ -35,6 +48,7 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
   joint.length = reading.optional_number("length");
   joint.torsional_stiffness = reading.number("torsional_stiffness");
   joint.torsional_viscosity = reading.number("torsional_viscosity");
+  if (known && joint.kind == Kind::spring) check_spring(document, reading, reading.where("type"));
   return joint;
 }
 

@@ -37,7 +37,7 @@ struct End {
 };
 
 End end_of(const History& at) {
-  const Eigen::VectorXd U = entries(at.model.U);
+  const Eigen::VectorXd U = everywhere(at.model.U);
   const std::vector<PetscInt> rows = multipliers(*at.model.system);
   End end{{at["tip.x"].back(), at["tip.y"].back()}, {at["speed.x"].back(), at["speed.y"].back()}, {}};
   end.multipliers.resize(static_cast<Eigen::Index>(rows.size()));

@@ -47,7 +47,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -246,6 +246,14 @@ UNUSUAL = [
     *case("rigid bodies alone", formulations=("vm+md", "nlffr", "cfr"), check=files("finished", 51),
           changes={"bodies.beam.rigid": True, "bodies.beam.reduction": None,
                    "joints.clamp": {"type": "revolute", "between": ["ground", "beam.start"]}}),
+    *(Case(f"static, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], shows=("5 equilibria",),
+           check=files("finished", 6)) for f in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"static of what nothing holds, {f}", ["static", "scene.yaml", "--formulation", f, "-o", "out"], 1,
+           ("no equilibrium at t = ", "nothing holds the configuration in some direction (body beam)"), lines=1,
+           scene=scene({"joints": None}), check=files("failed", 1, "no equilibrium")) for f in ("vm+md", "nlffr", "cfr")),
+    Case("mesh finer than numbers", ["modes", "scene.yaml"], 1,
+         ("the mesh of 400000 elements is finer than double precision resolves", "take fewer elements"), lines=1,
+         scene=scene({"bodies.beam.mesh.line.elements": 400000, "bodies.beam.reduction.modes": 1}), ranks=(1,)),
     Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
                                               "--no-reference-error"], 1,
          ("nlffr: ", "vm: ", "no formulation came to the end"), scene=scene({"loads.tip.force": [0, GAP]}),

@@ -12,10 +12,12 @@
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
 #include "floe/scene/model.h"
+#include "structures.h"
 
 namespace floe::test {
 
 using scene::Formulation;
+using testing::everywhere;
 using Words = std::vector<std::pair<std::string, std::string>>;
 
 /// A scene's text with every `$name` replaced.
@@ -95,17 +97,6 @@ inline double relative_error(const History& a, const History& b, const std::stri
     size += reference * reference;
   }
   return std::sqrt(difference / size);
-}
-
-/// All entries, on every rank. Collective.
-inline Eigen::VectorXd entries(Vec vec) {
-  petsc::VecHandle all;
-  petsc::ScatterHandle scatter;
-  petsc::check(VecScatterCreateToAll(vec, scatter.out(), all.out()));
-  petsc::check(VecScatterBegin(scatter, vec, all, INSERT_VALUES, SCATTER_FORWARD));
-  petsc::check(VecScatterEnd(scatter, vec, all, INSERT_VALUES, SCATTER_FORWARD));
-  petsc::Values values(all);
-  return Eigen::Map<const Eigen::VectorXd>(values.begin(), values.end);
 }
 
 /// Global indices of all multipliers, on every rank. Collective.

@@ -37,7 +37,7 @@ Answer answer(int elements, double Q, Formulation formulation, const std::string
               const std::string& reduction = "{modes: 2}") {
   const History at = rest(scene_of(elements, Q, strain, reduction), formulation, 5);
   const PetscInt reaction = multipliers(*at.model.system)[0];  // along x at the left hinge
-  return {100 * at["middle.y"][0], std::abs(entries(at.model.U)[reaction])};
+  return {100 * at["middle.y"][0], std::abs(everywhere(at.model.U)[reaction])};
 }
 
 }  // namespace

@@ -27,13 +27,13 @@ Derivatives derivatives(bool fixed_ends) {
   const reduction::Statics statics(structure, frame, holding);
   reduction::Modes modes = reduction::vibration_modes(structure, frame, holding, statics, 3);
   for (int n = 1; n <= 3; ++n) {  // greatest value 1, at x = L/2n
-    const double top = test::entries(modes.shapes[n - 1])[3 * (elements / (2 * n)) + 1];
+    const double top = test::everywhere(modes.shapes[n - 1])[3 * (elements / (2 * n)) + 1];
     petsc::check(VecScale(modes.shapes[n - 1], 1 / top));
   }
   Derivatives result;
   result.pairs = reduction::all_pairs(3);
   for (const auto& theta : reduction::static_derivatives(structure, statics, modes.shapes, result.pairs))
-    result.theta.push_back(test::entries(theta));
+    result.theta.push_back(test::everywhere(theta));
   return result;
 }
 

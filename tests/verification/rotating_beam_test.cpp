@@ -104,7 +104,7 @@ TEST_CASE("rotating beam: lag frequencies of the hinged beam") {
     const History driven_beam = steady(gamma, "pinned", Formulation::nlffr, "24"),
                   hinged = history_of(scene_of(gamma, "pinned", "type: revolute", "24"), Formulation::nlffr);
     {
-      const Eigen::VectorXd state = entries(driven_beam.model.U);
+      const Eigen::VectorXd state = everywhere(driven_beam.model.U);
       petsc::Values U(hinged.model.U);
       for (PetscInt i = U.first; i < U.end; ++i) U[i] = state[i];
     }

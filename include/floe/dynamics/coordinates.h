@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "floe/petsc/handle.h"
@@ -8,12 +9,16 @@ namespace floe::dynamics {
 /// Numbering of the unknowns of a system: what each rank sees of them, and where that stands in PETSc's vectors.
 ///
 /// Two kinds of block are added in turn, then number() fixes the layout:
-///   shared       a few unknowns that every rank reads and the last rank owns (frames, reduced coordinates,
-///   multipliers) distributed  finite-element dofs: this rank's own and the foreign ones it reads
+///  - shared: a few unknowns that every rank reads and the last rank owns (frames, reduced coordinates, multipliers)
+///  - distributed: finite-element dofs, this rank's own and the foreign ones it reads
+///
 /// "Local" indices count the blocks of one rank one after another in the order added, owned dofs before foreign ones.
 class Coordinates {
  public:
   explicit Coordinates(MPI_Comm comm) : comm_(comm) {}
+
+  /// Says what the blocks that are added from now on belong to (`body "arm"`), for messages. The same on all ranks.
+  void belongs_to(std::string owner);
 
   /// Adds `count` shared unknowns, the same on all ranks. Returns the first local index.
   int add_shared(int count, bool multipliers = false);
@@ -36,6 +41,10 @@ class Coordinates {
   /// Global indices of the multipliers that this rank owns, ascending.
   const std::vector<PetscInt>& owned_multipliers() const { return owned_multipliers_; }
   PetscInt multiplier_count() const { return multiplier_count_; }
+  /// What belongs_to() named, in its order.
+  const std::vector<std::string>& owners() const { return owners_; }
+  /// Index of owners() of each local unknown, -1 where none was named.
+  std::vector<int> owner_of_local() const;
 
  private:
   struct Block {
@@ -44,9 +53,11 @@ class Coordinates {
     PetscInt owned;  // on this rank
     std::vector<PetscInt> foreign;
     int first;  // local
+    int owner;
   };
   MPI_Comm comm_;
   std::vector<Block> blocks_;
+  std::vector<std::string> owners_;
   int local_size_ = 0;
   PetscInt owned_size_ = 0, global_size_ = 0, multiplier_count_ = 0;
   std::vector<PetscInt> global_, owned_multipliers_;

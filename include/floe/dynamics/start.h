@@ -4,7 +4,7 @@
 namespace floe::dynamics {
 
 /// What is wrong where accelerations and multipliers are not determined.
-inline constexpr const char* singular_start =
+inline const std::string singular_start =
     "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
     "hold the same motion), or a body has no mass";
 /// Whether a linear solve that returned `code` met a singular matrix: each solver has an error of its own for it.
@@ -29,8 +29,10 @@ double constraint_violation(const System& system, double t, Vec U, Vec V, Constr
 /// Coordinates and multipliers with F(t, U, V, 0) = 0 at given velocities: a static equilibrium (V = 0) or the steady
 /// shape of a body that turns at constant speed.
 ///
-/// SNES prefix static_ (Newton with backtracking). @throws RunError  not converged. Collective.
-void equilibrium(const System& system, double t, Vec U, Vec V);
+/// SNES prefix static_ (Newton with full steps). Returns its iterations.
+/// @throws RunError  not converged, and what nothing holds where that is why; U is then whatever it was last.
+/// Collective.
+PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
 
 /// A direct solver for a tangent: LAPACK's LU where it is dense, MUMPS' where it is sparse; `prefix` for the user.
 /// Collective.

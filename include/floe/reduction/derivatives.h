@@ -27,8 +27,9 @@ Columns static_derivatives(const fem::Structure& structure, const Statics& stati
 /// Singular in the direction of phi_i: solved by Nelson's method (the dof where phi_i is greatest is held, and the part
 /// along phi_i added by the orthogonality). Not symmetric: a pair (i, j) with i != j gives theta_ij and theta_ji.
 /// @return  for each pair theta_ij, then for i != j theta_ji; `which` receives (i, j) of each
-/// Collective. One factorisation for each distinct i. Source: Nelson 1976, AIAA J. 14(9).
+/// Collective. One factorisation for each distinct i; where round-off spoils it (Statics::refines), it preconditions
+/// GMRES on the exact operator. Source: Nelson 1976, AIAA J. 14(9).
 Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
-                         const Modes& modes, const Pairs& pairs, Pairs& which);
+                         const Statics& statics, const Modes& modes, const Pairs& pairs, Pairs& which);
 
 }  // namespace floe::reduction

@@ -24,7 +24,7 @@ bool is_reduced(Formulation formulation);
 struct PreparedPlace {
   int body = -1;  ///< index of prepared bodies, -1: ground
   PetscInt node = 0;
-  Eigen::Vector3d x;                 ///< in the frame's axes; ground: world
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
   std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
 };
 

@@ -57,8 +57,12 @@ TEST_CASE("consistent start with a driven joint: the drive's acceleration is met
 TEST_CASE("joints that hold the same motion twice, and mass that is missing, are run errors") {
   testing::Terms twice;
   dynamics::Coordinates c(PETSC_COMM_SELF);
+  c.belongs_to("body rod");
   c.add_shared(3);
-  c.add_shared(5, true);
+  c.belongs_to("joint hinge");
+  c.add_shared(2, true);
+  c.belongs_to("joint clamp");
+  c.add_shared(3, true);
   c.number();
   twice.push_back(testing::rigid_rod(m, l));
   twice.push_back(testing::weight(m, l, g));
@@ -69,6 +73,8 @@ TEST_CASE("joints that hold the same motion twice, and mass that is missing, are
     const petsc::VecHandle U = system->create_vector(), V = system->create_vector(), A = system->create_vector();
     CHECK_THROWS_AS(dynamics::consistent_start(*system, 0, U, V, A), RunError);
   }
+  const petsc::VecHandle U = repeated.create_vector(), V = repeated.create_vector(), A = repeated.create_vector();
+  CHECK_THROWS_WITH(dynamics::consistent_start(repeated, 0, U, V, A), Catch::EndsWith(" (joint hinge, joint clamp)"));
 }
 
 TEST_CASE("consistent velocities: the nearest allowed ones in kinetic energy") {

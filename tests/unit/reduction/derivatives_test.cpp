@@ -107,7 +107,7 @@ TEST_CASE("full derivatives satisfy eq. 10 and are M-orthogonal to their mode, a
   const reduction::Modes modes = reduction::vibration_modes(s, body.frame, body.holding, body.statics, 4);
   reduction::Pairs which;
   const reduction::Columns theta =
-      reduction::full_derivatives(s, body.frame, body.holding, modes, reduction::all_pairs(4), which);
+      reduction::full_derivatives(s, body.frame, body.holding, body.statics, modes, reduction::all_pairs(4), which);
   REQUIRE(theta.size() == 16);  // (i, j) and (j, i)
   REQUIRE(which.size() == 16);
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {});
@@ -142,7 +142,8 @@ TEST_CASE("full derivatives are the derivatives of the modes of the deformed bod
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = reduction::vibration_modes(s, body.frame, body.holding, body.statics, 2);
   reduction::Pairs which;
-  const reduction::Columns theta = reduction::full_derivatives(s, body.frame, body.holding, modes, {{0, 1}}, which);
+  const reduction::Columns theta =
+      reduction::full_derivatives(s, body.frame, body.holding, body.statics, modes, {{0, 1}}, which);
   const Eigen::Index n = s.dofs();
   Eigen::MatrixXd M(n, n);
   const petsc::MatHandle mass = fem::mass(s, {});
@@ -179,8 +180,8 @@ TEST_CASE("the same derivatives on any number of ranks") {
     const auto modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 4);
     reduction::Pairs which;
     const reduction::Columns theta =
-        full ? reduction::full_derivatives(body.structure, body.frame, body.holding, modes, reduction::all_pairs(4),
-                                           which)
+        full ? reduction::full_derivatives(body.structure, body.frame, body.holding, body.statics, modes,
+                                           reduction::all_pairs(4), which)
              : reduction::static_derivatives(body.structure, body.statics, modes.shapes, reduction::all_pairs(4));
     const petsc::MatHandle K = fem::stiffness(body.structure, {});
     std::vector<double> all;

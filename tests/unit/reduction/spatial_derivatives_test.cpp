@@ -69,7 +69,7 @@ TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to thei
   const reduction::Modes modes = body.modes(3);
   reduction::Pairs which;
   const reduction::Columns theta =
-      reduction::full_derivatives(s, body.frame, body.holding, modes, reduction::all_pairs(3), which);
+      reduction::full_derivatives(s, body.frame, body.holding, body.statics, modes, reduction::all_pairs(3), which);
   REQUIRE((theta.size() == 9 && which.size() == 9));
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {});
   for (std::size_t p = 0; p < theta.size(); ++p) {
@@ -96,7 +96,7 @@ TEST_CASE("full derivatives in space are the derivatives of the modes of the def
   const reduction::Modes modes = body.modes(2);
   reduction::Pairs which;
   const reduction::Columns theta =
-      reduction::full_derivatives(s, body.frame, body.holding, modes, {{0, 0}, {0, 1}, {1, 1}}, which);
+      reduction::full_derivatives(s, body.frame, body.holding, body.statics, modes, {{0, 0}, {0, 1}, {1, 1}}, which);
   REQUIRE(theta.size() == 4);
   const MatrixXd K = testing::dense(s, fem::stiffness(s, {})), M = testing::dense(s, fem::mass(s, {}));
   const auto first_order = [&](const petsc::VecHandle& along) {
@@ -130,8 +130,8 @@ TEST_CASE("full derivatives in space have the same energies on any partition") {
     reduction::Pairs which;
     const petsc::MatHandle K = fem::stiffness(body.structure, {});
     std::vector<double> all;
-    for (const auto& theta : reduction::full_derivatives(body.structure, body.frame, body.holding, body.modes(3),
-                                                         reduction::all_pairs(3), which))
+    for (const auto& theta : reduction::full_derivatives(body.structure, body.frame, body.holding, body.statics,
+                                                         body.modes(3), reduction::all_pairs(3), which))
       all.push_back(testing::form(K, theta, theta));
     return all;
   };

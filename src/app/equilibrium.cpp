@@ -1,0 +1,122 @@
+#include "equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floe/dynamics/start.h"
+#include "floe/output/progress.h"
+#include "floe/output/table.h"
+#include "interruption.h"
+#include "recorder.h"
+
+namespace floe::app {
+namespace {
+
+using petsc::check;
+
+/// The scene with its steps of load where a motion's steps would stand: the recorder keeps every one.
+scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
+  scene.motion.end = load.at, scene.motion.step = load.at / load.steps, scene.motion.every = 1;
+  scene.motion.tolerance.reset();
+  return scene;
+}
+
+/// From the state at `t` to the equilibrium at `next`, in halved steps where a whole one finds none. Counts iterations.
+void advance(const scene::Model& model, double t, double next, double least, PetscInt& iterations) {
+  const petsc::VecHandle before = model.system->create_vector();
+  check(VecCopy(model.U, before));
+  try {
+    iterations += dynamics::equilibrium(*model.system, next, model.U, model.V);
+  } catch (const RunError&) {
+    check(VecCopy(before, model.U));
+    if (next - t < 2 * least) throw;
+    advance(model, t, (t + next) / 2, least, iterations);
+    advance(model, (t + next) / 2, next, least, iterations);
+  }
+}
+
+bool first_rank(MPI_Comm comm) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  return rank == 0;
+}
+
+}  // namespace
+
+RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+               const std::optional<output::ResultFolder>& folder) {
+  const scene::Scene scene = in_steps(given, load);
+  RunResult result;
+  const double begin = MPI_Wtime();
+  scene::Model model = [&] {
+    const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
+    return scene::build(scene, formulation, comm);
+  }();
+  check(VecSet(model.V, 0));
+  result.offline_seconds = MPI_Wtime() - begin;
+  result.label = label_of(model);
+  result.coordinates = model.coordinates;
+  result.warnings = model.warnings;
+  result.series.columns = scene::probe_columns(model);
+  Recorder recorder(scene, model, comm, folder, result);
+  dynamics::IntegrationReport report;
+  report.type = "static";
+  std::exception_ptr fault;
+  std::string why;
+  const double started = MPI_Wtime();
+  try {
+    const Interruption interruption;
+    output::Progress progress(comm, 0, load.at);
+    recorder.observe({0, 0, model.U, model.V, nullptr, false});
+    for (int step = 1; step <= load.steps; ++step) {
+      const double t = load.at * step / load.steps;
+      advance(model, report.end, t, load.at / 1000, report.newton);
+      report.steps = step, report.end = t;
+      recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});
+      progress.update(t, step);
+      interruption.check(comm);
+    }
+  } catch (const std::exception& error) {
+    fault = std::current_exception(), why = error.what();
+  }
+  report.seconds = MPI_Wtime() - started;
+  result.steps = report.steps, result.end = report.end, result.motion_seconds = report.seconds - recorder.seconds();
+  recorder.finish(report, why);
+  if (fault) std::rethrow_exception(fault);
+  return result;
+}
+
+void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+              const output::ResultFolder& folder) {
+  RunResult result;
+  try {
+    result = rest(scene, formulation, comm, load, folder);
+  } catch (const std::exception&) {
+    output::discard_if_empty(folder);
+    throw;
+  }
+  if (!first_rank(comm)) return;
+  fmt::print("{} as {} ({}): {} coordinates, {} equilibria to t = {}, {} Newton iterations\n",
+             scene.title.empty() ? scene.file : scene.title, scene::name_of(formulation), result.label,
+             result.coordinates, result.steps, result.end,
+             result.summary["integration"]["newton_iterations"].get<PetscInt>());
+  fmt::print("offline {:.3g} s, equilibria {:.3g} s\n\n", result.offline_seconds, result.motion_seconds);
+  output::Table table;
+  table.columns = {{"t", "", 6}};
+  const std::size_t shown = std::min<std::size_t>(result.series.columns.size(), 6);
+  for (std::size_t c = 0; c < shown; ++c)
+    table.columns.push_back({result.series.columns[c].name, result.series.columns[c].unit, 6});
+  for (std::size_t i = 0; i < result.series.t.size(); ++i) {
+    std::vector<output::Cell> row{result.series.t[i]};
+    for (std::size_t c = 0; c < shown; ++c) row.push_back(result.series.values[i][c]);
+    table.rows.push_back(row);
+  }
+  fmt::print("{}", output::to_text(table));
+  if (shown < result.series.columns.size())
+    fmt::print("{} more columns are in {}\n", result.series.columns.size() - shown, folder.probes().string());
+  for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
+  fmt::print("Results: {}\n", folder.path.string());
+}
+
+}  // namespace floe::app

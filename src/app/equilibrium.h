@@ -1,0 +1,24 @@
+#pragma once
+#include "run.h"
+
+namespace floe::app {
+
+/// Where a static search goes: t from 0 to `at` in equal steps, an equilibrium at each.
+struct LoadSteps {
+  double at = 1;
+  int steps = 1;
+};
+
+/// Builds one scene in one formulation and finds its equilibria: `floe static`. The state at t = 0 is the first row of
+/// the probes, then one row for each step; a step that finds none is halved, down to a thousandth of `at`.
+///
+/// @param folder  none: nothing is written
+/// @throws InputError; RunError: no equilibrium, with the t. What was reached before is written. Collective.
+RunResult rest(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+               const std::optional<output::ResultFolder>& folder);
+
+/// `floe static`: the search, and its table. Collective.
+void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+              const output::ResultFolder& folder);
+
+}  // namespace floe::app
