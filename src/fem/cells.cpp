@@ -6,6 +6,7 @@
 #include "floe/fem/point_mass.h"
 #include "floe/fem/shell.h"
 #include "floe/fem/spatial_beam_fixed.h"
+#include "floe/fem/transform.h"
 
 namespace floe::fem {
 namespace {
@@ -97,22 +98,51 @@ bool belongs(CellKind kind, const ShellSection&) {
 }
 bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; }
 
+/// Dofs of the corners from those of the nodes that they follow.
+Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
+  const auto corners = cell.corners(), nodes = cell.nodes();
+  const Eigen::Index n = mesh.dimension == 2 ? 3 : 6, size = n * static_cast<Eigen::Index>(nodes.size());
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(size, size);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[i]];
+    const Eigen::Index at = n * static_cast<Eigen::Index>(i);
+    if (n == 3)
+      T.block<3, 3>(at, at) = rigid_arm(Eigen::Vector2d(arm.head<2>()));
+    else
+      T.block<6, 6>(at, at) = rigid_arm(arm);
+  }
+  return T;
+}
+
 }  // namespace
 
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
-  return std::visit([&](const auto& section) { return maps_of({mesh, cell, strain}, section); }, sections[cell.part]);
+  ElementMaps own = std::visit(
+      [&](const auto& section) {
+        return maps_of({mesh, cell, strain}, section);
+      },
+      sections[cell.part]);
+  return cell.follows() ? transformed(own, following(mesh, cell)) : own;
 }
 
 Eigen::MatrixXd Structure::matrix(const Mesh::Cell& cell, double k, double m) const {
-  return std::visit(
+  Eigen::MatrixXd own = std::visit(
       [&](const auto& section) {
         return matrix_of({mesh, cell, strain}, section, k, m);
       },
       sections[cell.part]);
+  if (!cell.follows()) return own;
+  const Eigen::MatrixXd T = following(mesh, cell);
+  return T.transpose() * own * T;
 }
 
 std::vector<body::MassPoint> Structure::line(const Mesh::Cell& cell) const {
-  return std::visit([&](const auto& section) { return line_of({mesh, cell, strain}, section); }, sections[cell.part]);
+  std::vector<body::MassPoint> own = std::visit(
+      [&](const auto& section) {
+        return line_of({mesh, cell, strain}, section);
+      },
+      sections[cell.part]);
+  return cell.follows() ? transformed(own, following(mesh, cell)) : own;
 }
 
 void check_cell(const Structure& structure, const Mesh::Cell& cell) {

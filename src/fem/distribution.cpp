@@ -50,6 +50,19 @@ void move_nodes(const mesh::RawMesh& raw, const std::vector<int>& ranks, Mesh& m
   mesh.renumbering = std::move(renumbering);
 }
 
+/// The ranks of followers: those of their leaders. Collective.
+void follow(const mesh::RawMesh& raw, const std::vector<mesh::Follower>& followers, std::vector<int>& ranks) {
+  const auto mine = [&](PetscInt node) {
+    return node >= raw.first_node && node < raw.first_node + static_cast<PetscInt>(ranks.size());
+  };
+  std::vector<int> rank(followers.size(), -1);
+  for (std::size_t i = 0; i < followers.size(); ++i)
+    if (mine(followers[i].leader)) rank[i] = ranks[followers[i].leader - raw.first_node];
+  MPI_Allreduce(MPI_IN_PLACE, rank.data(), static_cast<int>(rank.size()), MPI_INT, MPI_MAX, raw.comm);
+  for (std::size_t i = 0; i < followers.size(); ++i)
+    if (mine(followers[i].node)) ranks[followers[i].node - raw.first_node] = rank[i];
+}
+
 /// Cells to the ranks of their first nodes. Collective.
 std::vector<NewCell> move_cells(const mesh::RawMesh& raw, const Mesh& mesh) {
   std::vector<PetscInt> originals;
@@ -72,12 +85,14 @@ std::vector<NewCell> move_cells(const mesh::RawMesh& raw, const Mesh& mesh) {
       .values;
 }
 
-/// Copies of the foreign nodes that this rank's cells touch. Collective.
-void fetch_foreign(const std::vector<NewCell>& cells, Mesh& mesh) {
+/// Copies of the foreign nodes that this rank's cells touch, and of those that these follow. Collective.
+/// @param followers  by new global numbers
+void fetch_foreign(const std::vector<NewCell>& cells, const std::vector<mesh::Follower>& followers, Mesh& mesh) {
   const PetscInt begin = mesh.first_node, end = begin + mesh.owned_nodes;
   for (const NewCell& cell : cells)
     for (int i = 0; i < mesh::node_count(cell.kind); ++i)
-      if (cell.nodes[i] < begin || cell.nodes[i] >= end) mesh.foreign.push_back(cell.nodes[i]);
+      for (const PetscInt node : {cell.nodes[i], mesh::leader_of(followers, cell.nodes[i])})
+        if (node < begin || node >= end) mesh.foreign.push_back(node);
   std::sort(mesh.foreign.begin(), mesh.foreign.end());
   mesh.foreign.erase(std::unique(mesh.foreign.begin(), mesh.foreign.end()), mesh.foreign.end());
   const std::vector<PetscInt> starts = mesh::starts_of(mesh.comm, mesh.owned_nodes);
@@ -93,26 +108,44 @@ void fetch_foreign(const std::vector<NewCell>& cells, Mesh& mesh) {
   }
 }
 
+/// Followers by new global numbers, ascending. Collective.
+std::vector<mesh::Follower> renumbered(const Mesh& mesh, const std::vector<mesh::Follower>& followers) {
+  std::vector<PetscInt> originals;
+  for (const mesh::Follower& f : followers) originals.push_back(f.node), originals.push_back(f.leader);
+  const std::vector<PetscInt> found = global_nodes(mesh, originals);
+  std::vector<mesh::Follower> all;
+  for (std::size_t i = 0; i < found.size(); i += 2) all.push_back({found[i], found[i + 1]});
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
+  return all;
+}
+
 }  // namespace
 
-Mesh mesh_of(const mesh::RawMesh& raw, const std::vector<int>& ranks) {
+Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers) {
   Mesh mesh;
   mesh.comm = raw.comm;
   mesh.dimension = 3;
   mesh.node_count = raw.node_count, mesh.cell_count = raw.cell_count;
+  follow(raw, followers, ranks);
   move_nodes(raw, ranks, mesh);
   const std::vector<NewCell> cells = move_cells(raw, mesh);
-  fetch_foreign(cells, mesh);
+  const std::vector<mesh::Follower> links = renumbered(mesh, followers);
+  fetch_foreign(cells, links, mesh);
   const PetscInt begin = mesh.first_node, end = begin + mesh.owned_nodes;
+  const auto local = [&](PetscInt node) {
+    const auto foreign = std::lower_bound(mesh.foreign.begin(), mesh.foreign.end(), node) - mesh.foreign.begin();
+    return static_cast<int>(node >= begin && node < end ? node - begin : mesh.owned_nodes + foreign);
+  };
   for (const NewCell& cell : cells) {
-    Mesh::Cell local{cell.kind, cell.part, {}};
+    Mesh::Cell own(cell.kind, cell.part, {});
     for (int i = 0; i < mesh::node_count(cell.kind); ++i) {
-      const PetscInt node = cell.nodes[i];
-      const auto foreign = std::lower_bound(mesh.foreign.begin(), mesh.foreign.end(), node) - mesh.foreign.begin();
-      local.corner[i] = static_cast<int>(node >= begin && node < end ? node - begin : mesh.owned_nodes + foreign);
+      own.corner[i] = local(cell.nodes[i]);
+      own.moved[i] = local(mesh::leader_of(links, cell.nodes[i]));
     }
-    mesh.cells.push_back(local);
+    mesh.cells.push_back(own);
   }
+  for (const mesh::Follower& f : links)
+    if (f.node >= begin && f.node < end) mesh.followers.push_back({local(f.node), local(f.leader)});
   return mesh;
 }
 
@@ -123,6 +156,17 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
   return mesh::ask<PetscInt>(
       mesh.comm, originals, [&](PetscInt node) { return mesh::owner_of(table.starts, node); },
       [&](PetscInt node) { return table.global[node - first]; });
+}
+
+std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node) {
+  std::vector<PetscInt> mine;
+  for (const Mesh::Follower& f : mesh.followers)
+    for (int d = 0; d < dofs_per_node; ++d) mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  std::vector<PetscInt> copies;
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  return mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
 }
 
 }  // namespace floe::fem

@@ -81,7 +81,8 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments) {
     if ((node >= mesh.first_node && node < end) || std::binary_search(mesh.foreign.begin(), mesh.foreign.end(), node))
       mesh.positions[local(node)] = x;
   for (const Element& element : mine)
-    mesh.cells.push_back({CellKind::line, element.part, {local(element.nodes[0]), local(element.nodes[1])}});
+    mesh.cells.emplace_back(CellKind::line, element.part,
+                            std::array<int, 4>{local(element.nodes[0]), local(element.nodes[1])});
   return mesh;
 }
 

@@ -112,6 +112,10 @@ void balance(const ReferenceFrame& frame, Vec f) {
 }
 
 Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions held) {
+  const Conditions followers = follower_dofs(structure.mesh, structure.dofs_per_node);
+  held.insert(held.end(), followers.begin(), followers.end());
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
   const double length = extent(structure);
   Holding result;
   result.held = held;

@@ -1,6 +1,9 @@
 #include "floe/fem/structure.h"
 
+#include <algorithm>
+
 #include "cells.h"
+#include "floe/fem/transform.h"
 #include "node_graph.h"
 
 namespace floe::fem {
@@ -63,6 +66,20 @@ std::vector<int> Structure::cell_dofs(const Mesh::Cell& cell) const {
   return dofs;
 }
 
+Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, int node) {
+  const int n = structure.dofs_per_node;
+  const std::vector<Mesh::Follower>& all = structure.mesh.followers;
+  const auto found = std::lower_bound(all.begin(), all.end(), node,
+                                      [](const Mesh::Follower& f, int wanted) { return f.node < wanted; });
+  const bool follows = found != all.end() && found->node == node;
+  const Eigen::VectorXd q =
+      Eigen::Map<const Eigen::VectorXd>(owned + static_cast<std::ptrdiff_t>(n) * (follows ? found->leader : node), n);
+  if (!follows) return q;
+  const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->leader];
+  if (n == 3) return rigid_arm(Eigen::Vector2d(arm.head<2>())) * q;
+  return rigid_arm(arm) * q;
+}
+
 petsc::VecHandle field(const Structure& structure) {
   petsc::VecHandle vector;
   check(VecCreate(structure.mesh.comm, vector.out()));
@@ -91,6 +108,8 @@ std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {
       for (int i = 0; i < d; ++i) at[i] = u[i];
       at[motion] = 1;
     }
+    for (const Mesh::Follower& follower : structure.mesh.followers)
+      std::fill_n(values + static_cast<std::ptrdiff_t>(per_node) * follower.node, per_node, 0.0);
     check(VecRestoreArray(motions.back(), &values));
   }
   return motions;

@@ -19,7 +19,7 @@ body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, co
     check(BVGetColumn(basis.V, j, &column));
     {
       petsc::Values values(column);
-      for (PetscInt node : mine) sum.col(j) += Eigen::Map<const Eigen::VectorXd>(values.begin() + n * node, n);
+      for (PetscInt node : mine) sum.col(j) += fem::nodal_motion(structure, values.begin(), static_cast<int>(node));
     }
     check(BVRestoreColumn(basis.V, j, &column));
   }

@@ -49,6 +49,7 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Mesh& mesh, const fem::Mesh::Ce
   const auto at = [&](int i) { return mesh.positions[cell.corner[i]]; };
   const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
   for (std::size_t i = 0; i < cell.nodes().size(); ++i) {
+    if (cell.moved[i] != cell.corner[i]) continue;  // the leader's rotations carry the mass on its arms
     auto turning = M.block<3, 3>(6 * static_cast<Eigen::Index>(i) + 3, 6 * static_cast<Eigen::Index>(i) + 3);
     turning += (0.5 * turning.trace() * n * n.transpose()).eval();
   }

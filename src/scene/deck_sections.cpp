@@ -144,11 +144,6 @@ std::vector<PartSpec> deck_sections(const mesh::InpFile& file) {
   std::vector<PartSpec> parts;
   for (const mesh::ShellSection& section : file.deck.shell_sections) add_shell(reader, section, parts);
   for (const mesh::BeamSection& section : file.deck.beam_sections) add_beam(reader, section, parts);
-  if (!file.deck.links.empty())
-    reader.faults.push_back(
-        fmt::format("{}: {} rigid links (*RIGID BODY, *MPC BEAM, *COUPLING); expected none: join "
-                    "parts by common nodes",
-                    file.mesh.source, file.deck.links.size()));
   if (!reader.faults.empty()) throw InputError(reader.faults);
   return parts;
 }

@@ -9,7 +9,7 @@ namespace floe::scene {
 ///
 /// Shells: OFFSET moves the middle the other way; plies from below; all plies of a section are turned against one axis.
 /// @throws InputError  one line a fault: material missing or without elasticity, unsymmetric box and I profiles, plies
-///                     of different orientations, rigid links
+///                     of different orientations
 std::vector<PartSpec> deck_sections(const mesh::InpFile& file);
 
 /// Adds the deck's point masses to the mesh as cells of one node, in parts `mass M` for each value. Collective.

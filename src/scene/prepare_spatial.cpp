@@ -102,13 +102,7 @@ PreparedPlace find(const Scene& scene, const std::vector<PreparedBody>& bodies, 
   const Body* spec = body_of(scene, place);
   if (!spec) throw InputError(place.where.text() + ": no body \"" + place.body + "\"");
   const PreparedBody& body = bodies[spec - scene.bodies.data()];
-  Place moved = place;
-  if (place.point) {
-    const Point& p = *place.point;
-    const Eigen::Vector3d x = body.axes.transpose() * (Eigen::Vector3d(p[0], p[1], p[2]) - body.origin);
-    moved.point = Point{x.x(), x.y(), x.z()};
-  }
-  found = spatial_place(*spec, body.structure, body.places, moved);
+  found = spatial_place(*spec, body.structure, body.places, place, {body.origin, body.axes});
   found.body = static_cast<int>(spec - scene.bodies.data());
   return found;
 }
@@ -154,6 +148,8 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
     hold_by_joint(joint, held, body.structure.mesh, body.held);
   }
   for (PreparedBody& body : prepared.bodies) {
+    const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
+    body.held.insert(body.held.end(), followers.begin(), followers.end());
     std::sort(body.held.begin(), body.held.end());
     body.held.erase(std::unique(body.held.begin(), body.held.end()), body.held.end());
   }

@@ -13,9 +13,18 @@ struct SpatialMesh {
 /// @throws InputError  the same on all ranks. Collective.
 SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm);
 
-/// Nodes of a place of the body, with their mean position. @throws InputError  no such set, no node there. Collective.
+/// Where a structure's axes lie in those of its mesh: x_mesh = origin + axes x.
+struct MeshAxes {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// Nodes of a place of the body, with their mean position in the structure's axes.
+/// @param place  a point is in mesh axes
+/// @throws InputError  no such set, no node there, nodes that follow a rigid link. Collective.
 PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
-                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place);
+                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
+                            const MeshAxes& mesh = {});
 
 /// Bodies, frames and held dofs of a scene in space. Collective.
 Prepared prepare_spatial(const Scene& scene, MPI_Comm comm);

@@ -140,7 +140,7 @@ output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis
   }
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     output::ReducedShapes::Cell copy{vtk_kind(cell.kind), cell.part, {-1, -1, -1, -1}};
-    for (std::size_t i = 0; i < cell.nodes().size(); ++i) copy.nodes[i] = mesh.original_node(cell.nodes()[i]);
+    for (std::size_t i = 0; i < cell.corners().size(); ++i) copy.nodes[i] = mesh.original_node(cell.corners()[i]);
     shapes.cells.push_back(copy);
   }
   shapes.parts = body.parts;
@@ -153,7 +153,7 @@ output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis
       if (node >= mesh.first_node && node < mesh.first_node + mesh.owned_nodes)
         mine.push_back(mesh.original_node(static_cast<int>(node - mesh.first_node)));
   }
-  shapes.column = [&basis](int j, std::span<double> values) {
+  shapes.column = [&basis, &structure = body.structure](int j, std::span<double> values) {
     Vec column = nullptr;
     check(BVGetColumn(basis.V, j, &column));
     {
@@ -161,6 +161,9 @@ output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis
       std::copy(own.begin(), own.begin() + values.size(), values.begin());
     }
     check(BVRestoreColumn(basis.V, j, &column));
+    const Eigen::Index n = structure.dofs_per_node;
+    for (const fem::Mesh::Follower& f : structure.mesh.followers)
+      Eigen::Map<Eigen::VectorXd>(values.data() + n * f.node, n) = fem::nodal_motion(structure, values.data(), f.node);
   };
   return shapes;
 }

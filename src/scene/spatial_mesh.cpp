@@ -24,6 +24,7 @@ struct Source {
   mesh::RawMesh mesh;
   std::vector<PartSpec> parts;  ///< a deck's own
   std::vector<std::string> notices;
+  std::vector<mesh::Follower> followers = {};
 };
 
 std::vector<std::string> wanted_parts(const Body& body) {
@@ -57,7 +58,8 @@ Source read_file(const Body& body, MPI_Comm comm) {
     mesh::InpFile read = mesh::read_inp(comm, file.path);
     std::vector<PartSpec> parts = deck_sections(read);
     add_masses(read, parts);
-    source = {std::move(read.mesh), std::move(parts), std::move(read.notices)};
+    std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
+    source = {std::move(read.mesh), std::move(parts), std::move(read.notices), std::move(followers)};
   } else {
     throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh or .inp",
                                  body.mesh.where.text(), file.path));
@@ -163,14 +165,19 @@ std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine)
 
 SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
   Source source = raw_mesh(body, comm);
-  const mesh::Inspection inspection = mesh::inspect(source.mesh);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::vector<std::array<PetscInt, 2>> linked;
+  for (const mesh::Follower& f : source.followers)
+    if (rank == 0) linked.push_back({f.node, f.leader});
+  const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
   refuse_faults(body, inspection);
   std::vector<fem::Section> sections = sections_of(body, source);
   int size = 1;
   MPI_Comm_size(comm, &size);
   const std::vector<int> ranks =
       size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
-  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks);
+  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
   std::map<std::string, std::vector<PetscInt>> places;
   for (std::size_t p = 0; p < source.mesh.places.size(); ++p)  // originals: the order of the file, on every rank
     places[source.mesh.places[p]] = fem::global_nodes(mesh, gathered(comm, source.mesh.place_nodes[p]));
@@ -188,11 +195,45 @@ SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
   }
 }
 
+namespace {
+
+/// What acts on a rigid piece acts on the node that moves it.
+void refuse_followers(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, const Place& place,
+                      const MeshAxes& axes) {
+  struct Found {
+    int count = 0;
+    double leader[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  } found;
+  for (const fem::Mesh::Follower& f : mesh.followers) {
+    if (std::find(nodes.begin(), nodes.end(), mesh.global_node(f.node)) == nodes.end()) continue;
+    if (found.count++ == 0)
+      Eigen::Map<Eigen::Vector3d>(found.leader) = axes.origin + axes.axes * mesh.positions[f.leader];
+  }
+  struct {
+    int count, rank;
+  } most{found.count, 0};
+  MPI_Comm_rank(mesh.comm, &most.rank);
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, mesh.comm);
+  if (most.count == 0) return;
+  MPI_Allreduce(MPI_IN_PLACE, &found.count, 1, MPI_INT, MPI_SUM, mesh.comm);
+  MPI_Bcast(found.leader, 3, MPI_DOUBLE, most.rank, mesh.comm);
+  throw InputError(fmt::format(
+      "{}: {} of the nodes of {} follow a rigid link; expected the reference node that moves them, at ({:.6g}, {:.6g}, "
+      "{:.6g})",
+      place.where.text(), found.count, place.point ? "this place" : place.name, found.leader[0], found.leader[1],
+      found.leader[2]));
+}
+
+}  // namespace
+
 PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
-                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place) {
+                            const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
+                            const MeshAxes& axes) {
   PreparedPlace found;
   if (place.point) {
-    const fem::NearestNode nearest = fem::nearest_node(structure.mesh, vector(*place.point));
+    const fem::NearestNode nearest =
+        fem::nearest_node(structure.mesh, axes.axes.transpose() * (vector(*place.point) - axes.origin));
+    const Eigen::Vector3d there = axes.origin + axes.axes * nearest.position;
     Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
     for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
     MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
@@ -200,8 +241,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
     if (nearest.distance > 1e-6 * (high - low).norm())
       throw InputError(fmt::format("{}: no node of {} at ({}, {}, {}); the nearest node is at ({:.9g}, {:.9g}, {:.9g})",
                                    place.where.text(), place.body, (*place.point)[0], (*place.point)[1],
-                                   (*place.point)[2], nearest.position.x(), nearest.position.y(),
-                                   nearest.position.z()));
+                                   (*place.point)[2], there.x(), there.y(), there.z()));
     found.nodes = {nearest.node};
   } else {
     const auto set = places.find(place.name);
@@ -221,6 +261,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
   }
   found.node = found.nodes.front();
   const fem::Mesh& m = structure.mesh;
+  refuse_followers(m, found.nodes, place, axes);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (PetscInt node : found.nodes)
     if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) sum += m.positions[local];

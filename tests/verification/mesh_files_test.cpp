@@ -81,6 +81,72 @@ TEST_CASE("a plate from a .msh or .inp file has the frequencies of the generated
   }
 }
 
+namespace {
+
+/// The deck's plate with a hub and a tip block: reference nodes that move the edges x = 0 and x = 2 rigidly.
+std::string linked_deck() {
+  const mesh::RawMesh raw = plate(false, 1);
+  std::string text = deck(raw), right;
+  for (PetscInt i = 0; i < raw.node_count; ++i)
+    if (raw.positions[i][0] == 2) right += std::to_string(10 * (raw.node_count - i)) + ",\n";
+  return text + "*NODE\n9001, -0.3, 0.4, 0.1\n9002, 2.2, 0.5, 0.05\n*NSET, NSET=right\n" + right +
+         "*RIGID BODY, NSET=left, REF NODE=9001\n*RIGID BODY, NSET=right, REF NODE=9002\n";
+}
+
+std::string on_hub(const std::string& place, const std::string& more) {
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {file: {path: plate.inp}}
+    reduction: {modes: 8, attachment: loads}
+joints: {root: {type: fixed, between: [ground, {body: plate, $place}]}}
+$more
+)yaml",
+              {{"place", place}, {"more", more}});
+}
+
+}  // namespace
+
+TEST_CASE("a plate held by a hub on rigid links has the frequencies of one whose edge is held") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  std::string text = linked_deck();
+  text.erase(text.find("*RIGID BODY, NSET=right"));
+  text.replace(text.find("9002, 2.2, 0.5, 0.05\n"), 21, "");
+  std::ofstream(folder + "/plate.inp") << text;
+  const auto held = omega_of(on_hub("node: [-0.3, 0.4, 0.1]", ""), folder + "/scene.yaml");
+  std::ofstream(folder + "/plate.inp") << deck(plate(false, 1));
+  const auto expected = frequencies("file: {path: plate.inp}", "frame: mean-axis", folder);
+  for (int i = 0; i < 6; ++i) CHECK(held[i] == Approx(expected[i]).epsilon(1e-9));
+}
+
+TEST_CASE("a load on a rigid tip block: full order, reduced, and refused where the block only follows") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  std::ofstream(folder + "/plate.inp") << linked_deck();
+  const auto loaded = [](const std::string& tip) {
+    return "loads: {f: {type: force, at: {body: plate, " + tip + "}, force: [0, 0, 0.5*t]}}\n" +
+           "probes: {tip: {at: {body: plate, " + tip + "}}}\n";
+  };
+  const std::string hub = "node: [-0.3, 0.4, 0.1]", block = "node: [2.2, 0.5, 0.05]";
+  const auto built = [&](const std::string& text, Formulation formulation) {
+    return scene::build(scene::parse_scene(text, folder + "/scene.yaml"), formulation, PETSC_COMM_WORLD);
+  };
+  std::map<Formulation, std::vector<double>> at;
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const scene::Model model = built(on_hub(hub, loaded(block)), formulation);
+    dynamics::equilibrium(*model.system, 1, model.U, model.V);
+    at[formulation] = scene::probe_values(model, 1, model.U, model.V);
+  }
+  REQUIRE(at[Formulation::nlffr].size() == 3);
+  CHECK(std::abs(at[Formulation::nlffr][2]) > 0.005);
+  for (int i : {0, 2}) CHECK(at[Formulation::vm_md][i] == Approx(at[Formulation::nlffr][i]).epsilon(1e-2));
+  CHECK_THROWS_WITH(built(on_hub(hub, loaded("node: [2, 0.5, 0]")), Formulation::vm_md),
+                    Catch::Contains("1 of the nodes of this place follow a rigid link; expected the reference node "
+                                    "that moves them, at (2.2, 0.5, 0.05)"));
+  CHECK_THROWS_WITH(built(on_hub("node: [0, 0, 0]", ""), Formulation::vm_md), Catch::Contains("at (-0.3, 0.4, 0.1)"));
+}
+
 TEST_CASE("a part of the scene goes before the deck's section of the same name") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();
@@ -124,4 +190,36 @@ joints: {root: {type: fixed, between: [ground, fold.floor.left]}}
     limit[cells == ShellCells::triangles ? 0 : 1] = fine;
   }
   for (int i = 0; i < 5; ++i) CHECK(limit[0][i] == Approx(limit[1][i]).epsilon(5e-3));
+}
+
+// Cantilevers of 1 m (E = 2e11, nu = 0.3, rho = 7800, 20 elements) by CalculiX 2.20, which makes bricks of its beams:
+// lowest frequencies in Hz of the profile's soft and stiff bending. What is tested is which number of a deck means
+// what.
+TEST_CASE("beam sections of a deck are read as CalculiX reads them") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  const struct {
+    const char *profile, *dimensions;
+    double soft, stiff;
+  } table[] = {{"RECT", ".02, .05", 16.36520, 40.85251},
+               {"CIRC", ".02, .02", 14.33615, 14.33615},
+               {"BOX", ".04, .08, .004, .006, .004, .006", 43.42801, 81.89007},
+               {"PIPE", ".02, .003", 37.28377, 37.28377}};
+  for (const auto& row : table) {
+    INFO(row.profile);
+    std::string text = "*NODE\n";
+    for (int i = 0; i <= 20; ++i) text += fmt::format("{}, {}, 0., 0.\n", i + 1, i / 20.);
+    text += "*ELEMENT, TYPE=B31, ELSET=beam\n";
+    for (int i = 1; i <= 20; ++i) text += fmt::format("{}, {}, {}\n", i, i, i + 1);
+    std::ofstream(folder + "/beam.inp") << text +
+                                               "*NSET, NSET=root\n1\n*MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.3\n"
+                                               "*DENSITY\n7800.\n*BEAM SECTION, ELSET=beam, MATERIAL=m, SECTION=" +
+                                               row.profile + "\n" + row.dimensions + "\n0., 0., -1.\n";
+    const auto omega = omega_of(
+        "bodies: {b: {mesh: {file: {path: beam.inp}}, reduction: {modes: 2}}}\n"
+        "joints: {c: {type: fixed, between: [ground, b.root]}}\n",
+        folder + "/scene.yaml");
+    CHECK(omega[0] / (2 * M_PI) == Approx(row.soft).epsilon(1.3e-2));
+    CHECK(omega[1] / (2 * M_PI) == Approx(row.stiff).epsilon(1.3e-2));
+  }
 }

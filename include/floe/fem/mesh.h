@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "floe/mesh/links.h"
 #include "floe/mesh/raw_mesh.h"
 #include "floe/petsc/handle.h"
 
@@ -21,12 +22,25 @@ using mesh::CellKind;
 
 /// Nodes and cells of one body, distributed: each rank holds its share of consecutive nodes, the cells that begin there
 /// and copies of the foreign nodes that those cells touch. Local node numbers count owned nodes first, then `foreign`.
+///
+/// Nodes may follow others rigidly: they have a place and no motion of their own, and the cells that touch them act on
+/// the dofs of those that they follow.
 struct Mesh {
   struct Cell {
     CellKind kind = CellKind::line;
     int part = 0;
-    std::array<int, 4> corner{};  ///< local nodes; as many as the kind has
-    std::span<const int> nodes() const { return {corner.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
+    std::array<int, 4> corner{};  ///< local nodes where it is; as many as the kind has
+    std::array<int, 4> moved{};   ///< local nodes that move them: the same, or those that they follow
+    Cell() = default;
+    Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moved(c) {}
+    /// Local nodes whose dofs the cell acts on.
+    std::span<const int> nodes() const { return {moved.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
+    std::span<const int> corners() const { return {corner.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
+    bool follows() const { return moved != corner; }
+  };
+  /// An owned node that follows another one rigidly: local numbers.
+  struct Follower {
+    int node, leader;
   };
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 2;
@@ -37,6 +51,7 @@ struct Mesh {
   std::vector<PetscInt> foreign;           ///< global numbers, ascending
   std::vector<Eigen::Vector3d> positions;  ///< of local nodes
   std::vector<Cell> cells;
+  std::vector<Follower> followers;  ///< among the owned nodes, ascending
   std::vector<PetscInt> original;  ///< of local nodes: a numbering that does not depend on ranks; empty: the global one
 
   struct Renumbering {
@@ -57,9 +72,13 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments);
 
 /// A mesh from a file, its nodes moved to the ranks named and numbered there in their original order; cells go with
 /// their first node.
-/// @param ranks  of each node of this rank's share (mesh::partition)
+/// @param ranks      of each node of this rank's share (mesh::partition); a follower goes with the one it follows
+/// @param followers  by numbers of `raw`, ascending, the same on all ranks (mesh::followers)
 /// Collective.
-Mesh mesh_of(const mesh::RawMesh& raw, const std::vector<int>& ranks);
+Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers = {});
+
+/// Global dofs of all nodes that follow others, ascending, on every rank. Collective.
+std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node);
 
 /// Global numbers of nodes given by their original ones. Collective.
 std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>& originals);

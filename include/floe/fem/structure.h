@@ -83,6 +83,10 @@ struct Structure {
   std::vector<body::MassPoint> line(const Mesh::Cell& cell) const;
 };
 
+/// Displacement and rotation of an owned node, of a follower as its leader moves it; zero entries of followers in a
+/// field mean nothing. @param owned  this rank's part of a field. Rank-local.
+Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, int node);
+
 /// A planar frame of beams. Collective.
 Structure planar_structure(Mesh mesh, const std::vector<BeamSection>& sections, MembraneStrain strain);
 
@@ -90,7 +94,7 @@ Structure planar_structure(Mesh mesh, const std::vector<BeamSection>& sections, 
 petsc::VecHandle field(const Structure& structure);
 
 /// Rigid motions, linearised: in the plane (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node; in space three translations,
-/// then rotations about x, y, z through the origin. Collective.
+/// then rotations about x, y, z through the origin. Zero at nodes that follow others. Collective.
 std::vector<petsc::VecHandle> rigid_motions(const Structure& structure);
 
 }  // namespace floe::fem

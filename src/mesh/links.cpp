@@ -1,0 +1,72 @@
+#include "floe/mesh/links.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floe/error.h"
+#include "floe/mesh/exchange.h"
+
+namespace floe::mesh {
+namespace {
+
+/// Of every rank, on every rank. Collective.
+std::vector<Follower> together(MPI_Comm comm, const std::vector<Follower>& mine) {
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  std::vector<Follower> copies;
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  return exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
+}
+
+/// Labels of nodes, in their order. Collective; `nodes` the same on all ranks.
+std::vector<long long> labels_of(const RawMesh& mesh, const std::vector<PetscInt>& nodes) {
+  const std::vector<PetscInt> starts = starts_of(mesh.comm, static_cast<PetscInt>(mesh.positions.size()));
+  return ask<long long>(
+      mesh.comm, nodes, [&](PetscInt node) { return owner_of(starts, node); },
+      [&](PetscInt node) { return mesh.node_labels[node - mesh.first_node]; });
+}
+
+bool before(const Follower& a, PetscInt node) { return a.node < node; }
+
+bool follows(const std::vector<Follower>& all, PetscInt node) {
+  const auto found = std::lower_bound(all.begin(), all.end(), node, before);
+  return found != all.end() && found->node == node;
+}
+
+}  // namespace
+
+PetscInt leader_of(const std::vector<Follower>& followers, PetscInt node) {
+  const auto found = std::lower_bound(followers.begin(), followers.end(), node, before);
+  return found != followers.end() && found->node == node ? found->leader : node;
+}
+
+std::vector<Follower> followers(const RawMesh& mesh, const std::vector<RigidLink>& links) {
+  std::vector<Follower> mine;
+  for (const RigidLink& link : links)
+    for (PetscInt node : link.nodes)
+      if (node != link.reference) mine.push_back({node, link.reference});
+  std::vector<Follower> all = together(mesh.comm, mine);
+  const auto order = [](const Follower& a) { return std::pair(a.node, a.leader); };
+  std::sort(all.begin(), all.end(), [&](const Follower& a, const Follower& b) { return order(a) < order(b); });
+  all.erase(
+      std::unique(all.begin(), all.end(), [&](const Follower& a, const Follower& b) { return order(a) == order(b); }),
+      all.end());
+  std::vector<PetscInt> twice, chained;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i > 0 && all[i].node == all[i - 1].node) twice.push_back(all[i].node);
+    if (follows(all, all[i].leader)) chained.push_back(all[i].leader);
+  }
+  std::vector<std::string> faults;
+  for (long long label : labels_of(mesh, twice))
+    faults.push_back(fmt::format("{}: node {} is in rigid links to two nodes; expected one", mesh.source, label));
+  std::sort(chained.begin(), chained.end());
+  chained.erase(std::unique(chained.begin(), chained.end()), chained.end());
+  for (long long label : labels_of(mesh, chained))
+    faults.push_back(fmt::format(
+        "{}: node {} is the reference of a rigid link and follows another one; expected one link", mesh.source, label));
+  if (!faults.empty()) throw InputError(faults);
+  return all;
+}
+
+}  // namespace floe::mesh

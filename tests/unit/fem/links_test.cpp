@@ -1,0 +1,74 @@
+#include <catch2/catch.hpp>
+
+#include "floe/fem/assembly.h"
+#include "floe/fem/reference_frame.h"
+#include "floe/fem/transform.h"
+#include "spatial_structures.h"
+
+using namespace floe;
+using testing::Spread;
+
+namespace {
+
+/// Two nodes of the shells follow another one, and the foot of the mast a corner of the floor.
+const std::vector<mesh::Follower> links{{2, 5}, {9, 0}, {13, 5}};
+
+fem::Structure linked(Spread spread) {
+  const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_WORLD);
+  return {fem::mesh_of(raw, testing::ranks_of(raw, spread), links), testing::mixed_sections(),
+          fem::MembraneStrain::averaged};
+}
+
+/// q of all nodes from the linked ones, by original dofs: rows of followers say how their leaders move them.
+Eigen::MatrixXd following() {
+  const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(6 * raw.node_count, 6 * raw.node_count);
+  for (const auto& [node, leader] : links) {
+    T.block<6, 6>(6 * node, 6 * node).setZero();
+    T.block<6, 6>(6 * node, 6 * leader) = fem::rigid_arm(Eigen::Vector3d(raw.positions[node] - raw.positions[leader]));
+  }
+  return T;
+}
+
+}  // namespace
+
+TEST_CASE("rigid links: K and M are those of the free nodes, seen by the dofs that move them") {
+  const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed);
+  const fem::Structure s = linked(spread), free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
+  const Eigen::MatrixXd T = following();
+  const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
+                         M0 = fem::mass(free, {});
+  testing::Random random(3);
+  for (int trial = 0; trial < 3; ++trial) {
+    Eigen::VectorXd q(s.dofs());
+    for (double& value : q) value = random.number();
+    for (const auto& [with, without] : {std::pair<Mat, Mat>(K, K0), {M, M0}}) {
+      const Eigen::VectorXd expected = T.transpose() * testing::product_in_originals(free, without, T * q),
+                            found = testing::product_in_originals(s, with, q);
+      CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-11 * expected.cwiseAbs().maxCoeff());
+    }
+    const petsc::VecHandle field = testing::field_of_originals(s, q);
+    petsc::Values own(field);
+    const Eigen::VectorXd all = T * q;
+    for (int node = 0; node < s.mesh.owned_nodes; ++node) {
+      const Eigen::VectorXd at = all.segment<6>(6 * s.mesh.original_node(node));
+      CHECK((fem::nodal_motion(s, own.begin(), node) - at).norm() < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("rigid links: bodies keep their rigid motions, and followers are held") {
+  const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::last);
+  const fem::Structure s = linked(spread), free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
+  const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), M0 = fem::mass(free, {});
+  const auto rigid = fem::rigid_motions(s), whole = fem::rigid_motions(free);
+  for (int i = 0; i < 6; ++i) {
+    CHECK(testing::product(K, rigid[i]).cwiseAbs().maxCoeff() < 1e-10);
+    for (int j = 0; j < 6; ++j)
+      CHECK(testing::form(M, rigid[i], rigid[j]) == Approx(testing::form(M0, whole[i], whole[j])).margin(1e-12));
+  }
+  const fem::ReferenceFrame frame = fem::reference_frame(s, fem::ReferenceFrame::Kind::mean_axis, 0, 0);
+  const fem::Holding holding = fem::holding(s, frame, {});
+  CHECK(holding.left.cols() == 6);
+  CHECK(holding.held == testing::dofs_of(s, {2, 9, 13}, {0, 1, 2, 3, 4, 5}));
+}
