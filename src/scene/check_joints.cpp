@@ -30,7 +30,8 @@ std::optional<Point> world_point(const Body& body, const Point& node) {
     return {};
   }
   const double c = std::cos(initial.angle), s = std::sin(initial.angle);
-  return Point{initial.position[0] + c * p[0] - s * p[1], initial.position[1] + s * p[0] + c * p[1], 0};
+  return Point{initial.position[0] + c * p[0] - s * p[1], initial.position[1] + s * p[0] + c * p[1],
+               initial.position[2] + p[2]};
 }
 
 // Nothing when the place is wrong, which check_places has told.
@@ -57,7 +58,7 @@ void check_distance(Document& document, const Joint& joint, const Spot& first, c
     if (spot.body) size = std::max(size, total_length(spot.body->mesh));
   }
   const Point &p = *first.world, &q = *second.world;
-  const double away = std::hypot(p[0] - q[0], p[1] - q[1]);
+  const double away = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
   if (!(away > 1e-6 * size)) return;
   document.fault(joint.where,
                  fmt::format("its places are {:.4g} apart at the start: ({:.6g}, {:.6g}) and ({:.6g}, {:.6g})", away,

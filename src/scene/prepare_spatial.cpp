@@ -113,11 +113,28 @@ PreparedPlace find(const Scene& scene, const std::vector<PreparedBody>& bodies, 
   return found;
 }
 
-/// Dofs that a joint to the ground holds at its nodes, in frame axes. A hinge holds the displacements of all nodes of
-/// its place; the rest of the kinds leave theirs to the motion.
-void hold_by_joint(const Joint& joint, const PreparedPlace& place, fem::Conditions& held) {
-  const bool all = joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven;
-  if (!all && joint.kind != Joint::Kind::revolute) return;
+/// Whether the nodes lie on one line, and are more than one point. Collective.
+bool on_a_line(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, const Eigen::Vector3d& mean) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (PetscInt node : nodes) {
+    const PetscInt local = node - mesh.first_node;
+    if (local < 0 || local >= mesh.owned_nodes) continue;
+    const Eigen::Vector3d d = mesh.positions[local] - mean;
+    spread += d * d.transpose();
+  }
+  MPI_Allreduce(MPI_IN_PLACE, spread.data(), 9, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  return principal[2] > 0 && principal[1] <= 1e-12 * principal[2];
+}
+
+/// Dofs that a joint to the ground holds at its nodes, in frame axes: a clamp all of them, a hinge the displacements of
+/// the nodes that lie on its line. @throws InputError  a hinge that has no line. Collective.
+void hold_by_joint(const Joint& joint, const PreparedPlace& place, const fem::Mesh& mesh, fem::Conditions& held) {
+  const bool all = joint.kind == Joint::Kind::fixed;
+  if (!all && !on_a_line(mesh, place.nodes, place.x))
+    throw InputError(joint.where.text() +
+                     ": a hinge in space turns about the line of its nodes, and these lie on none; expected a place "
+                     "that is an edge");
   for (PetscInt node : place.nodes)
     for (PetscInt dof = 0; dof < (all ? 6 : 3); ++dof) held.push_back(6 * node + dof);
 }
@@ -133,7 +150,8 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
     const auto& [first, second] = prepared.joints.back();
     if ((first.body >= 0) == (second.body >= 0)) continue;
     const PreparedPlace& held = first.body >= 0 ? first : second;
-    hold_by_joint(joint, held, prepared.bodies[held.body].held);
+    PreparedBody& body = prepared.bodies[held.body];
+    hold_by_joint(joint, held, body.structure.mesh, body.held);
   }
   for (PreparedBody& body : prepared.bodies) {
     std::sort(body.held.begin(), body.held.end());

@@ -72,6 +72,13 @@ void fit_default_modes(Reading& body, Body& out) {
   out.reduction.modes.count = std::min(out.reduction.modes.count, std::max(elastic, 0));
 }
 
+/// What a body in space does not know yet is refused, not left aside.
+void refuse_planar_keys(Document& document, const Reading& reading) {
+  for (const char* key : {"rotary_inertia", "rigid", "frames", "initial"})
+    if (reading.given(key))
+      document.fault(reading.where(key), "does not apply here", "it only in a scene in the plane");
+}
+
 }  // namespace
 
 Body read_body(Document& document, const std::string& name, const Value& value) {
@@ -99,6 +106,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing));
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
+  if (in_space) refuse_planar_keys(document, reading);
   if (in_space) return body;  // its mesh is checked when it is there
   fit_default_modes(reading, body);
   if (document.fault_count() == before) check_body(document, body);

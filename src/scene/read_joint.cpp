@@ -18,6 +18,8 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
                                              {"driven", Kind::driven},
                                              {"spring", Kind::spring}});
   const bool known = document.fault_count() == before;
+  if (known && document.dimension == 3 && joint.kind != Kind::fixed && joint.kind != Kind::revolute)
+    document.fault(reading.where("type"), "is " + reading.text("type"), "fixed or revolute in a scene in space");
   if (known) reading.set_kind(reading.text("type"));
   if (const auto between = reading.value("between")) {
     const auto places = read_list(document, *between, reading.key("between"), 2);

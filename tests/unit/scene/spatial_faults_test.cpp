@@ -209,3 +209,33 @@ TEST_CASE("keys of the plane in space, and of space in the plane") {
             .at(0)
             .starts_with("s.yaml:6:32: bodies.b.frame.at: has length 2"));
 }
+
+TEST_CASE("what bodies and joints in space do not know is refused, not left aside") {
+  const auto with = [](const std::string& key) {
+    return faults_of(one_body(testing::plate, testing::thickness + testing::metal + "    " + key + "\n"));
+  };
+  for (const std::string key : {"rotary_inertia", "rigid"})
+    CHECK(with(key + ": false") == Faults{"s.yaml:6:" + std::to_string(key.size() + 7) + ": bodies.b." + key +
+                                          ": does not apply here; expected it only in a scene in the plane"});
+  CHECK(with("frames: 2").size() == 1);
+  CHECK(with("initial: {angle: 1}").size() == 1);
+  const auto joint = [](const std::string& keys) {
+    return faults_of(one_body(testing::plate, testing::thickness + testing::metal, "joints: {j: {" + keys + "}}\n"));
+  };
+  CHECK(joint("type: prismatic, between: [ground, b.left]") ==
+        Faults{"s.yaml:7:20: joints.j.type: is prismatic; expected fixed or revolute in a scene in space"});
+  CHECK(joint("type: revolute, between: [ground, b.left]").empty());
+  CHECK(joint("type: revolute, between: [ground, b.p1]") ==
+        Faults{"s.yaml:7:10: joints.j: a hinge in space turns about the line of its nodes, and these lie on none; "
+               "expected a place that is an edge"});
+}
+
+TEST_CASE("the ground's point and a body's are compared in all three coordinates") {
+  const auto at = [](const std::string& point) {
+    return faults_of(one_body(testing::line, testing::tube + testing::metal,
+                              "joints: {j: {type: fixed, between: [{body: ground, node: " + point + "}, b.start]}}\n"));
+  };
+  CHECK(at("[0, 0, 0]").empty());
+  REQUIRE(at("[0, 0, 7]").size() == 1);
+  CHECK(at("[0, 0, 7]")[0].find("its places are 7 apart at the start") != std::string::npos);
+}
