@@ -19,4 +19,8 @@ Prepared prepare(const Scene& scene, MPI_Comm comm);
 
 Eigen::Matrix2d turn(double angle);
 
+/// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
+struct ReducedBody;
+body::PlaceMap place_map(const Prepared& prepared, const ReducedBody& reduced, const PreparedPlace& place);
+
 }  // namespace floe::scene

@@ -24,6 +24,12 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
 /// The first stage alone: modes and their residuals. Collective.
 std::vector<BodyReport> modes_of_bodies(const Prepared& prepared);
 
+/// A body from its file in a formulation: as it is (vm+md); on its modes and attachment columns alone (vm), which span
+/// the first coordinates because the basis was orthonormalised in this order; with the linear part of its elastic force
+/// (lffr).
+/// @throws InputError  vm: a derivative stands before a mode. Rank-local; the same everywhere.
+ReducedBody from_file(const PreparedBody& body, Formulation formulation);
+
 /// The mass of a body that does not deform. Collective.
 ReducedBody rigid(const PreparedBody& body);
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "build_reduce.h"
+#include "floe/math/nearest.h"
 #include "floe/petsc/values.h"
 #include "floe/reduction/place_set.h"
-#include "floe/scene/nearest.h"
 #include "floe/scene/places.h"
 #include "floe/scene/reduced.h"
 
@@ -24,12 +24,14 @@ int index_of(const Scene& scene, const std::string& name) {
                                  names.size(), fmt::join(names, ", ")));
   const auto found = name.empty() ? names.begin() : std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    const std::string near = nearest(name, names);
+    const std::string near = math::nearest(name, names);
     throw InputError(fmt::format("{}: there is no body \"{}\"; expected one of {}{}", scene.file, name,
                                  fmt::join(names, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   const Body& body = scene.bodies[found - names.begin()];
   if (body.rigid) throw InputError(fmt::format("{}: is rigid; expected a body with modes", body.where.text()));
+  if (body.reduced)
+    throw InputError(fmt::format("{}: is reduced already; expected a body with a mesh", body.reduced->where.text()));
   const DerivativesSpec& derivatives = body.reduction.derivatives;
   if (derivatives.choice == DerivativesSpec::Choice::count)
     throw InputError(

@@ -22,16 +22,20 @@ bool is_reduced(Formulation formulation);
 
 /// A node that something acts on.
 struct PreparedPlace {
-  int body = -1;  ///< index of prepared bodies, -1: ground
+  int body = -1;  ///< index of prepared bodies; -1: ground; elsewhere: a body that is not here
   PetscInt node = 0;
   Eigen::Vector3d x;                 ///< in the frame's axes; ground: world
   std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
+  std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
+
+  static constexpr int elsewhere = -2;
+  bool ground() const { return body == -1; }
 };
 
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
 struct PreparedBody {
   Body spec;
-  fem::Structure structure;  ///< positions in the axes of the floating frame
+  fem::Structure structure;  ///< positions in the axes of the floating frame; of a body from a file: none
   fem::ReferenceFrame frame;
   Eigen::Vector2d frame_origin;                              ///< in mesh axes
   double frame_angle = 0;                                    ///< of the frame in mesh axes
@@ -50,6 +54,7 @@ struct PreparedBody {
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
 struct BodyReport {
   std::string name;
+  std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
   int dimension = 2;
@@ -96,7 +101,7 @@ struct Model {
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
-/// by itself. @throws InputError, RunError. Collective.
+/// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
 
 /// Vibration modes of every flexible body as its reduction asks for them. Collective.
