@@ -124,7 +124,11 @@ int main(int argc, char** argv) {
 
   CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
   add_scene(modes_command, choices);
-  modes_command->callback([&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD); }; });
+  modes_command->add_option("--write", choices.out,
+                            "shapes of modes and derivatives for ParaView: FILE.xdmf, and FILE.h5 beside it");
+  modes_command->add_flag("--force", choices.force, "replace these files if they are there");
+  modes_command->callback(
+      [&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD, choices.out, choices.force); }; });
 
   CLI::App* reduce_command =
       app.add_subcommand("reduce", "reduce one body, offline and in parallel, into a file that needs no mesh");

@@ -88,8 +88,9 @@ std::string frame_words(const scene::Body& body) {
 
 }  // namespace
 
-void modes(const scene::Scene& scene, MPI_Comm comm) {
-  const std::vector<scene::BodyReport> bodies = scene::body_modes(scene, comm);
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
+  const std::vector<scene::BodyReport> bodies =
+      path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
   if (!first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
@@ -98,6 +99,10 @@ void modes(const scene::Scene& scene, MPI_Comm comm) {
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
+  if (!path) return;
+  for (const auto& body : bodies)
+    if (!body.file.empty()) fmt::print("Note: body {} comes from {}, which holds its shapes\n", body.name, body.file);
+  fmt::print("Shapes: {}\n", *path);
 }
 
 void check(const scene::Scene& scene, MPI_Comm comm) {

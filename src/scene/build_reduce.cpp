@@ -201,6 +201,23 @@ ReducedBody rigid(const PreparedBody& body) {
   return reduced;
 }
 
+BodyFields fields_of_body(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  const DerivativesSpec& spec = body.spec.reduction.derivatives;
+  BodyFields fields;
+  Stage stage;
+  begin(prepared, index, body.spec.reduction.modes.count, stage, fields.report);
+  const int count = static_cast<int>(stage.generators.fields.size());
+  const bool all = spec.choice == DerivativesSpec::Choice::count;
+  reduction::DerivativeColumns derivatives =
+      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, count), spec.full);
+  fields.columns = std::move(stage.generators.fields);
+  fields.origins = std::move(stage.generators.origins);
+  for (auto& column : derivatives.columns) fields.columns.push_back(std::move(column));
+  fields.origins.insert(fields.origins.end(), derivatives.origins.begin(), derivatives.origins.end());
+  return fields;
+}
+
 std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
   std::vector<BodyReport> reports;
   for (std::size_t b = 0; b < prepared.bodies.size(); ++b) {

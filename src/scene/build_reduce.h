@@ -21,6 +21,15 @@ using InteractionRun = std::function<std::vector<Eigen::MatrixXd>(const std::vec
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
                                        const InteractionRun& linear_run, std::vector<std::string>& warnings);
 
+/// Modes, static columns and derivatives of a body, before they become a basis; in the frame, modes M-normalised.
+struct BodyFields {
+  reduction::Columns columns;
+  std::vector<reduction::ColumnOrigin> origins;
+  BodyReport report;
+};
+/// Of a body with a mesh that is not rigid; derivatives that are chosen by count: all. Collective.
+BodyFields fields_of_body(const Prepared& prepared, int index);
+
 /// The first stage alone: modes and their residuals. Collective.
 std::vector<BodyReport> modes_of_bodies(const Prepared& prepared);
 

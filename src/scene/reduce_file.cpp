@@ -9,6 +9,7 @@
 #include "floe/reduction/place_set.h"
 #include "floe/scene/places.h"
 #include "floe/scene/reduced.h"
+#include "mesh_copy.h"
 
 namespace floe::scene {
 
@@ -117,38 +118,10 @@ std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
   return columns;
 }
 
-output::ReducedShapes::Kind vtk_kind(fem::CellKind kind) {
-  using Kind = output::ReducedShapes::Kind;
-  switch (kind) {
-    case fem::CellKind::point:
-      return Kind::vertex;
-    case fem::CellKind::line:
-      return Kind::line;
-    case fem::CellKind::triangle:
-      return Kind::triangle;
-    default:
-      return Kind::quadrilateral;
-  }
-}
-
-/// Copies of the mesh in original numbers; the columns are read from the basis when they are written.
+/// With the sets of nodes; the columns are read from the basis when they are written.
 output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis& basis) {
   const fem::Mesh& mesh = body.structure.mesh;
-  output::ReducedShapes shapes;
-  shapes.dofs_per_node = body.structure.dofs_per_node;
-  for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
-    shapes.nodes.push_back(mesh.original_node(static_cast<int>(i)));
-    shapes.positions.push_back(mesh.positions[i]);
-  }
-  for (const fem::Mesh::Cell& cell : mesh.cells) {
-    output::ReducedShapes::Cell copy{vtk_kind(cell.kind), cell.part, {-1, -1, -1, -1}};
-    for (std::size_t i = 0; i < cell.nodes().size(); ++i) copy.nodes[i] = mesh.original_node(cell.nodes()[i]);
-    shapes.cells.push_back(copy);
-  }
-  shapes.parts = body.parts;
-  if (shapes.parts.empty())
-    for (std::size_t s = 0; s < body.structure.sections.size(); ++s)
-      shapes.parts.push_back(fmt::format("part {}", s + 1));
+  output::ReducedShapes shapes = mesh_copy(body);
   for (const auto& [name, nodes] : body.places) {
     std::vector<std::int64_t>& mine = shapes.sets[name];
     for (PetscInt node : nodes)
@@ -202,6 +175,7 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
                        {"projection", report.seconds_projection}};
   const output::ReducedShapes shapes = shapes_of(body, *reduced[0].basis);
   output::write_reduced_body(comm, path, file, overwrite, &shapes);
+  file.has_shapes = true;
   return file;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -106,6 +107,12 @@ Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
 
 /// Vibration modes of every flexible body as its reduction asks for them. Collective.
 std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
+
+/// The same, and their shapes into an XDMF file over an HDF5 file (output/shape_file.h): modes, attachment columns and
+/// derivatives of every body with a mesh, in its axes, undeformed positions as the mesh has them.
+/// @throws InputError  as output::check_shapes_path; no body with a mesh. Collective.
+std::vector<BodyReport> write_modes(const Scene& scene, MPI_Comm comm, const std::filesystem::path& path,
+                                    bool overwrite);
 
 /// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
 Scene split_frames(const Scene& scene);
