@@ -86,6 +86,22 @@ std::string frame_words(const scene::Body& body) {
   }
 }
 
+struct Size {
+  std::int64_t elements, dofs;
+  std::string frame;
+};
+
+/// In the plane a scene says it all; in space meshes come from files, and frames from joints.
+std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split, MPI_Comm comm) {
+  std::vector<Size> sizes;
+  if (scene.dimension == 2)
+    for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
+  else
+    for (const scene::BodyReport& body : scene::body_sizes(scene, comm))
+      sizes.push_back({body.elements, body.dofs, body.frame});
+  return sizes;
+}
+
 }  // namespace
 
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
@@ -107,13 +123,14 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
 
 void check(const scene::Scene& scene, MPI_Comm comm) {
   const scene::Scene split = scene::split_frames(scene);
+  const std::vector<Size> sizes = sizes_of(scene, split, comm);
   std::int64_t elements = 0;
   bool files = false;  // their bodies have no full order, but a linear one
-  for (const scene::Body& body : split.bodies) {
-    if (body.reduced)
+  for (std::size_t b = 0; b < sizes.size(); ++b) {
+    if (split.bodies[b].reduced)
       files = true;
     else
-      elements += elements_of(body);
+      elements += sizes[b].elements;
   }
   std::optional<scene::Model> model;  // at full order
   const scene::Formulation formulation = files ? scene::Formulation::lffr : scene::Formulation::nlffr;
@@ -121,8 +138,9 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
   if (!first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
-  for (const scene::Body& body : split.bodies)
-    table.rows.push_back({body.name, elements_of(body), dofs_of(body), frame_words(body), basis_words(body)});
+  for (std::size_t b = 0; b < sizes.size(); ++b)
+    table.rows.push_back(
+        {split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, basis_words(split.bodies[b])});
   fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
   if (model)

@@ -12,6 +12,17 @@
 
 namespace floe::scene {
 
+std::string name_of(fem::ReferenceFrame::Kind kind) {
+  switch (kind) {
+    case fem::ReferenceFrame::Kind::pinned:
+      return "pinned";
+    case fem::ReferenceFrame::Kind::clamped:
+      return "clamped";
+    default:
+      return "mean-axis";
+  }
+}
+
 Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
 
 namespace {

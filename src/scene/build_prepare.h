@@ -14,6 +14,9 @@ struct Prepared {
   double extent = 0;                                 ///< a length of the scene
 };
 
+/// `pinned`, `clamped`, `mean-axis`.
+std::string name_of(fem::ReferenceFrame::Kind kind);
+
 /// Meshes, frames and places of a scene. Collective.
 Prepared prepare(const Scene& scene, MPI_Comm comm);
 

@@ -61,20 +61,9 @@ Scene alone(const Scene& scene, int index) {
   return part;
 }
 
-std::string kind_of(fem::ReferenceFrame::Kind kind) {
-  switch (kind) {
-    case fem::ReferenceFrame::Kind::pinned:
-      return "pinned";
-    case fem::ReferenceFrame::Kind::clamped:
-      return "clamped";
-    default:
-      return "mean-axis";
-  }
-}
-
 output::ReducedFrame frame_of(const PreparedBody& body) {
-  if (body.structure.dimension() == 3) return {kind_of(body.frame.kind), body.origin, body.axes};
-  return {kind_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
+  if (body.structure.dimension() == 3) return {name_of(body.frame.kind), body.origin, body.axes};
+  return {name_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
 }
 
 std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const PreparedBody& body,

@@ -21,7 +21,7 @@ EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/blade"
 
 def floe(folder, *words, ranks=1):
     command = (["mpirun", "-n", str(ranks)] if ranks > 1 else []) + [str(FLOE), *words]
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    return subprocess.run(command, cwd=folder, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 def probes(folder):
@@ -35,7 +35,8 @@ def motion_from_the_file(folder):
         text = re.sub(r"motion: .*", "motion: {end: 0.06, step: 2e-3}", (EXAMPLE / name).read_text())
         (folder / name).write_text(text.replace("modes: 8", "modes: 3"))
     floe(folder, "reduce", "scene.yaml", "-o", "blade.h5", ranks=2)
-    floe(folder, "check", "gust.yaml")
+    for name in ("scene.yaml", "gust.yaml"):  # the sizes of the mesh, though one of them has none
+        assert re.search(r"blade +288 +1050 +clamped", floe(folder, "check", name)), name
     floe(folder, "run", "scene.yaml", "-o", "meshed")
     floe(folder, "run", "gust.yaml", "-o", "reduced")
     meshed, reduced = probes(folder / "meshed"), probes(folder / "reduced")

@@ -58,6 +58,7 @@ struct BodyReport {
   std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
+  std::string frame = {};  ///< pinned, clamped, mean-axis; set by body_sizes
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
@@ -104,6 +105,9 @@ struct Model {
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
 /// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
+
+/// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
+std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
 
 /// Vibration modes of every flexible body as its reduction asks for them. Collective.
 std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
