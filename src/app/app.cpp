@@ -99,14 +99,20 @@ int main(int argc, char** argv) {
 
   CLI::App* compare_command = app.add_subcommand("compare", "simulate in several formulations: one table, one picture");
   add_scene(compare_command, choices);
-  compare_command->add_option("--formulations", choices.formulations, "which, separated by commas")
+  compare_command
+      ->add_option("--formulations", choices.formulations,
+                   "which, separated by commas (bodies from files: lffr,vm,vm+md)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,
                             "spare the run that shows the reference's own error");
   add_folder(compare_command, choices);
-  compare_command->callback([&] {
-    work = [&] {
+  compare_command->callback([&, given = compare_command->get_option("--formulations")] {
+    work = [&, given] {
+      const scene::Scene scene = read_moving(choices.scene);
+      const bool files = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const scene::Body& body) { return body.reduced.has_value(); });
+      if (files && given->count() == 0) choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
       std::vector<scene::Formulation> formulations;
       for (const std::string& name : choices.formulations) {
         const scene::Formulation one = scene::formulation_of(name);
@@ -114,7 +120,7 @@ int main(int argc, char** argv) {
           throw InputError(fmt::format("--formulations: \"{}\" is named twice", name));
         formulations.push_back(one);
       }
-      compare(read_moving(choices.scene), formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
+      compare(scene, formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
     };
   });
@@ -142,7 +148,11 @@ int main(int argc, char** argv) {
 
   CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
   add_scene(modes_command, choices);
-  modes_command->callback([&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD); }; });
+  modes_command->add_option("--write", choices.out,
+                            "shapes of modes and derivatives for ParaView: FILE.xdmf, and FILE.h5 beside it");
+  modes_command->add_flag("--force", choices.force, "replace these files if they are there");
+  modes_command->callback(
+      [&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD, choices.out, choices.force); }; });
 
   CLI::App* reduce_command =
       app.add_subcommand("reduce", "reduce one body, offline and in parallel, into a file that needs no mesh");

@@ -1,8 +1,10 @@
 #include "commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -36,8 +38,18 @@ std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
   }
 }
 
+std::string reduced_words(const output::ReducedBodyFile& file, const std::string& path) {
+  std::map<std::string, int> count;
+  for (const output::ReducedColumn& column : file.columns) count[column.kind] += column.kept;
+  std::vector<std::string> words;
+  for (const char* kind : {"mode", "attachment", "derivative"})
+    if (count[kind] > 0) words.push_back(fmt::format("{} {}{}", count[kind], kind, count[kind] > 1 ? "s" : ""));
+  return fmt::format("{}, from {}", fmt::join(words, ", "), path);
+}
+
 std::string basis_words(const scene::Body& body) {
   if (body.rigid) return "rigid";
+  if (body.reduced) return reduced_words(*body.reduced->file, body.reduced->path);
   const scene::ModesSpec& modes = body.reduction.modes;
   return fmt::format("{} modes ({}), {}", modes.count,
                      modes.of == scene::ModesSpec::Of::joints ? "as its joints hold it" : "of its frame",
@@ -48,12 +60,14 @@ std::string basis_words(const scene::Body& body) {
 constexpr std::int64_t greatest_built = 20000;
 
 std::int64_t elements_of(const scene::Body& body) {
+  if (body.reduced) return body.reduced->file->cells;
   return std::accumulate(body.mesh.elements.begin(), body.mesh.elements.end(), std::int64_t{0});
 }
 
 /// Three at each node: of the points that segments join, and between the elements of each segment.
 std::int64_t dofs_of(const scene::Body& body) {
   if (body.rigid) return 3;
+  if (body.reduced) return body.reduced->file->dofs;
   std::set<int> points;
   for (const auto& segment : body.mesh.segments) points.insert(segment.begin(), segment.end());
   const std::int64_t ends = static_cast<std::int64_t>(points.size());
@@ -61,6 +75,7 @@ std::int64_t dofs_of(const scene::Body& body) {
 }
 
 std::string frame_words(const scene::Body& body) {
+  if (body.reduced) return body.reduced->file->frame.kind;
   switch (body.frame.kind) {
     case scene::FrameSpec::Kind::pinned:
       return "pinned";
@@ -71,10 +86,27 @@ std::string frame_words(const scene::Body& body) {
   }
 }
 
+struct Size {
+  std::int64_t elements, dofs;
+  std::string frame;
+};
+
+/// In the plane a scene says it all; in space meshes come from files, and frames from joints.
+std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split, MPI_Comm comm) {
+  std::vector<Size> sizes;
+  if (scene.dimension == 2)
+    for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
+  else
+    for (const scene::BodyReport& body : scene::body_sizes(scene, comm))
+      sizes.push_back({body.elements, body.dofs, body.frame});
+  return sizes;
+}
+
 }  // namespace
 
-void modes(const scene::Scene& scene, MPI_Comm comm) {
-  const std::vector<scene::BodyReport> bodies = scene::body_modes(scene, comm);
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
+  const std::vector<scene::BodyReport> bodies =
+      path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
   if (!first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
@@ -83,23 +115,37 @@ void modes(const scene::Scene& scene, MPI_Comm comm) {
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
+  if (!path) return;
+  for (const auto& body : bodies)
+    if (!body.file.empty()) fmt::print("Note: body {} comes from {}, which holds its shapes\n", body.name, body.file);
+  fmt::print("Shapes: {}\n", *path);
 }
 
 void check(const scene::Scene& scene, MPI_Comm comm) {
   const scene::Scene split = scene::split_frames(scene);
+  const std::vector<Size> sizes = sizes_of(scene, split, comm);
   std::int64_t elements = 0;
-  for (const scene::Body& body : split.bodies) elements += elements_of(body);
+  bool files = false;  // their bodies have no full order, but a linear one
+  for (std::size_t b = 0; b < sizes.size(); ++b) {
+    if (split.bodies[b].reduced)
+      files = true;
+    else
+      elements += sizes[b].elements;
+  }
   std::optional<scene::Model> model;  // at full order
-  if (elements < greatest_built) model = scene::build(scene, scene::Formulation::nlffr, comm);
+  const scene::Formulation formulation = files ? scene::Formulation::lffr : scene::Formulation::nlffr;
+  if (elements < greatest_built) model = scene::build(scene, formulation, comm);
   if (!first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
-  for (const scene::Body& body : split.bodies)
-    table.rows.push_back({body.name, elements_of(body), dofs_of(body), frame_words(body), basis_words(body)});
+  for (std::size_t b = 0; b < sizes.size(); ++b)
+    table.rows.push_back(
+        {split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, basis_words(split.bodies[b])});
   fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
   if (model)
-    fmt::print("{} coordinates and {} multipliers at full order\n", model->coordinates, model->multipliers);
+    fmt::print("{} coordinates and {} multipliers {}\n", model->coordinates, model->multipliers,
+               files ? "as lffr" : "at full order");
   else
     fmt::print("the full-order system is not built here, from {} elements on\n", greatest_built);
   fmt::print("motion to t = {} s, ", scene.motion.end);

@@ -1,11 +1,14 @@
 #pragma once
+#include <optional>
+#include <string>
+
 #include "floe/output/folder.h"
 #include "floe/scene/model.h"
 
 namespace floe::app {
 
-/// `floe modes`: frequencies of each body with residuals. Collective.
-void modes(const scene::Scene& scene, MPI_Comm comm);
+/// `floe modes`: frequencies of each body with residuals; with a path their shapes into an XDMF file. Collective.
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite);
 /// `floe check`: what would be simulated; nothing is moved. Collective.
 void check(const scene::Scene& scene, MPI_Comm comm);
 /// `floe reduce`: one body of a scene into a file. Collective.

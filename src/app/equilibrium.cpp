@@ -108,9 +108,9 @@ void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   for (std::size_t c = 0; c < shown; ++c)
     table.columns.push_back({result.series.columns[c].name, result.series.columns[c].unit, 6});
   for (std::size_t i = 0; i < result.series.t.size(); ++i) {
-    std::vector<output::Cell> row{result.series.t[i]};
-    for (std::size_t c = 0; c < shown; ++c) row.push_back(result.series.values[i][c]);
-    table.rows.push_back(row);
+    std::vector<output::Cell>& row = table.rows.emplace_back();
+    row.emplace_back(result.series.t[i]);
+    for (std::size_t c = 0; c < shown; ++c) row.emplace_back(result.series.values[i][c]);
   }
   fmt::print("{}", output::to_text(table));
   if (shown < result.series.columns.size())

@@ -8,8 +8,8 @@
 #include <functional>
 #include <vector>
 
+#include "floe/math/nearest.h"
 #include "floe/petsc/error.h"
-#include "floe/scene/nearest.h"
 
 namespace floe::app {
 
@@ -46,12 +46,12 @@ bool begins(const std::string& name, const Words& with) {
 std::string meant(const std::string& name) {
   for (const auto& [family, prefix] : homes)
     if (begins(name, family)) return prefix + name;
-  const std::string global = scene::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
-                                                   "malloc_dump", "malloc_view", "memory_view", "help"});
+  const std::string global = math::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
+                                                  "malloc_dump", "malloc_view", "memory_view", "help"});
   if (!global.empty()) return global;
   const auto end = name.find('_');
   if (end == std::string::npos) return "";
-  const std::string prefix = scene::nearest(name.substr(0, end + 1), solvers);
+  const std::string prefix = math::nearest(name.substr(0, end + 1), solvers);
   return prefix.empty() ? "" : prefix + name.substr(end + 1);
 }
 

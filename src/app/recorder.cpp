@@ -35,7 +35,8 @@ ordered_json body_json(const scene::BodyReport& body) {
   j["elements"] = body.elements;
   j["dofs"] = body.dofs;
   j["rigid"] = body.rigid;
-  if (!body.basis) return j;
+  if (!body.file.empty()) j["reduced_file"] = body.file;
+  if (!body.basis && body.file.empty()) return j;
   j["reduced_coordinates"] = body.columns;
   for (std::size_t i = 0; i < body.omega.size(); ++i)
     j["frequencies"].push_back(
@@ -134,6 +135,7 @@ void Recorder::write_basis() {
                                   body.positions, {"m", "undeformed positions in the floating frame"});
   }
   for (const auto& body : model_.bodies) {
+    if (!body.file.empty()) file_->write_text("bodies/" + body.name + "/reduced_file", body.file);
     const double where[2] = {static_cast<double>(body.first_coordinate), static_cast<double>(body.first_elastic)};
     if (scene::is_reduced(model_.formulation))
       file_->write_array("bodies/" + body.name + "/columns_of_motion", {2}, where,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,17 +14,9 @@ namespace floe::app {
 
 using nlohmann::ordered_json;
 
-std::string label_of(const scene::Model& model) {
-  switch (model.formulation) {
-    case scene::Formulation::cfr:
-      return "CFR";
-    case scene::Formulation::nlffr:
-      return "NLFFR";
-    case scene::Formulation::lffr:
-      return "LFFR";
-    default:
-      break;
-  }
+namespace {
+
+std::string columns_label(const scene::Model& model) {
   int count[3] = {0, 0, 0};
   for (const auto& body : model.bodies)
     for (const auto& origin : body.origins)
@@ -34,14 +27,13 @@ std::string label_of(const scene::Model& model) {
   return label;
 }
 
-namespace {
-
 /// What the offline stage does, for those who wait for it.
 std::string offline_words(const scene::Scene& scene, scene::Formulation formulation) {
   if (!scene::is_reduced(formulation)) return "assembling " + scene::name_of(formulation);
   std::vector<std::string> names;
   for (const auto& body : scene.bodies)
-    if (!body.rigid) names.push_back(body.name);
+    if (!body.rigid && !body.reduced) names.push_back(body.name);
+  if (names.empty()) return "assembling " + scene::name_of(formulation);
   if (names.size() == 1) return "reducing body " + names[0];
   return fmt::format("reducing {} bodies", names.size());
 }
@@ -65,6 +57,24 @@ std::string text_of(const std::exception_ptr& fault) {
 }
 
 }  // namespace
+
+std::string label_of(const scene::Model& model) {
+  const auto from_file = [](const scene::BodyReport& body) { return !body.file.empty(); };
+  const auto meshed = [&](const scene::BodyReport& body) { return !body.rigid && !from_file(body); };
+  switch (model.formulation) {
+    case scene::Formulation::cfr:
+      return "CFR";
+    case scene::Formulation::nlffr:
+      return "NLFFR";
+    case scene::Formulation::lffr:
+      if (std::any_of(model.bodies.begin(), model.bodies.end(), meshed) ||
+          std::none_of(model.bodies.begin(), model.bodies.end(), from_file))
+        return "LFFR";
+      return "LFFR on " + columns_label(model);
+    default:
+      return columns_label(model);
+  }
+}
 
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
               const std::optional<output::ResultFolder>& folder) {

@@ -150,11 +150,13 @@ void write_flag(hid_t file, const std::string& name, std::int64_t value) {
   flag.close();
 }
 
+namespace {
+
+/// A dataset of such numbers; `shape` becomes what is found.
 template <class Number>
-std::vector<Number> read_whole(hid_t file, const std::string& name, Extent& shape) {
-  const Hid dataset = open_dataset(file, name), type(H5Dget_type(dataset), H5Tclose);
-  const std::string kind = real<Number> ? "finite numbers" : "integers";
-  const std::string expected = fmt::format("{} {}", shown(shape), kind);
+Hid open_numbers(hid_t file, const std::string& name, Extent& shape, const std::string& expected) {
+  Hid dataset = open_dataset(file, name);
+  const Hid type(H5Dget_type(dataset), H5Tclose);
   if (H5Tget_class(type) != (real<Number> ? H5T_FLOAT : H5T_INTEGER)) fail(name, expected, "another type");
   const Extent found = shape_of(dataset);
   const auto fits = [](hsize_t wanted, hsize_t is) { return wanted == any || wanted == is; };
@@ -162,12 +164,47 @@ std::vector<Number> read_whole(hid_t file, const std::string& name, Extent& shap
   if (size_of(found) > 0 && H5Dget_storage_size(dataset) / size_of(found) != sizeof(Number))
     fail(name, expected, "numbers that are not of 8 bytes");
   shape = found;
-  std::vector<Number> data(size_of(found));
-  if (!data.empty()) check_hdf5(H5Dread(dataset, native<Number>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()));
+  return dataset;
+}
+
+template <class Number>
+std::string numbers_of(const Extent& shape) {
+  return fmt::format("{} {}", shown(shape), real<Number> ? "finite numbers" : "integers");
+}
+
+template <class Number>
+void check_finite(const std::string& name, const std::string& expected, const std::vector<Number>& data) {
   if constexpr (real<Number>) {
     const auto bad = std::find_if(data.begin(), data.end(), [](double x) { return !std::isfinite(x); });
     if (bad != data.end()) fail(name, expected, fmt::format("{} at entry {}", *bad, bad - data.begin()));
   }
+}
+
+}  // namespace
+
+template <class Number>
+std::vector<Number> read_whole(hid_t file, const std::string& name, Extent& shape) {
+  const std::string expected = numbers_of<Number>(shape);
+  const Hid dataset = open_numbers<Number>(file, name, shape, expected);
+  std::vector<Number> data(size_of(shape));
+  if (!data.empty()) check_hdf5(H5Dread(dataset, native<Number>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()));
+  check_finite(name, expected, data);
+  return data;
+}
+
+template <class Number>
+std::vector<Number> read_block(hid_t file, const std::string& name, const Extent& shape, const Extent& start,
+                               const Extent& count) {
+  Extent found = shape;
+  const std::string expected = numbers_of<Number>(shape);
+  const Hid dataset = open_numbers<Number>(file, name, found, expected);
+  std::vector<Number> data(size_of(count));
+  if (data.empty()) return data;
+  const Hid there(H5Dget_space(dataset), H5Sclose);
+  const Hid here(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+  check_hdf5(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
+  check_hdf5(H5Dread(dataset, native<Number>(), here, there, H5P_DEFAULT, data.data()));
+  check_finite(name, expected, data);
   return data;
 }
 
@@ -214,5 +251,6 @@ template void write_whole(hid_t, const std::string&, const Extent&, std::span<co
 template void write_whole(hid_t, const std::string&, const Extent&, std::span<const std::int64_t>, const Label&);
 template std::vector<double> read_whole(hid_t, const std::string&, Extent&);
 template std::vector<std::int64_t> read_whole(hid_t, const std::string&, Extent&);
+template std::vector<double> read_block(hid_t, const std::string&, const Extent&, const Extent&, const Extent&);
 
 }  // namespace floe::output

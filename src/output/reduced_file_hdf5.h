@@ -52,6 +52,10 @@ template <class Number>
 std::vector<Number> read_whole(hid_t file, const std::string& name, Extent&& shape) {
   return read_whole<Number>(file, name, shape);
 }
+/// A block of such an array of this shape. @throws Fault
+template <class Number>
+std::vector<Number> read_block(hid_t file, const std::string& name, const Extent& shape, const Extent& start,
+                               const Extent& count);
 std::vector<std::string> read_texts(hid_t file, const std::string& name);
 std::string read_text(hid_t file, const std::string& name);
 /// @throws Fault  there is none

@@ -59,7 +59,10 @@ Assembly::Assembly(const Prepared& prepared, Formulation formulation, const std:
       coordinates_(comm_of(prepared, formulation)),
       slots_(prepared.bodies.size()) {}
 
-bool Assembly::compact(int body) const { return is_reduced(formulation_) || prepared_.bodies[body].spec.rigid; }
+bool Assembly::compact(int body) const {
+  const Body& spec = prepared_.bodies[body].spec;
+  return is_reduced(formulation_) || spec.rigid || spec.reduced;
+}
 
 void Assembly::add_coordinates() {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
@@ -162,7 +165,7 @@ Marker Assembly::marker(const PreparedPlace& place) {
   const PreparedBody& body = prepared_.bodies[place.body];
   const Slot& slot = slots_[place.body];
   if (compact(place.body)) {
-    const body::PlaceMap map = reduction::place_map(body.structure, *reduced_[place.body].basis, place.node);
+    const body::PlaceMap map = place_map(prepared_, reduced_[place.body], place);
     Marker at;
     at.framed = true;
     for (int i = 0; i < 3; ++i) at.coordinates.push_back(slot.frame + i);
@@ -204,8 +207,10 @@ Model Assembly::model() {
     const fem::Mesh& mesh = prepared_.bodies[b].structure.mesh;
     report.name = prepared_.bodies[b].spec.name;
     report.rigid = prepared_.bodies[b].spec.rigid;
-    report.nodes = mesh.node_count, report.elements = mesh.cell_count,
-    report.dofs = prepared_.bodies[b].structure.dofs();
+    if (!prepared_.bodies[b].spec.reduced) {
+      report.nodes = mesh.node_count, report.elements = mesh.cell_count;
+      report.dofs = prepared_.bodies[b].structure.dofs();
+    }
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)

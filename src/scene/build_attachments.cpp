@@ -86,9 +86,9 @@ void add_constraint_modes(const Prepared& prepared, int index, Attachments& all)
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const auto& [first, second] = prepared.joints[j];
     const Joint& joint = prepared.scene.joints[j];
-    if ((first.body < 0) == (second.body < 0) || std::max(first.body, second.body) != index) continue;
+    if (first.ground() == second.ground() || std::max(first.body, second.body) != index) continue;
     if (joint.kind == Joint::Kind::spring) continue;
-    const PetscInt dof = 3 * (first.body < 0 ? second : first).node;
+    const PetscInt dof = 3 * (first.ground() ? second : first).node;
     for (PetscInt c = 0; c < 2; ++c)
       if (contains(repeated, dof + c)) all.push_back(unit_displacement(dof + c, joint.name));
     if (joint.kind == Joint::Kind::driven && rest_holds(body, dof + 2))
@@ -100,7 +100,7 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
   const PreparedBody& body = prepared.bodies[index];
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
-    const bool to_ground = prepared.joints[j][0].body < 0 || prepared.joints[j][1].body < 0;
+    const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
     if (to_ground && joint.kind != Joint::Kind::spring && !of_frame(body)) continue;
     const bool moment = joint.kind == Joint::Kind::spring
                             ? joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0

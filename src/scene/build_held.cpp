@@ -3,25 +3,46 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/start.h"
-#include "floe/reduction/place_set.h"
 #include "floe/reference/full_order.h"
+#include "prepare_reduced.h"
 
 namespace floe::scene {
 namespace {
 
 Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 
+/// Whether a place of a body from a file has no motion in the body's frame.
+bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
+  const output::ReducedBodyFile& file = *body.spec.reduced->file;
+  const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
+  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
+}
+
+/// Whether the ground clamps the body, as it did when it was reduced.
+bool clamped_from_file(const Prepared& prepared, const PreparedBody& body) {
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j)
+    for (const PreparedPlace& place : prepared.joints[j])
+      if (place.map && &prepared.bodies[place.body] == &body && prepared.scene.joints[j].kind == Joint::Kind::fixed &&
+          at_rest(body, *place.map))
+        return true;
+  return false;
+}
+
+/// A clamped frame, whose place the ground clamps.
+bool stands_still(const Prepared& prepared, const PreparedBody& body) {
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return false;
+  if (body.spec.reduced) return clamped_from_file(prepared, body);
+  return std::includes(body.held.begin(), body.held.end(), body.frame.conditions.begin(), body.frame.conditions.end());
+}
+
 void check_held(const Prepared& prepared, Formulation formulation) {
   std::vector<std::string> faults;
   for (const PreparedBody& body : prepared.bodies) {
-    const auto& held = body.held;
-    const bool still =
-        body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
-        std::includes(held.begin(), held.end(), body.frame.conditions.begin(), body.frame.conditions.end());
-    if (!still)
+    if (!stands_still(prepared, body))
       faults.push_back(
           fmt::format("{}: floats; bodies in space move, so far, in a frame that stands still: expected a "
                       "joint of type fixed from the ground to one of its places, and frame: clamped there",
@@ -36,6 +57,13 @@ void check_held(const Prepared& prepared, Formulation formulation) {
         (prepared.joints[j][0].body >= 0) == (prepared.joints[j][1].body >= 0))
       faults.push_back(fmt::format("{}: in space joints of type fixed to the ground can move a scene, so far",
                                    prepared.scene.joints[j].where.text()));
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j)
+    for (const PreparedPlace& place : prepared.joints[j])
+      if (place.map && !at_rest(prepared.bodies[place.body], *place.map))
+        faults.push_back(
+            fmt::format("{}: holds body {} where its columns move; expected a place where it was held when {} was made",
+                        prepared.scene.joints[j].where.text(), prepared.bodies[place.body].spec.name,
+                        prepared.bodies[place.body].spec.reduced->path));
   if (formulation == Formulation::cfr)
     faults.push_back(prepared.scene.file + ": formulation cfr is known for planar beams only");
   if (!faults.empty()) throw InputError(faults);
@@ -84,10 +112,19 @@ struct HeldAssembly {
     return all;
   }
 
+  /// Described by a ReducedBody; its terms are on the last rank where the system is on all.
+  bool compact(int b) const { return is_reduced(formulation) || prepared.bodies[b].spec.reduced; }
+  bool owner() const {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &size);
+    return rank == size - 1;
+  }
+
   void add_coordinates() {
     for (std::size_t b = 0; b < first.size(); ++b) {
       coordinates.belongs_to("body " + prepared.bodies[b].spec.name);
-      if (is_reduced(formulation))
+      if (compact(static_cast<int>(b)))
         first[b] = coordinates.add_shared(reduced[b].body.coordinates());
       else
         nodes[b] = std::make_unique<reference::NodeCoordinates>(coordinates, prepared.bodies[b].structure.mesh,
@@ -117,18 +154,16 @@ struct HeldAssembly {
     const body::Inertia& inertia = body.body.inertia;
     const Eigen::MatrixXd M = inertia.M[0][0] + inertia.M[1][1] + inertia.M[2][2];
     const std::vector<int> all = reduced_coordinates(b);
-    terms.push_back(std::make_unique<dynamics::HeldBody>(all, M, body.body.elasticity, body.damping));
+    if (owner()) terms.push_back(std::make_unique<dynamics::HeldBody>(all, M, body.body.elasticity, body.damping));
     const Eigen::Vector3d g = vector(prepared.scene.gravity);
-    if (!g.isZero())
+    if (!g.isZero() && owner())
       add_force(
           b, all, inertia.S, [g](double) { return g; }, true);
     for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
       if (prepared.loads[l].body != b) continue;
       const bool distributed = prepared.scene.loads[l].kind == Load::Kind::distributed;
-      const Eigen::MatrixXd S =
-          distributed ? body.body.line.S
-                      : reduction::place_map(prepared.bodies[b].structure, *body.basis, prepared.loads[l].nodes).S;
-      add_force(b, all, S, force_of(l), false);
+      const Eigen::MatrixXd S = distributed ? body.body.line.S : place_map(prepared, body, prepared.loads[l]).S;
+      if (owner()) add_force(b, all, S, force_of(l), false);
     }
   }
 
@@ -215,8 +250,8 @@ struct HeldAssembly {
   HeldProbe probe(const PreparedPlace& place) const {
     const PreparedBody& body = prepared.bodies[place.body];
     HeldProbe held{body.origin, body.axes, place.x, {}, {}, {}};
-    if (is_reduced(formulation)) {
-      const body::PlaceMap map = reduction::place_map(body.structure, *reduced[place.body].basis, place.nodes);
+    if (compact(place.body)) {
+      const body::PlaceMap map = place_map(prepared, reduced[place.body], place);
       held.coordinates = reduced_coordinates(place.body);
       held.S = map.S, held.psi = map.psi;
       return held;
@@ -224,10 +259,7 @@ struct HeldAssembly {
     const double share = 1.0 / static_cast<double>(place.nodes.size());
     const Eigen::Index n = static_cast<Eigen::Index>(place.nodes.size());
     held.S = held.psi = Eigen::MatrixXd::Zero(3, 6 * n);
-    int rank = 0, size = 1;
-    MPI_Comm_rank(comm, &rank);
-    MPI_Comm_size(comm, &size);
-    if (rank != size - 1) return held;  // the last rank evaluates probes
+    if (!owner()) return held;  // the last rank evaluates probes
     for (Eigen::Index i = 0; i < n; ++i) {
       for (int d = 0; d < 6; ++d) held.coordinates.push_back(nodes[place.body]->of_node(place.nodes[i]) + d);
       held.S.block<3, 3>(0, 6 * i).setIdentity();
@@ -271,12 +303,13 @@ Model held_model(const Prepared& prepared, Formulation formulation, const std::v
   model.formulation = formulation;
   for (std::size_t b = 0; b < prepared.bodies.size(); ++b) {
     const int index = static_cast<int>(b);
-    is_reduced(formulation) ? assembly.add_reduced(index) : assembly.add_full(index);
+    assembly.compact(index) ? assembly.add_reduced(index) : assembly.add_full(index);
     const PreparedBody& body = prepared.bodies[b];
     BodyReport report = reduced[b].report;
     const fem::Mesh& mesh = body.structure.mesh;
     report.name = body.spec.name;
-    report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
+    if (!body.spec.reduced)
+      report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
     report.dimension = 3;
     report.first_coordinate = -1, report.first_elastic = assembly.first[b];
     report.first_node = mesh.first_node;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "build_assembly.h"
 #include "build_held.h"
 #include "floe/dynamics/simulation.h"
@@ -18,7 +20,7 @@ std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::v
   auto observe = [&](const dynamics::Instant& instant) {
     model.system->gather(instant.U, q);
     for (std::size_t b = 0; b < sums.size(); ++b) {
-      if (sums[b].rows() == 0) continue;
+      if (sums[b].rows() == 0 || linear[b].of_fields.rows() == 0) continue;
       const Eigen::VectorXd eta = linear[b].of_fields * q.segment(model.bodies[b].first_elastic, sums[b].rows());
       sums[b] += motion.step * (eta * eta.transpose()).cwiseAbs();
     }
@@ -32,10 +34,21 @@ std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::v
   return sums;
 }
 
+void refuse_meshless(const Scene& scene, Formulation formulation) {
+  if (is_reduced(formulation) || formulation == Formulation::lffr) return;
+  std::vector<std::string> faults;
+  for (const Body& body : scene.bodies)
+    if (body.reduced)
+      faults.push_back(fmt::format("{}: has no mesh, which formulation {} needs; expected vm+md, vm or lffr",
+                                   body.reduced->where.text(), name_of(formulation)));
+  if (!faults.empty()) throw InputError(faults);
+}
+
 }  // namespace
 
 Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
   const Scene scene = formulation == Formulation::cfr ? whole : split_frames(whole);
+  refuse_meshless(scene, formulation);
   const Prepared prepared = prepare(scene, comm);
   std::vector<std::string> warnings;
   std::vector<ReducedBody> reduced(prepared.bodies.size());
@@ -45,7 +58,10 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
         warnings);
   } else {
     for (std::size_t b = 0; b < reduced.size(); ++b)
-      if (prepared.bodies[b].spec.rigid) reduced[b] = rigid(prepared.bodies[b]);
+      if (prepared.bodies[b].spec.rigid)
+        reduced[b] = rigid(prepared.bodies[b]);
+      else if (prepared.bodies[b].spec.reduced)
+        reduced[b] = from_file(prepared.bodies[b], formulation);
   }
   Model model = scene.dimension == 3 ? held_model(prepared, formulation, reduced)
                                      : Assembly(prepared, formulation, reduced).model();

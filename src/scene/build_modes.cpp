@@ -8,4 +8,23 @@ std::vector<BodyReport> body_modes(const Scene& whole, MPI_Comm comm) {
   return modes_of_bodies(prepared);
 }
 
+std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
+  const Scene scene = split_frames(whole);
+  const Prepared prepared = prepare(scene, comm);
+  std::vector<BodyReport> reports;
+  for (const PreparedBody& body : prepared.bodies) {
+    BodyReport report;
+    if (body.spec.reduced) {
+      report = from_file(body, Formulation::vm_md).report;
+    } else {
+      const fem::Mesh& mesh = body.structure.mesh;
+      report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = mesh.cell_count;
+    }
+    report.name = body.spec.name, report.rigid = body.spec.rigid;
+    report.frame = name_of(body.frame.kind);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 }  // namespace floe::scene

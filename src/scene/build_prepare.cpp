@@ -7,9 +7,21 @@
 
 #include "build_start.h"
 #include "floe/scene/places.h"
+#include "prepare_reduced.h"
 #include "prepare_spatial.h"
 
 namespace floe::scene {
+
+std::string name_of(fem::ReferenceFrame::Kind kind) {
+  switch (kind) {
+    case fem::ReferenceFrame::Kind::pinned:
+      return "pinned";
+    case fem::ReferenceFrame::Kind::clamped:
+      return "clamped";
+    default:
+      return "mean-axis";
+  }
+}
 
 Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
 
@@ -110,9 +122,17 @@ PreparedPlace find(const std::vector<PreparedBody>& bodies, const Place& place) 
     found.x = place.point ? spatial(*place.point) : Eigen::Vector3d::Constant(std::nan(""));
     return found;
   }
-  if (place.body.empty()) return found;  // of a body that is not here
+  if (place.body.empty()) {
+    found.body = PreparedPlace::elsewhere;
+    return found;
+  }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].spec.name != place.body) continue;
+    if (bodies[b].spec.reduced) {
+      found = reduced_place(bodies[b].spec, place, bodies[b].structure.mesh.comm);
+      found.body = static_cast<int>(b);
+      return found;
+    }
     const Point p = place_point(bodies[b].spec.mesh, place);
     const Eigen::Vector2d x = turn(-bodies[b].frame_angle) * (planar(p) - bodies[b].frame_origin);
     const fem::NearestNode nearest = fem::nearest_node(bodies[b].structure.mesh, {x.x(), x.y(), 0});
@@ -133,7 +153,8 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
   if (scene.dimension == 3) return prepare_spatial(scene, comm);
   Prepared prepared{scene, comm, {}, {}, {}, {}, 0};
   for (const Body& body : scene.bodies) {
-    prepared.bodies.push_back(prepare_body(body, comm));
+    prepared.bodies.push_back(body.reduced ? prepare_reduced(body, comm) : prepare_body(body, comm));
+    if (body.reduced) prepared.extent = std::max(prepared.extent, extent_of(*body.reduced->file));
     for (const Point& p : body.mesh.points)
       for (const Point& q : body.mesh.points)
         prepared.extent = std::max(prepared.extent, (spatial(p) - spatial(q)).norm());
@@ -141,9 +162,9 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
   for (const Joint& joint : scene.joints) {
     prepared.joints.push_back({find(prepared.bodies, joint.first), find(prepared.bodies, joint.second)});
     const auto& [first, second] = prepared.joints.back();
-    if (first.body >= 0 && second.body >= 0) continue;
-    const PreparedPlace& place = first.body >= 0 ? first : second;
-    if (place.body < 0) continue;
+    if (first.ground() == second.ground()) continue;
+    const PreparedPlace& place = first.ground() ? second : first;
+    if (place.map || place.body < 0) continue;
     PreparedBody& body = prepared.bodies[place.body];
     hold_by_joint(joint, place.node, body.spec.initial.angle + body.frame_angle, body.held);  // undeformed
   }

@@ -14,9 +14,16 @@ struct Prepared {
   double extent = 0;                                 ///< a length of the scene
 };
 
+/// `pinned`, `clamped`, `mean-axis`.
+std::string name_of(fem::ReferenceFrame::Kind kind);
+
 /// Meshes, frames and places of a scene. Collective.
 Prepared prepare(const Scene& scene, MPI_Comm comm);
 
 Eigen::Matrix2d turn(double angle);
+
+/// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
+struct ReducedBody;
+body::PlaceMap place_map(const Prepared& prepared, const ReducedBody& reduced, const PreparedPlace& place);
 
 }  // namespace floe::scene

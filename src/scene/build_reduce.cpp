@@ -117,7 +117,7 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
     const bool touches = prepared.joints[j][0].body == index || prepared.joints[j][1].body == index;
-    const bool to_ground = prepared.joints[j][0].body < 0 || prepared.joints[j][1].body < 0;
+    const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
     const bool moment = joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven;
     if (!touches || !moment || !no_columns) continue;
     if (body.spec.frame.kind == FrameSpec::Kind::clamped && to_ground) continue;
@@ -151,7 +151,7 @@ std::vector<std::vector<double>> choose_by_count(const Prepared& prepared, Formu
   std::vector<std::vector<double>> weights(stages.size());
   auto chooses = [&](std::size_t b) {
     const Body& spec = prepared.bodies[b].spec;
-    return !spec.rigid && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count &&
+    return !spec.rigid && !spec.reduced && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count &&
            !(formulation == Formulation::vm && spec.reduction.modes.alone > 0);
   };
   bool any = false;
@@ -160,6 +160,10 @@ std::vector<std::vector<double>> choose_by_count(const Prepared& prepared, Formu
   std::vector<ReducedBody> linear = begun;
   for (std::size_t b = 0; b < stages.size(); ++b) {
     if (prepared.bodies[b].spec.rigid) continue;
+    if (prepared.bodies[b].spec.reduced) {
+      linear[b] = from_file(prepared.bodies[b], Formulation::lffr);
+      continue;
+    }
     end(prepared.bodies[b], stages[b], {}, linear[b]);
     linear[b].body.elasticity = body::linearised(linear[b].body.elasticity);
     linear[b].of_fields = coordinates_of_fields(stages[b], linear[b]);
@@ -197,6 +201,23 @@ ReducedBody rigid(const PreparedBody& body) {
   return reduced;
 }
 
+BodyFields fields_of_body(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  const DerivativesSpec& spec = body.spec.reduction.derivatives;
+  BodyFields fields;
+  Stage stage;
+  begin(prepared, index, body.spec.reduction.modes.count, stage, fields.report);
+  const int count = static_cast<int>(stage.generators.fields.size());
+  const bool all = spec.choice == DerivativesSpec::Choice::count;
+  reduction::DerivativeColumns derivatives =
+      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, count), spec.full);
+  fields.columns = std::move(stage.generators.fields);
+  fields.origins = std::move(stage.generators.origins);
+  for (auto& column : derivatives.columns) fields.columns.push_back(std::move(column));
+  fields.origins.insert(fields.origins.end(), derivatives.origins.begin(), derivatives.origins.end());
+  return fields;
+}
+
 std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
   std::vector<BodyReport> reports;
   for (std::size_t b = 0; b < prepared.bodies.size(); ++b) {
@@ -206,6 +227,10 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
     report.rigid = body.spec.rigid;
     report.nodes = body.structure.mesh.node_count, report.elements = body.structure.mesh.cell_count;
     report.dofs = body.structure.dofs();
+    if (body.spec.reduced) {
+      reports.push_back(from_file(body, Formulation::vm_md).report);
+      continue;
+    }
     Stage stage;
     if (!report.rigid) begin(prepared, static_cast<int>(b), body.spec.reduction.modes.count, stage, report);
     reports.push_back(std::move(report));
@@ -226,6 +251,10 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
       all[b] = rigid(body);
       continue;
     }
+    if (body.spec.reduced) {
+      all[b] = from_file(body, formulation);
+      continue;
+    }
     const bool stated = alone && spec.modes.alone > 0;
     begin(prepared, b, stated ? spec.modes.alone : spec.modes.count, stages[b], all[b].report);
     if (!stated) stages[b].pairs = pairs_of(spec.derivatives, static_cast<int>(stages[b].generators.fields.size()));
@@ -234,7 +263,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);
   for (int b = 0; b < count; ++b) {
     const PreparedBody& body = prepared.bodies[b];
-    if (body.spec.rigid) continue;
+    if (body.spec.rigid || body.spec.reduced) continue;
     reduction::DerivativeColumns derivatives;
     if (alone) {
       if (body.spec.reduction.modes.alone == 0) modes_for_derivatives(prepared, b, stages[b], all[b].report);

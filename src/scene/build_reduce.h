@@ -21,8 +21,23 @@ using InteractionRun = std::function<std::vector<Eigen::MatrixXd>(const std::vec
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
                                        const InteractionRun& linear_run, std::vector<std::string>& warnings);
 
+/// Modes, static columns and derivatives of a body, before they become a basis; in the frame, modes M-normalised.
+struct BodyFields {
+  reduction::Columns columns;
+  std::vector<reduction::ColumnOrigin> origins;
+  BodyReport report;
+};
+/// Of a body with a mesh that is not rigid; derivatives that are chosen by count: all. Collective.
+BodyFields fields_of_body(const Prepared& prepared, int index);
+
 /// The first stage alone: modes and their residuals. Collective.
 std::vector<BodyReport> modes_of_bodies(const Prepared& prepared);
+
+/// A body from its file in a formulation: as it is (vm+md); on its modes and attachment columns alone (vm), which span
+/// the first coordinates because the basis was orthonormalised in this order; with the linear part of its elastic force
+/// (lffr).
+/// @throws InputError  vm: a derivative stands before a mode. Rank-local; the same everywhere.
+ReducedBody from_file(const PreparedBody& body, Formulation formulation);
 
 /// The mass of a body that does not deform. Collective.
 ReducedBody rigid(const PreparedBody& body);

@@ -51,8 +51,8 @@ HeldBody held_body(const Prepared& prepared, const ReducedBody& reduced, int b, 
   HeldBody held;
   for (int j : joints) {
     const Joint& joint = prepared.scene.joints[j];
-    const PreparedPlace& place = prepared.joints[j][prepared.joints[j][0].body < 0 ? 1 : 0];
-    const body::PlaceMap map = reduction::place_map(body.structure, *reduced.basis, place.node);
+    const PreparedPlace& place = prepared.joints[j][prepared.joints[j][0].ground() ? 1 : 0];
+    const body::PlaceMap map = place_map(prepared, reduced, place);
     HeldBody::Hold& hold = held.holds.emplace_back();
     hold.joint = j;
     hold.driven = joint.kind == Joint::Kind::driven;
@@ -134,10 +134,11 @@ void check_left_out(const Prepared& prepared, const HeldBody& held, int b, const
   for (int sample = 0; sample < 3; ++sample) {
     const auto [row, far] = departure(held, kept, sample);
     if (!(far > 1e-9 * prepared.extent)) continue;
+    const Where& place = body.reduced ? body.reduced->where : body.frame.where;
     throw InputError(fmt::format(
         "{}: several joints hold body {} to the ground, and its columns meet joint {} only while it is undeformed; "
         "expected frame: pinned, from one joint to the other, with attachment: joints, or modes: {{of: frame}}",
-        body.frame.where.text(), body.name, prepared.scene.joints[hold_of(held, row).joint].name));
+        place.text(), body.name, prepared.scene.joints[hold_of(held, row).joint].name));
   }
 }
 
@@ -180,16 +181,16 @@ std::vector<std::vector<int>> standing_rows(const Prepared& prepared, const std:
     std::iota(standing.back().begin(), standing.back().end(), 0);
   }
   for (int b = 0; b < static_cast<int>(reduced.size()); ++b) {
-    if (prepared.bodies[b].spec.rigid || !reduced[b].basis) continue;
+    if (prepared.bodies[b].spec.rigid || (!reduced[b].basis && !prepared.bodies[b].spec.reduced)) continue;
     std::vector<int> joints;
     std::set<PetscInt> nodes;
     for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
       const auto& [first, second] = prepared.joints[j];
       const Joint& joint = prepared.scene.joints[j];
-      if ((first.body < 0) == (second.body < 0) || std::max(first.body, second.body) != b || joint_rows(joint) == 0)
+      if (first.ground() == second.ground() || std::max(first.body, second.body) != b || joint_rows(joint) == 0)
         continue;
       joints.push_back(static_cast<int>(j));
-      nodes.insert(first.body < 0 ? second.node : first.node);
+      nodes.insert(first.ground() ? second.node : first.node);
     }
     if (nodes.size() < 2 || nodes.size() < joints.size()) continue;  // joints at one place contradict
     leave_out(prepared, held_body(prepared, reduced[b], b, joints), b, standing);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floe/scene/places.h"
+#include "prepare_reduced.h"
 #include "readers.h"
 
 namespace floe::scene {
@@ -34,13 +35,20 @@ std::optional<Point> world_point(const Body& body, const Point& node) {
                initial.position[2] + p[2]};
 }
 
+Point reduced_point(const Body& body, const Place& place) {
+  if (place.point) return *place.point;
+  const Eigen::Vector3d x = in_mesh(*body.reduced->file, named_place(body, place).map.x);
+  return {x.x(), x.y(), x.z()};
+}
+
 // Nothing when the place is wrong, which check_places has told.
 std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
   if (place.ground()) return Spot{nullptr, {}, place.point};
   for (const Body& body : scene.bodies) {
-    if (body.name != place.body || body.mesh.points.empty()) continue;
+    if (body.name != place.body || (body.mesh.points.empty() && !body.reduced)) continue;
+    if (body.reduced && !body.reduced->file) return {};
     try {
-      const Point node = place_point(body.mesh, place);
+      const Point node = body.reduced ? reduced_point(body, place) : place_point(body.mesh, place);
       return Spot{&body, node, world_point(body, node)};
     } catch (const InputError&) {
       return {};
@@ -55,7 +63,8 @@ void check_distance(Document& document, const Joint& joint, const Spot& first, c
     return;
   double size = 0;
   for (const Spot& spot : {first, second}) {
-    if (spot.body) size = std::max(size, total_length(spot.body->mesh));
+    if (!spot.body) continue;
+    size = std::max(size, spot.body->reduced ? extent_of(*spot.body->reduced->file) : total_length(spot.body->mesh));
   }
   const Point &p = *first.world, &q = *second.world;
   const double away = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "floe/scene/places.h"
+#include "prepare_reduced.h"
 #include "readers.h"
 
 namespace floe::scene {
@@ -36,6 +37,15 @@ void check_place(Document& document, const Scene& scene, const Place& place, boo
     return;
   }
   const Body* body = find_body(document, scene, place.body, place.where, may_be_ground);
+  if (body && body->reduced && body->reduced->file) {
+    if (place.point && body->reduced->file->has_shapes) return;  // found when the scene is built
+    try {
+      named_place(*body, place);
+    } catch (const InputError& error) {
+      document.fault(place.where, error);
+    }
+    return;
+  }
   if (!body || body->mesh.points.empty() || scene.dimension == 3) return;  // in space found on the mesh itself
   try {
     place_point(body->mesh, place);

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
-#include "floe/scene/nearest.h"
+#include "floe/math/nearest.h"
 
 namespace floe::scene {
 namespace {
@@ -30,7 +31,8 @@ void Document::fault(const Where& where, const std::string& wrong, const std::st
                      const std::vector<std::string>& known) {
   std::string text = fmt::format("{}: {}", where.text(), wrong);
   if (!expected.empty()) text += "; expected " + expected;
-  if (const std::string near = nearest(word, known); !near.empty()) text += fmt::format("; did you mean \"{}\"?", near);
+  if (const std::string near = math::nearest(word, known); !near.empty())
+    text += fmt::format("; did you mean \"{}\"?", near);
   faults_.push_back({where.line, where.column, one_line(text)});
 }
 
@@ -49,6 +51,17 @@ void Document::throw_faults() const {
     if (!std::count(texts.begin(), texts.end(), fault.text)) texts.push_back(fault.text);
   }
   throw InputError(texts);
+}
+
+std::string Document::beside(const std::string& path) const {
+  return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+std::shared_ptr<const output::ReducedBodyFile> Document::reduced_file(const std::string& path) {
+  std::shared_ptr<const output::ReducedBodyFile>& file_of_body = reduced_files_[path];
+  if (!file_of_body)
+    file_of_body = std::make_shared<const output::ReducedBodyFile>(output::read_reduced_body(PETSC_COMM_SELF, path));
+  return file_of_body;
 }
 
 Where Document::place_of(const YAML::Mark& mark, const std::string& key) const {

@@ -26,6 +26,11 @@ class Document {
   std::map<std::string, double> parameters;
   int dimension = 2;  ///< of the scene: how many coordinates a point has
 
+  /// A reduced body's file, read once. @throws InputError
+  std::shared_ptr<const output::ReducedBodyFile> reduced_file(const std::string& path);
+  /// A path of the scene, from its folder.
+  std::string beside(const std::string& path) const;
+
   /// Notes `FILE:LINE:COLUMN: KEY: wrong; expected EXPECTED; did you mean "NEAREST"?`, the last two where there are
   /// any.
   void fault(const Where& where, const std::string& wrong, const std::string& expected = {},
@@ -44,6 +49,7 @@ class Document {
     std::string text;
   };
   std::vector<Fault> faults_;
+  std::map<std::string, std::shared_ptr<const output::ReducedBodyFile>> reduced_files_;
 };
 
 /// The file's text. @throws InputError when it is missing, a folder, unreadable, too large (16 MiB) or not text

@@ -1,5 +1,5 @@
+#include "floe/math/nearest.h"
 #include "floe/scene/model.h"
-#include "floe/scene/nearest.h"
 
 namespace floe::scene {
 
@@ -11,7 +11,7 @@ Formulation formulation_of(const std::string& name) {
   const std::vector<std::string> names = formulation_names();
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return static_cast<Formulation>(i);
-  const std::string near = nearest(name, names);
+  const std::string near = math::nearest(name, names);
   throw InputError("--formulation: \"" + name + "\" is not one of cfr, nlffr, lffr, vm, vm+md" +
                    (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }

@@ -8,13 +8,13 @@ namespace floe::scene {
 
 std::vector<Value> read_list(Document& document, const Value& value, const Key& key, std::size_t count) {
   if (!value.node.IsSequence()) {
-    document.fault(value.where, shown(value.node), describe(key));
+    document.fault(value.where, shown(value.node), describe(key, document.dimension));
     return {};
   }
   if (count > 0 && value.node.size() != count) {
     const bool formulas = key.type == Type::formulas || key.type == Type::formula_of_place;
     document.fault(value.where, fmt::format("has length {}", value.node.size()),
-                   describe(key) + (formulas ? "; quote a formula that has a comma" : ""));
+                   describe(key, document.dimension) + (formulas ? "; quote a formula that has a comma" : ""));
     return {};
   }
   std::vector<Value> items;

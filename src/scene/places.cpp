@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "floe/error.h"
-#include "floe/scene/nearest.h"
+#include "floe/math/nearest.h"
 
 namespace floe::scene {
 namespace {
@@ -105,7 +105,7 @@ Point place_point(const MeshSpec& mesh, const Place& place) {
       number <= mesh.points.size() && place.name[1] != '0') {
     return mesh.points[number - 1];
   }
-  const std::string near = nearest(place.name, place_names(mesh));
+  const std::string near = math::nearest(place.name, place_names(mesh));
   throw InputError(fmt::format("{}: {} has no place \"{}\"; expected start, end{}, p1 to p{} or coordinates{}",
                                place.where.text(), place.body, place.name, unbranched(mesh) ? ", middle" : "",
                                mesh.points.size(), near.empty() ? "" : "; did you mean \"" + near + "\"?"));

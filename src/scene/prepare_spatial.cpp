@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "prepare_reduced.h"
+
 namespace floe::scene {
 namespace {
 
@@ -98,10 +100,18 @@ PreparedPlace find(const Scene& scene, const std::vector<PreparedBody>& bodies, 
                           : Eigen::Vector3d::Constant(std::nan(""));
     return found;
   }
-  if (place.body.empty()) return found;  // of a body that is not here
+  if (place.body.empty()) {
+    found.body = PreparedPlace::elsewhere;
+    return found;
+  }
   const Body* spec = body_of(scene, place);
   if (!spec) throw InputError(place.where.text() + ": no body \"" + place.body + "\"");
   const PreparedBody& body = bodies[spec - scene.bodies.data()];
+  if (spec->reduced) {
+    found = reduced_place(*spec, place, body.structure.mesh.comm);
+    found.body = static_cast<int>(spec - scene.bodies.data());
+    return found;
+  }
   found = spatial_place(*spec, body.structure, body.places, place, {body.origin, body.axes});
   found.body = static_cast<int>(spec - scene.bodies.data());
   return found;
@@ -137,17 +147,20 @@ void hold_by_joint(const Joint& joint, const PreparedPlace& place, const fem::Me
 
 Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   Prepared prepared{scene, comm, {}, {}, {}, {}, 0};
-  for (const Body& body : scene.bodies) prepared.bodies.push_back(prepare_body(scene, body, comm));
+  for (const Body& body : scene.bodies)
+    prepared.bodies.push_back(body.reduced ? prepare_reduced(body, comm) : prepare_body(scene, body, comm));
   const auto place = [&](const Place& p) { return find(scene, prepared.bodies, p); };
   for (const Joint& joint : scene.joints) {
     prepared.joints.push_back({place(joint.first), place(joint.second)});
     const auto& [first, second] = prepared.joints.back();
-    if ((first.body >= 0) == (second.body >= 0)) continue;
-    const PreparedPlace& held = first.body >= 0 ? first : second;
+    if (first.ground() == second.ground()) continue;
+    const PreparedPlace& held = first.ground() ? second : first;
+    if (held.map || held.body < 0) continue;
     PreparedBody& body = prepared.bodies[held.body];
     hold_by_joint(joint, held, body.structure.mesh, body.held);
   }
   for (PreparedBody& body : prepared.bodies) {
+    if (body.spec.reduced) continue;
     const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
     body.held.insert(body.held.end(), followers.begin(), followers.end());
     std::sort(body.held.begin(), body.held.end());

@@ -47,21 +47,6 @@ DampingSpec read_damping(Document& document, Reading& body) {
   return damping;
 }
 
-InitialSpec read_initial(Document& document, Reading& body) {
-  InitialSpec initial;
-  const auto value = body.value("initial");
-  if (!value) return initial;
-  initial.where = value->where;
-  Reading reading(document, *value, "initial");
-  if (reading.given("position")) initial.position = reading.point("position");
-  initial.angle = reading.number("angle");
-  if (reading.given("velocity")) initial.velocity = reading.point("velocity");
-  initial.angular_velocity = reading.number("angular_velocity");
-  initial.deformation = reading.formulas("deformation", {"x", "y"});
-  initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
-  return initial;
-}
-
 // The default count of modes fits every mesh; what the file asks for is taken at its word.
 void fit_default_modes(Reading& body, Body& out) {
   const auto reduction = body.value("reduction");
@@ -81,6 +66,21 @@ void refuse_planar_keys(Document& document, const Reading& reading) {
 
 }  // namespace
 
+InitialSpec read_initial(Document& document, Reading& body) {
+  InitialSpec initial;
+  const auto value = body.value("initial");
+  if (!value) return initial;
+  initial.where = value->where;
+  Reading reading(document, *value, "initial");
+  if (reading.given("position")) initial.position = reading.point("position");
+  initial.angle = reading.number("angle");
+  if (reading.given("velocity")) initial.velocity = reading.point("velocity");
+  initial.angular_velocity = reading.number("angular_velocity");
+  initial.deformation = reading.formulas("deformation", {"x", "y"});
+  initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
+  return initial;
+}
+
 Body read_body(Document& document, const std::string& name, const Value& value) {
   const std::size_t before = document.fault_count();
   Body body;
@@ -88,6 +88,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.where = value.where;
   Reading reading(document, value, "body");
   if (!value.node.IsMap()) return body;
+  if (reading.given("reduced")) return read_reduced(document, name, reading);
   if (const auto mesh = reading.value("mesh")) body.mesh = read_mesh(document, *mesh);
   body.rigid = reading.flag("rigid");
   const bool in_space = document.dimension == 3;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 #include "readers.h"
@@ -101,8 +100,7 @@ void read_plate(Document& document, const Value& value, MeshSpec& mesh) {
 void read_file(Document& document, const Value& value, MeshSpec& mesh) {
   Reading reading(document, value, "file");
   mesh.file = MeshFileSpec{reading.text("path"), {}, reading.number("scale")};
-  const std::filesystem::path beside = std::filesystem::path(document.file).parent_path();
-  mesh.file->path = (beside / mesh.file->path).lexically_normal().string();
+  mesh.file->path = document.beside(mesh.file->path);
 }
 
 // Two points at one place would give two nodes that nothing holds together, and a segment between them no direction.

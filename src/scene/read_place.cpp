@@ -3,6 +3,11 @@
 #include "readers.h"
 
 namespace floe::scene {
+namespace {
+
+std::string coordinates(const Document& document) { return document.dimension == 3 ? "[x, y, z]" : "[x, y]"; }
+
+}  // namespace
 
 Place read_place(Document& document, const Value& value, const Key& key) {
   Place place;
@@ -21,11 +26,12 @@ Place read_place(Document& document, const Value& value, const Key& key) {
     place.body = text;
   } else if (text.starts_with("ground.")) {
     document.fault(value.where, shown(value.node) + ", but the ground has no named places",
-                   "ground or {body: ground, node: [x, y]}");
+                   "ground or {body: ground, node: " + coordinates(document) + "}");
   } else if (dot == std::string::npos || dot == 0 || dot + 1 == text.size()) {
-    document.fault(
-        value.where, shown(value.node),
-        key.type == Type::places ? "a place (BODY.NAME, ground, or {body: BODY, node: [x, y]})" : describe(key));
+    document.fault(value.where, shown(value.node),
+                   key.type == Type::places
+                       ? "a place (BODY.NAME, ground, or {body: BODY, node: " + coordinates(document) + "})"
+                       : describe(key, document.dimension));
   } else {
     place.body = text.substr(0, dot);
     place.name = text.substr(dot + 1);
@@ -44,7 +50,7 @@ Place read_own_place(Document& document, const Value& value, const Key& key, con
   } else if (value.node.IsScalar()) {
     place.name = value.node.Scalar();
   } else {
-    document.fault(value.where, shown(value.node), describe(key));
+    document.fault(value.where, shown(value.node), describe(key, document.dimension));
     place.body.clear();
   }
   return place;

@@ -31,12 +31,24 @@ std::vector<Part> read_named(Document& document, Reading& scene, const std::stri
   return parts;
 }
 
-// A scene is in space as soon as a mesh has a point of three coordinates, is a plate or comes from a file.
-bool in_space(const YAML::Node& root) {
+// Whether a body that was reduced before is in space; what is wrong with its file is told when it is read.
+bool reduced_in_space(Document& document, const YAML::Node& body) {
+  if (!body.IsMap() || !body["reduced"] || !body["reduced"].IsScalar()) return false;
+  try {
+    return document.reduced_file(document.beside(body["reduced"].Scalar()))->dimension == 3;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+// A scene is in space as soon as a mesh has a point of three coordinates, is a plate or comes from a file, or a reduced
+// body is.
+bool in_space(Document& document, const YAML::Node& root) {
   const auto three = [](const YAML::Node& point) { return point && point.IsSequence() && point.size() == 3; };
   const YAML::Node bodies = root["bodies"];
   if (!bodies || !bodies.IsMap()) return false;
   for (const auto& body : bodies) {
+    if (reduced_in_space(document, body.second)) return true;
     const YAML::Node mesh = body.second.IsMap() ? body.second["mesh"] : YAML::Node();
     if (!mesh || !mesh.IsMap()) continue;
     if (mesh["file"] || mesh["plate"]) return true;
@@ -61,7 +73,7 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   scene.text = text;
   Reading reading(document, root, "scene");
   if (!root.node.IsMap()) document.throw_faults();
-  scene.dimension = document.dimension = in_space(root.node) ? 3 : 2;
+  scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   scene.title = reading.text("title");
   if (reading.given("gravity")) scene.gravity = reading.point("gravity");

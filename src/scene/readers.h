@@ -10,6 +10,10 @@ namespace floe::scene {
 
 MeshSpec read_mesh(Document& document, const Value& value);
 Body read_body(Document& document, const std::string& name, const Value& value);
+/// A body that was reduced before: its file and the start, beside which no other key has a meaning.
+Body read_reduced(Document& document, const std::string& name, Reading& body);
+/// Position, velocity and deformation at the start.
+InitialSpec read_initial(Document& document, Reading& body);
 /// The keys section and material of a body.
 Section read_section(Document& document, Reading& body, bool rigid);
 /// The keys section, material and parts of a body in space.
@@ -21,9 +25,10 @@ Motion read_motion(Document& document, const Value& value);
 Probe read_probe(Document& document, const std::string& name, const Value& value);
 void read_parameters(Document& document, const Value& value);
 
-/// `beam.end`, `ground` or {body: beam, node: [x, y]}; whether they exist is checked once all bodies are read.
+/// `beam.end`, `ground` or {body: beam, node: [x, y]} (in space [x, y, z]); whether they exist is checked once all
+/// bodies are read.
 Place read_place(Document& document, const Value& value, const Key& key);
-/// A place of the body itself: `end` or [x, y].
+/// A place of the body itself: `end`, [x, y] or [x, y, z].
 Place read_own_place(Document& document, const Value& value, const Key& key, const std::string& body);
 
 // What only the whole scene can tell; each notes faults.

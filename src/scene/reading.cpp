@@ -45,7 +45,7 @@ std::optional<Value> Reading::value(const std::string& name) {
   const Key& key = section_.key(name);
   if (const auto found = values_.find(name); found != values_.end()) return found->second;
   if (key.fallback == Key::required) {
-    if (mapping_) document_.fault(where(name), "is missing", describe(key));
+    if (mapping_) document_.fault(where(name), "is missing", describe(key, document_.dimension));
     return {};
   }
   if (key.fallback.empty()) return {};
@@ -56,7 +56,7 @@ std::string Reading::text(const std::string& name) {
   const auto found = value(name);
   if (!found) return "";
   if (found->node.IsScalar()) return found->node.Scalar();
-  document_.fault(found->where, shown(found->node), describe(key(name)));
+  document_.fault(found->where, shown(found->node), describe(key(name), document_.dimension));
   return "";
 }
 

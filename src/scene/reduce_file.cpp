@@ -4,11 +4,12 @@
 #include <algorithm>
 
 #include "build_reduce.h"
+#include "floe/math/nearest.h"
 #include "floe/petsc/values.h"
 #include "floe/reduction/place_set.h"
-#include "floe/scene/nearest.h"
 #include "floe/scene/places.h"
 #include "floe/scene/reduced.h"
+#include "mesh_copy.h"
 
 namespace floe::scene {
 
@@ -24,12 +25,14 @@ int index_of(const Scene& scene, const std::string& name) {
                                  names.size(), fmt::join(names, ", ")));
   const auto found = name.empty() ? names.begin() : std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    const std::string near = nearest(name, names);
+    const std::string near = math::nearest(name, names);
     throw InputError(fmt::format("{}: there is no body \"{}\"; expected one of {}{}", scene.file, name,
                                  fmt::join(names, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   const Body& body = scene.bodies[found - names.begin()];
   if (body.rigid) throw InputError(fmt::format("{}: is rigid; expected a body with modes", body.where.text()));
+  if (body.reduced)
+    throw InputError(fmt::format("{}: is reduced already; expected a body with a mesh", body.reduced->where.text()));
   const DerivativesSpec& derivatives = body.reduction.derivatives;
   if (derivatives.choice == DerivativesSpec::Choice::count)
     throw InputError(
@@ -58,20 +61,9 @@ Scene alone(const Scene& scene, int index) {
   return part;
 }
 
-std::string kind_of(fem::ReferenceFrame::Kind kind) {
-  switch (kind) {
-    case fem::ReferenceFrame::Kind::pinned:
-      return "pinned";
-    case fem::ReferenceFrame::Kind::clamped:
-      return "clamped";
-    default:
-      return "mean-axis";
-  }
-}
-
 output::ReducedFrame frame_of(const PreparedBody& body) {
-  if (body.structure.dimension() == 3) return {kind_of(body.frame.kind), body.origin, body.axes};
-  return {kind_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
+  if (body.structure.dimension() == 3) return {name_of(body.frame.kind), body.origin, body.axes};
+  return {name_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
 }
 
 std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const PreparedBody& body,
@@ -115,38 +107,10 @@ std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
   return columns;
 }
 
-output::ReducedShapes::Kind vtk_kind(fem::CellKind kind) {
-  using Kind = output::ReducedShapes::Kind;
-  switch (kind) {
-    case fem::CellKind::point:
-      return Kind::vertex;
-    case fem::CellKind::line:
-      return Kind::line;
-    case fem::CellKind::triangle:
-      return Kind::triangle;
-    default:
-      return Kind::quadrilateral;
-  }
-}
-
-/// Copies of the mesh in original numbers; the columns are read from the basis when they are written.
+/// With the sets of nodes; the columns are read from the basis when they are written.
 output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis& basis) {
   const fem::Mesh& mesh = body.structure.mesh;
-  output::ReducedShapes shapes;
-  shapes.dofs_per_node = body.structure.dofs_per_node;
-  for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
-    shapes.nodes.push_back(mesh.original_node(static_cast<int>(i)));
-    shapes.positions.push_back(mesh.positions[i]);
-  }
-  for (const fem::Mesh::Cell& cell : mesh.cells) {
-    output::ReducedShapes::Cell copy{vtk_kind(cell.kind), cell.part, {-1, -1, -1, -1}};
-    for (std::size_t i = 0; i < cell.corners().size(); ++i) copy.nodes[i] = mesh.original_node(cell.corners()[i]);
-    shapes.cells.push_back(copy);
-  }
-  shapes.parts = body.parts;
-  if (shapes.parts.empty())
-    for (std::size_t s = 0; s < body.structure.sections.size(); ++s)
-      shapes.parts.push_back(fmt::format("part {}", s + 1));
+  output::ReducedShapes shapes = mesh_copy(body);
   for (const auto& [name, nodes] : body.places) {
     std::vector<std::int64_t>& mine = shapes.sets[name];
     for (PetscInt node : nodes)
@@ -203,6 +167,7 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
                        {"projection", report.seconds_projection}};
   const output::ReducedShapes shapes = shapes_of(body, *reduced[0].basis);
   output::write_reduced_body(comm, path, file, overwrite, &shapes);
+  file.has_shapes = true;
   return file;
 }
 

@@ -52,6 +52,9 @@ const SchemaSection body_section{
     "frame: pinned\nreduction: {modes: 12}",
     {
         part("mesh", Type::section, required, "the undeformed shape, in the axes of the mesh", "mesh"),
+        {"reduced", Type::text, "", "",
+         "instead of all other keys but initial: a file that `floe reduce` wrote, relative to the folder of the "
+         "scene; its places are those of the file"},
         part("section", Type::section, "",
              "cross-section, or stiffness and mass per length; in space: of all parts that `parts` does not name",
              "section"),

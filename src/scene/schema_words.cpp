@@ -38,7 +38,9 @@ const SchemaSection& schema_section(const std::string& name) {
   throw std::logic_error("the grammar has no section " + name);
 }
 
-std::string describe(const Key& key) {
+std::string describe(const Key& key, int dimension) {
+  const bool space = dimension == 3;
+  const std::string coordinates = space ? "[x, y, z]" : "[x, y]", count = space ? "three" : "two";
   switch (key.type) {
     case Type::text:
       return "a text";
@@ -53,9 +55,9 @@ std::string describe(const Key& key) {
     case Type::numbers:
       return "a list of numbers";
     case Type::point:
-      return "two numbers [x, y]";
+      return fmt::format("{} numbers {}", count, coordinates);
     case Type::points:
-      return "a list of points [x, y]";
+      return "a list of points " + coordinates;
     case Type::joins:
       return "a list of pairs of point numbers [i, j]";
     case Type::pair:
@@ -63,7 +65,7 @@ std::string describe(const Key& key) {
     case Type::formula:
       return "a number or a formula of t";
     case Type::formulas:
-      return "two formulas of t [x, y]";
+      return fmt::format("{} formulas of t {}", count, coordinates);
     case Type::formula_of_place:
       return "two formulas of x and y [u, v]";
     case Type::choice:
@@ -71,11 +73,11 @@ std::string describe(const Key& key) {
     case Type::derivatives:
       return "all, none, an integer or a list of pairs [i, j]";
     case Type::place:
-      return "a place (BODY.NAME, or {body: BODY, node: [x, y]})";
+      return "a place (BODY.NAME, or {body: BODY, node: " + coordinates + "})";
     case Type::places:
       return "two places [BODY.NAME, BODY.NAME], either may be ground";
     case Type::own_place:
-      return "the name of a place of this body, or a node's coordinates [x, y]";
+      return "the name of a place of this body, or a node's coordinates " + coordinates;
     case Type::body:
       return "the name of a body";
     case Type::parameters:

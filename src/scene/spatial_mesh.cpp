@@ -6,12 +6,12 @@
 #include <numeric>
 
 #include "deck_sections.h"
+#include "floe/math/nearest.h"
 #include "floe/mesh/generate.h"
 #include "floe/mesh/gmsh.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
 #include "floe/mesh/partition.h"
-#include "floe/scene/nearest.h"
 #include "prepare_spatial.h"
 
 namespace floe::scene {
@@ -138,7 +138,7 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
   for (const PartSpec& spec : body.parts) {
     const auto& known = source.mesh.parts;
     if (spec.part.empty() || std::count(known.begin(), known.end(), spec.part) > 0) continue;
-    const std::string near = nearest(spec.part, known);
+    const std::string near = math::nearest(spec.part, known);
     faults.push_back(fmt::format("{}: the mesh has no part \"{}\"; expected one of {}{}", spec.where.text(), spec.part,
                                  fmt::join(known, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
@@ -248,7 +248,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
     if (set == places.end()) {
       std::vector<std::string> names;
       for (const auto& entry : places) names.push_back(entry.first);
-      const std::string near = nearest(place.name, names);
+      const std::string near = math::nearest(place.name, names);
       throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(),
                                    place.body, place.name,
                                    names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),

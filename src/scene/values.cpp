@@ -107,7 +107,7 @@ int read_integer(Document& document, const Value& value, const Key& key) {
 bool read_flag(Document& document, const Value& value, const Key& key) {
   bool flag = false;
   if (value.node.IsScalar() && YAML::convert<bool>::decode(value.node, flag)) return flag;
-  document.fault(value.where, shown(value.node), describe(key));
+  document.fault(value.where, shown(value.node), describe(key, document.dimension));
   return false;
 }
 
@@ -116,7 +116,7 @@ std::string read_choice(Document& document, const Value& value, const Key& key) 
   for (const auto& choice : key.choices) {
     if (word == choice) return word;
   }
-  document.fault(value.where, shown(value.node), describe(key), word, key.choices);
+  document.fault(value.where, shown(value.node), describe(key, document.dimension), word, key.choices);
   return "";
 }
 

@@ -4,6 +4,7 @@ import os
 import signal
 from typing import Callable, Optional, Union
 
+import reduced
 from results import absent, files, full, kept, killed, no_error_of, no_results, nothing, stands
 from scenes import GAP, RIGID, scene
 
@@ -272,4 +273,25 @@ UNUSUAL = [
          check=lambda folder: (files("finished", 51, out="out/vm")(folder), stands("out/compare.csv")(folder))),
 ]
 
-CASES = COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+REDUCED = [
+    Case("reduced body", run(), scene=reduced.from_file(), prepare=reduced.made(), check=files("finished", 51)),
+    Case("reduced body, compared", ["compare", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
+         prepare=reduced.made(), check=stands("out/compare.csv"), shows=("lffr", "vm+md"), lines=0),
+    *(Case(f"reduced body, {word}", [word, "scene.yaml"], scene=reduced.from_file(), prepare=reduced.made(),
+           shows=(shown,), lines=0) for word, shown in (("check", "from beam.h5"), ("modes", "rad/s"))),
+    *(Case(f"reduced body, {formulation}", run(formulation), 2, scene=reduced.from_file(), prepare=reduced.made(),
+           says=("bodies.beam.reduced: has no mesh",), lines=1, check=no_results)
+      for formulation in ("nlffr", "cfr")),
+    *(Case(f"reduced body: {name}", run(), 2, scene=reduced.from_file(), prepare=prepare, lines=1, check=no_results,
+           says=("scene.yaml:", "bodies.beam.reduced: ", says))
+      for name, prepare, says in (
+          ("missing", None, "there is no file"), ("cut off", reduced.cut, "expected an HDF5 file, whole"),
+          ("of another version", reduced.attribute("version", 2), "found version 2"),
+          ("of a killed writer", reduced.attribute("complete", 0), "whose writing was broken off"),
+          ("damaged", reduced.made(reduced.damage), "the file is damaged"),
+          ("a folder", lambda folder: (folder / "beam.h5").mkdir(), "is not a file"))),
+    Case("reduced body, unknown place", run(), 2, ('has no place "ende"', 'did you mean "end"?'), lines=1,
+         scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
+]
+
+CASES = REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

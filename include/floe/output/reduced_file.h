@@ -117,6 +117,21 @@ void write_reduced_body(MPI_Comm comm, const std::filesystem::path& path, const 
 /// Collective; rank 0 reads.
 ReducedBodyFile read_reduced_body(MPI_Comm comm, const std::filesystem::path& path);
 
+/// A node of the shapes in a file.
+struct ReducedNode {
+  std::int64_t number = 0;  ///< original
+  double distance = 0;      ///< from the point asked for [m]
+  double extent = 0;        ///< diagonal of the box around all nodes [m]
+  body::PlaceMap map;
+};
+/// The node nearest to a point, of equally near ones the first, with its rows of the basis.
+///
+/// @param file  what read_reduced_body gave of `path`, with shapes
+/// @param x     d, in the axes of the floating frame
+/// @throws InputError  as read_reduced_body. Collective; rank 0 reads all positions and one node's rows.
+ReducedNode nearest_node(MPI_Comm comm, const std::filesystem::path& path, const ReducedBodyFile& file,
+                         const Eigen::VectorXd& x);
+
 /// Bytes that the motion needs of the body: its constants, without work space.
 std::int64_t online_bytes(const ReducedBodyFile& file);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,16 +23,20 @@ bool is_reduced(Formulation formulation);
 
 /// A node that something acts on.
 struct PreparedPlace {
-  int body = -1;  ///< index of prepared bodies, -1: ground
+  int body = -1;  ///< index of prepared bodies; -1: ground; elsewhere: a body that is not here
   PetscInt node = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
   std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
+  std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
+
+  static constexpr int elsewhere = -2;
+  bool ground() const { return body == -1; }
 };
 
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
 struct PreparedBody {
   Body spec;
-  fem::Structure structure;  ///< positions in the axes of the floating frame
+  fem::Structure structure;  ///< positions in the axes of the floating frame; of a body from a file: none
   fem::ReferenceFrame frame;
   Eigen::Vector2d frame_origin;                              ///< in mesh axes
   double frame_angle = 0;                                    ///< of the frame in mesh axes
@@ -50,8 +55,10 @@ struct PreparedBody {
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
 struct BodyReport {
   std::string name;
+  std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
+  std::string frame = {};  ///< pinned, clamped, mean-axis; set by body_sizes
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
@@ -96,11 +103,20 @@ struct Model {
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
-/// by itself. @throws InputError, RunError. Collective.
+/// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
+
+/// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
+std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
 
 /// Vibration modes of every flexible body as its reduction asks for them. Collective.
 std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
+
+/// The same, and their shapes into an XDMF file over an HDF5 file (output/shape_file.h): modes, attachment columns and
+/// derivatives of every body with a mesh, in its axes, undeformed positions as the mesh has them.
+/// @throws InputError  as output::check_shapes_path; no body with a mesh. Collective.
+std::vector<BodyReport> write_modes(const Scene& scene, MPI_Comm comm, const std::filesystem::path& path,
+                                    bool overwrite);
 
 /// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
 Scene split_frames(const Scene& scene);

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "floe/fem/structure.h"
 #include "floe/math/formula.h"
+#include "floe/output/reduced_file.h"
 
 namespace floe::scene {
 
@@ -21,9 +23,9 @@ struct Where {
   std::string text() const;  ///< `scene.yaml:12:5: bodies.beam.section.A`
 };
 
-/// A node of a body, by name (start, end, middle, or a point pN of the polyline, N from 1) or by coordinates in the
-/// axes of the body's mesh; or a point of the ground (world axes). Written `beam.end`, `{body: beam, node: [50, 0]}`,
-/// `ground`,
+/// A node of a body, by name (start, end, middle, or a point pN of the polyline, N from 1; sets of a mesh in space;
+/// those in the file of a reduced body) or by coordinates in the axes of the body's mesh; or a point of the ground
+/// (world axes). Written `beam.end`, `{body: beam, node: [50, 0]}`, `ground`,
 /// `{body: ground, node: [0, 3]}`. A ground without a point follows the other place of the joint as it is at the start.
 struct Place {
   std::string body;
@@ -119,8 +121,18 @@ struct InitialSpec {
   Where where;
 };
 
+/// A body that was reduced before, from the file that `floe reduce` wrote.
+struct ReducedSpec {
+  std::string path;
+  std::shared_ptr<const output::ReducedBodyFile> file;
+  Where where;
+};
+
+/// A structure by its mesh, or one that was reduced before; then only the name, `reduced` and the pose at the start
+/// count.
 struct Body {
   std::string name;
+  std::optional<ReducedSpec> reduced;
   MeshSpec mesh;
   Section section;              ///< in the plane
   std::vector<PartSpec> parts;  ///< in space
@@ -179,7 +191,7 @@ struct Probe {
 /// A scene: plain data, checked, all numbers finite. Nothing is built yet.
 struct Scene {
   std::string file;
-  int dimension = 2;  ///< 3 as soon as a mesh has three coordinates or comes from a file
+  int dimension = 2;  ///< 3 as soon as a mesh has three coordinates or comes from a file, or a reduced body is in space
   std::string title;
   std::string text;  ///< the file as read
   std::map<std::string, double> parameters;

@@ -69,6 +69,7 @@ const std::vector<SchemaSection>& schema();
 const SchemaSection& schema_section(const std::string& name);
 
 /// In words: `a number or a formula of the parameters`, `one of pinned, clamped, mean-axis`.
-std::string describe(const Key& key);
+/// @param dimension  of the scene: how many coordinates a point has
+std::string describe(const Key& key, int dimension = 2);
 
 }  // namespace floe::scene

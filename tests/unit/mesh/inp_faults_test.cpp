@@ -61,7 +61,7 @@ TEST_CASE("sections that do not fit the elements are refused") {
   CHECK_THAT(said(nodes + elements + "*ELEMENT, TYPE=B31, ELSET=E\n3, 1, 3\n" + section),
              Contains("bad.inp:10: element 3 needs a *BEAM SECTION, set 'E' has another section"));
   CHECK_THAT(said(nodes + elements + "*SHELL SECTION, ELSET=EE, MATERIAL=N\n1\n" + section),
-             Contains("there is no material 'N', did you mean M?"));
+             Contains("there is no material 'N'"));
   CHECK_THAT(said(nodes + elements + section + "*ELSET, ELSET=F\n8\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"),
              Contains("element set F names element 8, which is not defined"));
   CHECK_THAT(said(nodes + elements + section + "*SHELL SECTION, ELSET=E, MATERIAL=M\n0\n"),

@@ -197,6 +197,7 @@ TEST_CASE("the examples are read") {
   CHECK(arm.loads[0].moment(2.5) == 80);
   CHECK(arm.loads[0].moment(7) == 0);
   CHECK(arm.bodies[0].section.rhoI == 1.0 / 48);
+  CHECK(read_scene("examples/blade/scene.yaml").dimension == 3);
   const Scene spin = read_scene("examples/spin_up/scene.yaml");
   CHECK(spin.joints[0].angle(15) == Approx(45));  // Om Ts/2
   CHECK(spin.joints[0].angle.derivative(20) == Approx(6));

@@ -164,7 +164,7 @@ TEST_CASE("generated meshes: faults of their keys and of their shape") {
         Faults{"s.yaml:3:5: bodies.b.mesh: plate: edges a and b are parallel"});
   CHECK(faults("plate: {along: [2, 0], across: [1, 0, 0], elements: [4, 2]}")
             .at(0)
-            .starts_with("s.yaml:3:27: bodies.b.mesh.plate.along: has length 2"));
+            .starts_with("s.yaml:3:27: bodies.b.mesh.plate.along: has length 2; expected three numbers [x, y, z]"));
   CHECK(faults("plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 2], cells: quads}") ==
         Faults{"s.yaml:3:82: bodies.b.mesh.plate.cells: is \"quads\"; expected one of triangles, quadrilaterals"});
   CHECK(

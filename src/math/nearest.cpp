@@ -1,9 +1,9 @@
-#include "floe/scene/nearest.h"
+#include "floe/math/nearest.h"
 
 #include <algorithm>
 #include <cctype>
 
-namespace floe::scene {
+namespace floe::math {
 namespace {
 
 std::string lower(std::string text) {
@@ -49,4 +49,4 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
   return best;
 }
 
-}  // namespace floe::scene
+}  // namespace floe::math

@@ -1,8 +1,8 @@
-#include "floe/scene/nearest.h"
+#include "floe/math/nearest.h"
 
 #include <catch2/catch.hpp>
 
-using floe::scene::nearest;
+using floe::math::nearest;
 
 TEST_CASE("the nearest word is the one with the least edit distance") {
   const std::vector<std::string> known{"elements", "from", "to", "tolerance", "spectral_radius"};

@@ -1,0 +1,163 @@
+#include <catch2/catch.hpp>
+
+#include "floe/scene/reduced.h"
+#include "spatial_scene.h"
+
+using namespace floe;
+using Faults = std::vector<std::string>;
+
+namespace {
+
+const std::string beam =
+    "bodies: {b: {mesh: {line: {from: [0, 0], to: [2, 0], elements: 4}}, section: {EA: 1e4, EI: 1, "
+    "rhoA: 1}, reduction: {modes: 2}}}\n";
+const std::string plate = testing::one_body(testing::plate, testing::thickness + testing::metal,
+                                            "joints: {j: {type: fixed, between: [ground, b.left]}}\n");
+
+/// Files of a beam in the plane and a plate in space, beside the scene.
+struct Files {
+  testing::Folder folder;
+  Files() {
+    std::vector<std::string> warnings;
+    for (const auto& [name, text] : {std::pair("beam.h5", beam), std::pair("plate.h5", plate)})
+      scene::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / name, true, warnings);
+  }
+  /// Faults of a scene of these lines, their file names without folders.
+  Faults faults(const std::string& text, scene::Formulation formulation = scene::Formulation::vm_md) const {
+    Faults all;
+    try {
+      scene::build(scene::parse_scene(text, (folder.path / "s.yaml").string()), formulation, PETSC_COMM_WORLD);
+    } catch (const InputError& error) {
+      all = error.faults();
+    }
+    const std::string here = folder.path.string() + "/";
+    for (std::string& fault : all)
+      for (std::size_t at = fault.find(here); at != std::string::npos; at = fault.find(here))
+        fault.erase(at, here.size());
+    return all;
+  }
+};
+
+const std::string motion = "motion: {end: 1, step: 0.1}\n";
+
+}  // namespace
+
+TEST_CASE("a body from a file is read, relative to the scene's folder, in the dimension of the file") {
+  const Files files;
+  const auto read = [&](const std::string& name) {
+    return scene::parse_scene("bodies: {b: {reduced: " + name + "}}\n", (files.folder.path / "s.yaml").string());
+  };
+  CHECK(read("beam.h5").dimension == 2);
+  CHECK(read("plate.h5").dimension == 3);
+  CHECK(read("plate.h5").bodies.at(0).reduced->file->nodes == 15);
+  CHECK(read("../" + files.folder.path.filename().string() + "/beam.h5").bodies.at(0).reduced->file->name == "b");
+}
+
+TEST_CASE("keys beside a reduced body are refused, each where it stands") {
+  const Files files;
+  const Faults found = files.faults(
+      "bodies:\n  b:\n    reduced: beam.h5\n    rigid: false\n    frame: pinned\n    mesh: 1\n"
+      "    section: {A: 1}\n    damping: {mass: 1}\n    reduction: {modes: 3}\n");
+  CHECK(found.at(0) == "s.yaml:4:12: bodies.b.rigid: does not apply beside reduced; expected it only with a mesh");
+  CHECK(found.size() == 6);
+  CHECK(files.faults("bodies: {b: {reduced: beam.h5, initial: {angle: 1, deformation: [0, x]}}}\n") ==
+        Faults{"s.yaml:1:65: bodies.b.initial.deformation: does not apply to a body from a file; expected it only with "
+               "a mesh"});
+  CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {angle: 1}}}\n") ==
+        Faults{"s.yaml:1:33: bodies.b.initial: does not apply here; expected it only in a scene in the plane"});
+}
+
+TEST_CASE("a file that is missing or of another kind is one fault at its key") {
+  const Files files;
+  CHECK(files.faults("bodies: {b: {reduced: bem.h5}}\nprobes: {p: {at: b.tip}}\n") ==
+        Faults{"s.yaml:1:23: bodies.b.reduced: there is no file \"bem.h5\"; expected one that `floe reduce` wrote, "
+               "relative to the folder of the scene"});
+  CHECK(files.faults("bodies: {b: {reduced: ''}}\n") ==
+        Faults{"s.yaml:1:23: bodies.b.reduced: is empty; expected a file that `floe reduce` wrote"});
+  CHECK(files.faults("bodies: {b: {reduced: [1]}}\n").size() == 1);
+  files.folder.write("text.h5", "no HDF5");
+  const Faults found = files.faults("bodies: {b: {reduced: text.h5}}\n");
+  CHECK(found.size() == 1);
+  CHECK(found.at(0).starts_with("s.yaml:1:23: bodies.b.reduced: reduced body 'text.h5': expected an HDF5 file, whole"));
+  CHECK(files.faults("bodies: {a: {reduced: beam.h5}, b: {reduced: plate.h5}}\n") ==
+        Faults{"s.yaml:1:23: bodies.a.reduced: \"beam.h5\" holds a body in the plane, and the scene is in space; "
+               "expected bodies that are all in the plane, or all in space"});
+}
+
+TEST_CASE("places of a reduced body are those of its file, or nodes of its shapes") {
+  const Files files;
+  const std::string held = "bodies: {b: {reduced: plate.h5}}\njoints: {j: {type: fixed, between: [ground, b.left]}}\n";
+  CHECK(files.faults(held + "probes: {p: {at: b.p2}, q: {at: {body: b, node: [1, 0.5, 0]}}}\n").empty());
+  CHECK(files.faults(held + "probes: {p: {at: b.rigth}}\n") ==
+        Faults{"s.yaml:3:18: probes.p.at: b has no place \"rigth\"; expected one of bottom, centre, left, p1, p2, p3, "
+               "p4, right, "
+               "top, or coordinates; did you mean \"right\"?"});
+  CHECK(files.faults(held + "probes: {p: {at: {body: b, node: [1, 0.4, 0]}}}\n") ==
+        Faults{"s.yaml:3:14: probes.p.at: no node of b at (1, 0.4, 0); the nearest node is at (1, 0.5, 0)"});
+  CHECK(files.faults("bodies: {b: {reduced: beam.h5}}\njoints: {j: {type: revolute, between: [b.end, b.end]}}\n") ==
+        Faults{"s.yaml:2:10: joints.j: joins a place with itself; expected two different places"});
+  CHECK(files
+            .faults("bodies: {b: {reduced: beam.h5}}\njoints: {j: {type: revolute, between: [{body: ground, node: [1, "
+                    "0]}, b.end]}}\n")
+            .at(0)
+            .find("are 1 apart at the start") != std::string::npos);
+}
+
+TEST_CASE("nodes by coordinates need the shapes in the file") {
+  const Files files;
+  const std::string path = (files.folder.path / "beam.h5").string();
+  output::write_reduced_body(PETSC_COMM_WORLD, path, output::read_reduced_body(PETSC_COMM_WORLD, path), true);
+  CHECK(files.faults("bodies: {b: {reduced: beam.h5}}\nprobes: {p: {at: {body: b, node: [1, 0]}}, q: {at: b.end}}\n") ==
+        Faults{
+            "s.yaml:2:14: probes.p.at: names a node by coordinates, and \"beam.h5\" has no shapes to find it; expected "
+            "one of end, middle, start"});
+}
+
+TEST_CASE("a reduced body in space stands where it was held when its file was made") {
+  const Files files;
+  const std::string body = "bodies: {b: {reduced: plate.h5}}\n";
+  CHECK(files.faults(body).at(0).starts_with("s.yaml:1:10: bodies.b: floats;"));
+  CHECK(files.faults(body + "joints: {j: {type: fixed, between: [ground, b.left]}, k: {type: fixed, between: [b.p3, "
+                            "ground]}}\n") ==
+        Faults{"s.yaml:2:55: joints.k: holds body b where its columns move; expected a place where it was held when "
+               "plate.h5 was made"});
+}
+
+TEST_CASE("a body that is reduced already is not reduced again") {
+  const Files files;
+  std::vector<std::string> warnings;
+  const scene::Scene scene =
+      scene::parse_scene("bodies: {b: {reduced: beam.h5}}\n", (files.folder.path / "s.yaml").string());
+  CHECK_THROWS_WITH(scene::reduce_body(scene, "", PETSC_COMM_WORLD, files.folder.path / "again.h5", true, warnings),
+                    Catch::EndsWith("bodies.b.reduced: is reduced already; expected a body with a mesh"));
+}
+
+TEST_CASE("the vm of a file needs its modes before its derivatives") {
+  const Files files;
+  const std::string path = (files.folder.path / "beam.h5").string();
+  output::ReducedBodyFile file = output::read_reduced_body(PETSC_COMM_WORLD, path);
+  std::swap(file.columns.front(), file.columns.back());
+  output::write_reduced_body(PETSC_COMM_WORLD, path, file, true);
+  const std::string text = "bodies: {b: {reduced: beam.h5}}\n" + motion;
+  CHECK(files.faults(text).empty());
+  CHECK(files.faults(text, scene::Formulation::vm).at(0).find("a derivative stands before a mode") !=
+        std::string::npos);
+}
+
+TEST_CASE("another body of the scene does not hold the one that is reduced") {
+  const auto first = [](const std::string& rest) {
+    const testing::Folder folder;
+    std::vector<std::string> warnings;
+    return scene::reduce_body(scene::parse_scene(rest, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / "b.h5", true,
+                              warnings)
+        .omega.at(0);
+  };
+  const std::string two =
+      beam.substr(0, beam.size() - 2) +
+      ", c: {mesh: {line: {from: [2, 0], to: [3, 0], elements: 2}}, section: {EA: 1, EI: 1, rhoA: 1}}}\n";
+  const double pi_over_length_squared = 2.4674;  // hinged at both ends: omega = (pi/L)^2 sqrt(EI/rhoA)
+  CHECK(first(two + "joints: {j: {type: fixed, between: [b.end, c.start]} }\n") >
+        1.5 * pi_over_length_squared);  // as if alone: free at both ends, 4.730^2/L^2
+  CHECK(first(beam + "joints: {j: {type: revolute, between: [b.end, ground]}, k: {type: revolute, between: [b.start, "
+                     "ground]}}\n") == Approx(pi_over_length_squared).epsilon(0.01));
+}
