@@ -6,6 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include "block_lanczos.h"
+#include "floe/fem/field_rows.h"
+#include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 
 namespace floe::reduction {
@@ -69,7 +72,7 @@ void share_factor(EPS eps, Mat M, const Statics& statics) {
   if (!own_transformation(eps, 0)) return;
   check(EPSGetST(eps, &st));
   check(STSetKSP(st, statics.solver()));
-  if (!statics.refines()) return;
+  if (!statics.iterates()) return;
   check(EPSSetOperators(eps, statics.exact_stiffness(), M));
   check(STSetPreconditionerMat(st, statics.stiffness()));
 }
@@ -174,6 +177,41 @@ std::vector<double> residuals(EPS eps, Mat exact, Mat M, const fem::Conditions& 
   return found;
 }
 
+bool shares_solver(EPS eps, const Statics& statics) {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  check(EPSGetST(eps, &st));
+  check(STGetKSP(st, &ksp));
+  return statics.owns(ksp);
+}
+
+/// Rayleigh's quotients with the strain energy of the elements. @param mix  whether modes are combined until they are
+/// stationary (Ritz): what K's round-off has turned them, the lowest most, is among themselves.
+std::vector<double> exact_values(const fem::ElementStiffness& K, Mat M, bool mix, const Columns& phi) {
+  const fem::Structure& structure = K.structure();
+  const Eigen::Index count = static_cast<Eigen::Index>(phi.size());
+  const fem::FieldRows rows = fem::gather(structure, phi);
+  const Eigen::MatrixXd stiffness = K.gram(rows);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(count, count);
+  const petsc::VecHandle product = fem::field(structure);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    check(MatMult(M, phi[i], product));
+    for (Eigen::Index j = mix ? 0 : i; j <= i; ++j) check(VecDot(phi[j], product, &mass(i, j)));
+  }
+  std::vector<double> lambda;
+  if (!mix) {
+    for (Eigen::Index i = 0; i < count; ++i) lambda.push_back(stiffness(i, i) / mass(i, i));
+    return lambda;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(stiffness, mass);
+  const fem::FieldRows mixed = rows * ritz.eigenvectors();
+  fem::for_each_field(structure, mixed, [&](Eigen::Index j, const double* local) {
+    std::copy(local, local + structure.owned_dofs(), petsc::Values(phi[j]).begin());
+    lambda.push_back(ritz.eigenvalues()[j]);
+  });
+  return lambda;
+}
+
 void check_converged(EPS eps, int count) {
   PetscInt converged = 0, iterations = 0;
   EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
@@ -253,6 +291,43 @@ PetscInt ModeSolver::available() const {
   return structure_.dofs() - static_cast<PetscInt>(holding_.held.size()) - static_cast<PetscInt>(holding_.left.cols());
 }
 
+namespace {
+
+struct Found {
+  std::vector<double> lambda, estimate;  ///< of the matrix, with relative errors
+  Columns raw;
+};
+
+/// The way of a held body of some size, unless the user has a word about it.
+bool by_blocks(const fem::Structure& structure, const Statics& statics, Mat M, int count, Found& found) {
+  if (statics.iterates() || user_sets("modes_") || structure.dofs() < 1000) return false;
+  std::optional<RitzPairs> pairs = block_lanczos(structure, statics.solver(), M, statics.conditions(), count, 1e-11);
+  if (!pairs) return false;
+  for (const double theta : pairs->theta) found.lambda.push_back(1 / theta);
+  found.estimate = pairs->residual;
+  found.raw = std::move(pairs->vectors);
+  return true;
+}
+
+void by_eps(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
+            const Statics& statics, int count, Found& found) {
+  std::vector<Vec> deflated(rigid.begin(), rigid.end());
+  if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
+  const petsc::VecHandle first = start(structure, held);
+  Vec initial[1] = {first};
+  check(EPSSetInitialSpace(eps, 1, initial));
+  solve_pairs(eps, statics);
+  check_converged(eps, count);
+  found.lambda.resize(count), found.estimate.resize(count);
+  for (int i = 0; i < count; ++i) {
+    found.raw.push_back(fem::field(structure));
+    check(EPSGetEigenpair(eps, i, &found.lambda[i], nullptr, found.raw.back(), nullptr));
+    check(EPSGetErrorEstimate(eps, i, &found.estimate[i]));
+  }
+}
+
+}  // namespace
+
 Modes ModeSolver::solve(int count) {
   Modes modes;
   if (count <= 0) return modes;
@@ -263,31 +338,33 @@ Modes ModeSolver::solve(int count) {
     check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   else
     create(count);
-  const Columns rigid = rigid_motions(structure_, frame_, holding_);
-  std::vector<Vec> deflated(rigid.begin(), rigid.end());
-  if (!deflated.empty()) check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(deflated.size()), deflated.data()));
-  const petsc::VecHandle first = start(structure_, holding_.held);
-  Vec initial[1] = {first};
-  check(EPSSetInitialSpace(eps_, 1, initial));
-  solve_pairs(eps_, statics_);
-  check_converged(eps_, count);
-  std::vector<double> lambda, of_matrix(count);
-  for (int i = 0; i < count; ++i) {
-    modes.raw.push_back(fem::field(structure_));
-    check(EPSGetEigenpair(eps_, i, &of_matrix[i], nullptr, modes.raw.back(), nullptr));
-    fem::hold(modes.raw.back(), holding_.held);
-    fix_sign(structure_, modes.raw.back());
-    lambda.push_back(rayleigh(*statics_.elements(), M_, modes.raw.back()));
-    modes.omega.push_back(std::sqrt(lambda.back()));
-    modes.shapes.push_back(copy(modes.raw.back()));
-    fem::to_frame(frame_, modes.shapes.back());
+  const petsc::Stage stage("modes");
+  const bool shares = shares_solver(eps_, statics_);
+  Found found;
+  if (!shares || !by_blocks(structure_, statics_, M_, count, found))
+    by_eps(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_, count, found);
+  modes.raw = std::move(found.raw);
+  for (const auto& mode : modes.raw) {
+    fem::hold(mode, holding_.held);
+    fem::separate(structure_, mode, 1e-7);
   }
-  modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
+  const std::vector<double> lambda =
+      exact_values(*statics_.elements(), M_, shares && statics_.refines() && !statics_.iterates(), modes.raw);
+  for (int i = 0; i < count; ++i) {
+    fix_sign(structure_, modes.raw[i]);
+    modes.omega.push_back(std::sqrt(lambda[i]));
+    modes.shapes.push_back(copy(modes.raw[i]));
+    if (!holds_frame(frame_, holding_.held)) fem::to_frame(frame_, modes.shapes.back());
+  }
+  if (shares && !statics_.iterates())  // of K's factor, and what that misses
+    for (double error : found.estimate) modes.residual.push_back(error + statics_.factor_error());
+  else
+    modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
   for (int i = 0; i < count; ++i)
-    if (modes.residual[i] > 1e-2 && std::abs(of_matrix[i] / lambda[i] - 1) > 1e-3)
+    if (modes.residual[i] > 1e-2 && std::abs(found.lambda[i] / lambda[i] - 1) > 1e-3)
       throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
-                                             std::sqrt(std::min(lambda[i], std::abs(of_matrix[i]))),
-                                             std::sqrt(std::max(lambda[i], std::abs(of_matrix[i])))));
+                                             std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
+                                             std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));
   return modes;
 }
 
