@@ -79,17 +79,27 @@ Step orthogonalise(const Eigen::MatrixXd& S, double tolerance, std::vector<Colum
   return step;
 }
 
-/// X <- X T, some rows at a time.
-void multiply(fem::FieldRows& X, const Eigen::MatrixXd& T) {
+/// X <- X T, some rows at a time, those of each dof of a node by themselves with the columns that are not zero there; T
+/// is upper triangular.
+void multiply(const fem::Structure& structure, fem::FieldRows& X, const Eigen::MatrixXd& T) {
   constexpr Eigen::Index together = 1024;
-  fem::FieldRows product(together, X.cols());
-  const PetscBLASInt k = static_cast<PetscBLASInt>(X.cols());
+  const int per_node = structure.dofs_per_node;
+  const Eigen::Index nodes = X.rows() / per_node, columns = X.cols();
+  const fem::DofRanges ranges = fem::dof_ranges(structure, X);
+  fem::FieldRows product(together, columns);
   const double one = 1, zero = 0;
-  for (Eigen::Index first = 0; first < X.rows(); first += together) {
-    const PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(together, X.rows() - first));
-    double* block = X.row(first).data();
-    BLASgemm_("T", "N", &k, &rows, &k, &one, T.data(), &k, block, &k, &zero, product.data(), &k);
-    std::copy(product.data(), product.data() + static_cast<std::ptrdiff_t>(rows) * k, block);
+  const PetscBLASInt lead = static_cast<PetscBLASInt>(columns), apart = static_cast<PetscBLASInt>(per_node * columns);
+  for (int d = 0; d < per_node; ++d) {
+    const PetscBLASInt begin = ranges[d].begin, inner = ranges[d].end - begin, many = lead - begin;
+    if (ranges[d].empty()) continue;
+    for (Eigen::Index first = 0; first < nodes; first += together) {
+      const PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(together, nodes - first));
+      double* block = X.row(per_node * first + d).data() + begin;  // T is upper triangular: nothing before `begin`
+      BLASgemm_("T", "N", &many, &rows, &inner, &one, &T(begin, begin), &lead, block, &apart, &zero, product.data(),
+                &lead);
+      for (PetscBLASInt i = 0; i < rows; ++i)
+        std::copy_n(product.row(i).data(), many, block + static_cast<std::ptrdiff_t>(i) * apart);
+    }
   }
 }
 
@@ -109,7 +119,7 @@ std::vector<Column> orthonormalise(const fem::Structure& structure, double toler
     }
     Step step = orthogonalise(scaled(G, sizes), tolerance, columns);
     const Eigen::VectorXd inverse = (sizes.array() > 0).select(sizes.cwiseInverse(), 0);
-    multiply(X, inverse.asDiagonal() * step.T);
+    multiply(structure, X, inverse.asDiagonal() * step.T);
     done = step.done;
   }
   return columns;
