@@ -12,10 +12,10 @@ import platform
 import subprocess
 
 NOTES = "offline_notes.md"
-CELLS = [142, 316, 632]
-PHASES = ["mesh", "partition", "structure", "assembly", "factorisation", "modes", "derivatives", "basis", "projection"]
+CELLS = [44, 140, 316, 632]  # 6 thousand, 60 thousand, 300 thousand and 1.2 million dofs
+PHASES = ["mesh", "partition", "structure", "assembly", "factorisation", "modes", "derivatives", "basis", "projection", "file"]
 BARE = ["bare factorisation", "bare single solves", "bare block solve"]
-COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999", "#000000"]
+COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999", "#000000", "#888888"]
 
 
 def run(stage, cells, ranks, options):
@@ -85,13 +85,26 @@ def draw(rows, path):
     figure.savefig(path, dpi=130)
 
 
+def packages():
+    """Versions of what the time goes to."""
+    names = ["libpetsc-real3.18", "libslepc-real3.18", "libmumps-5.5", "libopenblas0-serial", "libopenmpi3"]
+    done = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", *names], capture_output=True, text=True)
+    return done.stdout.rstrip(", ")
+
+
+def processor():
+    with open("/proc/cpuinfo") as info:
+        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stage", required=True, help="the program offline_stage")
     parser.add_argument("--out", required=True, help="folder to write to")
     parser.add_argument("--cells", type=int, nargs="+", default=CELLS, help="cells along the plate")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--most-for-ranks", type=int, default=316, help="most cells along for more ranks than one")
+    parser.add_argument("--most-for-ranks", type=int, default=140, help="most cells along for more ranks than one")
     args, options = parser.parse_known_args()
     rows = []
     for cells in args.cells:
@@ -106,7 +119,7 @@ def main():
     with open(os.path.join(os.path.dirname(__file__), NOTES)) as notes:
         text = notes.read()
     with open(os.path.join(args.out, "offline.md"), "w") as out:
-        out.write(text.format(date=datetime.date.today(), commit=commit, machine=platform.machine(),
+        out.write(text.format(date=datetime.date.today(), commit=commit, machine=processor(), packages=packages(),
                               cores=os.cpu_count(), load=f"{os.getloadavg()[2]:.1f}", table=table_of(rows),
                               growth=growth_of(rows), speedups=speedups_of(rows)))
 

@@ -9,6 +9,7 @@
 
 #include "floe/mesh/generate.h"
 #include "floe/mesh/partition.h"
+#include "floe/output/reduced_file.h"
 #include "floe/reduction/reduce.h"
 
 using namespace floe;
@@ -108,6 +109,23 @@ void bare(Mat K, int single, int block, Report& report) {
   report.time("bare block solve", [&] { check(KSPMatSolve(ksp, B, X)); });
 }
 
+/// The reduced body's file, without the basis at every node.
+void write(const fem::Structure& structure, const fem::ReferenceFrame& frame, const reduction::Basis& basis,
+           const reduction::Generators& generators, const body::FlexibleBody& body) {
+  output::ReducedBodyFile file;
+  file.name = "plate", file.dimension = 3;
+  file.dofs = structure.dofs(), file.nodes = structure.mesh.node_count, file.cells = structure.mesh.cell_count;
+  file.body = body;
+  file.frame = {"clamped", Eigen::VectorXd::Zero(3), Eigen::MatrixXd::Identity(3, 3)};
+  file.places.push_back({"clamp", reduction::place_map(structure, basis, frame.conditions[0] / 6)});
+  for (const auto& origin : basis.origins)
+    file.columns.push_back({origin.kind == reduction::ColumnOrigin::Kind::mode ? "mode" : "derivative", origin.label,
+                            origin.omega, origin.new_part, origin.kept, 0});
+  file.omega = generators.modes.omega, file.residual = generators.modes.residual;
+  file.made = output::made_here(PETSC_COMM_WORLD, "");
+  output::write_reduced_body(PETSC_COMM_WORLD, std::filesystem::temp_directory_path() / "offline_stage.h5", file, true);
+}
+
 /// Elastic energy of a state, so that runs can be compared: modes and derivatives a thickness and more in size.
 double energy(const body::FlexibleBody& body) {
   const int k = body.coordinates();
@@ -147,6 +165,7 @@ void run() {
   const reduction::Basis basis =
       report.time("basis", [&] { return reduction::basis_of(structure, generators, std::move(derivatives), 1e-7); });
   const body::FlexibleBody body = report.time("projection", [&] { return reduction::project(structure, basis); });
+  report.time("file", [&] { write(structure, frame, basis, generators, body); });
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   report.note("ranks", std::to_string(size));
