@@ -14,7 +14,7 @@ using petsc::check;
 
 namespace {
 
-constexpr int width = 5;
+constexpr int width = 3;
 
 /// Between -1/2 and 1/2, without a pattern.
 double rough(PetscInt dof, int column) {

@@ -13,7 +13,7 @@ struct RitzPairs {
 };
 
 /// Block Lanczos with full orthogonalisation in the M inner product: a factor is read once for all columns of a block,
-/// so that a block of five costs little more than one vector; M Q is kept, so that M is applied once to each column.
+/// so that a block of three costs little more than one vector; M Q is kept, so that M is applied once to each column.
 ///
 /// @param solver  K^-1, a direct one
 /// @param held    dofs at zero, in which M is empty
