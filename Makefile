@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks clean bench-planar sanitize
+.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline sanitize
 all: build
 
 setup:
@@ -24,6 +24,9 @@ verify-ranks: build
 
 bench-planar: build
 	@bash makefiles/bench_planar.sh $(BUILD)
+
+bench-offline: build
+	@bash makefiles/bench_offline.sh $(BUILD)
 
 sanitize: setup
 	@bash makefiles/sanitize.sh

@@ -22,8 +22,12 @@ if(NOT METIS_WIDTH MATCHES "32")
   message(FATAL_ERROR "${METIS_INCLUDE}/metis.h has integers of another width than PETSc's 32 bits: ${METIS_WIDTH}")
 endif()
 
+# The BLAS and LAPACK that PETSc uses: the reduction's own products go there too.
+find_library(LAPACK_LIBRARY lapack REQUIRED)
+find_library(BLAS_LIBRARY blas REQUIRED)
+
 add_library(floe_outside INTERFACE)
 target_link_libraries(floe_outside INTERFACE PkgConfig::SLEPC PkgConfig::PETSC PkgConfig::HDF5 MPI::MPI_CXX
-  PkgConfig::MUPARSER PkgConfig::EIGEN ${METIS_LIBRARY} yaml-cpp fmt::fmt)
+  PkgConfig::MUPARSER PkgConfig::EIGEN ${METIS_LIBRARY} ${LAPACK_LIBRARY} ${BLAS_LIBRARY} yaml-cpp fmt::fmt)
 target_include_directories(floe_outside SYSTEM INTERFACE ${PETSC_PRIVATE} ${CLI11_INCLUDE} ${NLOHMANN_INCLUDE}
   ${METIS_INCLUDE})

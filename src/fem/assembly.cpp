@@ -1,7 +1,12 @@
 #include "floe/fem/assembly.h"
 
+#include <petsc/private/petscimpl.h>
+
 #include <algorithm>
 
+#include "floe/fem/field_rows.h"
+#include "floe/petsc/stage.h"
+#include "kept.h"
 #include "node_graph.h"
 
 namespace floe::fem {
@@ -37,6 +42,7 @@ void hold(const Structure& structure, const Conditions& conditions, const std::v
 
 petsc::MatHandle assemble(const Structure& structure, const Conditions& conditions, double diagonal, double k,
                           double m) {
+  const petsc::Stage stage("assembly");
   petsc::MatHandle A = empty_matrix(structure);
   double largest = 0;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
@@ -64,8 +70,38 @@ petsc::MatHandle stiffness(const Structure& structure, const Conditions& conditi
   return K;
 }
 
+namespace {
+
+PetscObjectState changes(Mat A) {
+  PetscObjectState state = 0;
+  check(PetscObjectStateGet(reinterpret_cast<PetscObject>(A), &state));
+  return state;
+}
+
+/// The one that is shared.
+Mat unheld_mass(const Structure& structure) {
+  Kept& kept = *structure.kept;
+  if (kept.mass && changes(kept.mass) == kept.mass_changes) return kept.mass;
+  kept.mass = assemble(structure, {}, 0, 0, 1);
+  kept.mass_changes = changes(kept.mass);
+  return kept.mass;
+}
+
+}  // namespace
+
 petsc::MatHandle mass(const Structure& structure, const Conditions& conditions) {
-  return assemble(structure, conditions, 0, 0, 1);
+  Mat shared = unheld_mass(structure);
+  if (conditions.empty()) {
+    check(PetscObjectReference(reinterpret_cast<PetscObject>(shared)));
+    return petsc::MatHandle(shared);
+  }
+  petsc::MatHandle M;
+  const petsc::VecHandle free = field(structure);
+  check(MatDuplicate(shared, MAT_COPY_VALUES, M.out()));
+  check(VecSet(free, 1));
+  hold(free, conditions);
+  check(MatDiagonalScale(M, free, free));
+  return M;
 }
 
 petsc::VecHandle stiffness_derivative(const Structure& structure, Vec phi_i, Vec phi_j) {
@@ -83,20 +119,15 @@ petsc::VecHandle stiffness_derivative(const Structure& structure, Vec phi_i, Vec
 std::vector<petsc::VecHandle> stiffness_derivatives(const Structure& structure,
                                                     const std::vector<petsc::VecHandle>& fields,
                                                     const std::vector<std::array<int, 2>>& pairs) {
-  Eigen::MatrixXd Q(structure.local_dofs(), fields.size());
-  for (std::size_t j = 0; j < fields.size(); ++j) Q.col(j) = structure.exchange.gather(fields[j]);
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(structure.local_dofs(), pairs.size());
-  for (const Mesh::Cell& cell : structure.mesh.cells) {
-    const std::vector<int> dofs = structure.cell_dofs(cell);
-    const Eigen::MatrixXd f = stiffness_derivatives(structure.maps(cell), Q(dofs, Eigen::all), pairs);
-    for (std::size_t i = 0; i < dofs.size(); ++i) sum.row(dofs[i]) += f.row(i);
-  }
-  std::vector<petsc::VecHandle> all;
+  std::vector<petsc::VecHandle> columns;
+  if (pairs.empty()) return columns;
+  const petsc::MatHandle loads = derivative_loads(structure, gather(structure, fields), pairs);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
-    all.push_back(field(structure));
-    structure.exchange.add(sum.col(p), all.back());
+    columns.push_back(field(structure));
+    check(MatGetColumnVector(loads, columns.back(), static_cast<PetscInt>(p)));
+    check(VecScale(columns.back(), -1));
   }
-  return all;
+  return columns;
 }
 
 void hold(Vec field, const Conditions& conditions) {

@@ -44,28 +44,6 @@ Eigen::VectorXd stiffness_derivative(const ElementMaps& maps, const Eigen::Vecto
   return f;
 }
 
-Eigen::MatrixXd stiffness_derivatives(const ElementMaps& maps, const Eigen::MatrixXd& Q,
-                                      const std::vector<std::array<int, 2>>& pairs) {
-  const Eigen::Index n = static_cast<Eigen::Index>(pairs.size());
-  Eigen::MatrixXd f = Eigen::MatrixXd::Zero(Q.rows(), n);
-  for (const StrainPoint& g : maps.membrane) {
-    const Eigen::Index s = g.L.rows(), slopes = g.G.rows();
-    const Eigen::MatrixXd A = g.G * Q, stress = g.weight * g.D * (g.L * Q);
-    Eigen::MatrixXd strain(s, n), pull = Eigen::MatrixXd::Zero(slopes, n);
-    for (Eigen::Index r = 0; r < s; ++r) {
-      const Eigen::MatrixXd PA = g.P[r] * A;
-      for (Eigen::Index p = 0; p < n; ++p) {
-        const auto [i, j] = pairs[p];
-        strain(r, p) = A.col(i).dot(PA.col(j));
-        pull.col(p) += stress(r, j) * PA.col(i) + stress(r, i) * PA.col(j);
-      }
-    }
-    f.noalias() += (g.weight * g.D * g.L).transpose() * strain;
-    f.noalias() += g.G.transpose() * pull;
-  }
-  return f;
-}
-
 std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped) {
   std::vector<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < sloped.size(); ++i)
@@ -73,7 +51,7 @@ std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped) {
   return pairs;
 }
 
-Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V, const Eigen::MatrixXd& strained,
+Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
                             const std::vector<std::pair<int, int>>& pairs) {
   const Eigen::Index k = V.cols();
   Eigen::Index count = 0;
@@ -83,7 +61,7 @@ Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V, c
   for (const StrainPoint& g : maps.membrane) {
     const Eigen::Index s = g.L.rows();
     auto rows = H.middleRows(row, s);
-    rows.leftCols(k).noalias() = g.L * strained;
+    rows.leftCols(k).noalias() = g.L * V;
     const Eigen::MatrixXd slopes = g.G * V;
     for (std::size_t p = 0; p < pairs.size(); ++p)
       rows.col(k + p) = g.bilinear(slopes.col(pairs[p].first), slopes.col(pairs[p].second));
@@ -103,7 +81,7 @@ body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
   body::Elasticity e;
   e.bending = V.transpose() * maps.bending * V;
   e.pairs = pairs_of(sloped);
-  e.F = strain_rows(maps, V, V, e.pairs);
+  e.F = strain_rows(maps, V, e.pairs);
   return e;
 }
 

@@ -1,5 +1,7 @@
 #include "floe/fem/element_stiffness.h"
 
+#include "floe/fem/field_rows.h"
+
 namespace floe::fem {
 
 using petsc::check;
@@ -29,24 +31,37 @@ Eigen::Matrix3Xd arms(const Mesh& mesh, const Mesh::Cell& cell) {
 }
 
 ElementStiffness::ElementStiffness(const Structure& structure) : structure_(structure) {
-  for (const Mesh::Cell& cell : structure.mesh.cells) {
-    const Eigen::MatrixXd K = structure.matrix(cell, 1, 0);
-    largest_ = std::max(largest_, K.diagonal().cwiseAbs().maxCoeff());
-    if (structure.dimension() == 2) K_.push_back(K);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  if (structure.dimension() == 2)
+    for (const Mesh::Cell& cell : structure.mesh.cells) K_.push_back(structure.matrix(cell, 1, 0));
 }
 
+double ElementStiffness::largest_diagonal() const {
+  if (largest_ >= 0) return largest_;
+  largest_ = 0;
+  for (const Mesh::Cell& cell : structure_.mesh.cells)
+    largest_ = std::max(largest_, structure_.matrix(cell, 1, 0).diagonal().cwiseAbs().maxCoeff());
+  MPI_Allreduce(MPI_IN_PLACE, &largest_, 1, MPI_DOUBLE, MPI_MAX, structure_.mesh.comm);
+  return largest_;
+}
+
+namespace {
+
+bool is_shell(const Mesh::Cell& cell) {
+  return cell.kind == CellKind::triangle || cell.kind == CellKind::quadrilateral;
+}
+
+}  // namespace
+
 template <class Sink>
-void ElementStiffness::each(Vec q, Sink&& sink) const {
-  const Eigen::VectorXd all = structure_.exchange.gather(q);
+void ElementStiffness::each_line(const FieldRows& X, Sink&& sink) const {
   const Eigen::Index dofs = structure_.dofs_per_node;
-  Eigen::VectorXd own, force;
+  Eigen::MatrixXd own, force;
   for (std::size_t c = 0; c < structure_.mesh.cells.size(); ++c) {
     const Mesh::Cell& cell = structure_.mesh.cells[c];
+    if (is_shell(cell)) continue;
     const auto nodes = cell.nodes();
-    own.resize(dofs * static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t i = 0; i < nodes.size(); ++i) own.segment(dofs * i, dofs) = all.segment(dofs * nodes[i], dofs);
+    own.resize(dofs * static_cast<Eigen::Index>(nodes.size()), X.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i) own.middleRows(dofs * i, dofs) = X.middleRows(dofs * nodes[i], dofs);
     take_rigid_motion(own, arms(structure_.mesh, cell));
     if (K_.empty())
       force.noalias() = structure_.matrix(cell, 1, 0) * own;
@@ -56,21 +71,61 @@ void ElementStiffness::each(Vec q, Sink&& sink) const {
   }
 }
 
-void ElementStiffness::multiply(Vec q, Vec f) const {
+template <class Sink>
+void ElementStiffness::each_shell(const FieldRows& X, Sink&& sink) const {
+  if (structure_.dimension() == 2) return;
+  const DofRanges ranges = dof_ranges(structure_, X);
+  std::vector<PieceRows> pieces;
+  Strained strained;
+  FieldRows values(9, X.cols());
+  const auto hand = [&](const PieceRows& piece, const SmallRows& rows) {
+    const ColumnRange range = fem::multiply(rows, strained, structure_.dofs_per_node, values.data());
+    if (!range.empty()) sink(piece, rows, values.topRows(rows.rows()));
+  };
+  for (const Mesh::Cell& cell : structure_.mesh.cells) {
+    if (!is_shell(cell)) continue;
+    piece_rows(structure_, cell, {.bending = true, .strain = true}, pieces);
+    for (const PieceRows& piece : pieces) {
+      take_strained(structure_, piece, X, ranges, strained);
+      hand(piece, piece.bending);
+      for (const StrainRows& point : piece.strain) hand(piece, point.L);
+    }
+  }
+}
+
+void ElementStiffness::add_forces(const FieldRows& X, FieldRows& sums) const {
   const Eigen::Index dofs = structure_.dofs_per_node;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(structure_.local_dofs());
-  each(q, [&](const auto& nodes, const Eigen::VectorXd&, const Eigen::VectorXd& force) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) sum.segment(dofs * nodes[i], dofs) += force.segment(dofs * i, dofs);
+  each_line(X, [&](const auto& nodes, const Eigen::MatrixXd&, const Eigen::MatrixXd& force) {
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      sums.middleRows(dofs * nodes[i], dofs) += force.middleRows(dofs * i, dofs);
   });
+  each_shell(X, [&](const PieceRows& piece, const SmallRows& rows, const auto& values) {
+    add_transposed(structure_, piece, rows, values.data(), sums);
+  });
+}
+
+Eigen::MatrixXd ElementStiffness::gram(const FieldRows& X) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(X.cols(), X.cols());
+  each_line(X, [&](const auto&, const Eigen::MatrixXd& own, const Eigen::MatrixXd& force) {
+    sum.noalias() += own.transpose() * force;
+  });
+  each_shell(
+      X, [&](const PieceRows&, const SmallRows&, const auto& values) { sum.noalias() += values.transpose() * values; });
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, structure_.mesh.comm);
+  return (sum + sum.transpose()) / 2;
+}
+
+void ElementStiffness::multiply(Vec q, Vec f) const {
+  const FieldRows X = gather(structure_, 1, [&](Eigen::Index, double* local) { structure_.exchange.gather(q, local); });
+  FieldRows sum = FieldRows::Zero(X.rows(), 1);
+  add_forces(X, sum);
   check(VecSet(f, 0));
-  structure_.exchange.add(sum, f);
+  for_each_field(structure_, sum, [&](Eigen::Index, const double* local) { structure_.exchange.add(local, f); });
 }
 
 double ElementStiffness::strain_energy(Vec q) const {
-  double energy = 0;
-  each(q, [&](const auto&, const Eigen::VectorXd& own, const Eigen::VectorXd& force) { energy += own.dot(force) / 2; });
-  MPI_Allreduce(MPI_IN_PLACE, &energy, 1, MPI_DOUBLE, MPI_SUM, structure_.mesh.comm);
-  return energy;
+  return gram(gather(structure_, 1, [&](Eigen::Index, double* local) { structure_.exchange.gather(q, local); }))(0, 0) /
+         2;
 }
 
 namespace {
@@ -87,7 +142,7 @@ Shell* shell_of(Mat K) {
   return static_cast<Shell*>(context);
 }
 
-PetscErrorCode multiply(Mat K, Vec x, Vec y) {
+PetscErrorCode multiply_shell(Mat K, Vec x, Vec y) {
   return petsc::Guard().run([&] {
     Shell& shell = *shell_of(K);
     check(VecCopy(x, shell.free));
@@ -115,7 +170,7 @@ petsc::MatHandle stiffness_operator(std::shared_ptr<const ElementStiffness> elem
   shell->elements = std::move(elements);
   check(MatCreateShell(structure.mesh.comm, owned, owned, n, n, shell.get(), K.out()));
   shell.release();
-  check(MatShellSetOperation(K, MATOP_MULT, reinterpret_cast<void (*)()>(multiply)));
+  check(MatShellSetOperation(K, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
   check(MatShellSetOperation(K, MATOP_DESTROY, reinterpret_cast<void (*)()>(destroy)));
   check(MatSetOption(K, MAT_SPD, PETSC_TRUE));
   return K;

@@ -18,15 +18,6 @@ petsc::VecHandle unit(const Structure& structure, PetscInt dof) {
   return e;
 }
 
-/// A length of the body, to compare rotations with displacements.
-double extent(const Structure& structure) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  return (high - low).norm();
-}
-
 /// Entries of the rigid motions at some dofs, (dofs x motions), rotations scaled by 1 / extent. Collective.
 Eigen::MatrixXd rigid_rows(const Structure& structure, const ReferenceFrame& frame, const Conditions& dofs,
                            double length) {

@@ -4,6 +4,7 @@
 
 #include "cells.h"
 #include "floe/fem/transform.h"
+#include "kept.h"
 #include "node_graph.h"
 
 namespace floe::fem {
@@ -23,24 +24,25 @@ Exchange::Exchange(const Mesh& mesh, int dofs) {
 }
 
 Eigen::VectorXd Exchange::gather(Vec field) const {
-  check(VecScatterBegin(scatter_, field, local_, INSERT_VALUES, SCATTER_FORWARD));
-  check(VecScatterEnd(scatter_, field, local_, INSERT_VALUES, SCATTER_FORWARD));
   PetscInt n = 0;
-  const double* values = nullptr;
   check(VecGetLocalSize(local_, &n));
-  check(VecGetArrayRead(local_, &values));
-  Eigen::VectorXd copy = Eigen::Map<const Eigen::VectorXd>(values, n);
-  check(VecRestoreArrayRead(local_, &values));
-  return copy;
+  Eigen::VectorXd local(n);
+  gather(field, local.data());
+  return local;
 }
 
-void Exchange::add(const Eigen::VectorXd& local, Vec field) const {
-  double* values = nullptr;
-  check(VecGetArrayWrite(local_, &values));
-  Eigen::Map<Eigen::VectorXd>(values, local.size()) = local;
-  check(VecRestoreArrayWrite(local_, &values));
+void Exchange::gather(Vec field, double* local) const {
+  check(VecPlaceArray(local_, local));
+  check(VecScatterBegin(scatter_, field, local_, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterEnd(scatter_, field, local_, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecResetArray(local_));
+}
+
+void Exchange::add(const double* local, Vec field) const {
+  check(VecPlaceArray(local_, const_cast<double*>(local)));
   check(VecScatterBegin(scatter_, local_, field, ADD_VALUES, SCATTER_REVERSE));
   check(VecScatterEnd(scatter_, local_, field, ADD_VALUES, SCATTER_REVERSE));
+  check(VecResetArray(local_));
 }
 
 Structure::Structure(Mesh m, std::vector<Section> s, MembraneStrain e)
@@ -49,7 +51,8 @@ Structure::Structure(Mesh m, std::vector<Section> s, MembraneStrain e)
       strain(e),
       dofs_per_node(mesh.dimension == 2 ? 3 : 6),
       exchange(mesh, dofs_per_node),
-      graph(std::make_shared<const NodeGraph>(node_graph(mesh))) {
+      graph(std::make_shared<const NodeGraph>(node_graph(mesh))),
+      kept(std::make_shared<Kept>()) {
   petsc::agree(mesh.comm, [&] {
     for (const Mesh::Cell& cell : mesh.cells) check_cell(*this, cell);
   });
@@ -88,6 +91,14 @@ petsc::VecHandle field(const Structure& structure) {
   check(VecSetType(vector, VECSTANDARD));
   check(VecSet(vector, 0));
   return vector;
+}
+
+double extent(const Structure& structure) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  return (high - low).norm();
 }
 
 std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {

@@ -1,38 +1,168 @@
 #include "floe/reduction/basis.h"
 
+#include <petscblaslapack.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/stage.h"
+#include "floe/petsc/values.h"
+#include "mass_forms.h"
+
 namespace floe::reduction {
 
 using petsc::check;
 
+namespace {
+
+/// Columns whose new part is below this share wait for the next pass: Cholesky of a Gram matrix does not see it well.
+constexpr double weak = 1e-2;
+
+/// V'MV of all ranks, the same on all.
+Eigen::MatrixXd gram(const fem::Structure& structure, const fem::FieldRows& X) {
+  Eigen::MatrixXd mine = mass_gram(structure, X), all = mine;
+  const int count = static_cast<int>(mine.size());
+  MPI_Reduce(mine.data(), all.data(), count, MPI_DOUBLE, MPI_SUM, 0, structure.mesh.comm);
+  MPI_Bcast(all.data(), count, MPI_DOUBLE, 0, structure.mesh.comm);
+  return all;
+}
+
+/// Divides by the norms of both columns; what is round-off becomes zero, so that columns that have nothing in common
+/// keep their zeros.
+Eigen::MatrixXd scaled(const Eigen::MatrixXd& G, const Eigen::VectorXd& norms) {
+  const Eigen::VectorXd inverse = (norms.array() > 0).select(norms.cwiseInverse(), 0);
+  const Eigen::MatrixXd S = inverse.asDiagonal() * G * inverse.asDiagonal();
+  return (S.array().abs() > 4e-16).select(S, 0);
+}
+
+struct Column {
+  double share = 1;  ///< that those before it lack
+  bool kept = true;
+};
+
+/// One pass: the columns of X T are orthonormal, but for weak ones, which are left as they are without their parts
+/// along those before them; dropped ones are zero.
+struct Step {
+  Eigen::MatrixXd T;
+  bool done = true;
+};
+
+/// @param S  Gram matrix of the columns scaled to norm 1
+Step orthogonalise(const Eigen::MatrixXd& S, double tolerance, std::vector<Column>& columns) {
+  const Eigen::Index k = S.cols();
+  Step step{Eigen::MatrixXd::Zero(k, k)};
+  std::vector<Eigen::Index> accepted;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    Column& column = columns[i];
+    if (!column.kept) continue;
+    Eigen::VectorXd t = Eigen::VectorXd::Unit(k, i);
+    double common = 0;
+    for (Eigen::Index j : accepted) {
+      const double along = step.T.col(j).dot(S.col(i));
+      if (along == 0) continue;
+      t -= along * step.T.col(j);
+      common += along * along;
+      step.done = step.done && std::abs(along) < 1e-8;
+    }
+    const double share = std::sqrt(std::max(0.0, 1 - common));
+    if (share < weak) {
+      step.done = false;
+      step.T.col(i) = t;
+      continue;
+    }
+    column.share *= share;
+    column.kept = column.share > tolerance;
+    if (!column.kept) continue;
+    step.T.col(i) = t / share;
+    accepted.push_back(i);
+  }
+  return step;
+}
+
+/// X <- X T, some rows at a time, those of each dof of a node by themselves with the columns that are not zero there; T
+/// is upper triangular.
+void multiply(const fem::Structure& structure, fem::FieldRows& X, const Eigen::MatrixXd& T) {
+  constexpr Eigen::Index together = 1024;
+  const int per_node = structure.dofs_per_node;
+  const Eigen::Index nodes = X.rows() / per_node, columns = X.cols();
+  const fem::DofRanges ranges = fem::dof_ranges(structure, X);
+  fem::FieldRows product(together, columns);
+  const double one = 1, zero = 0;
+  const PetscBLASInt lead = static_cast<PetscBLASInt>(columns), apart = static_cast<PetscBLASInt>(per_node * columns);
+  for (int d = 0; d < per_node; ++d) {
+    const PetscBLASInt begin = ranges[d].begin, inner = ranges[d].end - begin, many = lead - begin;
+    if (ranges[d].empty()) continue;
+    for (Eigen::Index first = 0; first < nodes; first += together) {
+      const PetscBLASInt rows = static_cast<PetscBLASInt>(std::min(together, nodes - first));
+      double* block = X.row(per_node * first + d).data() + begin;  // T is upper triangular: nothing before `begin`
+      BLASgemm_("T", "N", &many, &rows, &inner, &one, &T(begin, begin), &lead, block, &apart, &zero, product.data(),
+                &lead);
+      for (PetscBLASInt i = 0; i < rows; ++i)
+        std::copy_n(product.row(i).data(), many, block + static_cast<std::ptrdiff_t>(i) * apart);
+    }
+  }
+}
+
+/// Makes the columns of X orthonormal; those that are not kept become zero.
+std::vector<Column> orthonormalise(const fem::Structure& structure, double tolerance, fem::FieldRows& X,
+                                   Eigen::VectorXd& norms) {
+  std::vector<Column> columns(X.cols());
+  norms = Eigen::VectorXd::Zero(X.cols());
+  for (bool first = true, done = X.cols() == 0; !done; first = false) {
+    const Eigen::MatrixXd G = gram(structure, X);
+    const Eigen::VectorXd sizes = G.diagonal().cwiseMax(0).cwiseSqrt();
+    if (first) norms = sizes;
+    for (Eigen::Index i = 0; i < X.cols(); ++i) {
+      if (!columns[i].kept) continue;
+      columns[i].share *= first ? (sizes[i] > 0 ? 1 : 0) : sizes[i];
+      columns[i].kept = columns[i].share > tolerance;
+    }
+    Step step = orthogonalise(scaled(G, sizes), tolerance, columns);
+    const Eigen::VectorXd inverse = (sizes.array() > 0).select(sizes.cwiseInverse(), 0);
+    multiply(structure, X, inverse.asDiagonal() * step.T);
+    done = step.done;
+  }
+  return columns;
+}
+
+/// The columns that are kept, with M as inner product.
+void insert(const fem::Structure& structure, const fem::FieldRows& X, const std::vector<Column>& columns,
+            Basis& basis) {
+  const petsc::VecHandle like = fem::field(structure);
+  for (const Column& column : columns) basis.columns += column.kept;
+  check(BVCreate(structure.mesh.comm, basis.V.out()));
+  check(BVSetSizesFromVec(basis.V, like, std::max(1, basis.columns)));
+  check(BVSetFromOptions(basis.V));
+  check(BVSetMatrix(basis.V, fem::mass(structure, {}), PETSC_FALSE));
+  PetscInt next = 0;
+  fem::for_each_field(structure, X, [&](Eigen::Index j, const double* local) {
+    if (!columns[j].kept) return;
+    Vec into = nullptr;
+    check(BVGetColumn(basis.V, next, &into));
+    std::copy(local, local + structure.owned_dofs(), petsc::Values(into).begin());
+    check(BVRestoreColumn(basis.V, next++, &into));
+  });
+  check(BVSetActiveColumns(basis.V, 0, basis.columns));
+}
+
+}  // namespace
+
 Basis orthonormal_basis(const fem::Structure& structure, const Columns& candidates, std::vector<ColumnOrigin> origins,
                         double tolerance) {
+  return orthonormal_basis(structure, fem::gather(structure, candidates), std::move(origins), tolerance);
+}
+
+Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidates, std::vector<ColumnOrigin> origins,
+                        double tolerance) {
+  const petsc::Stage stage("basis");
   Basis basis;
   basis.origins = std::move(origins);
-  const petsc::MatHandle M = fem::mass(structure, {});
-  const petsc::VecHandle like = fem::field(structure);
-  check(BVCreate(structure.mesh.comm, basis.V.out()));
-  check(BVSetSizesFromVec(basis.V, like, std::max<PetscInt>(1, static_cast<PetscInt>(candidates.size()))));
-  check(BVSetFromOptions(basis.V));
-  check(BVSetMatrix(basis.V, M, PETSC_FALSE));
-  check(BVSetOrthogonalization(basis.V, BV_ORTHOG_CGS, BV_ORTHOG_REFINE_ALWAYS, PETSC_DEFAULT, BV_ORTHOG_BLOCK_GS));
-  check(BVSetActiveColumns(basis.V, 0, 0));
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    double norm = 0, left = 0;
-    check(BVInsertVec(basis.V, basis.columns, candidates[i]));
-    check(BVNormColumn(basis.V, basis.columns, NORM_2, &norm));
-    if (norm > 0) {
-      check(BVScaleColumn(basis.V, basis.columns, 1 / norm));
-      check(BVOrthogonalizeColumn(basis.V, basis.columns, nullptr, &left, nullptr));
-    }
-    basis.origins[i].new_part = left;
-    basis.origins[i].kept = left > tolerance;
-    if (!basis.origins[i].kept) continue;
-    check(BVScaleColumn(basis.V, basis.columns, 1 / left));
-    check(BVOrthogonalizeColumn(basis.V, basis.columns, nullptr, &left, nullptr));  // what scaling up has brought back
-    check(BVScaleColumn(basis.V, basis.columns, 1 / left));
-    ++basis.columns;
+  const std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    basis.origins[i].new_part = columns[i].share;
+    basis.origins[i].kept = columns[i].kept;
   }
-  check(BVSetActiveColumns(basis.V, 0, basis.columns));
+  insert(structure, candidates, columns, basis);
   return basis;
 }
 

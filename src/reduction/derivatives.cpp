@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "floe/fem/field_rows.h"
+#include "floe/petsc/stage.h"
+
 namespace floe::reduction {
 
 using petsc::check;
@@ -16,9 +19,11 @@ Pairs all_pairs(int m) {
 
 Columns static_derivatives(const fem::Structure& structure, const Statics& statics, const Columns& fields,
                            const Pairs& pairs) {
-  const Columns loads = fem::stiffness_derivatives(structure, fields, pairs);
-  for (const auto& load : loads) check(VecScale(load, -1));
-  return statics.solve(loads);
+  if (pairs.empty()) return {};
+  const petsc::Stage stage("derivatives");
+  Columns theta = statics.solve(fem::derivative_loads(structure, fem::gather(structure, fields), pairs));
+  for (const auto& column : theta) fem::separate(structure, column, 1e-7);
+  return theta;
 }
 
 namespace {
@@ -81,16 +86,18 @@ Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFr
     const petsc::KspHandle ksp = shifted_solver(structure, statics, lambda, conditions);
     const petsc::VecHandle Mphi = fem::field(structure);
     check(MatMult(M, modes.raw[i], Mphi));
-    Columns loads;
+    Pairs with;
+    for (int j : others) with.push_back({i, j});
+    Columns loads = fem::stiffness_derivatives(structure, modes.shapes, with);
+    auto next = loads.begin();
     for (int j : others) {
-      petsc::VecHandle load = fem::stiffness_derivative(structure, modes.shapes[i], modes.shapes[j]);
+      const petsc::VecHandle& load = *next++;
       double slope = 0;  // domega_i^2 / deta_j
       check(VecDot(load, modes.shapes[i], &slope));
       fem::balance(frame, load);
       check(VecAYPX(load, -1, Mphi));  // M phi - load, M phi scaled below
       check(VecAXPY(load, slope - 1, Mphi));
       fem::hold(load, conditions);
-      loads.push_back(std::move(load));
       which.push_back({i, j});
     }
     Columns theta = block_solve(ksp, loads);

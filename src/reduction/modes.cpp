@@ -6,7 +6,10 @@
 #include <cmath>
 #include <string>
 
+#include "floe/fem/field_rows.h"
+#include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
+#include "floe/reduction/reduce.h"
 
 namespace floe::reduction {
 
@@ -69,7 +72,7 @@ void share_factor(EPS eps, Mat M, const Statics& statics) {
   if (!own_transformation(eps, 0)) return;
   check(EPSGetST(eps, &st));
   check(STSetKSP(st, statics.solver()));
-  if (!statics.refines()) return;
+  if (!statics.iterates()) return;
   check(EPSSetOperators(eps, statics.exact_stiffness(), M));
   check(STSetPreconditionerMat(st, statics.stiffness()));
 }
@@ -144,34 +147,68 @@ void solve_pairs(EPS eps, const Statics& statics) {
   }
 }
 
+/// The solver of an EPS's shift-and-invert, and its shift.
+struct Transformation {
+  KSP ksp = nullptr;
+  double shift = 0;
+  explicit Transformation(EPS eps) {
+    ST st = nullptr;
+    check(EPSGetST(eps, &st));
+    check(STGetKSP(st, &ksp));
+    check(STGetShift(st, &shift));
+  }
+};
+
+/// A phi of each, zero at the conditions.
+Columns multiplied(Mat A, const Columns& phi, const fem::Conditions& held) {
+  Columns products;
+  for (const auto& field : phi) {
+    products.push_back(copy(field));
+    check(MatMult(A, field, products.back()));
+    fem::hold(products.back(), held);
+  }
+  return products;
+}
+
 /// How far the pairs are from satisfying K phi = lambda M phi, by K without its round-off: (lambda - s)/lambda times
 /// the M-norm of (K - s M)^-1 (K phi - lambda M phi), s the shift. It bounds |lambda - true lambda| / lambda.
 std::vector<double> residuals(EPS eps, Mat exact, Mat M, const fem::Conditions& held, const Columns& phi,
                               const std::vector<double>& lambda) {
-  ST st = nullptr;
-  KSP ksp = nullptr;
-  double shift = 0;
-  check(EPSGetST(eps, &st));
-  check(STGetKSP(st, &ksp));
-  check(STGetShift(st, &shift));
-  Columns loads;
-  const petsc::VecHandle product = copy(phi[0]);
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    loads.push_back(copy(phi[i]));
-    check(MatMult(exact, phi[i], loads[i]));
-    check(MatMult(M, phi[i], product));
-    check(VecAXPY(loads[i], -lambda[i], product));
-    fem::hold(loads[i], held);
-  }
-  const Columns errors = block_solve(ksp, loads);
+  const Transformation inverse(eps);
+  const Columns loads = multiplied(exact, phi, held), inertia = multiplied(M, phi, held);
+  for (std::size_t i = 0; i < phi.size(); ++i) check(VecAXPY(loads[i], -lambda[i], inertia[i]));
+  const Columns errors = block_solve(inverse.ksp, loads);
   std::vector<double> found;
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    double square = 0;
-    check(MatMult(M, errors[i], product));
-    check(VecDot(errors[i], product, &square));
-    found.push_back(std::abs(lambda[i] - shift) / lambda[i] * std::sqrt(std::max(square, 0.0)));
-  }
+  for (std::size_t i = 0; i < phi.size(); ++i)
+    found.push_back(std::abs(lambda[i] - inverse.shift) / lambda[i] * mass_norm(M, errors[i]));
   return found;
+}
+
+/// Rayleigh's quotients with the strain energy of the elements. @param mix  whether modes are combined until they are
+/// stationary (Ritz): what K's round-off has turned them, the lowest most, is among themselves.
+std::vector<double> exact_values(const fem::ElementStiffness& K, Mat M, bool mix, const Columns& phi) {
+  const fem::Structure& structure = K.structure();
+  const Eigen::Index count = static_cast<Eigen::Index>(phi.size());
+  const fem::FieldRows rows = fem::gather(structure, phi);
+  const Eigen::MatrixXd stiffness = K.gram(rows);
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(count, count);
+  const petsc::VecHandle product = fem::field(structure);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    check(MatMult(M, phi[i], product));
+    for (Eigen::Index j = mix ? 0 : i; j <= i; ++j) check(VecDot(phi[j], product, &mass(i, j)));
+  }
+  std::vector<double> lambda;
+  if (!mix) {
+    for (Eigen::Index i = 0; i < count; ++i) lambda.push_back(stiffness(i, i) / mass(i, i));
+    return lambda;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(stiffness, mass);
+  const fem::FieldRows mixed = rows * ritz.eigenvectors();
+  fem::for_each_field(structure, mixed, [&](Eigen::Index j, const double* local) {
+    std::copy(local, local + structure.owned_dofs(), petsc::Values(phi[j]).begin());
+    lambda.push_back(ritz.eigenvalues()[j]);
+  });
+  return lambda;
 }
 
 void check_converged(EPS eps, int count) {
@@ -253,6 +290,53 @@ PetscInt ModeSolver::available() const {
   return structure_.dofs() - static_cast<PetscInt>(holding_.held.size()) - static_cast<PetscInt>(holding_.left.cols());
 }
 
+namespace {
+
+/// Pairs of the matrix, that of round-off included.
+struct Found {
+  std::vector<double> lambda;
+  Columns raw;
+};
+
+Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
+            const Statics& statics, int count) {
+  std::vector<Vec> deflated(rigid.begin(), rigid.end());
+  if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
+  const petsc::VecHandle first = start(structure, held);
+  Vec initial[1] = {first};
+  check(EPSSetInitialSpace(eps, 1, initial));
+  solve_pairs(eps, statics);
+  check_converged(eps, count);
+  Found found;
+  found.lambda.resize(count);
+  for (int i = 0; i < count; ++i) {
+    found.raw.push_back(fem::field(structure));
+    check(EPSGetEigenpair(eps, i, &found.lambda[i], nullptr, found.raw.back(), nullptr));
+    fem::hold(found.raw.back(), held);
+  }
+  return found;
+}
+
+/// phi <- (lambda - s) (K - s M)^-1 M phi, all in one block: takes out what M does not see (rotations without mass) and
+/// the eigenvalue solver leaves in. Returns how far the pairs were from K phi = lambda M phi, in the norm of
+/// residuals().
+std::vector<double> purify(EPS eps, Mat M, const fem::Conditions& held, Found& found) {
+  const Transformation inverse(eps);
+  const Columns products = multiplied(M, found.raw, held);
+  Columns pure = block_solve(inverse.ksp, products);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < pure.size(); ++i) {
+    const double lambda = found.lambda[i], factor = lambda - inverse.shift;
+    check(VecAXPY(found.raw[i], -factor, pure[i]));  // what goes
+    errors.push_back(std::abs(factor / lambda) * mass_norm(M, found.raw[i]));
+    check(VecScale(pure[i], factor));
+  }
+  found.raw = std::move(pure);
+  return errors;
+}
+
+}  // namespace
+
 Modes ModeSolver::solve(int count) {
   Modes modes;
   if (count <= 0) return modes;
@@ -263,31 +347,29 @@ Modes ModeSolver::solve(int count) {
     check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   else
     create(count);
-  const Columns rigid = rigid_motions(structure_, frame_, holding_);
-  std::vector<Vec> deflated(rigid.begin(), rigid.end());
-  if (!deflated.empty()) check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(deflated.size()), deflated.data()));
-  const petsc::VecHandle first = start(structure_, holding_.held);
-  Vec initial[1] = {first};
-  check(EPSSetInitialSpace(eps_, 1, initial));
-  solve_pairs(eps_, statics_);
-  check_converged(eps_, count);
-  std::vector<double> lambda, of_matrix(count);
+  const petsc::Stage stage("modes");
+  const bool shares = statics_.owns(Transformation(eps_).ksp);
+  Found found = pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_, count);
+  std::vector<double> errors = purify(eps_, M_, holding_.held, found);
+  modes.raw = std::move(found.raw);
+  for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
+  const std::vector<double> lambda =
+      exact_values(*statics_.elements(), M_, shares && statics_.refines() && !statics_.iterates(), modes.raw);
   for (int i = 0; i < count; ++i) {
-    modes.raw.push_back(fem::field(structure_));
-    check(EPSGetEigenpair(eps_, i, &of_matrix[i], nullptr, modes.raw.back(), nullptr));
-    fem::hold(modes.raw.back(), holding_.held);
-    fix_sign(structure_, modes.raw.back());
-    lambda.push_back(rayleigh(*statics_.elements(), M_, modes.raw.back()));
-    modes.omega.push_back(std::sqrt(lambda.back()));
-    modes.shapes.push_back(copy(modes.raw.back()));
-    fem::to_frame(frame_, modes.shapes.back());
+    fix_sign(structure_, modes.raw[i]);
+    modes.omega.push_back(std::sqrt(lambda[i]));
+    modes.shapes.push_back(copy(modes.raw[i]));
+    if (!holds_frame(frame_, holding_.held)) fem::to_frame(frame_, modes.shapes.back());
   }
-  modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
+  if (shares && !statics_.iterates())  // of K's factor, and what that misses
+    for (double error : errors) modes.residual.push_back(error + statics_.factor_error());
+  else
+    modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
   for (int i = 0; i < count; ++i)
-    if (modes.residual[i] > 1e-2 && std::abs(of_matrix[i] / lambda[i] - 1) > 1e-3)
+    if (modes.residual[i] > 1e-2 && std::abs(found.lambda[i] / lambda[i] - 1) > 1e-3)
       throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
-                                             std::sqrt(std::min(lambda[i], std::abs(of_matrix[i]))),
-                                             std::sqrt(std::max(lambda[i], std::abs(of_matrix[i])))));
+                                             std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
+                                             std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));
   return modes;
 }
 

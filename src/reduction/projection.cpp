@@ -1,8 +1,8 @@
 #include "floe/reduction/projection.h"
 
-#include <algorithm>
-
-#include "floe/fem/element_stiffness.h"
+#include "floe/petsc/stage.h"
+#include "mass_forms.h"
+#include "tall_skinny.h"
 
 namespace floe::reduction {
 
@@ -10,89 +10,14 @@ using petsc::check;
 
 namespace {
 
-/// Local rows (foreign nodes included) of the basis.
-Eigen::MatrixXd local_rows(const fem::Structure& structure, const Basis& basis) {
-  Eigen::MatrixXd V(structure.local_dofs(), basis.columns);
-  for (int j = 0; j < basis.columns; ++j) {
-    Vec column = nullptr;
-    check(BVGetColumn(basis.V, j, &column));
-    V.col(j) = structure.exchange.gather(column);
-    check(BVRestoreColumn(basis.V, j, &column));
-  }
-  return V;
-}
-
 /// Columns that have slope anywhere: their slopes' root mean square is not round-off against that of the steepest.
-std::vector<int> sloped_columns(const fem::Structure& structure, const Eigen::MatrixXd& V) {
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(V.cols());
-  for (const auto& cell : structure.mesh.cells) {
-    const Eigen::MatrixXd Ve = V(structure.cell_dofs(cell), Eigen::all);
-    for (const auto& g : structure.maps(cell).membrane)
-      squares += g.weight * (g.G * Ve).colwise().squaredNorm().transpose();
-  }
-  MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM,
-                structure.mesh.comm);
+std::vector<int> sloped_columns(const fem::Structure& structure, const fem::FieldRows& V) {
+  const Eigen::VectorXd squares = fem::slopes(structure, V).squares;
   std::vector<int> sloped;
   const double greatest = squares.size() > 0 ? squares.maxCoeff() : 0;
   for (int j = 0; j < squares.size(); ++j)
     if (squares[j] > 1e-22 * greatest) sloped.push_back(j);
   return sloped;
-}
-
-/// R of a QR of the rows, at most as many rows as columns.
-Eigen::MatrixXd triangle(const Eigen::MatrixXd& rows) {
-  if (rows.rows() <= rows.cols()) return rows;
-  Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows);
-  return qr.matrixQR().topRows(rows.cols()).template triangularView<Eigen::Upper>();
-}
-
-/// Stacks blocks of rows and shrinks them whenever they have grown to twice the number of columns.
-class TallSkinnyQr {
- public:
-  explicit TallSkinnyQr(Eigen::Index columns) : buffer_(2 * columns + 512, columns) {}
-  void add(const Eigen::MatrixXd& block) {
-    if (filled_ + block.rows() > buffer_.rows()) shrink(block.rows());
-    buffer_.middleRows(filled_, block.rows()) = block;
-    filled_ += block.rows();
-  }
-  Eigen::MatrixXd factor() { return triangle(buffer_.topRows(filled_)); }
-
- private:
-  void shrink(Eigen::Index room) {
-    const Eigen::MatrixXd R = triangle(buffer_.topRows(filled_));
-    if (R.rows() + room > buffer_.rows()) buffer_.conservativeResize(R.rows() + room, Eigen::NoChange);
-    buffer_.topRows(R.rows()) = R;
-    filled_ = R.rows();
-  }
-  Eigen::MatrixXd buffer_;
-  Eigen::Index filled_ = 0;
-};
-
-/// One triangle from those of all ranks, in rank order, the same on all.
-Eigen::MatrixXd combine(MPI_Comm comm, const Eigen::MatrixXd& mine) {
-  int size = 1, rank = 0;
-  MPI_Comm_size(comm, &size);
-  MPI_Comm_rank(comm, &rank);
-  const Eigen::Index columns = mine.cols();
-  const int count = static_cast<int>(mine.rows());
-  std::vector<int> rows(size), sizes(size), first(size, 0);
-  MPI_Allgather(&count, 1, MPI_INT, rows.data(), 1, MPI_INT, comm);
-  int total = 0;
-  for (int r = 0; r < size; ++r) {
-    sizes[r] = rows[r] * static_cast<int>(columns);
-    first[r] = total * static_cast<int>(columns);
-    total += rows[r];
-  }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor send = mine;
-  RowMajor all(total, columns);
-  MPI_Gatherv(send.data(), sizes[rank], MPI_DOUBLE, all.data(), sizes.data(), first.data(), MPI_DOUBLE, 0, comm);
-  Eigen::MatrixXd factor = rank == 0 ? triangle(all) : Eigen::MatrixXd();
-  int final_rows = static_cast<int>(factor.rows());
-  MPI_Bcast(&final_rows, 1, MPI_INT, 0, comm);
-  factor.resize(final_rows, columns);
-  MPI_Bcast(factor.data(), static_cast<int>(factor.size()), MPI_DOUBLE, 0, comm);
-  return factor;
 }
 
 void sum_over_ranks(MPI_Comm comm, double* values, Eigen::Index count) {
@@ -114,31 +39,123 @@ void sum_over_ranks(MPI_Comm comm, body::Inertia& inertia) {
     for (auto& M : row) sum_over_ranks(comm, M.data(), M.size());
 }
 
+/// Sums V'K_b V of this rank. Rows go to three stacks in groups of three: a shell's are its mean curvature, its edges'
+/// bending and its drilling, and columns of a flat one have either of the first two or the last.
+class BendingSum {
+ public:
+  explicit BendingSum(int k) : sum_(Eigen::MatrixXd::Zero(k, k)) { stacks_.fill(RowStack(k, 510)); }
+  void add(const fem::PieceRows& piece, const fem::Strained& V, int dofs_per_node) {
+    for (Eigen::Index first = 0; first < piece.bending.rows(); first += 3) {
+      RowStack& stack = stacks_[std::min<Eigen::Index>(first / 3, 2)];
+      const Eigen::Index count = std::min<Eigen::Index>(3, piece.bending.rows() - first);
+      if (stack.count + count > stack.room) flush(stack);
+      stack.range.include(fem::multiply(piece.bending.middleRows(first, count), V, dofs_per_node, stack.next()));
+      stack.count += static_cast<int>(count);
+    }
+  }
+  Eigen::MatrixXd sum() {
+    for (RowStack& stack : stacks_) flush(stack);
+    mirror(sum_);
+    return sum_;
+  }
+
+ private:
+  void flush(RowStack& stack) {
+    add_product(stack, stack, sum_);
+    stack.clear();
+  }
+  std::array<RowStack, 3> stacks_;
+  Eigen::MatrixXd sum_;
+};
+
+/// Adds the rows [ L V | e(V_a, V_b) ] of strain points to a QR.
+class StrainStack {
+ public:
+  StrainStack(const fem::FieldRows& V, const std::vector<int>& sloped, Eigen::Index pairs)
+      : V_(V),
+        sloped_(sloped),
+        qr_(V.cols() + pairs),
+        linear_(3, V.cols()),
+        slope_(24, V.cols()),
+        steep_(24, sloped.size()),
+        bilinear_(3, pairs) {}
+  /// @param strained  V for L
+  void add(const fem::Structure& structure, const fem::PieceRows& piece, const fem::StrainRows& point,
+           const fem::Strained& strained, const fem::DofRanges& ranges) {
+    const Eigen::Index s = point.L.rows(), g = point.G.rows(), k = V_.cols();
+    fem::multiply(point.L, strained, structure.dofs_per_node, linear_.data());
+    bilinear_.setZero();
+    if (!fem::multiply(structure, piece, point.G, V_, ranges, slope_.data()).empty() && bilinear_.cols() > 0) {
+      for (std::size_t i = 0; i < sloped_.size(); ++i) steep_.col(i).head(g) = slope_.col(sloped_[i]).head(g);
+      for (const auto& term : point.terms) add_term(term, s);
+    }
+    auto rows = qr_.rows(s);
+    rows.leftCols(k) = linear_.topRows(s);
+    rows.rightCols(bilinear_.cols()) = bilinear_.topRows(s);
+  }
+  Eigen::MatrixXd factor() { return qr_.factor(); }
+
+ private:
+  void add_term(const fem::StrainRows::Term& term, Eigen::Index strains) {
+    const int n = static_cast<int>(sloped_.size());
+    const double *p = steep_.row(term.p).data(), *q = steep_.row(term.q).data();
+    for (Eigen::Index r = 0; r < strains; ++r) {
+      double* out = bilinear_.row(r).data();
+      for (int i = 0; i < n; out += n - i, ++i) {  // pairs (i, i), (i, i + 1), ...
+        fem::add_multiple(term.C[r] * p[i], q + i, out, n - i);
+        if (term.p != term.q) fem::add_multiple(term.C[r] * q[i], p + i, out, n - i);
+      }
+    }
+  }
+  const fem::FieldRows& V_;
+  const std::vector<int>& sloped_;
+  TallSkinnyQr qr_;
+  fem::FieldRows linear_, slope_, steep_, bilinear_;
+};
+
+/// Local rows (foreign nodes included) of the basis.
+fem::FieldRows local_rows(const fem::Structure& structure, const Basis& basis) {
+  const petsc::VecHandle column = fem::field(structure);
+  return fem::gather(structure, basis.columns, [&](Eigen::Index j, double* local) {
+    check(BVCopyVec(basis.V, static_cast<PetscInt>(j), column));
+    structure.exchange.gather(column, local);
+  });
+}
+
 }  // namespace
 
 body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) {
+  const petsc::Stage stage("projection");
   const MPI_Comm comm = structure.mesh.comm;
   const int k = basis.columns;
-  const Eigen::MatrixXd V = local_rows(structure, basis);
+  const fem::FieldRows V = local_rows(structure, basis);
+  const fem::DofRanges ranges = fem::dof_ranges(structure, V);
+  const std::vector<int> sloped = sloped_columns(structure, V);
   body::FlexibleBody body;
-  body.inertia = body.line = body::Inertia(structure.mesh.dimension, k);
-  body.elasticity.bending = Eigen::MatrixXd::Zero(k, k);
-  body.elasticity.pairs = fem::pairs_of(sloped_columns(structure, V));
-  TallSkinnyQr qr(k + static_cast<Eigen::Index>(body.elasticity.pairs.size()));
+  body.elasticity.pairs = fem::pairs_of(sloped);
+  MassForms inertia(structure, V, ranges, true), line(structure, V, ranges, true);
+  BendingSum bending(k);
+  StrainStack strain(V, sloped, static_cast<Eigen::Index>(body.elasticity.pairs.size()));
+  std::vector<fem::PieceRows> pieces;
+  fem::Strained strained;
   for (const auto& cell : structure.mesh.cells) {
-    const fem::ElementMaps maps = structure.maps(cell);
-    const Eigen::MatrixXd Ve = V(structure.cell_dofs(cell), Eigen::all);
-    for (const body::MassPoint& point : maps.mass) body.inertia.add({point.mass, point.x, point.N * Ve});
-    for (const body::MassPoint& point : structure.line(cell)) body.line.add({point.mass, point.x, point.N * Ve});
-    Eigen::MatrixXd strained = Ve;
-    fem::take_rigid_motion(strained, fem::arms(structure.mesh, cell));
-    body.elasticity.bending.noalias() += strained.transpose() * maps.bending * strained;
-    if (k > 0) qr.add(fem::strain_rows(maps, Ve, strained, body.elasticity.pairs));
+    fem::piece_rows(structure, cell, {true, true, true, true}, pieces);
+    for (const fem::PieceRows& piece : pieces) {
+      inertia.add(piece, piece.mass);
+      line.add(piece, piece.line);
+      if (k == 0) continue;
+      fem::take_strained(structure, piece, V, ranges, strained);
+      bending.add(piece, strained, structure.dofs_per_node);
+      for (const fem::StrainRows& point : piece.strain) strain.add(structure, piece, point, strained, ranges);
+    }
   }
+  body.inertia = inertia.sums();
+  body.line = line.sums();
+  body.elasticity.bending = bending.sum();
   sum_over_ranks(comm, body.inertia);
   sum_over_ranks(comm, body.line);
   sum_over_ranks(comm, body.elasticity.bending.data(), body.elasticity.bending.size());
-  body.elasticity.F = combine(comm, qr.factor());
+  body.elasticity.F = combine(comm, strain.factor());
   return body;
 }
 

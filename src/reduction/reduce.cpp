@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "floe/fem/field_rows.h"
+
 namespace floe::reduction {
 
 using petsc::check;
@@ -35,7 +37,9 @@ Columns static_columns(const fem::Structure& structure, const Statics& statics,
       loads.push_back(copy(attachment.load));
     else
       moved.push_back(attachment.moved);
-  Columns responses = statics.solve(loads), constrained = statics.constraint_modes(structure, moved);
+  Columns responses = statics.solve(loads);
+  for (const auto& response : responses) fem::separate(structure, response, 1e-9);
+  Columns constrained = statics.constraint_modes(structure, moved);
   auto response = responses.begin(), constraint = constrained.begin();
   for (const Attachment& attachment : attachments)
     all.push_back(std::move(attachment.load ? *response++ : *constraint++));
@@ -78,8 +82,7 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
       result.dropped.push_back(independent.origins[i]);
       continue;
     }
-    const double norm = mass_norm(M, candidates[i]);
-    check(VecScale(candidates[i], 1 / norm));
+    check(VecScale(candidates[i], 1 / independent.norms[static_cast<Eigen::Index>(i)]));
     result.fields.push_back(std::move(candidates[i]));
     result.origins.push_back(independent.origins[i]);
   }
@@ -88,22 +91,26 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
 
 namespace {
 
-/// Whether each field turns the body's line anywhere, by root mean squares. Fields that do not (axial modes of a
-/// straight body) have no derivatives among themselves; what a solver leaves there is round-off. Collective.
+/// Mean square displacement of the nodes. Collective.
+Eigen::VectorXd mean_squares(const fem::Structure& structure, const fem::FieldRows& fields) {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(fields.cols());
+  for (PetscInt node = 0; node < structure.mesh.owned_nodes; ++node)
+    sums +=
+        fields.middleRows(structure.dofs_per_node * node, structure.dimension()).colwise().squaredNorm().transpose();
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  return sums / static_cast<double>(structure.mesh.node_count);
+}
+
+/// Whether each field turns the body's line or surface anywhere, by root mean squares. Fields that do not (axial modes
+/// of a straight body) have no derivatives among themselves; what a solver leaves there is round-off. Collective.
 std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fields) {
+  const fem::FieldRows rows = fem::gather(structure, fields);
+  const fem::Slopes slopes = fem::slopes(structure, rows);
+  const Eigen::VectorXd displacements = mean_squares(structure, rows);
+  const double length = fem::extent(structure);
   std::vector<bool> sloped;
-  for (const auto& field : fields) {
-    const Eigen::VectorXd q = structure.exchange.gather(field);
-    double sums[3] = {0, 0, 0};  // slope^2, displacement^2, length
-    for (const auto& cell : structure.mesh.cells) {
-      const Eigen::VectorXd qe = q(structure.cell_dofs(cell));
-      for (const auto& g : structure.maps(cell).membrane) sums[0] += g.weight * (g.G * qe).squaredNorm();
-      for (const auto& point : structure.line(cell))
-        sums[1] += point.mass * (point.N * qe).squaredNorm(), sums[2] += point.mass;
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
-    sloped.push_back(sums[0] * sums[2] * sums[2] > 1e-18 * sums[1]);
-  }
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    sloped.push_back(slopes.squares[j] * length * length > 1e-18 * displacements[j] * slopes.measure);
   return sloped;
 }
 
@@ -141,14 +148,16 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
 
 Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
                double tolerance) {
-  Columns candidates;
-  for (const auto& column : generators.fields) candidates.push_back(copy(column));
+  const std::size_t first = generators.fields.size();
+  fem::FieldRows candidates = fem::gather(
+      structure, static_cast<Eigen::Index>(first + derivatives.columns.size()), [&](Eigen::Index j, double* local) {
+        const auto at = static_cast<std::size_t>(j);
+        structure.exchange.gather(at < first ? generators.fields[at] : derivatives.columns[at - first], local);
+      });
+  derivatives.columns.clear();  // their memory
   std::vector<ColumnOrigin> origins = generators.origins;
-  for (std::size_t i = 0; i < derivatives.columns.size(); ++i) {
-    candidates.push_back(std::move(derivatives.columns[i]));
-    origins.push_back(derivatives.origins[i]);
-  }
-  Basis basis = orthonormal_basis(structure, candidates, std::move(origins), tolerance);
+  origins.insert(origins.end(), derivatives.origins.begin(), derivatives.origins.end());
+  Basis basis = orthonormal_basis(structure, std::move(candidates), std::move(origins), tolerance);
   for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
   return basis;
 }

@@ -75,6 +75,14 @@ inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread) {
   return structure_of(mixed_mesh(comm), mixed_sections(), spread);
 }
 
+/// Nodes of the mixed mesh that follow others rigidly: two of the shells', and the one where the mast stands.
+inline std::vector<mesh::Follower> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
+
+inline fem::Structure linked_structure(MPI_Comm comm, Spread spread) {
+  const mesh::RawMesh raw = mixed_mesh(comm);
+  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(), fem::MembraneStrain::averaged};
+}
+
 /// Values by original dofs, the same on every rank, of a field; and the way back. Collective.
 inline Eigen::VectorXd in_original_order(const fem::Structure& s, Vec field) {
   petsc::Values own(field);

@@ -15,7 +15,9 @@ petsc::MatHandle assemble(const Structure& structure, const Conditions& conditio
 
 /// K under conditions: K_b + sum w L'DL, with the conditions' diagonal positive. Collective.
 petsc::MatHandle stiffness(const Structure& structure, const Conditions& conditions);
-/// M under conditions; their diagonal is zero. Collective.
+/// M under conditions; their diagonal is zero. Without conditions it is assembled once and shared by all who ask, who
+/// may not change it (it is found out at the next call, which assembles another); under conditions it is a copy of that
+/// one. Collective.
 petsc::MatHandle mass(const Structure& structure, const Conditions& conditions);
 
 /// f = (dK/deta_j) phi_i, exact, element by element; symmetric in i and j. Collective.

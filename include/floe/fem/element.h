@@ -33,16 +33,11 @@ struct ElementMaps {
 /// (dK/deta_j) phi_i for one element: sum w [ L'D e(a, b) + e(a, .)'D L b + e(b, .)'D L a ]. Exact; symmetric in a, b.
 Eigen::VectorXd stiffness_derivative(const ElementMaps& maps, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// The same for pairs of columns of Q (dofs x fields): a column each, dofs x pairs.
-Eigen::MatrixXd stiffness_derivatives(const ElementMaps& maps, const Eigen::MatrixXd& Q,
-                                      const std::vector<std::array<int, 2>>& pairs);
-
 /// Pairs (a <= b) of columns that have slope in this element or in any: all pairs of `sloped`.
 std::vector<std::pair<int, int>> pairs_of(const std::vector<int>& sloped);
 
 /// Rows sqrt(w) D^(1/2) [ L V | e(V_a, V_b) for the pairs ] of one element, V = dofs x k.
-/// @param strained  V, or V less a rigid motion of the element, which L does not see but for round-off
-Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V, const Eigen::MatrixXd& strained,
+Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
                             const std::vector<std::pair<int, int>>& pairs);
 
 /// Elastic energy of the element on the columns of V, as a sum of squares.

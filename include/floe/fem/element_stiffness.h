@@ -20,8 +20,8 @@ Eigen::Matrix3Xd arms(const Mesh& mesh, const Mesh::Cell& cell);
 /// K as the sum of its elements, never assembled: element by element the rigid motion is taken off first.
 ///
 /// An assembled K, and with it every factor of K, misses the energy of the lowest modes by eps (L/h)^4 of it, h the
-/// size of an element: 1e-3 at 4096 elements along a beam, more than all of it at 16384. Keeps each
-/// element's matrix in the plane; in space they would fill the memory, and are made anew.
+/// size of an element: 1e-3 at 4096 elements along a beam, more than all of it at 16384. Keeps each element's matrix in
+/// the plane; in space they would fill the memory: those of beams are made anew, shells are squares of a few rows.
 class ElementStiffness {
  public:
   /// @param structure  borrowed. Rank-local.
@@ -30,15 +30,23 @@ class ElementStiffness {
   void multiply(Vec q, Vec f) const;
   /// U = 1/2 q'K q, a sum over elements. Collective.
   double strain_energy(Vec q) const;
-  double largest_diagonal() const { return largest_; }
+  /// sums += K X of this rank's cells. Rank-local.
+  void add_forces(const FieldRows& X, FieldRows& sums) const;
+  /// X'K X, the same on all ranks. Collective.
+  Eigen::MatrixXd gram(const FieldRows& X) const;
+  /// Of the elements of all ranks. Collective at the first call.
+  double largest_diagonal() const;
   const Structure& structure() const { return structure_; }
 
  private:
-  /// K_e T q_e of every cell, handed to `sink` with T q_e.
+  /// K_e T q_e of every line (or point) cell, handed to `sink` with T q_e.
   template <class Sink>
-  void each(Vec q, Sink&& sink) const;
+  void each_line(const FieldRows& X, Sink&& sink) const;
+  /// Rows R of every piece of a shell, K_e = sum R'R, handed to `sink` with R T q_e by rows.
+  template <class Sink>
+  void each_shell(const FieldRows& X, Sink&& sink) const;
   const Structure& structure_;
-  double largest_ = 0;              ///< of all ranks
+  mutable double largest_ = -1;     ///< not known yet
   std::vector<Eigen::MatrixXd> K_;  ///< in the plane
 };
 

@@ -18,7 +18,10 @@ class Exchange {
   /// Collective.
   Eigen::VectorXd gather(Vec field) const;
   /// field += local contributions of all ranks. Collective.
-  void add(const Eigen::VectorXd& local, Vec field) const;
+  void add(const Eigen::VectorXd& local, Vec field) const { add(local.data(), field); }
+  /// The same on bare arrays of this rank's local dofs.
+  void gather(Vec field, double* local) const;
+  void add(const double* local, Vec field) const;
 
  private:
   petsc::ScatterHandle scatter_;
@@ -48,6 +51,12 @@ Section turned(const Section& section, const Eigen::Matrix3d& rotation);
 /// Which nodes share cells with which, by global numbers, for the rows of this rank: the pattern of K and M.
 struct NodeGraph;
 
+/// What is made once, when it is first asked for: the mass matrix without conditions, the plane of a flat body.
+struct Kept;
+
+/// Many fields side by side: a row for each local dof, foreign nodes included, a column for each field.
+using FieldRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// A body's finite elements: assembles and never solves. Dofs are numbered by node: in the plane (u, v, rotation), in
 /// space (u, v, w, rotation vector), body axes.
 struct Structure {
@@ -57,6 +66,7 @@ struct Structure {
   int dofs_per_node = 3;
   Exchange exchange;
   std::shared_ptr<const NodeGraph> graph;
+  std::shared_ptr<Kept> kept;
 
   /// Dofs by the mesh's dimension. @throws InputError  a section that its cell cannot have. Collective.
   Structure(Mesh mesh, std::vector<Section> sections, MembraneStrain strain);
@@ -92,6 +102,9 @@ Structure planar_structure(Mesh mesh, const std::vector<BeamSection>& sections, 
 
 /// A zero field on the structure's dofs. Collective.
 petsc::VecHandle field(const Structure& structure);
+
+/// Diagonal of the box around the body: a length to compare rotations with displacements. Collective.
+double extent(const Structure& structure);
 
 /// Rigid motions, linearised: in the plane (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node; in space three translations,
 /// then rotations about x, y, z through the origin. Zero at nodes that follow others. Collective.

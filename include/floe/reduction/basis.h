@@ -20,14 +20,19 @@ struct Basis {
   petsc::BvHandle V;
   int columns = 0;
   std::vector<ColumnOrigin> origins;  ///< of every candidate, in order
+  Eigen::VectorXd norms;              ///< M-norms of the candidates
 };
 
 /// Orthonormalises candidates in their order, in the M inner product; a column whose new part is below `tolerance`
 /// times its norm adds nothing and is dropped.
 ///
 /// @param candidates  in the floating frame; at least one
-/// Collective. Block-free Gram-Schmidt with refinement (BVOrthogonalizeColumn).
+/// Collective. Cholesky of the Gram matrix, again and again until it is 1: two or three passes over the elements and
+/// products of blocks, where columns that depend much on those before them wait for the next pass.
 Basis orthonormal_basis(const fem::Structure& structure, const Columns& candidates, std::vector<ColumnOrigin> origins,
+                        double tolerance);
+/// The same for the fields of `candidates`, which are used up.
+Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidates, std::vector<ColumnOrigin> origins,
                         double tolerance);
 
 }  // namespace floe::reduction

@@ -6,7 +6,8 @@ namespace floe::reduction {
 /// Vibration modes of a body under conditions, mass-normalised: K phi = omega^2 M phi.
 struct Modes {
   std::vector<double> omega;     ///< [rad/s], ascending, by Rayleigh's quotient of the elements' strain energy
-  std::vector<double> residual;  ///< |K^-1 (K phi - omega^2 M phi)|_M, at least the relative error of omega^2
+  std::vector<double> residual;  ///< |K^-1 (K phi - omega^2 M phi)|_M or a bound of it, at least the relative error of
+                                 ///< omega^2
   Columns raw;                   ///< phi as the body is held in space
   Columns shapes;                ///< phi in the floating frame, P phi
 };
@@ -18,6 +19,7 @@ struct Modes {
 /// rigidly, Cholesky by MUMPS). At shift 0 under the conditions of `statics`, the solver of `statics` serves with its
 /// factor and its options -derivatives_...; any option -modes_st_... gives the EPS a solver of its own. The sign of
 /// each mode makes the first translation above half the greatest one positive.
+/// Modes of a flat body move in its plane or out of it (fem::separate).
 class ModeSolver {
  public:
   /// @param statics  a solver of the same body (also estimates the shift of a free body)

@@ -6,10 +6,11 @@ namespace floe::reduction {
 
 /// The body on the columns of V: inertia constants, bending stiffness, and the membrane energy's triangular factor F.
 ///
-/// H has the rows sqrt(w) D^(1/2) [L V | e(V_a, V_b)] of every strain point; H = Q F by a tall-skinny QR, blocks of
-/// rows at a time and then over ranks. Pairs of columns without slope are left out. Energy and forces equal the
-/// projected full ones to round-off. Collective; the result is the same to the bit on all ranks. Cost O(cells (k +
-/// k^2/2)^2), memory O(k^4).
+/// H has the rows sqrt(w) D^(1/2) [L V | e(V_a, V_b)] of every strain point; H = Q F by a tall-skinny QR (LAPACK),
+/// blocks of rows at a time and then over ranks. Pairs of columns without slope are left out. Energy and forces equal
+/// the projected full ones to round-off. Bending and inertia are sums of products of many rows at a time (BLAS),
+/// without the columns that are zero there. Collective; the result is the same to the bit on all ranks. Cost O(cells (k
+/// + p)^2), p the number of pairs, at most k^2/2; memory: V once more on every rank, and O((k + p)^2).
 body::FlexibleBody project(const fem::Structure& structure, const Basis& basis);
 
 /// Rows of V at a node: S and psi. Collective; replicated.

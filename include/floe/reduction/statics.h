@@ -13,14 +13,18 @@ using Columns = std::vector<petsc::VecHandle>;
 ///
 /// K stands under Holding::statics: where joints hold the body they restrict u (an axially immovable end stays put),
 /// where they leave it free any supplement gives the same answer, because P' f is self-equilibrated. KSP prefix
-/// derivatives_ (default: Cholesky by MUMPS, blocks of right-hand sides; where round-off spoils the factor, conjugate
-/// gradients on the exact operator, preconditioned by it).
+/// derivatives_ (default: Cholesky by MUMPS, blocks of right-hand sides; where round-off touches the factor, corrected
+/// with the exact operator; where it spoils it, conjugate gradients on that operator, preconditioned by the factor).
 class Statics {
  public:
   /// Factors K at the first solve. Collective.
   Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding);
+  /// Factors K unless that is done; who solves with K does it anyway. Collective.
+  void factor() const;
   /// @throws RunError  not converged. Collective. One block solve.
   Columns solve(const Columns& loads) const;
+  /// The same for the columns of a dense matrix, which is used up.
+  Columns solve(petsc::MatHandle loads) const;
   /// Static constraint modes, in the floating frame: one of conditions() displaced by one and the others held at zero,
   /// u = e + v, K v = -K e. Source: Craig and Bampton 1968. Collective. One block solve, the same factor.
   Columns constraint_modes(const fem::Structure& structure, const std::vector<PetscInt>& dofs) const;
@@ -37,10 +41,17 @@ class Statics {
   Mat exact_stiffness() const { return exact_; }
   /// Whether the factor misses too much to be a solver by itself: for one smooth load f and u = K^-1 f,
   /// |K^-1 (f - K_exact u)| > 1e-8 |u|. It grows as eps (L/h)^4. Collective; factors, and solves twice, at first.
-  bool refines() const;
+  bool refines() const { return factor_error() > 1e-8; }
+  /// Whether it misses so much that solver() is an iteration: more than 1e-3.
+  bool iterates() const { return factor_error() > 1e-3; }
+  /// That number. Collective, as refines().
+  double factor_error() const;
 
  private:
   double measured_error() const;
+  double missing(Mat loads, Mat u) const;
+  void correct(Mat loads, Mat u) const;
+  Columns corrected(petsc::MatHandle loads) const;
   const fem::ReferenceFrame& frame_;
   fem::Conditions conditions_;
   petsc::MatHandle K_;
@@ -50,7 +61,8 @@ class Statics {
   mutable double factor_error_ = -1;  ///< not measured yet
 };
 
-/// A direct solver for A (MATSBAIJ) by MUMPS' Cholesky / LDL', with `prefix` for the user's options. Collective.
+/// A direct solver for A (MATSBAIJ) by MUMPS' Cholesky / LDL', with `prefix` for the user's options. Right-hand sides
+/// go through it 64 at a time (MUMPS' ICNTL(27)), unless the options say otherwise. Collective.
 petsc::KspHandle direct_solver(Mat A, const char* prefix);
 
 /// Turns a direct solver into an iteration that its factor preconditions: a few steps, to 1e-12 of the preconditioned
@@ -62,6 +74,17 @@ RunError too_fine(const fem::Structure& structure, const std::string& what);
 
 /// X with A X = B for all columns at once. @throws RunError with prefix, reason and residual. Collective.
 Columns block_solve(KSP ksp, const Columns& B);
+/// The same for dense matrices, of one layout.
+void block_solve(KSP ksp, Mat B, Mat X);
+
+/// A dense matrix of `count` columns like one, assembled, zero; and one with the given columns. Collective.
+petsc::MatHandle dense_like(Vec column, std::size_t count);
+petsc::MatHandle dense_of(const Columns& columns);
+Columns columns_of(Mat dense);
+
+/// Whether dofs held at zero include all conditions of the frame: displacements are then in the frame as they are, and
+/// what P' changes in a load is borne by held dofs.
+bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& held);
 
 /// Deep copies. Collective.
 petsc::VecHandle copy(Vec vector);

@@ -10,20 +10,11 @@ using testing::Spread;
 
 namespace {
 
-/// Two nodes of the shells follow another one, and the foot of the mast a corner of the floor.
-const std::vector<mesh::Follower> links{{2, 5}, {9, 0}, {13, 5}};
-
-fem::Structure linked(Spread spread) {
-  const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_WORLD);
-  return {fem::mesh_of(raw, testing::ranks_of(raw, spread), links), testing::mixed_sections(),
-          fem::MembraneStrain::averaged};
-}
-
 /// q of all nodes from the linked ones, by original dofs: rows of followers say how their leaders move them.
 Eigen::MatrixXd following() {
   const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(6 * raw.node_count, 6 * raw.node_count);
-  for (const auto& [node, leader] : links) {
+  for (const auto& [node, leader] : testing::mixed_links()) {
     T.block<6, 6>(6 * node, 6 * node).setZero();
     T.block<6, 6>(6 * node, 6 * leader) = fem::rigid_arm(Eigen::Vector3d(raw.positions[node] - raw.positions[leader]));
   }
@@ -34,7 +25,8 @@ Eigen::MatrixXd following() {
 
 TEST_CASE("rigid links: K and M are those of the free nodes, seen by the dofs that move them") {
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed);
-  const fem::Structure s = linked(spread), free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
+  const fem::Structure s = testing::linked_structure(PETSC_COMM_WORLD, spread),
+                       free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
   const Eigen::MatrixXd T = following();
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
                          M0 = fem::mass(free, {});
@@ -59,7 +51,8 @@ TEST_CASE("rigid links: K and M are those of the free nodes, seen by the dofs th
 
 TEST_CASE("rigid links: bodies keep their rigid motions, and followers are held") {
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::last);
-  const fem::Structure s = linked(spread), free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
+  const fem::Structure s = testing::linked_structure(PETSC_COMM_WORLD, spread),
+                       free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), M0 = fem::mass(free, {});
   const auto rigid = fem::rigid_motions(s), whole = fem::rigid_motions(free);
   for (int i = 0; i < 6; ++i) {

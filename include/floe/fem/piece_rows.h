@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "floe/fem/structure.h"
+
+namespace floe::fem {
+
+/// A small matrix without heap; rows are on the dofs of a piece, in the order of its nodes.
+using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 24, 24>;
+
+/// A strain point with its weight and stiffness in the rows: U = 1/2 |eps|^2, eps(q) = L q + 1/2 e(q, q),
+///
+///   e_r(a, b) = sum_p C_r,pp a_p b_p + sum_(p<q) C_r,pq (a_p b_q + a_q b_p),   a_p = (G a)_p
+struct StrainRows {
+  SmallRows L;    ///< s x dofs
+  SmallRows G;    ///< g x dofs
+  double weight;  ///< that the rows of L hold the root of [m], [m2]
+  struct Term {
+    int p, q;  ///< p <= q
+    std::array<double, 3> C;
+  };
+  std::vector<Term> terms;  ///< C, of each row
+};
+
+/// A sample of mass: displacement N q at x; as body::MassPoint, or a pair of opposite halves about another sample, at x
+/// and -x from it and moving by N q and -N q besides: that one counts in second moments only.
+struct MassRows {
+  double mass;
+  bool pair;
+  Eigen::Vector3d x;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 24> N;
+};
+
+/// A cell or, of a quadrilateral, one of its triangles: what products of many columns are made of.
+struct PieceRows {
+  std::array<int, 3> node{};  ///< local
+  int nodes = 0;
+  SmallRows bending;  ///< U_b = 1/2 |bending q|^2
+  std::vector<StrainRows> strain;
+  std::vector<MassRows> mass;
+  std::vector<MassRows> line;  ///< Structure::line
+};
+
+/// Which of them to make.
+struct PieceParts {
+  bool bending = false, strain = false, mass = false, line = false;
+};
+
+/// The pieces of a cell, in the plane's axes where the body is flat (flat_body), whose energies and inertia constants
+/// add up to those of Structure::maps.
+/// @param pieces  receives them; its memory is used again
+void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, std::vector<PieceRows>& pieces);
+
+}  // namespace floe::fem

@@ -1,0 +1,176 @@
+#include "floe/fem/piece_rows.h"
+
+#include <cmath>
+
+#include "floe/fem/flat_body.h"
+#include "floe/fem/transform.h"
+#include "shell_triangle.h"
+
+namespace floe::fem {
+namespace {
+
+/// R with R'R = S, for S symmetric positive semi-definite.
+Eigen::MatrixXd root(const Eigen::MatrixXd& S) {
+  if (S.size() == 1) return S.cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// The same, upper triangular; a direction without stiffness but for round-off has none.
+Eigen::Matrix3d root3(Eigen::Matrix3d S) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+  const double least = 1e-14 * S.trace();
+  for (int i = 0; i < 3; ++i) {
+    if (!(S(i, i) > least)) continue;
+    R.row(i).tail(3 - i) = S.row(i).tail(3 - i) / std::sqrt(S(i, i));
+    S -= R.row(i).transpose() * R.row(i);
+  }
+  return R;
+}
+
+/// Terms of e from the symmetric matrices P of a strain point, D^(1/2) applied.
+std::vector<StrainRows::Term> terms_of(const StrainPoint& point, const Eigen::MatrixXd& half) {
+  std::vector<StrainRows::Term> terms;
+  const int slopes = static_cast<int>(point.G.rows()), strains = static_cast<int>(point.P.size());
+  for (int p = 0; p < slopes; ++p)
+    for (int q = p; q < slopes; ++q) {
+      Eigen::VectorXd of_strains(strains);
+      for (int s = 0; s < strains; ++s) of_strains[s] = point.P[s](p, q);
+      if (of_strains.isZero(0)) continue;
+      StrainRows::Term term{p, q, {}};
+      Eigen::Map<Eigen::VectorXd>(term.C.data(), strains) = half * of_strains;
+      terms.push_back(term);
+    }
+  return terms;
+}
+
+/// Cells on one or two nodes, from their maps.
+void generic_piece(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, PieceRows& piece) {
+  piece.nodes = 0;
+  for (int node : cell.nodes()) piece.node[piece.nodes++] = node;
+  if (parts.bending || parts.strain || parts.mass) {
+    const ElementMaps maps = structure.maps(cell);
+    if (parts.bending) piece.bending = root(maps.bending);
+    for (const StrainPoint& point : maps.membrane) {
+      if (!parts.strain) break;
+      const Eigen::MatrixXd half = std::sqrt(point.weight) * root(point.D);
+      piece.strain.push_back({half * point.L, point.G, point.weight, terms_of(point, half)});
+    }
+    for (const body::MassPoint& point : maps.mass) {
+      if (!parts.mass) break;
+      piece.mass.push_back({point.mass, false, Eigen::Vector3d::Zero(), {}});
+      piece.mass.back().N.setZero(3, point.N.cols());
+      piece.mass.back().N.topRows(point.N.rows()) = point.N;
+      piece.mass.back().x.head(point.x.size()) = point.x;
+    }
+  }
+  if (!parts.line) return;
+  for (const body::MassPoint& point : structure.line(cell)) {
+    piece.line.push_back({point.mass, false, Eigen::Vector3d::Zero(), {}});
+    piece.line.back().N.setZero(3, point.N.cols());
+    piece.line.back().N.topRows(point.N.rows()) = point.N;
+    piece.line.back().x.head(point.x.size()) = point.x;
+  }
+}
+
+void bend(const shell::Geometry& g, const shell::Deformations& d, double share, SmallRows& bending) {
+  bending.resize(9, 18);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Matrix3d half = std::sqrt(share * g.area) * root3(d.stiffness[1 + k]);
+    bending.middleRows<3>(3 * k) = half.lazyProduct(d.rows.middleRows<3>(3 * (1 + k)));
+  }
+}
+
+void strain(const shell::Geometry& g, const shell::Deformations& d, const ShellSection& section, double share,
+            std::vector<StrainRows>& out) {
+  out.emplace_back();
+  StrainRows& rows = out.back();
+  rows.weight = share * g.area;
+  const Eigen::Matrix3d half = std::sqrt(rows.weight) * root3(section.A);
+  rows.L = half.lazyProduct(d.rows.middleRows<3>(3 * shell::mean_strain));
+  rows.G.resize(2, 18);
+  rows.G.setZero();
+  for (int i = 0; i < 3; ++i) rows.G.middleCols<3>(6 * i) = g.gradient[i] * g.axes.col(2).transpose();
+  rows.terms = {{0, 0, {half(0, 0), half(1, 0), half(2, 0)}},
+                {0, 1, {half(0, 2), half(1, 2), half(2, 2)}},
+                {1, 1, {half(0, 1), half(1, 1), half(2, 1)}}};
+}
+
+void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const ShellSection& section, double share,
+             PieceParts parts, PieceRows& piece) {
+  const double third = share * g.area / 3, z = section.mass_centre, r = section.mass_radius;
+  for (int k = 0; k < 3; ++k) {
+    const shell::Middle middle = shell::middle(g, k);
+    const Eigen::Vector3d at(middle.at.x(), middle.at.y(), 0);
+    shell::Rows18 N = middle.rows.topRows<3>(), turn = shell::Rows18::Zero();
+    turn.topRows<2>() = middle.rows.bottomRows<2>();
+    N = g.axes.lazyProduct(N).eval(), turn = g.axes.lazyProduct(turn).eval();
+    if (parts.line) piece.line.push_back({third, false, centroid + g.axes * at, N});
+    if (!parts.mass) continue;
+    const Eigen::Vector3d normal = g.axes.col(2);
+    piece.mass.push_back({section.mass * third, false, centroid + g.axes * at + z * normal, N + z * turn});
+    if (r > 0) piece.mass.push_back({section.mass * third, true, r * normal, r * turn});
+  }
+}
+
+void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes, double share, int part,
+                    PieceParts parts, PieceRows& piece) {
+  piece.node = nodes;
+  piece.nodes = 3;
+  const FlatBody* flat = flat_body(structure);
+  const auto& section = std::get<ShellSection>((flat ? flat->sections : structure.sections)[part]);
+  const auto& at = flat ? flat->positions : structure.mesh.positions;
+  const shell::Geometry g = shell::geometry({at[nodes[0]], at[nodes[1]], at[nodes[2]]}, section.axis);
+  if (parts.bending || parts.strain) {
+    const shell::Deformations d = shell::deformations(g, section);
+    if (parts.bending) bend(g, d, share, piece.bending);
+    if (parts.strain) strain(g, d, section, share, piece.strain);
+  }
+  if (parts.mass || parts.line)
+    samples(g, (at[nodes[0]] + at[nodes[1]] + at[nodes[2]]) / 3, section, share, parts, piece);
+}
+
+/// The piece on the dofs of the nodes that move its corners.
+void follow(const Structure& structure, const std::array<int, 3>& moved, PieceRows& piece) {
+  for (int i = 0; i < 3; ++i) {
+    if (moved[i] == piece.node[i]) continue;
+    const auto& at = structure.mesh.positions;
+    const Eigen::Matrix<double, 6, 6> T = rigid_arm(Eigen::Vector3d(at[piece.node[i]] - at[moved[i]]));
+    const auto carry = [&](auto& rows) {
+      if (rows.size() > 0) rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();
+    };
+    carry(piece.bending);
+    for (StrainRows& point : piece.strain) carry(point.L), carry(point.G);
+    for (auto* samples : {&piece.mass, &piece.line})
+      for (MassRows& sample : *samples) carry(sample.N);
+    piece.node[i] = moved[i];
+  }
+}
+
+}  // namespace
+
+void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, std::vector<PieceRows>& pieces) {
+  pieces.resize(cell.kind == CellKind::quadrilateral ? 4 : 1);
+  for (PieceRows& piece : pieces)
+    piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.line.clear();
+  const auto& c = cell.corner;
+  if (cell.kind == CellKind::triangle) {
+    triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);
+  } else if (cell.kind == CellKind::quadrilateral) {
+    for (int k = 0; k < 4; ++k) {
+      const auto& of = quadrilateral_triangles[k];
+      triangle_piece(structure, {c[of[0]], c[of[1]], c[of[2]]}, 0.5, cell.part, parts, pieces[k]);
+    }
+  } else {
+    generic_piece(structure, cell, parts, pieces[0]);
+  }
+  if (!cell.follows() || cell.kind == CellKind::point || cell.kind == CellKind::line) return;
+  const auto& m = cell.moved;
+  if (cell.kind == CellKind::triangle) return follow(structure, {m[0], m[1], m[2]}, pieces[0]);
+  for (int k = 0; k < 4; ++k) {
+    const auto& of = quadrilateral_triangles[k];
+    follow(structure, {m[of[0]], m[of[1]], m[of[2]]}, pieces[k]);
+  }
+}
+
+}  // namespace floe::fem

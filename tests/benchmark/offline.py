@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Times the offline stage, from mesh to reduced body, against what its matrix costs bare, on growing plates.
+
+Every ratio is of two numbers of one run. Processor seconds of the slowest rank on one rank, so that a busy machine does
+not spoil them; wall seconds on several. Written: offline.md (tables) and offline.png. Nothing passes or fails on a clock.
+"""
+import argparse
+import datetime
+import json
+import os
+import platform
+import subprocess
+
+NOTES = "offline_notes.md"
+CELLS = [44, 140, 316, 632]  # 6 thousand, 60 thousand, 300 thousand and 1.2 million dofs
+PHASES = ["mesh", "partition", "structure", "assembly", "factorisation", "modes", "derivatives", "basis", "projection", "file"]
+BARE = ["bare factorisation", "bare single solves", "bare block solve"]
+COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999", "#000000", "#888888"]
+
+
+def run(stage, cells, ranks, options):
+    command = ["mpirun", "-n", str(ranks), stage, "-cells", str(cells), *options]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def seconds(row, names):
+    """Processor seconds on one rank, wall seconds on several."""
+    return sum(row[name][1 if row["ranks"] == 1 else 0] for name in names)
+
+
+def table_of(rows):
+    lines = ["| dofs | ranks | " + " | ".join(PHASES) + " | total | T_ref | total / T_ref | GB per million dofs |",
+             "|" + "---:|" * (len(PHASES) + 6)]
+    for row in rows:
+        total, bare = seconds(row, PHASES), seconds(row, BARE)
+        parts = " | ".join(f"{seconds(row, [name]):.2f}" for name in PHASES)
+        lines.append(f"| {row['dofs']} | {row['ranks']} | {parts} | {total:.2f} | {bare:.2f} | {total / bare:.2f} | "
+                     f"{row['memory'] / row['dofs'] / 1e3:.2f} |")
+    return "\n".join(lines)
+
+
+def growth_of(rows):
+    """Exponents of time per dof between neighbouring sizes on one rank."""
+    from math import log
+    alone = [row for row in rows if row["ranks"] == 1]
+    lines = []
+    for a, b in zip(alone, alone[1:]):
+        per_dof = [seconds(row, PHASES) / row["dofs"] for row in (a, b)]
+        exponent = log(per_dof[1] / per_dof[0]) / log(b["dofs"] / a["dofs"])
+        lines.append(f"From {a['dofs']} to {b['dofs']} dofs time per dof grows as n^{exponent:.2f}.")
+    return "\n".join(lines)
+
+
+def speedups_of(rows):
+    lines = ["| dofs | factorisation + modes | blocked solves, bare |", "|---:|---:|---:|"]
+    for row in rows:
+        single = [r for r in rows if r["ranks"] == 1 and r["dofs"] == row["dofs"]]
+        if row["ranks"] != 2 or not single:
+            continue
+        ratios = [sum(single[0][n][0] for n in names) / sum(row[n][0] for n in names)
+                  for names in (["factorisation", "modes"], ["bare block solve"])]
+        lines.append(f"| {row['dofs']} | {ratios[0]:.2f} | {ratios[1]:.2f} |")
+    return "\n".join(lines)
+
+
+def draw(rows, path):
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    alone = [row for row in rows if row["ranks"] == 1]
+    figure, axes = pyplot.subplots(figsize=(7, 4))
+    bottom = [0.0] * len(alone)
+    for name, colour in zip(PHASES, COLOURS):
+        share = [seconds(row, [name]) / seconds(row, BARE) for row in alone]
+        axes.bar([str(row["dofs"]) for row in alone], share, bottom=bottom, color=colour, label=name)
+        bottom = [a + b for a, b in zip(bottom, share)]
+    axes.axhline(1, color="black", linewidth=1)
+    axes.set_xlabel("dofs")
+    axes.set_ylabel("time / T_ref")
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    figure.tight_layout()
+    figure.savefig(path, dpi=130)
+
+
+def packages():
+    """Versions of what the time goes to."""
+    names = ["libpetsc-real3.18", "libslepc-real3.18", "libmumps-5.5", "libopenblas0-serial", "libopenmpi3"]
+    done = subprocess.run(["dpkg-query", "-W", "-f", "${Package} ${Version}, ", *names], capture_output=True, text=True)
+    return done.stdout.rstrip(", ")
+
+
+def processor():
+    with open("/proc/cpuinfo") as info:
+        names = [line.split(":")[1].strip() for line in info if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--stage", required=True, help="the program offline_stage")
+    parser.add_argument("--out", required=True, help="folder to write to")
+    parser.add_argument("--cells", type=int, nargs="+", default=CELLS, help="cells along the plate")
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
+    parser.add_argument("--most-for-ranks", type=int, default=140, help="most cells along for more ranks than one")
+    args, options = parser.parse_known_args()
+    rows = []
+    for cells in args.cells:
+        for ranks in args.ranks:
+            if ranks > 1 and cells > args.most_for_ranks:
+                continue
+            rows.append(run(args.stage, cells, ranks, options))
+            print(table_of(rows[-1:]).splitlines()[-1], flush=True)
+    os.makedirs(args.out, exist_ok=True)
+    draw(rows, os.path.join(args.out, "offline.png"))
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    with open(os.path.join(os.path.dirname(__file__), NOTES)) as notes:
+        text = notes.read()
+    with open(os.path.join(args.out, "offline.md"), "w") as out:
+        out.write(text.format(date=datetime.date.today(), commit=commit, machine=processor(), packages=packages(),
+                              cores=os.cpu_count(), load=f"{os.getloadavg()[2]:.1f}", table=table_of(rows),
+                              growth=growth_of(rows), speedups=speedups_of(rows)))
+
+
+if __name__ == "__main__":
+    main()
