@@ -1,5 +1,15 @@
 # Everything from outside, as imported targets.
 find_package(PkgConfig REQUIRED)
+
+# PETSc and SLEPc with 64-bit integers, for systems of more than two thousand million nonzeros.
+option(FLOE_INDEX64 "Build on Debian's libslepc64-real-dev" OFF)
+if(FLOE_INDEX64)
+  file(GLOB paths /usr/lib/petscdir/petsc64-*-real/*/lib/pkgconfig /usr/lib/petscdir/petsc64-*/*-real/lib/pkgconfig
+    /usr/lib/slepcdir/slepc64-*/*-real/lib/pkgconfig)
+  list(JOIN paths ":" paths)
+  set(ENV{PKG_CONFIG_PATH} "${paths}:$ENV{PKG_CONFIG_PATH}")
+endif()
+
 find_package(MPI REQUIRED COMPONENTS C CXX)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc)
 pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc)
@@ -14,17 +24,8 @@ find_path(CATCH_INCLUDE catch2/catch.hpp)
 # floe registers a TS type of its own; PETSc ships the header that this needs beside its public ones.
 find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS /usr/share/petsc/3.18/include ${PETSC_INCLUDE_DIRS} REQUIRED)
 
-# METIS partitions meshes; its integers must be PETSc's.
 find_path(METIS_INCLUDE metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
-file(STRINGS ${METIS_INCLUDE}/metis.h METIS_WIDTH REGEX "^#define IDXTYPEWIDTH")
-if(NOT METIS_WIDTH MATCHES "32")
-  message(FATAL_ERROR "${METIS_INCLUDE}/metis.h has integers of another width than PETSc's 32 bits: ${METIS_WIDTH}")
-endif()
-
-# The BLAS and LAPACK that PETSc uses: the reduction's own products go there too.
-find_library(LAPACK_LIBRARY lapack REQUIRED)
-find_library(BLAS_LIBRARY blas REQUIRED)
 
 add_library(floe_outside INTERFACE)
 target_link_libraries(floe_outside INTERFACE PkgConfig::SLEPC PkgConfig::PETSC PkgConfig::HDF5 MPI::MPI_CXX

@@ -22,6 +22,18 @@ scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
   return scene;
 }
 
+/// Says once from which t on the equilibria give way.
+void warn_of_instability(const scene::Model& model, double t, RunResult& result) {
+  if (result.summary.contains("unstable_from")) return;
+  const int directions = dynamics::unstable_directions(*model.system, t, model.U, model.V);
+  if (directions == 0) return;
+  result.summary["unstable_from"] = t;
+  result.warnings.push_back(fmt::format(
+      "the equilibrium at t = {:.6g} is unstable in {} {}: a disturbance leads away from it. Start nearer to "
+      "a stable one (`initial`), or let the scene come to rest in a damped motion",
+      t, directions, directions == 1 ? "direction" : "directions"));
+}
+
 /// From the state at `t` to the equilibrium at `next`, in halved steps where a whole one finds none. Counts iterations.
 void advance(const scene::Model& model, double t, double next, double least, PetscInt& iterations) {
   const petsc::VecHandle before = model.system->create_vector();
@@ -68,11 +80,13 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, load.at);
+    report.newton += dynamics::equilibrium(*model.system, 0, model.U, model.V);
     recorder.observe({0, 0, model.U, model.V, nullptr, false});
     for (int step = 1; step <= load.steps; ++step) {
       const double t = load.at * step / load.steps;
       advance(model, report.end, t, load.at / 1000, report.newton);
       report.steps = step, report.end = t;
+      warn_of_instability(model, t, result);
       recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});
       progress.update(t, step);
       interruption.check(comm);

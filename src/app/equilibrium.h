@@ -9,8 +9,8 @@ struct LoadSteps {
   int steps = 1;
 };
 
-/// Builds one scene in one formulation and finds its equilibria: `floe static`. The state at t = 0 is the first row of
-/// the probes, then one row for each step; a step that finds none is halved, down to a thousandth of `at`.
+/// Builds one scene in one formulation and finds its equilibria: `floe static`. That at t = 0 is the first row of the
+/// probes, then one row for each step; a step that finds none is halved, down to a thousandth of `at`.
 ///
 /// @param folder  none: nothing is written
 /// @throws InputError; RunError: no equilibrium, with the t. What was reached before is written. Collective.

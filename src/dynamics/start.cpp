@@ -175,14 +175,16 @@ std::string loose(const System& system, double t, Vec U, Vec V, Mat J) {
   const petsc::VecHandle A = system.create_vector();
   system.tangent(t, U, V, A, {1, 0, 0}, J);
   const std::string names = undetermined(system, J);
-  return names.empty() ? "" : "; nothing holds the configuration in some direction" + names;
+  return names.empty()
+             ? ""
+             : "; nothing holds the configuration in some direction" + names + "; start from another one (`initial`)";
 }
 
 }  // namespace
 
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
-  const petsc::VecHandle start = system.create_vector();
-  check(VecCopy(U, start));
+  if (const std::string why = loose(system, t, U, V, petsc::MatHandle(system.create_tangent())); !why.empty())
+    throw RunError(fmt::format("no equilibrium at t = {:.6g}{}", t, why));
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   EquilibriumContext context{system, t, V, A, {}};
@@ -213,8 +215,8 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   check(SNESGetIterationNumber(snes, &iterations));
   if (why.empty() && reason >= 0) return iterations;
   if (why.empty()) why = SNESConvergedReasons[reason];
-  throw RunError(fmt::format("no equilibrium at t = {} (options -static_snes_...): {} after {} iterations{}", t, why,
-                             iterations, loose(system, t, start, V, J)));
+  throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
+                             iterations));
 }
 
 }  // namespace floe::dynamics

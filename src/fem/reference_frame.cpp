@@ -102,6 +102,20 @@ void balance(const ReferenceFrame& frame, Vec f) {
   add(f, -frame.inverse.transpose() * dots(f, frame.rigid), frame.functionals);
 }
 
+namespace {
+
+/// Global number of the first node that follows no other one. Collective.
+PetscInt first_free_node(const Mesh& mesh) {
+  int local = 0;
+  for (const Mesh::Follower& f : mesh.followers)
+    if (f.node == local) ++local;
+  PetscInt first = local < mesh.owned_nodes ? mesh.first_node + local : PETSC_MAX_INT;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, mesh.comm);
+  return first;
+}
+
+}  // namespace
+
 Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions held) {
   const Conditions followers = follower_dofs(structure.mesh, structure.dofs_per_node);
   held.insert(held.end(), followers.begin(), followers.end());
@@ -120,9 +134,10 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
     result.left = svd.matrixV().rightCols(motions - rank);
     result.left.bottomRows(motions - d) /= length;
   }
-  // Frame conditions, then plain ones at the first node, until K is regular.
+  // Frame conditions, then plain ones at the first node that follows none, until K is regular.
   Conditions candidates = frame.conditions;
-  for (PetscInt dof = 0; dof < structure.dofs_per_node; ++dof) candidates.push_back(dof);
+  const PetscInt n = structure.dofs_per_node, first = n * first_free_node(structure.mesh);
+  for (PetscInt dof = first; dof < first + n; ++dof) candidates.push_back(dof);
   result.statics = std::move(held);
   for (PetscInt dof : candidates) {
     Conditions more = result.statics;

@@ -45,6 +45,7 @@ std::string element(long long label) { return "element " + std::to_string(label)
 std::string shape_fault(const Cell& cell, const Corners& corners) {
   constexpr double flat = 1e-12;
   const int n = node_count(cell.kind);
+  if (cell.kind == CellKind::point) return "";
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j)
       if (cell.nodes[i] == cell.nodes[j]) return " has a node twice";

@@ -1,13 +1,21 @@
 #include <metis.h>
 #include <petsc/private/matimpl.h>
 
+#include <limits>
+
 #include "floe/mesh/partition.h"
 #include "floe/petsc/handle.h"
 
-static_assert(sizeof(idx_t) == sizeof(PetscInt), "METIS and PETSc must be built with integers of one width");
-
 namespace floe::mesh {
 namespace {
+
+/// Numbers of METIS' width, which need not be PETSc's. @throws RunError  one does not fit
+std::vector<idx_t> of_metis(const PetscInt* values, PetscInt count) {
+  for (PetscInt i = 0; i < count; ++i)
+    if (values[i] > std::numeric_limits<idx_t>::max())
+      throw RunError("the mesh's graph is too large for METIS; take -mesh_mat_partitioning_type ptscotch");
+  return {values, values + count};
+}
 
 // Fills the part of every row; returns the status of METIS.
 int metis_parts(Mat whole, PetscInt parts, std::vector<PetscInt>& part) {
@@ -21,11 +29,14 @@ int metis_parts(Mat whole, PetscInt parts, std::vector<PetscInt>& part) {
   if (rows <= parts) {  // METIS may leave parts empty, or fail
     for (PetscInt i = 0; i < rows; ++i) part[i] = i;
   } else {
-    idx_t options[METIS_NOPTIONS], constraints = 1, cut = 0, vertices = rows, wanted = parts;
+    std::vector<idx_t> begins = of_metis(starts, rows + 1), neighbours = of_metis(columns, starts[rows]), found(rows);
+    idx_t options[METIS_NOPTIONS], constraints = 1, cut = 0, vertices = static_cast<idx_t>(rows),
+                                   wanted = static_cast<idx_t>(parts);
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 0;  // the same parts in every run
-    status = METIS_PartGraphKway(&vertices, &constraints, const_cast<idx_t*>(starts), const_cast<idx_t*>(columns),
-                                 nullptr, nullptr, nullptr, &wanted, nullptr, nullptr, options, &cut, part.data());
+    status = METIS_PartGraphKway(&vertices, &constraints, begins.data(), neighbours.data(), nullptr, nullptr, nullptr,
+                                 &wanted, nullptr, nullptr, options, &cut, found.data());
+    part.assign(found.begin(), found.end());
   }
   petsc::check(MatRestoreRowIJ(whole, 0, PETSC_FALSE, PETSC_FALSE, &rows, &starts, &columns, &done));
   return status;

@@ -13,6 +13,7 @@
 #include "reduced_file_hdf5.h"
 #include "reduced_file_image.h"
 #include "reduced_file_shapes.h"
+#include "replaceable.h"
 #include "writing.h"
 
 namespace floe::output {
@@ -34,6 +35,8 @@ void refuse_taken(const fs::path& path, bool overwrite) {
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "exists and is not a file");
+  if (fs::exists(status) && !is_of_format(path, reduced_format))
+    refuse(path, "exists and is no reduced body of floe's; name another");
   if (fs::exists(status) && !overwrite) refuse(path, "exists; name another, or replace it with --force");
 }
 

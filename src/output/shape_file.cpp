@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset.h"
 #include "floe/output/folder.h"
 #include "floe/petsc/error.h"
 #include "ordered_rows.h"
 #include "reduced_file_hdf5.h"
+#include "replaceable.h"
 #include "reserve.h"
 #include "shape_file_xdmf.h"
 #include "writing.h"
@@ -24,13 +26,16 @@ int rank_of(MPI_Comm comm) {
   return rank;
 }
 
-void check_free(const fs::path& path, bool overwrite) {
+constexpr const char* shapes_format = "floe shapes";
+
+void check_free(const fs::path& path, bool overwrite, bool ours) {
   const auto refuse = [&](const std::string& why) {
     throw InputError(fmt::format("shapes '{}': {}", path.string(), why));
   };
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse("exists and is not a file");
+  if (fs::exists(status) && !ours) refuse("exists and holds no shapes of floe's; name another");
   if (fs::exists(status) && !overwrite) refuse("exists; name another, or replace it with --force");
   try {
     write_file_atomically(draft_of(path), "");
@@ -106,7 +111,8 @@ void check_shapes_path(MPI_Comm comm, const fs::path& xdmf, bool overwrite) {
     if (rank_of(comm) != 0) return;
     if (xdmf.extension() != ".xdmf" || xdmf.stem().empty())
       throw InputError(fmt::format("shapes '{}': expected a name that ends in .xdmf", xdmf.string()));
-    check_free(xdmf, overwrite), check_free(data_of(xdmf), overwrite);
+    const fs::path data = data_of(xdmf);
+    check_free(xdmf, overwrite, is_xdmf(xdmf)), check_free(data, overwrite, is_of_format(data, shapes_format));
   });
 }
 
@@ -129,6 +135,7 @@ void write_shapes(MPI_Comm comm, const fs::path& xdmf, const std::vector<ShapeGr
     writing(data, [&] {
       Hid file;
       petsc::agree(comm, [&] { file = open_file(draft, Open::change, comm); });
+      petsc::agree(comm, [&] { write_attribute(file, "format", shapes_format); });
       for (const ShapeGrid& grid : grids) sizes.push_back(write_grid(comm, file, grid));
       petsc::agree(comm, [&] { file.close(); });
     });

@@ -52,6 +52,12 @@ double low_frequency(const fem::Structure& structure, const Statics& statics, Ma
   return rayleigh(*statics.elements(), M, u[0]);
 }
 
+std::vector<double> relative_errors(EPS eps, int count) {
+  std::vector<double> errors(count);
+  for (int i = 0; i < count; ++i) check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &errors[i]));
+  return errors;
+}
+
 bool user_sets(const std::string& prefix) {
   char* all = nullptr;
   check(PetscOptionsGetAll(nullptr, &all));
@@ -142,20 +148,28 @@ void solve_pairs(EPS eps, const Statics& statics) {
     check(STGetKSP(st, &ksp));
     check(KSPGetOptionsPrefix(ksp, &prefix));
     check(KSPGetConvergedReason(ksp, &reason));
+    if (const std::string why = why_failed(ksp); !why.empty()) throw RunError(why);
     throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
                                prefix ? prefix : "", KSPConvergedReasons[reason]));
   }
 }
 
-/// The solver of an EPS's shift-and-invert, and its shift.
+/// Who solves with K - s M: the shift-and-invert of an EPS, or, where the user has chosen another transformation, the
+/// statics if they hold the body likewise, or nobody.
 struct Transformation {
   KSP ksp = nullptr;
   double shift = 0;
-  explicit Transformation(EPS eps) {
+  Transformation(EPS eps, const Statics& statics, const fem::Conditions& held) {
     ST st = nullptr;
+    PetscBool inverts = PETSC_FALSE;
     check(EPSGetST(eps, &st));
-    check(STGetKSP(st, &ksp));
-    check(STGetShift(st, &shift));
+    check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(st), &inverts, STSINVERT, STCAYLEY, ""));
+    if (inverts) {
+      check(STGetKSP(st, &ksp));
+      check(STGetShift(st, &shift));
+    } else if (held == statics.conditions()) {
+      ksp = statics.solver();
+    }
   }
 };
 
@@ -172,9 +186,8 @@ Columns multiplied(Mat A, const Columns& phi, const fem::Conditions& held) {
 
 /// How far the pairs are from satisfying K phi = lambda M phi, by K without its round-off: (lambda - s)/lambda times
 /// the M-norm of (K - s M)^-1 (K phi - lambda M phi), s the shift. It bounds |lambda - true lambda| / lambda.
-std::vector<double> residuals(EPS eps, Mat exact, Mat M, const fem::Conditions& held, const Columns& phi,
-                              const std::vector<double>& lambda) {
-  const Transformation inverse(eps);
+std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, const fem::Conditions& held,
+                              const Columns& phi, const std::vector<double>& lambda) {
   const Columns loads = multiplied(exact, phi, held), inertia = multiplied(M, phi, held);
   for (std::size_t i = 0; i < phi.size(); ++i) check(VecAXPY(loads[i], -lambda[i], inertia[i]));
   const Columns errors = block_solve(inverse.ksp, loads);
@@ -320,8 +333,7 @@ Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& hel
 /// phi <- (lambda - s) (K - s M)^-1 M phi, all in one block: takes out what M does not see (rotations without mass) and
 /// the eigenvalue solver leaves in. Returns how far the pairs were from K phi = lambda M phi, in the norm of
 /// residuals().
-std::vector<double> purify(EPS eps, Mat M, const fem::Conditions& held, Found& found) {
-  const Transformation inverse(eps);
+std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Conditions& held, Found& found) {
   const Columns products = multiplied(M, found.raw, held);
   Columns pure = block_solve(inverse.ksp, products);
   std::vector<double> errors;
@@ -329,7 +341,7 @@ std::vector<double> purify(EPS eps, Mat M, const fem::Conditions& held, Found& f
     const double lambda = found.lambda[i], factor = lambda - inverse.shift;
     check(VecAXPY(found.raw[i], -factor, pure[i]));  // what goes
     errors.push_back(std::abs(factor / lambda) * mass_norm(M, found.raw[i]));
-    check(VecScale(pure[i], factor));
+    check(VecScale(pure[i], 1 / mass_norm(M, pure[i])));
   }
   found.raw = std::move(pure);
   return errors;
@@ -348,9 +360,11 @@ Modes ModeSolver::solve(int count) {
   else
     create(count);
   const petsc::Stage stage("modes");
-  const bool shares = statics_.owns(Transformation(eps_).ksp);
+  const Transformation inverse(eps_, statics_, holding_.held);
+  const bool shares = statics_.owns(inverse.ksp);
   Found found = pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_, count);
-  std::vector<double> errors = purify(eps_, M_, holding_.held, found);
+  std::vector<double> errors;
+  if (inverse.ksp) errors = purify(inverse, M_, holding_.held, found);
   modes.raw = std::move(found.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
   const std::vector<double> lambda =
@@ -363,13 +377,19 @@ Modes ModeSolver::solve(int count) {
   }
   if (shares && !statics_.iterates())  // of K's factor, and what that misses
     for (double error : errors) modes.residual.push_back(error + statics_.factor_error());
+  else if (inverse.ksp)
+    modes.residual = residuals(inverse, exact_, M_, holding_.held, modes.raw, lambda);
   else
-    modes.residual = residuals(eps_, exact_, M_, holding_.held, modes.raw, lambda);
-  for (int i = 0; i < count; ++i)
-    if (modes.residual[i] > 1e-2 && std::abs(found.lambda[i] / lambda[i] - 1) > 1e-3)
-      throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
-                                             std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
-                                             std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));
+    modes.residual = relative_errors(eps_, count);
+  for (int i = 0; i < count; ++i) {
+    if (modes.residual[i] <= 1e-2 || std::abs(found.lambda[i] / lambda[i] - 1) <= 1e-3) continue;
+    if (!statics_.refines())
+      throw RunError(
+          fmt::format("mode {} of {} cannot be told from motions without mass; ask for fewer modes", i + 1, count));
+    throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
+                                           std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
+                                           std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));
+  }
   return modes;
 }
 

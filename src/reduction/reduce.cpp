@@ -30,16 +30,15 @@ namespace {
 /// Responses to all attachments, in their order.
 Columns static_columns(const fem::Structure& structure, const Statics& statics,
                        const std::vector<Attachment>& attachments) {
-  Columns loads, all;
-  std::vector<PetscInt> moved;
+  Columns loads, all, moved;
   for (const Attachment& attachment : attachments)
     if (attachment.load)
       loads.push_back(copy(attachment.load));
     else
-      moved.push_back(attachment.moved);
+      moved.push_back(copy(attachment.moved));
   Columns responses = statics.solve(loads);
   for (const auto& response : responses) fem::separate(structure, response, 1e-9);
-  Columns constrained = statics.constraint_modes(structure, moved);
+  Columns constrained = statics.constraint_modes(moved);
   auto response = responses.begin(), constraint = constrained.begin();
   for (const Attachment& attachment : attachments)
     all.push_back(std::move(attachment.load ? *response++ : *constraint++));

@@ -34,6 +34,7 @@ double Statics::factor_error() const {
 void Statics::factor() const {
   const petsc::Stage stage("factorisation");
   check(KSPSetUp(ksp_));
+  if (const std::string why = why_failed(ksp_); !why.empty()) throw RunError(why);
 }
 
 double Statics::measured_error() const {
@@ -44,9 +45,10 @@ double Statics::measured_error() const {
   double* values = nullptr;
   check(VecGetOwnershipRange(load[0], &first, &end));
   check(VecGetArrayWrite(load[0], &values));
-  for (PetscInt i = first; i < end; ++i)  // smooth, not balanced by rigid accelerations
-    values[i - first] =
-        i % structure.dofs_per_node >= structure.dimension() ? 0 : std::cos(3. * double(i) / double(structure.dofs()));
+  for (PetscInt i = 0; i < end - first; ++i)  // smooth, not balanced by rigid accelerations, the same on any ranks
+    values[i] = i % structure.dofs_per_node >= structure.dimension()
+                    ? 0
+                    : std::cos(3. * double(structure.original_dof(static_cast<int>(i))) / double(structure.dofs()));
   check(VecRestoreArrayWrite(load[0], &values));
   fem::balance(frame_, load[0]);
   fem::hold(load[0], conditions_);
@@ -192,23 +194,24 @@ Columns Statics::solve(petsc::MatHandle loads) const {
   return u;
 }
 
-Columns Statics::constraint_modes(const fem::Structure& structure, const std::vector<PetscInt>& dofs) const {
-  if (dofs.empty()) return {};
-  const petsc::MatHandle K = fem::stiffness(structure, {});
-  Columns loads, units;
-  for (PetscInt dof : dofs) {
-    units.push_back(fem::field(structure));
-    {
-      petsc::Values unit(units.back());
-      if (dof >= unit.first && dof < unit.end) unit[dof] = -1;
-    }
+Columns Statics::constraint_modes(const Columns& moved) const {
+  if (moved.empty()) return {};
+  const fem::Structure& structure = elements_->structure();
+  Columns loads, modes;
+  for (const auto& shape : moved) {
     loads.push_back(fem::field(structure));
-    check(MatMult(K, units.back(), loads.back()));
+    elements_->multiply(shape, loads.back());
+    check(VecScale(loads.back(), -1));
+    fem::hold(loads.back(), conditions_);
   }
-  Columns modes = solve(loads);
+  modes = corrected(dense_of(loads));
   for (std::size_t i = 0; i < modes.size(); ++i) {
-    fem::to_frame(frame_, units[i]);
-    check(VecAXPY(modes[i], -1, units[i]));
+    double whole = 0, bent = 0;
+    check(VecAXPY(modes[i], 1, moved[i]));
+    check(VecNorm(modes[i], NORM_2, &whole));
+    fem::to_frame(frame_, modes[i]);
+    check(VecNorm(modes[i], NORM_2, &bent));
+    if (!(bent > 1e-9 * whole)) check(VecSet(modes[i], 0));
   }
   return modes;
 }

@@ -1,5 +1,7 @@
 #include "build_attachments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "floe/petsc/values.h"
@@ -12,14 +14,23 @@ namespace {
 
 using Attachments = std::vector<reduction::Attachment>;
 
+const char* component_name(int dofs_per_node, PetscInt component, bool load) {
+  static const char* loads[2][6] = {{"fx", "fy", "moment"}, {"fx", "fy", "fz", "mx", "my", "mz"}};
+  static const char* motions[2][6] = {{"x", "y", "rotation"}, {"x", "y", "z", "rx", "ry", "rz"}};
+  return (load ? loads : motions)[dofs_per_node == 6][component];
+}
+
+std::vector<PetscInt> nodes_of(const PreparedPlace& place) {
+  return place.nodes.empty() ? std::vector<PetscInt>{place.node} : place.nodes;
+}
+
 /// A unit force or moment, shared equally by the nodes of the place.
 reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& place, int component,
                                 const std::string& where) {
-  static const char* names[2][6] = {{"fx", "fy", "moment"}, {"fx", "fy", "fz", "mx", "my", "mz"}};
   const int n = body.structure.dofs_per_node;
-  reduction::Attachment attachment{where + "." + names[n == 6][component], fem::field(body.structure)};
+  reduction::Attachment attachment{where + "." + component_name(n, component, true), fem::field(body.structure), {}};
   petsc::Values values(attachment.load);
-  const std::vector<PetscInt> nodes = place.nodes.empty() ? std::vector<PetscInt>{place.node} : place.nodes;
+  const std::vector<PetscInt> nodes = nodes_of(place);
   for (PetscInt node : nodes) {
     const PetscInt dof = n * node + component;
     if (dof >= values.first && dof < values.end) values[dof] = 1.0 / static_cast<double>(nodes.size());
@@ -27,11 +38,30 @@ reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& p
   return attachment;
 }
 
-reduction::Attachment unit_displacement(PetscInt dof, const std::string& where) {
-  static const char* names[3] = {"x", "y", "rotation"};
-  reduction::Attachment attachment;
-  attachment.label = where + "." + names[dof % 3];
-  attachment.moved = dof;
+reduction::Attachment unit_displacement(const PreparedBody& body, PetscInt dof, const std::string& where) {
+  const int n = body.structure.dofs_per_node;
+  reduction::Attachment attachment{where + "." + component_name(n, dof % n, false), {}, fem::field(body.structure)};
+  petsc::Values values(attachment.moved);
+  if (dof >= values.first && dof < values.end) values[dof] = 1;
+  return attachment;
+}
+
+/// The nodes of a place as one rigid piece, moved along or turned about an axis of the frame through their mean.
+reduction::Attachment rigid_displacement(const PreparedBody& body, const PreparedPlace& place, int component,
+                                         const std::string& where) {
+  const int n = body.structure.dofs_per_node, d = body.structure.dimension();
+  reduction::Attachment attachment{where + "." + component_name(n, component, false), {}, fem::field(body.structure)};
+  petsc::Values values(attachment.moved);
+  for (PetscInt node : nodes_of(place)) {
+    if (n * node < values.first || n * node >= values.end) continue;
+    values[n * node + component] = 1;
+    if (component < d) continue;
+    const Eigen::Vector3d axis =
+                              d == 2 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(Eigen::Vector3d::Unit(component - 3)),
+                          arm = body.structure.mesh.positions[node - body.structure.mesh.first_node] - place.x;
+    const Eigen::Vector3d u = axis.cross(arm);
+    for (int i = 0; i < d; ++i) values[n * node + i] = u[i];
+  }
   return attachment;
 }
 
@@ -90,9 +120,9 @@ void add_constraint_modes(const Prepared& prepared, int index, Attachments& all)
     if (joint.kind == Joint::Kind::spring) continue;
     const PetscInt dof = 3 * (first.ground() ? second : first).node;
     for (PetscInt c = 0; c < 2; ++c)
-      if (contains(repeated, dof + c)) all.push_back(unit_displacement(dof + c, joint.name));
+      if (contains(repeated, dof + c)) all.push_back(unit_displacement(body, dof + c, joint.name));
     if (joint.kind == Joint::Kind::driven && rest_holds(body, dof + 2))
-      all.push_back(unit_displacement(dof + 2, joint.name));
+      all.push_back(unit_displacement(body, dof + 2, joint.name));
   }
 }
 
@@ -120,6 +150,12 @@ Attachments attachments(const Prepared& prepared, int index) {
   const PreparedBody& body = prepared.bodies[index];
   const Choice choice = body.spec.reduction.attachment;
   Attachments all;
+  for (std::size_t i = 0; i < body.interface.size(); ++i) {
+    const Place& place = body.spec.reduction.interface[i];
+    const std::string name = place.point ? fmt::format("interface {}", i + 1) : place.name;
+    for (int c = 0; c < body.structure.dofs_per_node; ++c)
+      all.push_back(rigid_displacement(body, body.interface[i], c, name));
+  }
   if (choice == Choice::joints || choice == Choice::all) add_joints(prepared, index, all);
   for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
     const Load& load = prepared.scene.loads[l];

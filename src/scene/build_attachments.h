@@ -12,6 +12,9 @@ bool of_frame(const PreparedBody& body);
 /// Unit loads where joints and loads act; a moment at a joint counts as the joint's, because no mode has a moment at a
 /// hinge. Where the ground holds a body and its modes are those of the held body, the joint brings no unit load.
 ///
+/// The body's interface (Craig-Bampton) comes first: each place as a rigid piece, its dofs displaced by one,
+/// `attachment PLACE.x` and so on.
+///
 /// Joints to the ground that hold more than the three rigid motions hold deformations besides, at zero in all these
 /// columns. Where the body has to deform to follow its joints, it gets the static constraint mode of the dof (Craig and
 /// Bampton 1968), `attachment JOINT.rotation` or `.x`, `.y` in the frame:

@@ -72,15 +72,14 @@ void check_held(const Prepared& prepared, Formulation formulation) {
 /// A shell's rotations about its normal carry no mass, and a motion of full order needs some: they get as much as those
 /// about the other axes have, half the trace of a node's rotary inertia. Frequencies change by the order of
 /// (thickness/length)^2.
-Eigen::MatrixXd with_drilling_inertia(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, Eigen::MatrixXd M) {
+Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell, Eigen::MatrixXd M) {
   if (cell.kind != fem::CellKind::triangle && cell.kind != fem::CellKind::quadrilateral) return M;
-  const auto at = [&](int i) { return mesh.positions[cell.corner[i]]; };
+  const auto at = [&](int i) { return structure.mesh.positions[cell.corner[i]]; };
   const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-  for (std::size_t i = 0; i < cell.nodes().size(); ++i) {
-    if (cell.moved[i] != cell.corner[i]) continue;  // the leader's rotations carry the mass on its arms
-    auto turning = M.block<3, 3>(6 * static_cast<Eigen::Index>(i) + 3, 6 * static_cast<Eigen::Index>(i) + 3);
-    turning += (0.5 * turning.trace() * n * n.transpose()).eval();
-  }
+  const Eigen::MatrixXd own =  // of its corners, whomever they follow: a follower's rotations are its leader's
+      cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 0, 1) : M;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.nodes().size()); ++i)
+    M.block<3, 3>(6 * i + 3, 6 * i + 3) += 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace() * n * n.transpose();
   return M;
 }
 
@@ -285,7 +284,7 @@ void HeldAssembly::add_cell(const PreparedBody& body, const fem::Mesh::Cell& cel
   for (Eigen::Index j = 0; j < k; ++j) V(kept[j], j) = 1;
   body::Elasticity elasticity = fem::elasticity(maps, V);
   if (formulation == Formulation::lffr) elasticity = body::linearised(elasticity);
-  const Eigen::MatrixXd M = V.transpose() * with_drilling_inertia(body.structure.mesh, cell, maps.mass_matrix()) * V;
+  const Eigen::MatrixXd M = V.transpose() * with_drilling_inertia(body.structure, cell, maps.mass_matrix()) * V;
   const DampingSpec& damping = body.spec.damping;
   Eigen::MatrixXd C;
   if (damping.mass != 0 || damping.stiffness != 0)

@@ -112,6 +112,11 @@ PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
   PreparedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}, {}};
   body.frame_places = {PreparedPlace{-1, nodes.a, Eigen::Vector3d::Zero()},
                        PreparedPlace{-1, nodes.b, {nodes.chord, 0, 0}}};
+  for (const Place& place : spec.reduction.interface) {
+    const Eigen::Vector2d x = turn(-nodes.angle) * (planar(place_point(spec.mesh, place)) - nodes.origin);
+    const fem::NearestNode nearest = fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0});
+    body.interface.push_back({-1, nearest.node, nearest.position, {nearest.node}});
+  }
   start_body(body);
   return body;
 }

@@ -54,9 +54,21 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   report.seconds_modes = MPI_Wtime() - start;
 }
 
+/// Dofs that joints hold, and those of the interface.
+fem::Conditions held_by_modes(const PreparedBody& body) {
+  fem::Conditions held = body.held;
+  const int n = body.structure.dofs_per_node;
+  for (const PreparedPlace& place : body.interface)
+    for (PetscInt node : place.nodes)
+      for (int d = 0; d < n; ++d) held.push_back(n * node + d);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
 void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
   const PreparedBody& body = prepared.bodies[index];
-  stage.for_statics = fem::holding(body.structure, body.frame, body.held);
+  stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
   stage.for_modes =
       of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);

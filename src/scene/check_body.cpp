@@ -38,6 +38,14 @@ void check_frame(Document& document, const Body& body) {
   }
 }
 
+void check_interface(Document& document, const Body& body) {
+  for (const Place& place : body.reduction.interface) {
+    checked_point(document, body, place);
+    if (body.frames > 1)
+      document.fault(place.where, "does not go with several frames", "an interface of a body in one frame");
+  }
+}
+
 void check_frames(Document& document, const Body& body) {
   if (body.frames == 1) return;
   Where where = body.where;
@@ -94,6 +102,7 @@ void check_body(Document& document, const Body& body) {
   check_frames(document, body);
   if (document.fault_count() != before) return;
   check_frame(document, body);
+  check_interface(document, body);
   check_modes(document, body);
 }
 

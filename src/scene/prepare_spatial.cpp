@@ -89,6 +89,8 @@ PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm) {
   body.notices = std::move(mesh.notices);
   body.origin = choice.origin;
   body.axes = choice.axes;
+  for (const Place& place : spec.reduction.interface)
+    body.interface.push_back(spatial_place(spec, body.structure, body.places, place, {choice.origin, choice.axes}));
   return body;
 }
 

@@ -104,7 +104,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.frames = reading.integer("frames");
   if (body.rigid) body.frames = 1;
   const Value nothing{YAML::Node(YAML::NodeType::Map), body.where};
-  body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing));
+  body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing), name);
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
   if (in_space) refuse_planar_keys(document, reading);

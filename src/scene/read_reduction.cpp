@@ -68,7 +68,7 @@ DerivativesSpec read_derivatives(Document& document, Reading& reduction, const M
 
 }  // namespace
 
-ReductionSpec read_reduction(Document& document, const Value& value) {
+ReductionSpec read_reduction(Document& document, const Value& value, const std::string& body) {
   using Attachment = ReductionSpec::Attachment;
   ReductionSpec reduction;
   Reading reading(document, value, "reduction");
@@ -78,6 +78,11 @@ ReductionSpec read_reduction(Document& document, const Value& value) {
                                                                    {"joints", Attachment::joints},
                                                                    {"loads", Attachment::loads},
                                                                    {"all", Attachment::all}});
+  if (const auto places = reading.value("interface"); places && reading.given("interface"))
+    for (const Value& place : read_list(document, *places, reading.key("interface")))
+      reduction.interface.push_back(read_own_place(document, place, reading.key("interface"), body));
+  if (!reduction.interface.empty() && reduction.modes.of == ModesSpec::Of::frame)
+    document.fault(reading.where("interface"), "does not go with modes: {of: frame}", "modes as the joints hold them");
   reduction.drop_tolerance = reading.number("drop_tolerance");
   return reduction;
 }

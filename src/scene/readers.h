@@ -18,7 +18,8 @@ InitialSpec read_initial(Document& document, Reading& body);
 Section read_section(Document& document, Reading& body, bool rigid);
 /// The keys section, material and parts of a body in space.
 std::vector<PartSpec> read_parts(Document& document, Reading& body);
-ReductionSpec read_reduction(Document& document, const Value& value);
+/// @param body  its name
+ReductionSpec read_reduction(Document& document, const Value& value, const std::string& body);
 Joint read_joint(Document& document, const std::string& name, const Value& value);
 Load read_load(Document& document, const std::string& name, const Value& value);
 Motion read_motion(Document& document, const Value& value);

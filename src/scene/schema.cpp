@@ -166,6 +166,9 @@ const SchemaSection reduction_section{
         choice("derivative_type", "static", "static: inertia neglected; full: with inertia", {"static", "full"}),
         choice("attachment", "joints", "where static columns for unit forces are added",
                {"none", "joints", "loads", "all"}),
+        {"interface", Type::own_places, "", "",
+         "Craig-Bampton: places that the modes hold, each as one rigid piece, with a static column for each of its "
+         "dofs"},
         {"drop_tolerance",
          Type::number,
          "",

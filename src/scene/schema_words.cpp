@@ -78,6 +78,8 @@ std::string describe(const Key& key, int dimension) {
       return "two places [BODY.NAME, BODY.NAME], either may be ground";
     case Type::own_place:
       return "the name of a place of this body, or a node's coordinates " + coordinates;
+    case Type::own_places:
+      return "a list of places of this body, each a name or a node's coordinates " + coordinates;
     case Type::body:
       return "the name of a body";
     case Type::parameters:

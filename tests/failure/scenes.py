@@ -36,3 +36,13 @@ GAP = "sqrt((t - 0.021)^2 - 4e-8)"
 RIGID = {"bodies.link": {"mesh": {"line": {"from": [1, 0], "to": [2, 0], "elements": 1}},
                          "section": {"EA": 1, "EI": 1, "rhoA": 1}, "rigid": True},
          "joints.a": {"type": "fixed", "between": ["beam.end", "link.start"]}}
+
+PLATE = """
+bodies:
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [60, 30]}}
+    section: {thickness: 0.002}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 2}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+"""

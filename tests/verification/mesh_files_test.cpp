@@ -120,6 +120,46 @@ TEST_CASE("a plate held by a hub on rigid links has the frequencies of one whose
   for (int i = 0; i < 6; ++i) CHECK(held[i] == Approx(expected[i]).epsilon(1e-9));
 }
 
+// Where the first node of the file only follows, supports that make K regular have to be looked for elsewhere.
+TEST_CASE("a free plate with a hub has the same frequencies whichever edge the hub moves") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  std::vector<double> omega[2];
+  for (int side : {0, 1}) {
+    std::string text = deck(plate(false, 1)), edge;
+    const mesh::RawMesh raw = plate(false, 1);
+    for (PetscInt i = 0; i < raw.node_count; ++i)
+      if (raw.positions[i][0] == 2 * side) edge += std::to_string(10 * (raw.node_count - i)) + ",\n";
+    text += fmt::format("*NODE\n9001, {}, 0.4, 0.1\n*NSET, NSET=hub\n{}*RIGID BODY, NSET=hub, REF NODE=9001\n",
+                        side ? 2.3 : -0.3, edge);
+    std::ofstream(folder + "/plate.inp") << text;
+    omega[side] =
+        omega_of("bodies: {plate: {mesh: {file: {path: plate.inp}}, reduction: {modes: 4}}}\n", folder + "/scene.yaml");
+  }
+  for (int i = 0; i < 4; ++i) CHECK(omega[0][i] == Approx(omega[1][i]).epsilon(1e-6));
+}
+
+// Cantilever with a tip mass as heavy as itself: omega = 1.2479174^2 sqrt(EI / rhoA L^4), a root of
+// 1 + cos cosh + x (cos sinh - sin cosh).
+TEST_CASE("a deck's point mass") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  std::string text = "*NODE\n";
+  for (int i = 0; i <= 20; ++i) text += fmt::format("{}, {}, 0., 0.\n", i + 1, i / 20.);
+  text += "*ELEMENT, TYPE=B31, ELSET=beam\n";
+  for (int i = 1; i <= 20; ++i) text += fmt::format("{}, {}, {}\n", i, i, i + 1);
+  std::ofstream(folder + "/beam.inp") << text +
+                                             "*ELEMENT, TYPE=MASS, ELSET=tip\n99, 21\n*MASS, ELSET=tip\n7.8\n"
+                                             "*NSET, NSET=root\n1\n*MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.3\n*DENSITY\n"
+                                             "7800.\n*BEAM SECTION, ELSET=beam, MATERIAL=m, SECTION=RECT\n.02, .05\n"
+                                             "0., 0., -1.\n";
+  const auto omega = omega_of(
+      "bodies: {b: {mesh: {file: {path: beam.inp}}, reduction: {modes: 1}}}\n"
+      "joints: {c: {type: fixed, between: [ground, b.root]}}\n",
+      folder + "/scene.yaml");
+  CHECK(omega[0] == Approx(1.2479174 * 1.2479174 * std::sqrt(2e11 * 0.05 * 8e-6 / 12 / 7.8)).epsilon(1e-3));
+}
+
 TEST_CASE("a load on a rigid tip block: full order, reduced, and refused where the block only follows") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();

@@ -34,6 +34,11 @@ double constraint_violation(const System& system, double t, Vec U, Vec V, Constr
 /// Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
 
+/// Directions in which an equilibrium gives way: negative eigenvalues of [K C'; C 0] beyond one for each multiplier. 0
+/// for a stable one, and for systems of more than 500 unknowns, where nobody looks. Collective, the same on every
+/// rank.
+int unstable_directions(const System& system, double t, Vec U, Vec V);
+
 /// A direct solver for a tangent: LAPACK's LU where it is dense, MUMPS' where it is sparse; `prefix` for the user.
 /// Collective.
 petsc::KspHandle tangent_solver(Mat J, const char* prefix);

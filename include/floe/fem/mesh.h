@@ -87,7 +87,7 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
 void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rotation);
 
 struct NearestNode {
-  PetscInt node;  ///< global; of equally near ones the first by original number
+  PetscInt node;  ///< global; of equally near ones the first by original number, followers last
   double distance;
   Eigen::Vector3d position;
 };

@@ -6,11 +6,11 @@
 
 namespace floe::reduction {
 
-/// A static column asked for: the response to a unit load, or to a unit displacement of a dof that joints hold.
+/// A static column asked for: the response to a unit load, or to a displacement of dofs that are held.
 struct Attachment {
-  std::string label;      ///< `root.moment`
-  petsc::VecHandle load;  ///< null: a displacement
-  PetscInt moved = -1;    ///< the dof displaced, one of Statics::conditions
+  std::string label;       ///< `root.moment`
+  petsc::VecHandle load;   ///< null: a displacement
+  petsc::VecHandle moved;  ///< of dofs among Statics::conditions, zero elsewhere
 };
 
 /// Which derivatives join the basis.

@@ -25,9 +25,10 @@ class Statics {
   Columns solve(const Columns& loads) const;
   /// The same for the columns of a dense matrix, which is used up.
   Columns solve(petsc::MatHandle loads) const;
-  /// Static constraint modes, in the floating frame: one of conditions() displaced by one and the others held at zero,
-  /// u = e + v, K v = -K e. Source: Craig and Bampton 1968. Collective. One block solve, the same factor.
-  Columns constraint_modes(const fem::Structure& structure, const std::vector<PetscInt>& dofs) const;
+  /// Static constraint modes, in the floating frame: conditions() displaced as `moved` says (zero at all other dofs)
+  /// and the others held at zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and Bampton
+  /// 1968. Collective. One block solve, the same factor.
+  Columns constraint_modes(const Columns& moved) const;
 
   /// For those who need K under the same conditions: the matrix, its conditions, and the solver with its factor.
   Mat stiffness() const { return K_; }
@@ -64,6 +65,9 @@ class Statics {
 /// A direct solver for A (MATSBAIJ) by MUMPS' Cholesky / LDL', with `prefix` for the user's options. Right-hand sides
 /// go through it 64 at a time (MUMPS' ICNTL(27)), unless the options say otherwise. Collective.
 petsc::KspHandle direct_solver(Mat A, const char* prefix);
+
+/// Why a solver's factorisation failed, in MUMPS' words and what helps; empty if it did not. Collective.
+std::string why_failed(KSP ksp);
 
 /// Turns a direct solver into an iteration that its factor preconditions: a few steps, to 1e-12 of the preconditioned
 /// residual (the other norm is all round-off of u, multiplied by EI/h^3). The operator is set by the caller.

@@ -45,6 +45,7 @@ struct PreparedBody {
   Eigen::Vector3d velocity;                                  ///< likewise
   petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none
   fem::Conditions held;                                      ///< dofs that joints to the ground hold
+  std::vector<PreparedPlace> interface = {};                 ///< that the modes hold (Craig-Bampton)
   std::map<std::string, std::vector<PetscInt>> places = {};  ///< in space: global nodes by name
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes

@@ -25,6 +25,7 @@ enum class Type {
   place,
   places,
   own_place,
+  own_places,
   body,
   parameters,
   section,

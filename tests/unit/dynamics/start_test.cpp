@@ -134,6 +134,34 @@ TEST_CASE("equilibrium at a constant speed: a spring in a turning body stretches
   CHECK(numbers_of(U)[2] == Approx(w * 0.9).epsilon(1e-12));
 }
 
+TEST_CASE("a pendulum hangs in a stable equilibrium and stands in an unstable one") {
+  const dynamics::System system = testing::pendulum(m, l, g);
+  for (const auto& [theta, directions] : {std::pair{-M_PI / 2 + 0.1, 0}, {M_PI / 2 - 0.1, 1}}) {
+    const petsc::VecHandle U = vector_of(system, {0, 0, theta, 0, 0}), V = system.create_vector();
+    dynamics::equilibrium(system, 0, U, V);
+    CHECK(std::abs(numbers_of(U)[2]) == Approx(M_PI / 2).epsilon(1e-9));
+    CHECK(dynamics::unstable_directions(system, 0, U, V) == directions);
+  }
+}
+
+TEST_CASE("where nothing resists at the start no equilibrium is looked for") {
+  testing::Terms push;
+  push.push_back(std::make_unique<dynamics::Force>(
+      testing::on_rod(l), [](double) { return Eigen::Vector3d(0, 3, 0); }, dynamics::Force::Axes::world));
+  dynamics::Coordinates c(PETSC_COMM_SELF);
+  c.belongs_to("body rod");
+  c.add_shared(3);
+  c.belongs_to("joint hinge");
+  c.add_shared(2, true);
+  c.number();
+  push.push_back(testing::rigid_rod(m, l));
+  push.push_back(testing::to_ground(testing::on_rod(0), dynamics::Revolute{}, 3));
+  const dynamics::System system(c, std::move(push));
+  const petsc::VecHandle U = system.create_vector(), V = system.create_vector();
+  CHECK_THROWS_WITH(dynamics::equilibrium(system, 0.5, U, V),
+                    Catch::Contains("nothing holds the configuration in some direction (body rod)"));
+}
+
 TEST_CASE("no equilibrium is a run error that says when") {
   testing::Terms push;  // a moment that the weight cannot balance at any angle
   push.push_back(std::make_unique<dynamics::Force>(

@@ -6,6 +6,7 @@
 
 #include "floe/body/elasticity.h"
 #include "floe/error.h"
+#include "floe/petsc/error.h"
 #include "read_back.h"
 #include "reduced_file_sample.h"
 #include "scratch.h"
@@ -103,6 +104,19 @@ TEST_CASE("what is not to be replaced is refused, and replaced when asked") {
   const std::filesystem::path folder = scratch;
   CHECK_THROWS_WITH(write_reduced_body(PETSC_COMM_WORLD, folder, sample_body(2, 2), true), Contains("not a file"));
   CHECK_THROWS_AS(check_reduced_path(PETSC_COMM_WORLD, scratch / "missing/arm.h5", false), InputError);
+}
+
+TEST_CASE("a file that is no reduced body is never replaced") {
+  Scratch scratch;
+  const auto path = scratch / "scene.yaml";
+  floe::petsc::agree(PETSC_COMM_WORLD, [&] {
+    int rank = 0;
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    if (rank == 0) std::ofstream(path) << "mine";
+  });
+  CHECK_THROWS_WITH(check_reduced_path(PETSC_COMM_WORLD, path, true), Contains("is no reduced body of floe's"));
+  CHECK_THROWS_AS(write_reduced_body(PETSC_COMM_WORLD, path, sample_body(2, 2), true), InputError);
+  CHECK(text_of(path) == "mine");
 }
 
 TEST_CASE("a reduced body that cannot be written leaves what was there") {

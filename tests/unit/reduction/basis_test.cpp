@@ -96,10 +96,10 @@ TEST_CASE("attachment columns: static responses to unit loads, repeats dropped a
     return testing::field_of(body.structure, size * Eigen::VectorXd::Unit(body.structure.dofs(), dof));
   };
   std::vector<reduction::Attachment> attachments;
-  attachments.push_back({"root.moment", load(2, 1)});
-  attachments.push_back({"tip.moment", load(3 * n + 2, 1)});
-  attachments.push_back({"again.moment", load(2, -7)});
-  attachments.push_back({"middle.fy", load(3 * (n / 2) + 1, 1)});
+  attachments.push_back({"root.moment", load(2, 1), {}});
+  attachments.push_back({"tip.moment", load(3 * n + 2, 1), {}});
+  attachments.push_back({"again.moment", load(2, -7), {}});
+  attachments.push_back({"middle.fy", load(3 * (n / 2) + 1, 1), {}});
   const reduction::Generators g =
       reduction::generators(body.structure, body.frame, body.holding, body.statics, 2, attachments, 1e-7);
   REQUIRE(g.fields.size() == 5);
