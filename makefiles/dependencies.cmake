@@ -27,6 +27,10 @@ find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS /usr/share/petsc/3.18/inclu
 find_path(METIS_INCLUDE metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
 
+# The BLAS and LAPACK that PETSc uses: the reduction's own products go there too.
+find_library(LAPACK_LIBRARY lapack REQUIRED)
+find_library(BLAS_LIBRARY blas REQUIRED)
+
 add_library(floe_outside INTERFACE)
 target_link_libraries(floe_outside INTERFACE PkgConfig::SLEPC PkgConfig::PETSC PkgConfig::HDF5 MPI::MPI_CXX
   PkgConfig::MUPARSER PkgConfig::EIGEN ${METIS_LIBRARY} ${LAPACK_LIBRARY} ${BLAS_LIBRARY} yaml-cpp fmt::fmt)
