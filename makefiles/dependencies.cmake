@@ -1,15 +1,5 @@
 # Everything from outside, as imported targets.
 find_package(PkgConfig REQUIRED)
-
-# PETSc and SLEPc with 64-bit integers, for systems of more than two thousand million nonzeros.
-option(FLOE_INDEX64 "Build on Debian's libslepc64-real-dev" OFF)
-if(FLOE_INDEX64)
-  file(GLOB paths /usr/lib/petscdir/petsc64-*-real/*/lib/pkgconfig /usr/lib/petscdir/petsc64-*/*-real/lib/pkgconfig
-    /usr/lib/slepcdir/slepc64-*/*-real/lib/pkgconfig)
-  list(JOIN paths ":" paths)
-  set(ENV{PKG_CONFIG_PATH} "${paths}:$ENV{PKG_CONFIG_PATH}")
-endif()
-
 find_package(MPI REQUIRED COMPONENTS C CXX)
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc)
 pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc)
