@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "floe/fem/field_rows.h"
+#include "floe/fem/flat_body.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
-#include "floe/reduction/reduce.h"
+#include "mode_quality.h"
 
 namespace floe::reduction {
 
@@ -50,12 +50,6 @@ double low_frequency(const fem::Structure& structure, const Statics& statics, Ma
   loads.push_back(std::move(load));
   const Columns u = statics.solve(loads);
   return rayleigh(*statics.elements(), M, u[0]);
-}
-
-std::vector<double> relative_errors(EPS eps, int count) {
-  std::vector<double> errors(count);
-  for (int i = 0; i < count; ++i) check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &errors[i]));
-  return errors;
 }
 
 bool user_sets(const std::string& prefix) {
@@ -154,76 +148,6 @@ void solve_pairs(EPS eps, const Statics& statics) {
   }
 }
 
-/// Who solves with K - s M: the shift-and-invert of an EPS, or, where the user has chosen another transformation, the
-/// statics if they hold the body likewise, or nobody.
-struct Transformation {
-  KSP ksp = nullptr;
-  double shift = 0;
-  Transformation(EPS eps, const Statics& statics, const fem::Conditions& held) {
-    ST st = nullptr;
-    PetscBool inverts = PETSC_FALSE;
-    check(EPSGetST(eps, &st));
-    check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(st), &inverts, STSINVERT, STCAYLEY, ""));
-    if (inverts) {
-      check(STGetKSP(st, &ksp));
-      check(STGetShift(st, &shift));
-    } else if (held == statics.conditions()) {
-      ksp = statics.solver();
-    }
-  }
-};
-
-/// A phi of each, zero at the conditions.
-Columns multiplied(Mat A, const Columns& phi, const fem::Conditions& held) {
-  Columns products;
-  for (const auto& field : phi) {
-    products.push_back(copy(field));
-    check(MatMult(A, field, products.back()));
-    fem::hold(products.back(), held);
-  }
-  return products;
-}
-
-/// How far the pairs are from satisfying K phi = lambda M phi, by K without its round-off: (lambda - s)/lambda times
-/// the M-norm of (K - s M)^-1 (K phi - lambda M phi), s the shift. It bounds |lambda - true lambda| / lambda.
-std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, const fem::Conditions& held,
-                              const Columns& phi, const std::vector<double>& lambda) {
-  const Columns loads = multiplied(exact, phi, held), inertia = multiplied(M, phi, held);
-  for (std::size_t i = 0; i < phi.size(); ++i) check(VecAXPY(loads[i], -lambda[i], inertia[i]));
-  const Columns errors = block_solve(inverse.ksp, loads);
-  std::vector<double> found;
-  for (std::size_t i = 0; i < phi.size(); ++i)
-    found.push_back(std::abs(lambda[i] - inverse.shift) / lambda[i] * mass_norm(M, errors[i]));
-  return found;
-}
-
-/// Rayleigh's quotients with the strain energy of the elements. @param mix  whether modes are combined until they are
-/// stationary (Ritz): what K's round-off has turned them, the lowest most, is among themselves.
-std::vector<double> exact_values(const fem::ElementStiffness& K, Mat M, bool mix, const Columns& phi) {
-  const fem::Structure& structure = K.structure();
-  const Eigen::Index count = static_cast<Eigen::Index>(phi.size());
-  const fem::FieldRows rows = fem::gather(structure, phi);
-  const Eigen::MatrixXd stiffness = K.gram(rows);
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(count, count);
-  const petsc::VecHandle product = fem::field(structure);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    check(MatMult(M, phi[i], product));
-    for (Eigen::Index j = mix ? 0 : i; j <= i; ++j) check(VecDot(phi[j], product, &mass(i, j)));
-  }
-  std::vector<double> lambda;
-  if (!mix) {
-    for (Eigen::Index i = 0; i < count; ++i) lambda.push_back(stiffness(i, i) / mass(i, i));
-    return lambda;
-  }
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(stiffness, mass);
-  const fem::FieldRows mixed = rows * ritz.eigenvectors();
-  fem::for_each_field(structure, mixed, [&](Eigen::Index j, const double* local) {
-    std::copy(local, local + structure.owned_dofs(), petsc::Values(phi[j]).begin());
-    lambda.push_back(ritz.eigenvalues()[j]);
-  });
-  return lambda;
-}
-
 void check_converged(EPS eps, int count) {
   PetscInt converged = 0, iterations = 0;
   EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
@@ -236,36 +160,7 @@ void check_converged(EPS eps, int count) {
                     converged, count, iterations, EPSConvergedReasons[reason]));
 }
 
-/// Of the first translation, by original numbers, that is above half the greatest one. Collective.
-double sign_of(const fem::Structure& structure, Vec shape) {
-  petsc::Values values(shape);
-  const int n = structure.dofs_per_node;
-  const auto translation = [&](PetscInt i) { return i % n < structure.dimension(); };
-  double greatest = 0;
-  for (PetscInt i = 0; i < values.end - values.first; ++i)
-    if (translation(i)) greatest = std::max(greatest, std::abs(values[values.first + i]));
-  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  struct {
-    double sign;
-    PetscInt where;
-  } first{0, PETSC_MAX_INT};
-  for (PetscInt i = 0; i < values.end - values.first; ++i) {
-    const PetscInt dof = structure.original_dof(static_cast<int>(i));
-    const double value = values[values.first + i];
-    if (translation(i) && dof < first.where && std::abs(value) > 0.5 * greatest) first = {value < 0 ? -1.0 : 1.0, dof};
-  }
-  PetscInt lowest = first.where;
-  MPI_Allreduce(MPI_IN_PLACE, &lowest, 1, MPIU_INT, MPI_MIN, structure.mesh.comm);
-  double sign = first.where == lowest ? first.sign : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &sign, 1, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
-  return sign;
-}
-
 }  // namespace
-
-void fix_sign(const fem::Structure& structure, Vec shape) {
-  if (sign_of(structure, shape) < 0) check(VecScale(shape, -1));
-}
 
 ModeSolver::ModeSolver(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                        const Statics& statics)
@@ -305,12 +200,6 @@ PetscInt ModeSolver::available() const {
 
 namespace {
 
-/// Pairs of the matrix, that of round-off included.
-struct Found {
-  std::vector<double> lambda;
-  Columns raw;
-};
-
 Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
             const Statics& statics, int count) {
   std::vector<Vec> deflated(rigid.begin(), rigid.end());
@@ -328,23 +217,6 @@ Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& hel
     fem::hold(found.raw.back(), held);
   }
   return found;
-}
-
-/// phi <- (lambda - s) (K - s M)^-1 M phi, all in one block: takes out what M does not see (rotations without mass) and
-/// the eigenvalue solver leaves in. Returns how far the pairs were from K phi = lambda M phi, in the norm of
-/// residuals().
-std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Conditions& held, Found& found) {
-  const Columns products = multiplied(M, found.raw, held);
-  Columns pure = block_solve(inverse.ksp, products);
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < pure.size(); ++i) {
-    const double lambda = found.lambda[i], factor = lambda - inverse.shift;
-    check(VecAXPY(found.raw[i], -factor, pure[i]));  // what goes
-    errors.push_back(std::abs(factor / lambda) * mass_norm(M, found.raw[i]));
-    check(VecScale(pure[i], 1 / mass_norm(M, pure[i])));
-  }
-  found.raw = std::move(pure);
-  return errors;
 }
 
 }  // namespace

@@ -50,6 +50,16 @@ inline fem::Structure small_frame(MPI_Comm comm, Spread spread) {
   return structure_of(mesh::polyline(comm, lines), {beam}, spread);
 }
 
+/// Small bodies of every kind of cell.
+enum class What { triangles, quadrilaterals, beams, mixed };
+
+inline fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
+  if (what == What::mixed) return mixed_structure(comm, spread);
+  if (what == What::beams) return small_frame(comm, spread);
+  return small_plate(comm, what == What::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals,
+                     spread);
+}
+
 /// Columns of a basis by original dofs, on every rank. Collective.
 inline Eigen::MatrixXd columns_in_originals(const fem::Structure& s, const reduction::Basis& basis) {
   Eigen::MatrixXd V(s.dofs(), basis.columns);

@@ -10,21 +10,20 @@ using mesh::ShellCells;
 using testing::Kind;
 using testing::SpatiallyHeld;
 using testing::Spread;
+using testing::What;
 
 namespace {
 
-fem::Structure body_of(bool beams, MPI_Comm comm, Spread spread) {
-  return beams ? testing::small_frame(comm, spread) : testing::small_plate(comm, ShellCells::triangles, spread);
-}
-
 std::vector<PetscInt> root_of(bool beams) { return beams ? std::vector<PetscInt>{0} : testing::root_of_plate(); }
+
+What kind_of(bool beams) { return beams ? What::beams : What::triangles; }
 
 }  // namespace
 
 TEST_CASE("static derivatives in space solve K theta = -(dK/deta_j) phi_i under the joints, in the frame") {
   const bool beams = GENERATE(false, true);
   const Kind kind = GENERATE(Kind::clamped, Kind::mean_axis);
-  const SpatiallyHeld body(body_of(beams, PETSC_COMM_WORLD, Spread::shuffled), kind, root_of(beams));
+  const SpatiallyHeld body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::shuffled), kind, root_of(beams));
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = body.modes(3);
   const reduction::Pairs pairs = reduction::all_pairs(3);
@@ -47,8 +46,8 @@ TEST_CASE("static derivatives in space solve K theta = -(dK/deta_j) phi_i under 
 TEST_CASE("static derivatives in space are the same on any partition") {
   const bool beams = GENERATE(false, true);
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
-  const SpatiallyHeld all(body_of(beams, PETSC_COMM_WORLD, spread), Kind::clamped, root_of(beams)),
-      alone(body_of(beams, PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(beams));
+  const SpatiallyHeld all(body_of(kind_of(beams), PETSC_COMM_WORLD, spread), Kind::clamped, root_of(beams)),
+      alone(body_of(kind_of(beams), PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(beams));
   const auto derivatives = [](const SpatiallyHeld& body) {
     std::vector<VectorXd> columns;
     for (const auto& theta :
@@ -63,7 +62,7 @@ TEST_CASE("static derivatives in space are the same on any partition") {
 
 TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to their mode") {
   const bool beams = GENERATE(false, true);
-  const SpatiallyHeld body(body_of(beams, PETSC_COMM_WORLD, Spread::metis), Kind::clamped, root_of(beams));
+  const SpatiallyHeld body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::metis), Kind::clamped, root_of(beams));
   const fem::Structure& s = body.structure;
   const fem::Conditions& held = body.holding.held;
   const reduction::Modes modes = body.modes(3);
@@ -91,7 +90,7 @@ TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to thei
 
 TEST_CASE("full derivatives in space are the derivatives of the modes of the deformed body") {
   // (K + eta dK/deta_j) phi = omega^2 M phi, the tangent's part of first order in eta: differences of a dense solve
-  const SpatiallyHeld body(body_of(true, PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(true));
+  const SpatiallyHeld body(body_of(What::beams, PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(true));
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = body.modes(2);
   reduction::Pairs which;
@@ -126,7 +125,7 @@ TEST_CASE("full derivatives in space are the derivatives of the modes of the def
 TEST_CASE("full derivatives in space have the same energies on any partition") {
   const bool beams = GENERATE(false, true);
   const auto energies = [&](MPI_Comm comm, Spread spread) {
-    const SpatiallyHeld body(body_of(beams, comm, spread), Kind::clamped, root_of(beams));
+    const SpatiallyHeld body(body_of(kind_of(beams), comm, spread), Kind::clamped, root_of(beams));
     reduction::Pairs which;
     const petsc::MatHandle K = fem::stiffness(body.structure, {});
     std::vector<double> all;

@@ -7,20 +7,13 @@ using namespace floe;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using mesh::ShellCells;
+using testing::body_of;
 using testing::Kind;
 using testing::SpatiallyHeld;
 using testing::Spread;
+using testing::What;
 
 namespace {
-
-enum class What { triangles, quadrilaterals, beams, mixed };
-
-fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
-  if (what == What::mixed) return testing::mixed_structure(comm, spread);
-  if (what == What::beams) return testing::small_frame(comm, spread);
-  return testing::small_plate(comm, what == What::triangles ? ShellCells::triangles : ShellCells::quadrilaterals,
-                              spread);
-}
 
 /// Clamped at original node 0, on its modes and all their derivatives.
 struct Reduced {
