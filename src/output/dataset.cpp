@@ -112,11 +112,12 @@ void write_attribute(hid_t object, const std::string& name, const std::string& t
   check_hdf5(H5Awrite(attribute, type, text.c_str()));
 }
 
-void write_block(hid_t dataset, const Extent& start, const Extent& count, std::span<const double> data, bool parallel) {
+void write_hyperslab(hid_t dataset, const Extent& start, const Extent& count, hid_t type, const void* data,
+                     bool parallel) {
   const Hid there(H5Dget_space(dataset), H5Sclose);
   if (H5Sget_simple_extent_npoints(there) == 0) return;  // it has no place in the file
   const Hid here(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  if (data.empty()) {
+  if (!data) {
     check_hdf5(H5Sselect_none(there));
     check_hdf5(H5Sselect_none(here));
   } else if (!count.empty()) {
@@ -124,8 +125,12 @@ void write_block(hid_t dataset, const Extent& start, const Extent& count, std::s
   }
   const Hid transfer = property_list(H5P_DATASET_XFER);
   if (parallel) check_hdf5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE));
-  const double none = 0;
-  check_hdf5(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, here, there, transfer, data.empty() ? &none : data.data()));
+  const double none = 0;  // HDF5 wants an address
+  check_hdf5(H5Dwrite(dataset, type, here, there, transfer, data ? data : &none));
+}
+
+void write_block(hid_t dataset, const Extent& start, const Extent& count, std::span<const double> data, bool parallel) {
+  write_hyperslab(dataset, start, count, H5T_NATIVE_DOUBLE, data.empty() ? nullptr : data.data(), parallel);
 }
 
 }  // namespace floe::output

@@ -38,6 +38,11 @@ void write_text_dataset(hid_t file, const std::string& name, const std::string& 
 /// A text attribute; nothing for an empty text.
 void write_attribute(hid_t object, const std::string& name, const std::string& text);
 
+/// Writes the block `count` at `start` from numbers of a native type. Collective on an MPI-IO file.
+/// @param data  row-major, of that shape; null: this rank takes part and writes nothing
+void write_hyperslab(hid_t dataset, const Extent& start, const Extent& count, hid_t type, const void* data,
+                     bool parallel);
+
 /// Writes the block `count` at `start` from row-major `data` of that shape. Collective on an MPI-IO file; a rank with
 /// an empty `data` takes part and writes nothing.
 void write_block(hid_t dataset, const Extent& start, const Extent& count, std::span<const double> data, bool parallel);

@@ -110,19 +110,7 @@ Hid create_dataset(hid_t file, const std::string& name, const Extent& shape, con
 
 template <class Number>
 void write_rows(hid_t dataset, const Extent& start, const Extent& count, std::span<const Number> data, bool parallel) {
-  const Hid there(H5Dget_space(dataset), H5Sclose);
-  if (H5Sget_simple_extent_npoints(there) == 0) return;  // it has no place in the file
-  const Hid here(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
-  if (data.empty()) {
-    check_hdf5(H5Sselect_none(there));
-    check_hdf5(H5Sselect_none(here));
-  } else if (!count.empty()) {
-    check_hdf5(H5Sselect_hyperslab(there, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr));
-  }
-  const Hid transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-  if (parallel) check_hdf5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE));
-  const Number none = 0;
-  check_hdf5(H5Dwrite(dataset, native<Number>(), here, there, transfer, data.empty() ? &none : data.data()));
+  write_hyperslab(dataset, start, count, native<Number>(), data.empty() ? nullptr : data.data(), parallel);
 }
 
 template <class Number>
