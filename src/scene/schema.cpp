@@ -2,17 +2,11 @@
 
 #include <cmath>
 
+#include "schema_ranges.h"
 #include "schema_spatial.h"
 
 namespace floe::scene {
 namespace {
-
-constexpr double inf = INFINITY;
-constexpr Range any{};
-constexpr Range positive{0, inf, true, true};
-constexpr Range nonnegative{0, inf, false, true};
-constexpr Range counts{1, 1e8};
-constexpr const char* required = Key::required;
 
 Key part(const char* name, Type type, const char* fallback, const char* text, const char* section) {
   return {name, type, "", fallback, text, any, {}, {}, section};

@@ -1,14 +1,9 @@
 #include "schema_spatial.h"
 
+#include "schema_ranges.h"
+
 namespace floe::scene {
 namespace {
-
-constexpr double inf = INFINITY;
-constexpr Range any{};
-constexpr Range positive{0, inf, true, true};
-constexpr Range nonnegative{0, inf, false, true};
-constexpr Range counts{1, 1e8};
-constexpr const char* required = Key::required;
 
 const SchemaSection plate_section{
     "plate",
