@@ -1,0 +1,65 @@
+#include "floe/math/rotation.h"
+
+#include <cmath>
+
+namespace floe::math {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// b = (1 - cos p)/p^2, c = (p - sin p)/p^3, and their derivatives by p divided by p.
+struct Factors {
+  double b, c, db, dc;
+};
+
+Factors factors(double square) {
+  if (square < 1e-2) {  // series to p^8: 1e-17 and less is left out
+    const double s = square;
+    return {1. / 2 - s / 24 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90))),
+            1. / 6 - s / 120 * (1 - s / 42 * (1 - s / 72 * (1 - s / 110))),
+            -1. / 12 + s / 180 * (1 - s / 56 * 1.5 * (1 - s / 90 * (4. / 3))),
+            -1. / 60 + s / 1260 * (1 - s / 72 * 1.5 * (1 - s / 110 * (4. / 3)))};
+  }
+  const double p = std::sqrt(square), sine = std::sin(p), half = std::sin(p / 2);
+  const double b = 2 * half * half / square, c = (p - sine) / (square * p);
+  return {b, c, (sine / p - 2 * b) / square, (b - 3 * c) / square};
+}
+
+}  // namespace
+
+Matrix3d skew(const Vector3d& a) {
+  return (Matrix3d() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished();
+}
+
+Matrix3d rotation(const Vector3d& x) { return quaternion(x).toRotationMatrix(); }
+
+Eigen::Quaterniond quaternion(const Vector3d& x) {
+  const double half = 0.5 * x.norm();
+  const double factor = half < 1e-4 ? 0.5 - half * half / 12 : std::sin(half) / (2 * half);
+  Eigen::Quaterniond q(std::cos(half), factor * x.x(), factor * x.y(), factor * x.z());
+  q.normalize();
+  return q;
+}
+
+Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
+  const double sign = rotation.w() < 0 ? -1 : 1, sine = rotation.vec().norm();
+  const double half = std::atan2(sine, sign * rotation.w());
+  const double factor = sine < 1e-6 ? 2 : 2 * half / sine;
+  return sign * factor * rotation.vec();
+}
+
+Matrix3d rotation_tangent(const Vector3d& x) {
+  const auto [b, c, db, dc] = factors(x.squaredNorm());
+  return (1 - c * x.squaredNorm()) * Matrix3d::Identity() - b * skew(x) + c * x * x.transpose();
+}
+
+Matrix3d rotation_tangent_derivative(const Vector3d& x, const Vector3d& w) {
+  // T w = w - b x x w + c x x (x x w),  x x (x x w) = x (x.w) - w x.x
+  const auto [b, c, db, dc] = factors(x.squaredNorm());
+  const Vector3d cross = x.cross(w), twice = x.cross(cross);
+  return b * skew(w) + (-db * cross + dc * twice) * x.transpose() +
+         c * (x.dot(w) * Matrix3d::Identity() + x * w.transpose() - 2 * w * x.transpose());
+}
+
+}  // namespace floe::math
