@@ -19,13 +19,6 @@ const Vector6& at_level(ConstraintLevel level, const Vector6& y, const Vector6& 
   return level == ConstraintLevel::position ? y : level == ConstraintLevel::velocity ? yd : ydd;
 }
 
-double at_level(ConstraintLevel level, const TimeFunction& f, double t) {
-  if (!f.value) return 0;
-  return level == ConstraintLevel::position   ? f.value(t)
-         : level == ConstraintLevel::velocity ? f.rate(t)
-                                              : f.acceleration(t);
-}
-
 void coincide(const Vector6& y, Evaluation& e) {
   e.C.head<2>() = y.segment<2>(3) - y.head<2>();
   e.gradient(0, 0) = e.gradient(1, 1) = -1;

@@ -1,26 +1,8 @@
 #include "floe/dynamics/marker_pair.h"
 
-#include <algorithm>
+#include "local_indices.h"
 
 namespace floe::dynamics {
-namespace {
-
-std::vector<int> place_all(const std::vector<int>& indices, std::vector<int>& all) {
-  std::vector<int> where;
-  for (int index : indices) {
-    const auto found = std::find(all.begin(), all.end(), index);
-    where.push_back(static_cast<int>(found - all.begin()));
-    if (found == all.end()) all.push_back(index);
-  }
-  return where;
-}
-
-void pick(const std::vector<int>& where, const Eigen::VectorXd& from, Eigen::VectorXd& to) {
-  to.resize(static_cast<Eigen::Index>(where.size()));
-  for (std::size_t i = 0; i < where.size(); ++i) to[i] = from[where[i]];
-}
-
-}  // namespace
 
 MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second(std::move(other)) {
   where_first = place_all(first.coordinates, coordinates);

@@ -4,13 +4,9 @@
 #include <variant>
 
 #include "floe/dynamics/marker_pair.h"
+#include "floe/dynamics/time_function.h"
 
 namespace floe::dynamics {
-
-/// A function of time with its first two derivatives.
-struct TimeFunction {
-  std::function<double(double)> value, rate, acceleration;
-};
 
 /// C = p_2 - p_1 (2 rows).
 struct Revolute {};
