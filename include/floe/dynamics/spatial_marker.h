@@ -1,0 +1,71 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "floe/dynamics/attitude.h"
+
+namespace floe::dynamics {
+
+/// A force and a moment, in world axes unless said otherwise.
+using Wrench = Eigen::Matrix<double, 6, 1>;
+using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// A place of a body in space, as joints and loads see it: its position and its axes as functions of the coordinates.
+///
+///   p = mass * R + A (x0 + S e),   D = A exp(~beta) D0,   beta = psi e
+///
+/// coordinates: the frame's six (R, x) when it is framed, then the elastic ones that S and psi refer to. A framed place
+/// has A = attitude(x); among the velocities of its coordinates the frame's angular velocity in its own axes stands for
+/// x, among the accelerations its rate (Attitude). Without attitude the frame stands still at `origin` with `axes`;
+/// without elastic coordinates too, the place is one of the ground. With mass = int rho, x0 = s0 and S = int rho N the
+/// same formula is rho-weighted: a force density on it is gravity.
+struct SpatialMarker {
+  std::vector<int> coordinates;
+  std::shared_ptr<const Attitude> attitude;             ///< empty: the frame stands still
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();     ///< R of a frame that stands still
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();   ///< its A
+  Eigen::Vector3d x0 = Eigen::Vector3d::Zero();         ///< place in the undeformed body
+  Eigen::Matrix3d D0 = Eigen::Matrix3d::Identity();     ///< axes of the place there
+  Eigen::Matrix3Xd S = Eigen::Matrix3Xd::Zero(3, 0);    ///< displacement of each elastic coordinate, 3 x k
+  Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its nodal rotation, 3 x k
+  double mass = 1;
+
+  bool framed() const { return attitude != nullptr; }
+  static SpatialMarker ground(const Eigen::Vector3d& point, const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+};
+
+/// Position and axes of a marker, their rates, and what their linearisation needs. n = number of its coordinates.
+///
+/// Virtual motions are counted by the displacement and the rotation in world axes (dp, dphi) of the place, and by a
+/// rotation dtheta = T(x) dx in body axes of the frame. Columns "without T(x)" multiply dtheta (or the angular
+/// velocity), and directions of forces are such; derivatives by x have those columns times T(x).
+struct SpatialPose {
+  Eigen::Vector3d p, velocity, acceleration;
+  Eigen::Matrix3d D;
+  Eigen::Vector3d spin, spin_rate;  ///< of D, in world axes
+  Matrix6Xd P;                      ///< (dp, dphi) of each coordinate, 6 x n, without T(x)
+  Eigen::Matrix3d A, T;             ///< of the frame; T(x), or I when it stands still
+  Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e, and its velocity omega x c + S e.
+  Eigen::Vector3d omega, turn;      ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
+  Eigen::Vector3d beta, beta_rate;
+  Eigen::Matrix3d bend;  ///< T(beta)
+};
+
+/// @param q, v, a  the marker's coordinates and rates
+/// Allocates only where `out` grows.
+void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+          SpatialPose& out);
+
+/// d(velocity, spin)/dq at fixed v, 6 x n, without T(x).
+void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd& out);
+
+/// K += weight * d(P' w)/dq at fixed w in world axes: what moving the place does to the rows of a wrench, n x n.
+///
+/// With f = A' w_f, m = A' w_m, in rows and columns (x, e):
+///
+///   theta   (~c ~f + ~m) T(x)                    -~f S
+///   e       (S' ~f + psi' T(beta) ~m) T(x)        psi' [d(T(beta) m)/dbeta] psi
+void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, double weight,
+                             Eigen::MatrixXd& K);
+
+}  // namespace floe::dynamics
