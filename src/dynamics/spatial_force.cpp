@@ -1,0 +1,47 @@
+#include "floe/dynamics/spatial_force.h"
+
+namespace floe::dynamics {
+
+using Eigen::Matrix3d;
+using math::skew;
+
+SpatialForce::SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, Axes axes)
+    : at_(std::move(at)), wrench_(std::move(wrench)), axes_(axes) {}
+
+Wrench SpatialForce::world(const Motion& motion) const {
+  const Wrench w = wrench_(motion.t);
+  if (axes_ == Axes::world) return w;
+  const Matrix3d& axes = axes_ == Axes::body ? pose_.A : pose_.D;
+  return (Wrench() << axes * w.head<3>(), axes * w.tail<3>()).finished();
+}
+
+void SpatialForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  r -= pose_.P.transpose().lazyProduct(world(motion));
+}
+
+void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  const Wrench w = world(motion);
+  add_geometric_stiffness(at_, pose_, w, -weights.q, J);
+  // the wrench turns by dphi with its axes: dw = -~w dphi
+  const Eigen::Matrix<double, 6, 3> turning =
+      weights.q * (Eigen::Matrix<double, 6, 3>() << skew(w.head<3>()), skew(w.tail<3>())).finished();
+  if (axes_ == Axes::body && at_.framed()) {
+    const Eigen::Matrix<double, 6, 3> by_x = turning * pose_.A * pose_.T;
+    J.middleCols<3>(3) += pose_.P.transpose().lazyProduct(by_x);
+  }
+  if (axes_ == Axes::place) {
+    change_.noalias() = turning * pose_.P.bottomRows<3>();
+    if (at_.framed()) change_.middleCols<3>(3) = (change_.middleCols<3>(3) * pose_.T).eval();
+    J += pose_.P.transpose().lazyProduct(change_);
+  }
+}
+
+Energy SpatialForce::energy(const Motion& motion) const {
+  if (!conservative) return {};
+  pose(at_, motion.q, motion.v, motion.a, pose_);
+  return {0, 0, -world(motion).head<3>().dot(pose_.p)};
+}
+
+}  // namespace floe::dynamics
