@@ -1,0 +1,79 @@
+#pragma once
+#include <variant>
+
+#include "floe/dynamics/spatial_pair.h"
+#include "floe/dynamics/time_function.h"
+
+namespace floe::dynamics {
+
+/// What a constraint in space is made of, one row each. D1, D2: axes of the two places in columns x, y, z = 0, 1, 2.
+/// C = e_axis.(p_2 - p_1), a world axis. [m]
+struct Coincide {
+  int axis;
+};
+/// C = D1_axis.(p_2 - p_1) - offset - position(t). [m]
+struct Along {
+  int axis;
+  double offset = 0;
+  TimeFunction position = {};  ///< empty: 0
+};
+/// C = Q_ij = D1_i.(D2 E(t)')_j, with E the rotation by the constraint's angle(t) about z.
+struct Product {
+  int i, j;
+};
+/// C = |p_2 - p_1| - length. [m]
+struct Separation {
+  double length;
+};
+using SpatialRow = std::variant<Coincide, Along, Product, Separation>;
+
+/// The rows that a joint holds. Its axes are those of the first place: x, y, z; D1 = D2 is its undisplaced state.
+///
+/// Multipliers of Coincide, Along and Separation are forces, those of Product moments: where the constraint is met,
+/// Q_21, Q_32, Q_13 of fixed places go with moments about z, x, y; Q_31 and Q_32 with moments about -y and x of the
+/// second place. Products also vanish at turns by 180 degrees: the motion stays on the branch that it begins on.
+struct SpatialConstraint {
+  std::vector<SpatialRow> rows;
+  TimeFunction angle = {};  ///< of E, of any size; empty: 0
+
+  static SpatialConstraint fixed();        ///< p_2 - p_1; Q_21, Q_32, Q_13
+  static SpatialConstraint revolute();     ///< about z: p_2 - p_1; Q_31, Q_32
+  static SpatialConstraint prismatic();    ///< along z: D1_x, D1_y; Q_21, Q_32, Q_13
+  static SpatialConstraint cylindrical();  ///< along and about z: D1_x, D1_y; Q_31, Q_32
+  static SpatialConstraint spherical();    ///< p_2 - p_1
+  static SpatialConstraint universal();    ///< z of the first place stays normal to x of the second: p_2 - p_1; Q_31
+  static SpatialConstraint planar();       ///< in the plane normal to z: D1_z; Q_31, Q_32
+  /// @throws InputError  length <= 0: places that are to coincide are held by a spherical joint
+  static SpatialConstraint distance(double length);
+  /// D2 = D1 turned by angle(t) about z: as fixed, with E(t).
+  static SpatialConstraint driven_revolute(TimeFunction angle);
+  /// As prismatic, with D1_z.(p_2 - p_1) = position(t) as its last row.
+  static SpatialConstraint driven_prismatic(TimeFunction position);
+};
+
+int rows(const SpatialConstraint& constraint);
+
+/// Constraint rows in space at a level with multipliers: r += P' C_y' lambda, r_lambda = C (or its time derivatives).
+///
+/// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
+/// Residual and tangent throw RunError where the places of a Separation coincide: no direction holds them apart.
+class SpatialJoint final : public Term {
+ public:
+  /// @param multipliers  local index of the first of as many multipliers as rows stand
+  /// @param standing     rows of the constraint that stand, ascending; the others are left out
+  SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint, int multipliers,
+               const std::vector<int>& standing);
+  /// All rows stand.
+  SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers);
+  const std::vector<int>& coordinates() const override { return pair_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+
+ private:
+  mutable SpatialPair pair_;
+  SpatialConstraint constraint_;  // the rows that stand
+  int multiplier_;                // position among coordinates
+  mutable Eigen::VectorXd row_;
+};
+
+}  // namespace floe::dynamics
