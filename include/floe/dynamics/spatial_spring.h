@@ -1,0 +1,61 @@
+#pragma once
+#include "floe/dynamics/spatial_pair.h"
+
+namespace floe::dynamics {
+
+/// Spring and damper between two places in space: along the line that joins them, and torsional about z.
+///
+///   f = stiffness (l - length) + viscosity l.,  m = torsional_stiffness (phi - angle) + torsional_viscosity phi.
+///
+/// Coinciding places have no line and carry no line force. phi is the twist of D1'D2 about z, the angle that is left
+/// when the shortest turn that takes z_1 to z_2 is undone (between places on one axis: their relative angle):
+///
+///   tan phi = (y_1.x_2 - x_1.y_2) / (x_1.x_2 + y_1.y_2),   phi. = h.(w_2 - w_1),   h = (z_1 + z_2) / (1 + z_1.z_2)
+///
+/// Torsion throws RunError where z_2 = -z_1: there is no twist.
+struct SpatialSpringProperties {
+  double stiffness = 0, viscosity = 0, length = 0;
+  double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
+};
+class SpatialSpring final : public Term {
+ public:
+  SpatialSpring(SpatialMarker first, SpatialMarker second, SpatialSpringProperties properties);
+  const std::vector<int>& coordinates() const override { return pair_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Energy energy(const Motion& motion) const override;
+  /// Counts turns: from now on phi is the twist nearest to the present one; before the first call, nearest to `angle`.
+  ///
+  /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
+  /// a step, between evaluations. Never called, the spring holds as long as |phi - angle| < pi.
+  void follow(const Motion& motion);
+
+ private:
+  mutable SpatialPair pair_;
+  SpatialSpringProperties properties_;
+  double nearest_;  // the twist is the one within half a turn of this
+};
+
+/// Six springs and dampers in the axes of the first place, between places that lie on one another when it is at rest.
+///
+///   u = D1'(p_2 - p_1),  exp(~rho) = D1'D2,   f = K_f u + V_f u.,  m = K_m rho + V_m rho.
+///
+/// f works on u and m on the rotation vector rho: the moment on the places is D1 T(rho)^-1 m. Diagonals: stiffness =
+/// (K_f, K_m) [N/m, N m/rad], viscosity = (V_f, V_m). |rho| < pi: a bushing does not turn further.
+struct BushingProperties {
+  Wrench stiffness = Wrench::Zero(), viscosity = Wrench::Zero();
+};
+class SpatialBushing final : public Term {
+ public:
+  SpatialBushing(SpatialMarker first, SpatialMarker second, BushingProperties properties);
+  const std::vector<int>& coordinates() const override { return pair_.coordinates; }
+  void residual(const Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Energy energy(const Motion& motion) const override;
+
+ private:
+  mutable SpatialPair pair_;
+  BushingProperties properties_;
+};
+
+}  // namespace floe::dynamics
