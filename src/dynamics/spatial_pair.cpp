@@ -27,25 +27,31 @@ void SpatialPair::add(const Vector12& wrench, Eigen::VectorXd& r) {
 
 void SpatialPair::add_gradient(const Vector12& gradient, Eigen::VectorXd& r) {
   for (int i = 0; i < 2; ++i) {
-    rows_.noalias() = pose[i].P.transpose().lazyProduct(gradient.segment<6>(6 * i));
-    if (marker[i].framed()) rows_.segment<3>(3) = (pose[i].T.transpose() * rows_.segment<3>(3)).eval();
-    for (std::size_t row = 0; row < where[i].size(); ++row) r[where[i][row]] += rows_[row];
+    const Wrench g = gradient.segment<6>(6 * i);
+    const Matrix6Xd& P = pose[i].P;
+    const bool framed = marker[i].framed();
+    for (std::size_t row = 0; row < where[i].size(); ++row)
+      if (!framed || row < 3 || row >= 6) r[where[i][row]] += P.col(row).dot(g);
+    if (!framed) continue;
+    const Eigen::Vector3d by_x = pose[i].T.transpose() * (P.middleCols<3>(3).transpose() * g);
+    for (int row = 0; row < 3; ++row) r[where[i][3 + row]] += by_x[row];
   }
 }
 
 void SpatialPair::differentiate(const Matrix12& Y, const Matrix12& Yd, bool damped, Weights weights, int j) {
   using Half = Eigen::Matrix<double, 12, 6>;
   const Half of_place = weights.q * Y.middleCols<6>(6 * j), of_rates = Yd.middleCols<6>(6 * j);
-  change_.noalias() = of_place * pose[j].P;
+  auto& change = change_[j];
+  change.noalias() = of_place * pose[j].P;
   if (damped) {
     const Half by_place = weights.q * of_rates;
-    rate_gradient(marker[j], pose[j], rates_);
-    change_.noalias() += by_place * rates_;
+    rate_gradient(marker[j], pose[j], rates_[j]);
+    change.noalias() += by_place * rates_[j];
   }
-  if (marker[j].framed()) change_.middleCols<3>(3) = (change_.middleCols<3>(3) * pose[j].T).eval();
+  if (marker[j].framed()) change.middleCols<3>(3) = (change.middleCols<3>(3) * pose[j].T).eval();
   if (damped && weights.v != 0) {
     const Half by_rates = weights.v * of_rates;
-    change_.noalias() += by_rates * pose[j].P;
+    change.noalias() += by_rates * pose[j].P;
   }
 }
 
@@ -57,14 +63,15 @@ void SpatialPair::add_tangent(const Vector12& wrench, const Matrix12& Y, const M
     if (depends) differentiate(Y, Yd, damped, weights, j);
     for (int i = 0; i < 2; ++i) {
       if (where[i].empty() || (i != j && !depends)) continue;
+      Eigen::MatrixXd& block = block_[i][j];
       const Index rows = static_cast<Index>(where[i].size()), columns = static_cast<Index>(where[j].size());
       if (depends)
-        block_.noalias() = pose[i].P.transpose() * change_.middleRows<6>(6 * i);
+        block.noalias() = pose[i].P.transpose() * change_[j].middleRows<6>(6 * i);
       else
-        block_.setZero(rows, columns);
-      if (i == j) add_geometric_stiffness(marker[i], pose[i], wrench.segment<6>(6 * i), weights.q, block_);
+        block.setZero(rows, columns);
+      if (i == j) add_geometric_stiffness(marker[i], pose[i], wrench.segment<6>(6 * i), weights.q, block);
       for (Index column = 0; column < columns; ++column)
-        for (Index row = 0; row < rows; ++row) J(where[i][row], where[j][column]) += block_(row, column);
+        for (Index row = 0; row < rows; ++row) J(where[i][row], where[j][column]) += block(row, column);
     }
   }
 }

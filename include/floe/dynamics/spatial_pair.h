@@ -34,16 +34,16 @@ struct SpatialPair {
   void add_tangent(const Vector12& wrench, const Matrix12& Y, const Matrix12& Yd, Weights weights, Eigen::MatrixXd& J);
 
  private:
-  /// Change of both wrenches with the coordinates of place j.
+  /// Change of both wrenches with the coordinates of place j, into change_[j].
   void differentiate(const Matrix12& Y, const Matrix12& Yd, bool damped, Weights weights, int j);
   struct State {
     Eigen::VectorXd q, v, a;
   };
+  // work arrays, one for each place or pair of places so that they keep their sizes
   std::array<State, 2> state_;
-  Eigen::VectorXd rows_;
-  Matrix6Xd rates_;
-  Eigen::Matrix<double, 12, Eigen::Dynamic> change_;
-  Eigen::MatrixXd block_;
+  std::array<Matrix6Xd, 2> rates_;
+  std::array<Eigen::Matrix<double, 12, Eigen::Dynamic>, 2> change_;
+  std::array<std::array<Eigen::MatrixXd, 2>, 2> block_;
 };
 
 }  // namespace floe::dynamics
