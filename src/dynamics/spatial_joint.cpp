@@ -43,7 +43,9 @@ SpatialConstraint SpatialConstraint::distance(double length) {
   return {{Separation{length}}};
 }
 
-SpatialConstraint SpatialConstraint::driven_revolute(TimeFunction angle) { return {point() + axes(), std::move(angle)}; }
+SpatialConstraint SpatialConstraint::driven_revolute(TimeFunction angle) {
+  return {point() + axes(), std::move(angle)};
+}
 
 SpatialConstraint SpatialConstraint::driven_prismatic(TimeFunction position) {
   return {line() + axes() + Rows{Along{2, 0, std::move(position)}}};

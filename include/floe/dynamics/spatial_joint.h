@@ -6,7 +6,8 @@
 
 namespace floe::dynamics {
 
-/// What a constraint in space is made of, one row each. D1, D2: axes of the two places in columns x, y, z = 0, 1, 2.
+// What a constraint in space is made of, one row each. D1, D2: axes of the two places in columns x, y, z = 0, 1, 2.
+
 /// C = e_axis.(p_2 - p_1), a world axis. [m]
 struct Coincide {
   int axis;
