@@ -1,0 +1,179 @@
+#include "floe/body/spatial_frame.h"
+
+#include "floe/math/rotation.h"
+
+namespace floe::body {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Rates = SpatialInertiaWork::Rates;
+
+/// S x, without the set-up of a general product.
+template <class Vector>
+Vector3d times(const Eigen::Matrix3Xd& S, const Vector& x) {
+  Vector3d sum = Vector3d::Zero();
+  for (Index j = 0; j < S.cols(); ++j) sum += x[j] * S.col(j);
+  return sum;
+}
+
+/// What forms from `first` on, times x, add to dJ/de and G.
+void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x, Eigen::VectorXd& products,
+                  Rates& rates) {
+  const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size()) - first;
+  if (k == 0 || n == 0) return;
+  products.resize(k * n);
+  products.noalias() = in.forms.rightCols(k * n).transpose() * x;
+  for (Index i = 0; i < n; ++i) {
+    const auto product = products.segment(i * k, k);
+    const int kind = in.kinds[first + i];
+    if (kind >= 3) {
+      rates.col(kind) -= product;  // skew forms: F'x = -F x
+    } else {
+      rates.col((kind + 1) % 3) += 2 * product;
+      rates.col((kind + 2) % 3) += 2 * product;
+    }
+  }
+}
+
+/// dJ/de and G at e; products of the skew forms (`skew`) or of all with the velocities.
+void set_rates(const SpatialInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+               bool skew, SpatialInertiaWork& work) {
+  const Index k = in.S.cols();
+  work.e = q.tail(k), work.ed = v.tail(k), work.edd = a.tail(k);
+  work.of_e = in.linear;
+  work.of_ed.setZero(k, 9);
+  add_products(in, 0, work.e, work.products, work.of_e);
+  add_products(in, skew ? in.symmetric : 0, work.ed, work.products, work.of_ed);
+}
+
+Matrix3d symmetric(double xx, double yy, double zz, double yz, double zx, double xy) {
+  return (Matrix3d() << xx, xy, zx, xy, yy, yz, zx, yz, zz).finished();
+}
+
+/// J_i.
+Matrix3d moment_rate(const Rates& rates, Index i) {
+  return symmetric(rates(i, 0), rates(i, 1), rates(i, 2), rates(i, 3), rates(i, 4), rates(i, 5));
+}
+
+/// G_i.
+Vector3d spin_rate(const Rates& rates, Index i) { return {rates(i, 6), rates(i, 7), rates(i, 8)}; }
+
+/// What e and e' make of the body as a whole.
+struct Sums {
+  Vector3d sigma, sigma_d;  ///< s0 + S e, S e'
+  Matrix3d J, J_d;          ///< and its rate
+  Vector3d spin;            ///< G e'
+};
+
+Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
+  const auto &e = work.e, &ed = work.ed;
+  double J[6] = {0, 0, 0, 0, 0, 0}, rate[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  for (int c = 0; c < 9; ++c) rate[c] = ed.dot(work.of_e.col(c));
+  for (int c = 0; c < 6; ++c) J[c] = 0.5 * (e.dot(in.linear.col(c)) + e.dot(work.of_e.col(c)));
+  return {in.s0 + times(in.S, e), times(in.S, ed), in.J0 + symmetric(J[0], J[1], J[2], J[3], J[4], J[5]),
+          symmetric(rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]), Vector3d(rate[6], rate[7], rate[8])};
+}
+
+/// The acceleration of the mass relative to the frame's origin: body axes, times mass.
+Vector3d relative_acceleration(const Sums& s, const Vector3d& w, const Vector3d& wd, const Vector3d& sigma_dd) {
+  return wd.cross(s.sigma) + w.cross(w.cross(s.sigma)) + 2 * w.cross(s.sigma_d) + sigma_dd;
+}
+
+/// The e by e block: all forms, each with its weight.
+void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d& skew, double wa, Eigen::VectorXd& sum,
+               Eigen::MatrixXd& tangent) {
+  const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size());
+  if (k == 0 || n == 0) return;
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> weights(n);
+  for (Index i = 0; i < n; ++i) {
+    const int kind = in.kinds[i], axis = kind % 3;
+    if (kind < 3)
+      weights[i] = wa + squares(axis, axis);
+    else
+      weights[i] = kind < 6 ? squares((axis + 1) % 3, (axis + 2) % 3) : skew[axis];
+  }
+  sum.resize(k * k);
+  sum.noalias() = Eigen::Map<const Eigen::MatrixXd>(in.forms.data(), k * k, n) * weights;
+  tangent.bottomRightCorner(k, k) += Eigen::Map<const Eigen::MatrixXd>(sum.data(), k, k);
+}
+
+}  // namespace
+
+void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q,
+                               const Eigen::VectorXd& v, const Eigen::VectorXd& a, SpatialInertiaWork& work,
+                               Eigen::VectorXd& r) {
+  const Index k = in.S.cols();
+  set_rates(in, q, v, a, true, work);
+  const Sums s = sums_of(in, work);
+  const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
+  r.head<3>() += in.m * a.head<3>() + A * relative_acceleration(s, w, wd, times(in.S, work.edd));
+  Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + w.cross(s.J * w + s.spin);
+  for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c));
+  r.segment<3>(3) += moment;
+  work.Medd.resize(k);
+  work.Medd.noalias() = in.M * work.edd;
+  for (Index i = 0; i < k; ++i)
+    r[6 + i] += work.Medd[i] + in.S.col(i).dot(u) + spin_rate(work.of_e, i).dot(wd) -
+                0.5 * w.dot(moment_rate(work.of_e, i) * w) + 2 * w.dot(spin_rate(work.of_ed, i));
+}
+
+void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q,
+                                 const Eigen::VectorXd& v, const Eigen::VectorXd& a, double wq, double wv, double wa,
+                                 SpatialInertiaWork& work, Eigen::MatrixXd& tangent) {
+  using math::skew;
+  const Index k = in.S.cols();
+  set_rates(in, q, v, a, wq == 0, work);
+  work.of_edd.setZero(k, 9);
+  if (wq != 0) add_products(in, in.symmetric, work.edd, work.products, work.of_edd);
+  const Sums s = sums_of(in, work);
+  const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
+  const Matrix3d I = Matrix3d::Identity(), turn = skew(w), squares = turn * turn, of_sigma = skew(s.sigma);
+  const Matrix3d T = wq * math::rotation_tangent(q.segment<3>(3));
+
+  // frame by frame
+  const Vector3d relative = relative_acceleration(s, w, wd, times(in.S, work.edd));
+  tangent.block<3, 3>(0, 0) += wa * in.m * I;
+  tangent.block<3, 3>(0, 3) +=
+      A * (wv * (w.dot(s.sigma) * I + w * s.sigma.transpose() - 2 * s.sigma * w.transpose() - 2 * skew(s.sigma_d)) -
+           wa * of_sigma - skew(relative) * T);
+  tangent.block<3, 3>(3, 0) += wa * of_sigma * A.transpose();
+  tangent.block<3, 3>(3, 3) += wv * (turn * s.J - skew(s.J * w + s.spin) + s.J_d) + wa * s.J + of_sigma * skew(u) * T;
+
+  // frame by e and e by frame
+  const Matrix3d on_S = A * (wa * I + wq * (skew(wd) + squares) + 2 * wv * turn);
+  for (Index i = 0; i < k; ++i) {
+    const Vector3d S = in.S.col(i), G = spin_rate(work.of_e, i), Bed = spin_rate(work.of_ed, i);
+    const Matrix3d J = moment_rate(work.of_e, i);
+    const Vector3d Jw = J * w, across = S.cross(u);
+    tangent.block<3, 1>(0, 6 + i) += on_S * S;
+    tangent.block<1, 3>(6 + i, 0) += wa * (A * S).transpose();
+    tangent.block<3, 1>(3, 6 + i) +=
+        wq * (across + J * wd + moment_rate(work.of_ed, i) * w - spin_rate(work.of_edd, i) + w.cross(Jw - Bed)) +
+        wv * (Jw + w.cross(G)) + wa * G;
+    tangent.block<1, 3>(6 + i, 3) += (wv * (2 * Bed - Jw) + wa * G + T.transpose() * across).transpose();
+  }
+
+  add_forms(in, wq * squares, wq * wd + 2 * wv * w, wa, work.sum, tangent);
+}
+
+double kinetic_energy(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  SpatialInertiaWork work;
+  set_rates(in, q, v, v, true, work);
+  const Sums s = sums_of(in, work);
+  const Vector3d w = v.segment<3>(3), Rd = A.transpose() * v.head<3>();
+  return 0.5 * (in.m * Rd.squaredNorm() + w.dot(s.J * w) + work.ed.dot(in.M * work.ed)) +
+         Rd.dot(w.cross(s.sigma) + s.sigma_d) + w.dot(s.spin);
+}
+
+Momentum momentum(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  SpatialInertiaWork work;
+  set_rates(in, q, v, v, true, work);
+  const Sums s = sums_of(in, work);
+  const Vector3d w = v.segment<3>(3), Rd = A.transpose() * v.head<3>(), R = q.head<3>();
+  const Vector3d linear = A * (in.m * Rd + w.cross(s.sigma) + s.sigma_d);
+  return {linear, R.cross(linear) + A * (s.sigma.cross(Rd) + s.J * w + s.spin)};
+}
+
+}  // namespace floe::body
