@@ -23,8 +23,8 @@ void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x,
                   Rates& rates) {
   const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size()) - first;
   if (k == 0 || n == 0) return;
-  products.resize(k * n);
-  products.noalias() = in.forms.rightCols(k * n).transpose() * x;
+  if (products.size() < k * n) products.resize(k * n);
+  products.head(k * n).noalias() = in.forms.rightCols(k * n).transpose() * x;
   for (Index i = 0; i < n; ++i) {
     const auto product = products.segment(i * k, k);
     const int kind = in.kinds[first + i];
