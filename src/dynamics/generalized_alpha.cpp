@@ -116,6 +116,14 @@ PetscErrorCode set_start(TS ts, TSGeneralizedAlphaStart start, void* context) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode set_rotations(TS ts, const TSGeneralizedAlphaRotations* rotations) {
+  PetscFunctionBegin;
+  PetscCheck(!rotations->rebase == !rotations->bracket, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_WRONG,
+             "Rotations need rebase and bracket, or neither");
+  generalized_alpha_data(ts)->rotations = *rotations;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode get_acceleration(TS ts, Vec* A) {
   Data* data = generalized_alpha_data(ts);
 
@@ -154,6 +162,7 @@ PetscErrorCode view(TS ts, PetscViewer viewer) {
 constexpr const char* set_multipliers_name = "TSGeneralizedAlphaSetMultipliers_C";
 constexpr const char* set_radius_name = "TSGeneralizedAlphaSetRadius_C";
 constexpr const char* set_start_name = "TSGeneralizedAlphaSetStart_C";
+constexpr const char* set_rotations_name = "TSGeneralizedAlphaSetRotations_C";
 constexpr const char* get_acceleration_name = "TSGeneralizedAlphaGetAcceleration_C";
 
 PetscErrorCode destroy(TS ts) {
@@ -163,7 +172,8 @@ PetscErrorCode destroy(TS ts) {
   if (ts->snes) PetscCall(SNESSetConvergenceTest(ts->snes, SNESConvergedDefault, nullptr, nullptr));
   delete generalized_alpha_data(ts);
   ts->data = nullptr;
-  for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, get_acceleration_name})
+  for (const char* name :
+       {set_multipliers_name, set_radius_name, set_start_name, set_rotations_name, get_acceleration_name})
     PetscCall(PetscObjectComposeFunction((PetscObject)ts, name, nullptr));
   PetscFunctionReturn(0);
 }
@@ -209,6 +219,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_multipliers_name, set_multipliers));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_radius_name, set_radius));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
   PetscFunctionReturn(0);
 }
@@ -232,6 +243,12 @@ PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho) {
 PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context) {
   PetscFunctionBegin;
   PetscTryMethod(ts, "TSGeneralizedAlphaSetStart_C", (TS, TSGeneralizedAlphaStart, void*), (ts, start, context));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations) {
+  PetscFunctionBegin;
+  PetscTryMethod(ts, "TSGeneralizedAlphaSetRotations_C", (TS, const TSGeneralizedAlphaRotations*), (ts, rotations));
   PetscFunctionReturn(0);
 }
 

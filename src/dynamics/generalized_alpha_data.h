@@ -11,6 +11,7 @@ struct GeneralizedAlpha {
   IS multipliers = nullptr;
   TSGeneralizedAlphaStart start = nullptr;
   void* start_context = nullptr;
+  TSGeneralizedAlphaRotations rotations;
 
   // The step's beginning (0) and end (1): A is the acceleration, a the auxiliary one; multipliers have V = A = a = 0.
   Vec U0 = nullptr, V0 = nullptr, A0 = nullptr, a0 = nullptr;
@@ -19,7 +20,8 @@ struct GeneralizedAlpha {
   PetscReal h_a0 = 0;  // of the step that a0 was made for
   PetscBool started = PETSC_FALSE;
 
-  // After a start (and for constrained systems after a change of h): rate of A that it resolves, normal part.
+  // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
+  // is away from v(t_n) normal to the constraints.
   PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
   Vec jerk = nullptr, normal = nullptr;
 
@@ -94,6 +96,12 @@ PetscErrorCode start_consistently(TS ts);
 
 /// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
 PetscErrorCode smooth_rates(TS ts);
+
+// generalized_alpha_rotations.cpp
+/// ts->vec_sol takes its own rotations for bases; `origin` moves with it. Collective.
+PetscErrorCode rebase(TS ts);
+/// y += factor [a, b]; W is overwritten.
+PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 
 // generalized_alpha_scaling.cpp
 /// Constants of scaling: Jacobians at the state (U0, V0, A0) with shift_a; leaves J(shift_v = 0, shift_a), unscaled.

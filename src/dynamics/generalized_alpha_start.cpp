@@ -4,10 +4,11 @@
 //   A_0, lambda_0   from the start callback, or from F(t_0, U_0, V_0, A) = 0, which is linear in A
 //   A'              from the same at t_0 + e and t_0 + 2e with the state moved along its Taylor series; the three-point
 //                   difference is exact for the terms of order e^2, that is for stiff motions too
-//   A'_normal       the part of A' that the constraints see, of least M / h^2 + K norm
+//   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
+//                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
 //                   slow motions and 0 for stiff ones; what the constraints see of A' stays
-// What the step makes of A' and A'_normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
+// What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
 
@@ -129,14 +130,18 @@ PetscErrorCode solve_constraint_rows(TS ts, Vec y, Vec x) {
   PetscFunctionReturn(0);
 }
 
-// normal = the part of jerk that the constraints see: J x = (0, C_q A').
+// normal = the part that the constraints see of y = c A' + [v, A]/12, c as in fresh_rates: J x = (0, C_q y).
 PetscErrorCode split_normal(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal c = 1. / 6 - data->beta + (data->alpha_f - data->alpha_m) / 2;
   Mat P;
 
   PetscFunctionBegin;
+  PetscCall(VecCopy(data->jerk, data->work_V));
+  PetscCall(VecScale(data->work_V, c));
+  PetscCall(add_bracket(ts, 1. / 12, data->V0, data->A0, data->work_A, data->work_V));
   PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
-  PetscCall(MatMult(P, data->jerk, data->work_F));
+  PetscCall(MatMult(P, data->work_V, data->work_F));
   PetscCall(solve_constraint_rows(ts, data->work_F, data->normal));
   PetscFunctionReturn(0);
 }

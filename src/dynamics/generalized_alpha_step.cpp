@@ -15,6 +15,7 @@ PetscErrorCode begin(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
+  PetscCall(rebase(ts));
   PetscCall(VecCopy(ts->vec_sol, data->U0));
   PetscCall(VecPointwiseMult(data->V0, ts->vec_dot, data->dynamic));
   std::swap(data->A0, data->A1);
@@ -28,16 +29,16 @@ PetscErrorCode begin(TS ts) {
 // numerical solution is smooth from the start.
 //
 // The smooth solution of the scheme has a_n = A(t_n + (am - af) h); normal to the constraints, where q is exact,
-// summing q_1 - q_0 over a step shows v_n = v(t_n) + c h^2 A', c = 1/6 - b + (af - am)/2. Starting with a_0 = A_0 or
-// v_0 = v(t_0) leaves a transient of O(h) in the multipliers. Only the part of A' that the step resolves counts:
-// of stiff motions h A' would be noise greater than A.
+// summing q_1 - q_0 over a step shows v_n = v(t_n) + c h^2 A', c = 1/6 - b + (af - am)/2 (and h^2 [v, A]/12 of
+// rotations). Starting with a_0 = A_0 or v_0 = v(t_0) leaves a transient of O(h) in the multipliers. Only the part of
+// A' that the step resolves counts: of stiff motions h A' would be noise greater than A.
 void fresh_rates(GeneralizedAlpha* data) {
   const Entries v(data->V0), A(data->A0), jerk(data->jerk), normal(data->normal);
   Changed a_used(data->a_used), v_used(data->work_V);
-  const PetscReal h = data->h, shift = data->alpha_f - data->alpha_m, offset = 1. / 6 - data->beta + shift / 2;
+  const PetscReal h = data->h, shift = data->alpha_f - data->alpha_m;
   for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {
     a_used[i] = A[i] - h * shift * jerk[i];
-    v_used[i] = v[i] + h * h * offset * normal[i];
+    v_used[i] = v[i] + h * h * normal[i];
   }
 }
 
@@ -206,7 +207,7 @@ PetscErrorCode roll_back(TS ts) {
   PetscFunctionReturn(0);
 }
 
-// Cubic Hermite for q (error O(h^4) of the scheme's own path), linear for the multipliers.
+// Cubic Hermite for q (error O(h^4) of the scheme's own path), linear for the multipliers. work_V: dU/dt at the end.
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
@@ -215,7 +216,9 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
     PetscCall(VecCopy(ts->vec_sol, U_vec));
     PetscFunctionReturn(0);
   }
-  const Entries U0(data->U0), V0(data->V0), U1(data->U1), V1(data->V1), dynamic(data->dynamic);
+  PetscCall(VecCopy(data->V1, data->work_V));
+  PetscCall(add_bracket(ts, 0.5, data->U1, data->V1, data->work_U, data->work_V));
+  const Entries U0(data->U0), V0(data->V0), U1(data->U1), V1(data->work_V), dynamic(data->dynamic);
   Changed U(U_vec);
   const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h;
   for (PetscInt i = 0, n = local_size(data->U0); i < n; ++i) {

@@ -34,6 +34,16 @@ PetscErrorCode start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
   return c.guard.run([&] { consistent_start(c.system, t, U, V, A); });
 }
 
+PetscErrorCode rebase(TS, Vec U, void* context) {
+  auto& c = *static_cast<Context*>(context);
+  return c.guard.run([&] { c.system.rebase(U); });
+}
+
+PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
+  auto& c = *static_cast<Context*>(context);
+  return c.guard.run([&] { c.system.bracket(a, b, W); });
+}
+
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] {
@@ -71,6 +81,22 @@ void save_factorisations(SNES snes, Mat J) {
   check(PCFactorSetMatSolverType(pc, MATSOLVERKLU));
 }
 
+/// What -motion_ts_type may say: a type for motions, which are of second order, and one that knows rotations in space.
+void refuse_other_types(TS ts, const System& system, const std::string& prefix) {
+  PetscBool second_order = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(ts), &second_order, generalized_alpha, TSALPHA2, ""));
+  TSType type = nullptr;
+  check(TSGetType(ts, &type));
+  if (!second_order)
+    throw InputError(
+        fmt::format("option -{}ts_type {}: integrates first-order systems, and a motion is of second order; "
+                    "expected {} or {}",
+                    prefix, type, generalized_alpha, TSALPHA2));
+  if (!system.attitudes().empty() && type != std::string(generalized_alpha))
+    throw InputError(fmt::format("option -{}ts_type {}: adds rotations in space as if they were vectors; expected {}",
+                                 prefix, type, generalized_alpha));
+}
+
 void set_up(TS ts, const System& system, const Integration& how, Context& context, Vec U, Vec V, Vec F, Mat J) {
   SNES snes = nullptr;
   KSP ksp = nullptr;
@@ -85,6 +111,8 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   const petsc::IsHandle multipliers = system.multipliers();
   check(TSGeneralizedAlphaSetMultipliers(ts, multipliers));
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
+  const TSGeneralizedAlphaRotations rotations{rebase, bracket, &context};
+  if (!system.attitudes().empty()) check(TSGeneralizedAlphaSetRotations(ts, &rotations));
   check(TSSetTimeStep(ts, how.step));
   check(TSSetMaxTime(ts, how.end));
   check(TSSetMaxSteps(ts, PETSC_MAX_INT));
@@ -104,15 +132,7 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   save_factorisations(snes, J);
   petsc::check_options(TSSetFromOptions(ts), how.prefix);
   check(TSGetMaxTime(ts, &context.end));
-  PetscBool second_order = PETSC_FALSE;
-  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(ts), &second_order, generalized_alpha, TSALPHA2, ""));
-  TSType type = nullptr;
-  check(TSGetType(ts, &type));
-  if (!second_order)
-    throw InputError(
-        fmt::format("option -{}ts_type {}: integrates first-order systems, and a motion is of second order; "
-                    "expected {} or {}",
-                    how.prefix, type, generalized_alpha, TSALPHA2));
+  refuse_other_types(ts, system, how.prefix);
 }
 
 /// Ended by `reason`, which is no success: what happened and what was tried.

@@ -13,8 +13,8 @@ void pick_from(const std::vector<int>& indices, const Eigen::VectorXd& from, Eig
 
 }  // namespace
 
-System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms)
-    : coordinates_(std::move(coordinates)), terms_(std::move(terms)) {
+System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms, Attitudes attitudes)
+    : coordinates_(std::move(coordinates)), terms_(std::move(terms)), attitudes_(std::move(attitudes)) {
   const auto& global = coordinates_.global();
   identity_ = coordinates_.owned_size() == coordinates_.local_size();
   for (std::size_t i = 0; identity_ && i < global.size(); ++i) identity_ = global[i] == static_cast<PetscInt>(i);

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <numeric>
 
+#include "at_base.h"
 #include "floe/dynamics/start.h"
 
 namespace floe::dynamics {
@@ -46,6 +47,7 @@ Eigen::MatrixXd scaled(Eigen::MatrixXd J) {
 int unstable_directions(const System& system, double t, Vec U, Vec V) {
   const Coordinates& coordinates = system.coordinates();
   if (coordinates.global_size() > 500) return 0;
+  const AtBase at_base(system, U);
   const petsc::MatHandle J = system.create_tangent();
   const petsc::VecHandle A = system.create_vector();
   system.tangent(t, U, V, A, {1, 0, 0}, J);

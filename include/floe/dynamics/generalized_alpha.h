@@ -34,6 +34,21 @@ PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho);
 using TSGeneralizedAlphaStart = PetscErrorCode (*)(TS ts, PetscReal t, Vec U, Vec V, Vec A, void* context);
 PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context);
 
+/// Rotations among the unknowns, A = base exp(x), whose rates are angular velocities in turned axes (not dx/dt).
+/// Source: Bruels, Cardona, Arnold 2012, Lie group generalized-alpha time integration of constrained flexible multibody
+/// systems.
+///
+/// `rebase` takes the rotations of U over into their bases and zeroes them. It is called with the solution at the
+/// beginning of every step, before anything is computed, and not when a step is tried again: until the next beginning
+/// the solution (at the step's end, after a rollback, interpolated) is relative to that base. `bracket` fills W with
+/// a x b in the rows of rotations and zero in all others: what such rates differ by from derivatives. Both or none.
+struct TSGeneralizedAlphaRotations {
+  PetscErrorCode (*rebase)(TS ts, Vec U, void* context) = nullptr;
+  PetscErrorCode (*bracket)(TS ts, Vec a, Vec b, Vec W, void* context) = nullptr;
+  void* context = nullptr;
+};
+PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations);
+
 /// The accelerations that belong to the current solution (borrowed, until the next step). NULL before the first step
 /// and for other types.
 PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);

@@ -1,13 +1,18 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "floe/dynamics/attitude.h"
 #include "floe/dynamics/coordinates.h"
 #include "floe/dynamics/term.h"
 #include "floe/petsc/handle.h"
 
 namespace floe::dynamics {
+
+/// Attitudes among a system's unknowns, each with the local index of the first of its three.
+using Attitudes = std::vector<std::pair<int, std::shared_ptr<Attitude>>>;
 
 /// The equations of motion as a sum of terms, with the unknowns distributed over a communicator.
 ///
@@ -16,8 +21,9 @@ namespace floe::dynamics {
 /// ranks with a sparse tangent.
 class System {
  public:
-  /// @param terms  on a parallel communicator each rank brings its own; together they are the system
-  System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms);
+  /// @param terms      on a parallel communicator each rank brings its own; together they are the system
+  /// @param attitudes  shared unknowns (Coordinates): the same on all ranks, where each holds a copy of every base
+  System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms, Attitudes attitudes = {});
 
   const Coordinates& coordinates() const { return coordinates_; }
   MPI_Comm comm() const { return coordinates_.comm(); }
@@ -39,6 +45,12 @@ class System {
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
   /// Collective.
   Energy energy(double t, Vec U, Vec V) const;
+
+  const Attitudes& attitudes() const { return attitudes_; }
+  /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration. Collective.
+  void rebase(Vec U) const;
+  /// W = a x b in the three rows of every attitude, zero in all others. Collective.
+  void bracket(Vec a, Vec b, Vec W) const;
 
   /// This rank's local coordinates (Coordinates). Collective.
   void gather(Vec global, Eigen::VectorXd& local) const;
@@ -62,6 +74,7 @@ class System {
 
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;
+  Attitudes attitudes_;
   std::vector<char> constrains_;  // of each term: whether it has multipliers
   bool identity_ = false;         // local and global numbering are the same on every rank
   bool whole_ = false;            // one rank holds everything, though perhaps in another order

@@ -1,0 +1,35 @@
+#include "generalized_alpha_data.h"
+
+// Rotations A = base exp(x) with angular velocities w in turned axes: A' = A ~w and T(x) x' = w, T(x) = I - ~x/2 + ...
+// . With x = 0 at the beginning of a step the plain sums of the scheme are those of the Lie algebra, and order 2 stays.
+// Where the scheme is corrected to order 3, x is not the integral of w:
+//   x(h) = h w + h^2/2 w' + h^3/6 w'' + h^3/12 [w, w'] + ...,   x' = w + [x, w]/2 + ...,   [a, b] = a x b
+// This counts in the velocities of a first step (generalized_alpha_start.cpp), in the error of a step and in what is
+// interpolated. Source: Arnold, Cardona, Bruels 2015, Order reduction in time integration caused by velocity
+// projection.
+
+namespace floe::dynamics {
+
+PetscErrorCode rebase(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (!data->rotations.rebase) PetscFunctionReturn(0);
+  PetscCall(VecCopy(ts->vec_sol, data->work_U));
+  PetscCall((*data->rotations.rebase)(ts, ts->vec_sol, data->rotations.context));
+  PetscCall(VecAYPX(data->work_U, -1, ts->vec_sol));
+  PetscCall(VecAXPY(data->origin, 1, data->work_U));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (!data->rotations.bracket) PetscFunctionReturn(0);
+  PetscCall((*data->rotations.bracket)(ts, a, b, W, data->rotations.context));
+  PetscCall(VecAXPY(y, factor, W));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::dynamics

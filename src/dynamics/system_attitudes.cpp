@@ -1,0 +1,35 @@
+#include "floe/dynamics/system.h"
+#include "floe/petsc/values.h"
+
+namespace floe::dynamics {
+namespace {
+
+/// Where this rank owns it, entry i of a local vector becomes `value`.
+void set_owned(const Coordinates& coordinates, petsc::Values& owned, int i, double value) {
+  const PetscInt global = coordinates.global()[i];
+  if (global >= owned.first && global < owned.end) owned[global] = value;
+}
+
+}  // namespace
+
+void System::rebase(Vec U) const {
+  if (attitudes_.empty()) return;
+  gather(U, local_.q);
+  petsc::Values owned(U);
+  for (const auto& [first, attitude] : attitudes_) {
+    attitude->advance(local_.q.segment<3>(first));
+    for (int i = 0; i < 3; ++i) set_owned(coordinates_, owned, first + i, 0);
+  }
+}
+
+void System::bracket(Vec a, Vec b, Vec W) const {
+  gather(a, local_.q), gather(b, local_.v);
+  petsc::check(VecSet(W, 0));
+  petsc::Values owned(W);
+  for (const auto& [first, attitude] : attitudes_) {
+    const Eigen::Vector3d cross = local_.q.segment<3>(first).cross(local_.v.segment<3>(first));
+    for (int i = 0; i < 3; ++i) set_owned(coordinates_, owned, first + i, cross[i]);
+  }
+}
+
+}  // namespace floe::dynamics
