@@ -143,3 +143,13 @@ TEST_CASE("a free flexible body keeps momentum, moment of momentum and energy to
   CHECK(std::log2(coarse.angular / fine.angular) == Approx(2).margin(0.15));
   CHECK(std::log2(coarse.energy / fine.energy) == Approx(2).margin(0.3));
 }
+
+TEST_CASE("rotations are refused by a TS type that would add them as vectors") {
+  FreeBody free(testing::rigid(m, moments), testing::no_elasticity());
+  const petsc::VecHandle U = free.system->create_vector(), V = free.system->create_vector();
+  petsc::check(PetscOptionsSetValue(nullptr, "-motion_ts_type", TSALPHA2));
+  const auto run = [&] { dynamics::simulate(*free.system, {1, 0.1, 0.8, {}}, U, V, [](const dynamics::Instant&) {}); };
+  CHECK_THROWS_AS(run(), InputError);
+  CHECK_THROWS_WITH(run(), Catch::Contains("-motion_ts_type alpha2") && Catch::Contains("expected generalized-alpha"));
+  petsc::check(PetscOptionsClearValue(nullptr, "-motion_ts_type"));
+}
