@@ -10,7 +10,7 @@
 //   am = (2 rho - 1)/(rho + 1),  af = rho/(rho + 1),  g = 1/2 + af - am,  b = (g + 1/2)^2/4
 // A is the acceleration that satisfies the equations of motion, a the auxiliary one: a_n = A(t_n + (am - af) h) +
 // O(h^2). Multipliers have no rates; rows whose unknown is a multiplier hold constraints C(q, t) = 0. At rho = 1 the
-// multipliers oscillate undamped: refused.
+// multipliers oscillate undamped: refused. Rotations: generalized_alpha_rotations.cpp.
 
 namespace floe::dynamics {
 namespace {

@@ -43,10 +43,13 @@ class MotionStopped : public RunError {
 };
 
 /// Integrates F(t, U, U', U'') = 0 from (U, V) at t = 0 by a PETSc TS (default type generalized-alpha), with consistent
-/// accelerations and multipliers at the start. U, V hold the state reached at return.
+/// accelerations and multipliers at the start. U, V hold the state reached at return. Bases of attitudes are taken
+/// over at the beginning of every step: at each instant, and at return, A = base exp(x) of the U that belongs to it.
 ///
 /// @param observe  called at the start and after every step; what it throws ends the motion
-/// @throws InputError     an option has a value that it cannot have, or the TS type is for first-order systems
+/// @throws InputError     an option has a value that it cannot have, or the TS type is for first-order systems, or is
+/// not
+///                        generalized-alpha and there are attitudes
 /// @throws MotionStopped  a step did not converge, the steps allowed ran out, a term or `observe` threw: when, why, and
 ///                        what was tried. Then U, V hold the last state that was reached. An InputError of `observe` or
 ///                        of a term comes out unchanged. Collective.

@@ -14,6 +14,7 @@ bool is_singular(PetscErrorCode code);
 ///
 ///   M a + C_q' lambda = Q(t, q, v),   d2C/dt2 = C_q a + ... = 0
 ///
+/// Attitudes may stand anywhere in their charts; among A are their angular accelerations in body axes.
 /// @param U  coordinates given, multipliers overwritten;  @param A  overwritten
 /// @throws RunError  the matrix is singular: constraints that repeat or contradict one another, or mass that is missing
 /// Collective. One factorisation (KSP prefix motion_start_).
