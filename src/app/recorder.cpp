@@ -109,6 +109,10 @@ void Recorder::open_files() {
   file_->add_series("motion/U", unknowns, {"", "coordinates and multipliers"}, rows);
   file_->add_series("motion/V", unknowns, {"", "their rates"}, rows);
   file_->add_series("motion/energy", 3, {"J", "kinetic, elastic, potential"}, rows);
+  if (const int frames = scene::moving_frames(model_); frames > 0)
+    file_->add_series(
+        "motion/attitude", 4 * frames,
+        {"", "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"}, rows);
   file_->publish();
 }
 
@@ -138,8 +142,12 @@ void Recorder::write_basis() {
     if (!body.file.empty()) file_->write_text("bodies/" + body.name + "/reduced_file", body.file);
     const double where[2] = {static_cast<double>(body.first_coordinate), static_cast<double>(body.first_elastic)};
     if (scene::is_reduced(model_.formulation))
-      file_->write_array("bodies/" + body.name + "/columns_of_motion", {2}, where,
-                         {"", "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates"});
+      file_->write_array(
+          "bodies/" + body.name + "/columns_of_motion", {2}, where,
+          {"", body.dimension == 2
+                   ? "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates"
+                   : "first columns of motion/U: of the frame (R; then three of its turn in the step, "
+                     "see motion/attitude), of the reduced coordinates; -1: it stands still"});
   }
 }
 
@@ -174,11 +182,13 @@ void Recorder::observe(const dynamics::Instant& instant) {
       std::max(velocity_violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
                                                                    dynamics::ConstraintLevel::velocity));
   if (folder_) {
+    const std::vector<double> attitudes = scene::attitudes(model_, instant.U);
     const auto write = [&] {
       probes_->row(instant.t, values);
       const double t[1] = {instant.t}, e[3] = {energy.kinetic, energy.elastic, energy.potential};
       file_->append("motion/t", t);
       file_->append("motion/energy", e);
+      if (!attitudes.empty()) file_->append("motion/attitude", attitudes);
     };
     if (scene::is_reduced(model_.formulation))
       write();

@@ -11,7 +11,7 @@ void Assembly::add_loads() {
     const PreparedPlace& place = prepared_.loads[l];
     const bool moment = load.kind == Load::Kind::moment;
     const auto value = [load, moment](double t) {
-      return moment ? Eigen::Vector3d(0, 0, load.moment(t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
+      return moment ? Eigen::Vector3d(0, 0, load.moment[2](t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
     };
     const Force::Axes axes = load.axes == Load::Axes::body ? Force::Axes::body : Force::Axes::world;
     std::vector<Marker> markers;

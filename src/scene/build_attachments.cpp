@@ -126,15 +126,34 @@ void add_constraint_modes(const Prepared& prepared, int index, Attachments& all)
   }
 }
 
+bool carries_moment(const Joint& joint, int dimension) {
+  using Kind = Joint::Kind;
+  switch (joint.kind) {
+    case Kind::spring:
+      return joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0;
+    case Kind::bushing: {
+      const auto acts = [](double value) { return value != 0; };
+      return std::any_of(joint.rotation.begin(), joint.rotation.end(), acts) ||
+             std::any_of(joint.rotation_viscosity.begin(), joint.rotation_viscosity.end(), acts);
+    }
+    case Kind::revolute:
+      return dimension == 3;
+    case Kind::spherical:
+    case Kind::distance:
+      return false;
+    default:
+      return true;
+  }
+}
+
 void add_joints(const Prepared& prepared, int index, Attachments& all) {
   const PreparedBody& body = prepared.bodies[index];
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
     const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
-    if (to_ground && joint.kind != Joint::Kind::spring && !of_frame(body)) continue;
-    const bool moment = joint.kind == Joint::Kind::spring
-                            ? joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0
-                            : joint.kind != Joint::Kind::revolute;
+    const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : prepared.joint_held[j] != 0;
+    if (to_ground && held && !of_frame(body)) continue;
+    const bool moment = carries_moment(joint, body.structure.dimension());
     for (const PreparedPlace& place : prepared.joints[j])
       for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
            ++c)

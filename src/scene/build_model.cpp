@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "build_assembly.h"
-#include "build_held.h"
+#include "build_space.h"
 #include "floe/dynamics/simulation.h"
 
 namespace floe::scene {
@@ -10,7 +10,7 @@ namespace {
 /// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
 /// fields.
 std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
-  Model model = prepared.scene.dimension == 3 ? held_model(prepared, Formulation::vm, linear)
+  Model model = prepared.scene.dimension == 3 ? SpaceAssembly(prepared, Formulation::vm, linear).model()
                                               : Assembly(prepared, Formulation::vm, linear).model();
   std::vector<Eigen::MatrixXd> sums;
   for (const ReducedBody& body : linear)
@@ -63,7 +63,7 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
       else if (prepared.bodies[b].spec.reduced)
         reduced[b] = from_file(prepared.bodies[b], formulation);
   }
-  Model model = scene.dimension == 3 ? held_model(prepared, formulation, reduced)
+  Model model = scene.dimension == 3 ? SpaceAssembly(prepared, formulation, reduced).model()
                                      : Assembly(prepared, formulation, reduced).model();
   model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
   return model;

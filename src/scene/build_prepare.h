@@ -12,6 +12,10 @@ struct Prepared {
   std::vector<PreparedPlace> loads;                  ///< distributed ones: body only
   std::vector<std::array<PreparedPlace, 2>> probes;  ///< second: relative_to, or the ground
   double extent = 0;                                 ///< a length of the scene
+  /// In space, of each joint: axes at the start in the world, z its axis, x the second axis of a universal one.
+  std::vector<Eigen::Matrix3d> joint_axes = {};
+  /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
+  std::vector<char> joint_held = {};
 };
 
 /// `pinned`, `clamped`, `mean-axis`.

@@ -1,13 +1,15 @@
+#include <algorithm>
 #include <cmath>
 
 #include "build_prepare.h"
+#include "floe/math/rotation.h"
 
 namespace floe::scene {
 
 std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
-    if (probe.held && probe.quantity == Probe::Quantity::rotation) {
+    if (probe.spatial && probe.quantity == Probe::Quantity::rotation) {
       for (const char* axis : {".rx", ".ry", ".rz"}) columns.push_back({probe.name + axis, "rad"});
       continue;
     }
@@ -18,7 +20,7 @@ std::vector<ProbeColumn> probe_columns(const Model& model) {
     const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
     columns.push_back({probe.name + ".x", unit});
     columns.push_back({probe.name + ".y", unit});
-    if (probe.held) columns.push_back({probe.name + ".z", unit});
+    if (probe.spatial) columns.push_back({probe.name + ".z", unit});
   }
   return columns;
 }
@@ -49,19 +51,42 @@ Eigen::Vector2d corotational_deflection(const ModelProbe& probe, const Eigen::Ve
   return turn(-angle) * (y - a).head<2>() - rest;
 }
 
-void add_values(const HeldProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& v) {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd own(n), rate(n);
+  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  dynamics::SpatialPose pose;
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  return pose;
+}
+
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& D) {
+  return math::rotation_vector(Eigen::Quaterniond(D).normalized());
+}
+
+void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
-  const Eigen::VectorXd elastic = q(probe.coordinates), rate = v(probe.coordinates);
-  Eigen::Vector3d value = probe.axes * (probe.S * elastic);
-  if (quantity == Probe::Quantity::position) value += probe.origin + probe.axes * probe.x;
-  if (quantity == Probe::Quantity::velocity) value = probe.axes * (probe.S * rate);
-  if (quantity == Probe::Quantity::rotation) value = probe.axes * (probe.psi * elastic);
+  dynamics::SpatialPose at = placed(probe.marker, q, v);
+  if (probe.relative_to) {  // seen from axes that turn with the other place
+    const dynamics::SpatialPose from = placed(*probe.relative_to, q, v);
+    const Eigen::Matrix3d Dt = from.D.transpose();
+    const Eigen::Vector3d apart = at.p - from.p;
+    at.velocity = Dt * (at.velocity - from.velocity - from.spin.cross(apart));
+    at.p = Dt * apart;
+    at.D = Dt * at.D;
+  }
+  Eigen::Vector3d value = at.p;
+  if (quantity == Probe::Quantity::displacement) value -= probe.start;
+  if (quantity == Probe::Quantity::velocity) value = at.velocity;
+  if (quantity == Probe::Quantity::rotation) value = rotation_vector(at.D);
+  if (quantity == Probe::Quantity::deflection) value = probe.mesh * (at.c - probe.marker.x0);
   values.insert(values.end(), value.data(), value.data() + 3);
 }
 
 void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
-  if (probe.held) return add_values(*probe.held, probe.quantity, q, v, values);
+  if (probe.spatial) return add_values(*probe.spatial, probe.quantity, q, v, values);
   Placed at = placed(probe.marker, q, v);
   Eigen::Vector3d start = probe.start;
   if (probe.relative_to) {  // seen from axes that move with the other place
@@ -104,6 +129,25 @@ void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::
 }
 
 }  // namespace
+
+int moving_frames(const Model& model) {
+  return static_cast<int>(std::count_if(model.bodies.begin(), model.bodies.end(),
+                                        [](const BodyReport& body) { return body.attitude != nullptr; }));
+}
+
+std::vector<double> attitudes(const Model& model, Vec U) {
+  std::vector<double> all;
+  if (moving_frames(model) == 0) return all;
+  Eigen::VectorXd q;
+  model.system->gather(U, q);
+  for (const BodyReport& body : model.bodies) {
+    if (!body.attitude) continue;
+    Eigen::Quaterniond at = body.attitude->base * math::quaternion(q.segment<3>(body.first_coordinate + 3));
+    if (at.w() < 0) at.coeffs() *= -1;
+    all.insert(all.end(), {at.w(), at.x(), at.y(), at.z()});
+  }
+  return all;
+}
 
 std::vector<double> probe_values(const Model& model, double, Vec U, Vec V) {
   static thread_local Eigen::VectorXd q, v;

@@ -193,9 +193,9 @@ void start_body(PreparedBody& body) {
   const Eigen::Matrix2d A = turn(start.angle);
   const Eigen::Vector2d arm = A * pose.head<2>();
   body.pose << Eigen::Vector2d(start.position[0], start.position[1]) + arm, start.angle + pose[2];
-  body.velocity << Eigen::Vector2d(start.velocity[0], start.velocity[1]) + start.angular_velocity * across(arm) +
+  body.velocity << Eigen::Vector2d(start.velocity[0], start.velocity[1]) + start.angular_velocity[2] * across(arm) +
                        A * rates.head<2>(),
-      start.angular_velocity + rates[2];
+      start.angular_velocity[2] + rates[2];
 }
 
 Eigen::MatrixX2d section_angles(const PreparedBody& body) {
@@ -205,7 +205,7 @@ Eigen::MatrixX2d section_angles(const PreparedBody& body) {
   const DeformedBody deformed(body);
   const Samples w = sampled(body, deformed.undeformed, start.deformation_rate);
   const Eigen::Matrix2d At = turn(start.angle - body.pose[2]);
-  const double turned = body.velocity[2] - start.angular_velocity;  // of the frame in mesh axes
+  const double turned = body.velocity[2] - start.angular_velocity[2];  // of the frame in mesh axes
   auto none = [](PetscInt) { return Eigen::Vector2d(Eigen::Vector2d::Zero()); };
   const petsc::VecHandle fields[2] = {nodal(body.structure, none,
                                             [&](std::size_t c, int i) {

@@ -7,9 +7,9 @@ namespace {
 
 constexpr int samples = 16;  // of the time of the motion; the rest is told when the run gets there
 
-void check(Document& document, const math::Formula& formula, double end, Where where, const char* key) {
+void check(Document& document, const math::Formula& formula, double end, Where where, const std::string& key) {
   if (formula.constant()) return;  // checked when read
-  where.key += std::string(".") + key;
+  where.key += "." + key;
   try {
     for (int i = 0; i <= samples; ++i) formula(end * i / samples);
   } catch (const math::FormulaError& error) {
@@ -17,16 +17,21 @@ void check(Document& document, const math::Formula& formula, double end, Where w
   }
 }
 
+std::string component(const std::string& key, int i) { return key + "[" + std::to_string(i + 1) + "]"; }
+
 }  // namespace
 
 void check_formulas(Document& document, const Scene& scene) {
   const double end = std::isfinite(scene.motion.end) ? scene.motion.end : 0;
-  for (const Joint& joint : scene.joints) check(document, joint.angle, end, joint.where, "angle");
+  for (const Joint& joint : scene.joints) {
+    check(document, joint.angle, end, joint.where, "angle");
+    check(document, joint.position, end, joint.where, "position");
+  }
   for (const Load& load : scene.loads) {
-    check(document, load.moment, end, load.where, "moment");
-    check(document, load.force[0], end, load.where, "force[1]");
-    check(document, load.force[1], end, load.where, "force[2]");
-    check(document, load.force[2], end, load.where, "force[3]");
+    if (scene.dimension == 2) check(document, load.moment[2], end, load.where, "moment");
+    for (int i = 0; scene.dimension == 3 && i < 3; ++i)
+      check(document, load.moment[i], end, load.where, component("moment", i));
+    for (int i = 0; i < 3; ++i) check(document, load.force[i], end, load.where, component("force", i));
   }
 }
 

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "floe/math/rotation.h"
 #include "floe/scene/places.h"
 #include "prepare_reduced.h"
 #include "readers.h"
@@ -20,8 +22,14 @@ struct Spot {
   }
 };
 
-std::optional<Point> world_point(const Body& body, const Point& node) {
+std::optional<Point> world_point(const Body& body, const Point& node, int dimension) {
   const InitialSpec& initial = body.initial;
+  if (dimension == 3) {
+    const Point &x = initial.position, &turn = initial.rotation;
+    const Eigen::Vector3d p = Eigen::Vector3d(x[0], x[1], x[2]) +
+                              math::rotation({turn[0], turn[1], turn[2]}) * Eigen::Vector3d(node[0], node[1], node[2]);
+    return Point{p.x(), p.y(), p.z()};
+  }
   Point p = node;
   try {
     if (initial.deformation && !body.rigid) {
@@ -49,7 +57,7 @@ std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
     if (body.reduced && !body.reduced->file) return {};
     try {
       const Point node = body.reduced ? reduced_point(body, place) : place_point(body.mesh, place);
-      return Spot{&body, node, world_point(body, node)};
+      return Spot{&body, node, world_point(body, node, scene.dimension)};
     } catch (const InputError&) {
       return {};
     }
@@ -59,8 +67,10 @@ std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
 
 // Two points that a joint keeps together must be together at the start, up to rounding in the file's numbers.
 void check_distance(Document& document, const Joint& joint, const Spot& first, const Spot& second) {
-  if (joint.kind == Joint::Kind::prismatic || joint.kind == Joint::Kind::spring || !first.world || !second.world)
-    return;
+  using Kind = Joint::Kind;
+  const bool meets = joint.kind == Kind::fixed || joint.kind == Kind::revolute || joint.kind == Kind::driven ||
+                     joint.kind == Kind::spherical || joint.kind == Kind::universal;
+  if (!meets || !first.world || !second.world) return;
   double size = 0;
   for (const Spot& spot : {first, second}) {
     if (!spot.body) continue;
@@ -70,8 +80,9 @@ void check_distance(Document& document, const Joint& joint, const Spot& first, c
   const double away = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
   if (!(away > 1e-6 * size)) return;
   document.fault(joint.where,
-                 fmt::format("its places are {:.4g} apart at the start: ({:.6g}, {:.6g}) and ({:.6g}, {:.6g})", away,
-                             p[0], p[1], q[0], q[1]),
+                 fmt::format("its places are {:.4g} apart at the start: ({:.6g}) and ({:.6g})", away,
+                             fmt::join(p.begin(), p.begin() + document.dimension, ", "),
+                             fmt::join(q.begin(), q.begin() + document.dimension, ", ")),
                  "one point (see `initial` of the bodies)");
 }
 
@@ -97,7 +108,7 @@ void check_joints(Document& document, const Scene& scene) {
       continue;
     }
     check_distance(document, joint, first, second);
-    if (joint.kind == Joint::Kind::spring) continue;  // beside a hinge it is a torsion spring
+    if (joint.kind == Joint::Kind::spring || joint.kind == Joint::Kind::bushing) continue;  // beside a hinge
     for (const Held& other : held) {
       const bool same =
           (first == other.first && second == other.second) || (first == other.second && second == other.first);

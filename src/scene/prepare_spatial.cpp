@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 
+#include "floe/math/rotation.h"
 #include "prepare_reduced.h"
 
 namespace floe::scene {
@@ -15,10 +18,15 @@ const Body* body_of(const Scene& scene, const Place& place) {
   return nullptr;
 }
 
-/// The place of the body where the ground clamps it, if any.
+bool clamps(const Joint& joint) {
+  return joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven ||
+         joint.kind == Joint::Kind::driven_slide;
+}
+
+/// The place of the body where the ground clamps it, moved or not, if any.
 const Place* clamp_of(const Scene& scene, const Body& body) {
   for (const Joint& joint : scene.joints) {
-    if (joint.kind != Joint::Kind::fixed) continue;
+    if (!clamps(joint)) continue;
     if (joint.first.ground() && joint.second.body == body.name) return &joint.second;
     if (joint.second.ground() && joint.first.body == body.name) return &joint.first;
   }
@@ -133,16 +141,124 @@ bool on_a_line(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, const 
   return principal[2] > 0 && principal[1] <= 1e-12 * principal[2];
 }
 
-/// Dofs that a joint to the ground holds at its nodes, in frame axes: a clamp all of them, a hinge the displacements of
-/// the nodes that lie on its line. @throws InputError  a hinge that has no line. Collective.
-void hold_by_joint(const Joint& joint, const PreparedPlace& place, const fem::Mesh& mesh, fem::Conditions& held) {
-  const bool all = joint.kind == Joint::Kind::fixed;
-  if (!all && !on_a_line(mesh, place.nodes, place.x))
-    throw InputError(joint.where.text() +
-                     ": a hinge in space turns about the line of its nodes, and these lie on none; expected a place "
-                     "that is an edge");
-  for (PetscInt node : place.nodes)
-    for (PetscInt dof = 0; dof < (all ? 6 : 3); ++dof) held.push_back(6 * node + dof);
+/// The line of a place's nodes in the axes of the frame; nothing where they lie on none. Collective.
+std::optional<Eigen::Vector3d> line_of(const PreparedBody& body, const PreparedPlace& place) {
+  const fem::Mesh& mesh = body.structure.mesh;
+  if (place.nodes.size() < 2 || !on_a_line(mesh, place.nodes, place.x)) return {};
+  Eigen::Vector3d line = Eigen::Vector3d::Zero();  // from the first node to the mean
+  if (const PetscInt local = place.nodes.front() - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
+    line = place.x - mesh.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, line.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return line.normalized();
+}
+
+/// The axis that the joint turns about or slides along, in world axes at the start. @throws InputError  a hinge
+/// without.
+Eigen::Vector3d axis_of(const Prepared& prepared, const Joint& joint, const std::array<PreparedPlace, 2>& places) {
+  using Kind = Joint::Kind;
+  if (joint.axis_given) return Eigen::Vector3d(joint.axis[0], joint.axis[1], joint.axis[2]).normalized();
+  if (joint.kind != Kind::revolute && joint.kind != Kind::driven) return Eigen::Vector3d::UnitZ();
+  for (const PreparedPlace& place : places) {
+    if (place.body < 0 || place.map) continue;
+    const PreparedBody& body = prepared.bodies[place.body];
+    if (const auto line = line_of(body, place)) return body.attitude * *line;
+  }
+  throw InputError(joint.where.text() +
+                   ".axis: is missing, and the joint's places are no edges whose line could be it; expected three "
+                   "numbers [x, y, z]");
+}
+
+Eigen::Matrix3d joint_axes(const Prepared& prepared, const Joint& joint, const std::array<PreparedPlace, 2>& places) {
+  if (joint.kind == Joint::Kind::bushing) return Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d W;
+  W.col(2) = axis_of(prepared, joint, places);
+  if (joint.kind == Joint::Kind::universal) {
+    const Eigen::Vector3d second(joint.second_axis[0], joint.second_axis[1], joint.second_axis[2]);
+    if (std::abs(second.normalized().dot(W.col(2))) > 1e-9)
+      throw InputError(joint.where.text() +
+                       ".second_axis: is not normal to axis; expected two axes that cross at 90 deg");
+    W.col(0) = second.normalized();
+  } else {
+    W.col(0) = W.col(2).unitOrthogonal();
+  }
+  W.col(1) = W.col(2).cross(W.col(0));
+  return W;
+}
+
+/// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
+/// holds all dofs of all nodes, a hinge along an edge the displacements of its nodes; at one node what lies along the
+/// axes of the frame. Collective.
+bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedBody& body, const PreparedPlace& place,
+                   fem::Conditions& held) {
+  using Kind = Joint::Kind;
+  const auto hold = [&](std::initializer_list<int> dofs) {
+    for (PetscInt node : place.nodes)
+      for (int dof : dofs) held.push_back(6 * node + dof);
+  };
+  if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
+  if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
+  const Eigen::Vector3d axis = body.attitude.transpose() * W.col(2);
+  if (place.nodes.size() > 1) {
+    const auto line = line_of(body, place);
+    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9) return false;
+    return hold({0, 1, 2}), true;
+  }
+  if (joint.kind == Kind::spherical || joint.kind == Kind::universal)
+    return hold({0, 1, 2}), joint.kind == Kind::spherical;
+  Eigen::Index along = 0;
+  const bool aligned = axis.cwiseAbs().maxCoeff(&along) > 1 - 1e-12;
+  const int z = static_cast<int>(along), x = (z + 1) % 3, y = (z + 2) % 3;
+  if (joint.kind == Kind::revolute) {
+    hold({0, 1, 2});
+    if (aligned) hold({3 + x, 3 + y});
+    return aligned;
+  }
+  if (!aligned) return false;
+  if (joint.kind == Kind::planar)
+    hold({z, 3 + x, 3 + y});
+  else
+    hold({x, y, 3 + x, 3 + y});
+  if (joint.kind == Kind::prismatic) hold({3 + z});
+  return true;
+}
+
+/// Where the frame is at the start, and how it moves.
+void start_body(PreparedBody& body) {
+  const InitialSpec& start = body.spec.initial;
+  const auto vector = [](const Point& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
+  const Eigen::Matrix3d Q = math::rotation(vector(start.rotation));
+  const Eigen::Vector3d arm = Q * body.origin, spin = vector(start.angular_velocity);
+  body.attitude = Q * body.axes;
+  body.place = vector(start.position) + arm;
+  body.rate = vector(start.velocity) + spin.cross(arm);
+  body.spin = body.attitude.transpose() * spin;
+}
+
+double extent_of_mesh(const fem::Mesh& mesh) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  return (high - low).norm();
+}
+
+/// Axes of all joints, and what those to the ground hold of their bodies.
+void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const Place&)>& place) {
+  for (const Joint& joint : prepared.scene.joints) {
+    prepared.joints.push_back({place(joint.first), place(joint.second)});
+    const auto& [first, second] = prepared.joints.back();
+    prepared.joint_axes.push_back(joint_axes(prepared, joint, prepared.joints.back()));
+    prepared.joint_held.push_back(0);
+    if (first.ground() == second.ground()) continue;
+    const PreparedPlace& at = first.ground() ? second : first;
+    if (at.map || at.body < 0) continue;
+    PreparedBody& body = prepared.bodies[at.body];
+    const std::size_t before = body.held.size();
+    prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
+    const bool here = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
+                      std::count(at.nodes.begin(), at.nodes.end(), body.frame.conditions.front() / 6);
+    if (clamps(joint) && here) body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
+  }
 }
 
 }  // namespace
@@ -152,21 +268,21 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   for (const Body& body : scene.bodies)
     prepared.bodies.push_back(body.reduced ? prepare_reduced(body, comm) : prepare_body(scene, body, comm));
   const auto place = [&](const Place& p) { return find(scene, prepared.bodies, p); };
-  for (const Joint& joint : scene.joints) {
-    prepared.joints.push_back({place(joint.first), place(joint.second)});
-    const auto& [first, second] = prepared.joints.back();
-    if (first.ground() == second.ground()) continue;
-    const PreparedPlace& held = first.ground() ? second : first;
-    if (held.map || held.body < 0) continue;
-    PreparedBody& body = prepared.bodies[held.body];
-    hold_by_joint(joint, held, body.structure.mesh, body.held);
+  for (PreparedBody& body : prepared.bodies) {
+    start_body(body);
+    prepared.extent = std::max(
+        prepared.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
   }
+  prepare_joints(prepared, place);
   for (PreparedBody& body : prepared.bodies) {
     if (body.spec.reduced) continue;
     const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
-    body.held.insert(body.held.end(), followers.begin(), followers.end());
-    std::sort(body.held.begin(), body.held.end());
-    body.held.erase(std::unique(body.held.begin(), body.held.end()), body.held.end());
+    body.clamp.insert(body.clamp.end(), body.frame.conditions.begin(), body.frame.conditions.end());
+    for (fem::Conditions* dofs : {&body.held, &body.clamp}) {
+      dofs->insert(dofs->end(), followers.begin(), followers.end());
+      std::sort(dofs->begin(), dofs->end());
+      dofs->erase(std::unique(dofs->begin(), dofs->end()), dofs->end());
+    }
   }
   for (const Load& load : scene.loads) {
     PreparedPlace where;

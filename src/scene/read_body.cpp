@@ -57,13 +57,6 @@ void fit_default_modes(Reading& body, Body& out) {
   out.reduction.modes.count = std::min(out.reduction.modes.count, std::max(elastic, 0));
 }
 
-/// What a body in space does not know yet is refused, not left aside.
-void refuse_planar_keys(Document& document, const Reading& reading) {
-  for (const char* key : {"rotary_inertia", "rigid", "frames", "initial"})
-    if (reading.given(key))
-      document.fault(reading.where(key), "does not apply here", "it only in a scene in the plane");
-}
-
 }  // namespace
 
 InitialSpec read_initial(Document& document, Reading& body) {
@@ -74,8 +67,9 @@ InitialSpec read_initial(Document& document, Reading& body) {
   Reading reading(document, *value, "initial");
   if (reading.given("position")) initial.position = reading.point("position");
   initial.angle = reading.number("angle");
+  if (reading.given("rotation")) initial.rotation = reading.point("rotation");
   if (reading.given("velocity")) initial.velocity = reading.point("velocity");
-  initial.angular_velocity = reading.number("angular_velocity");
+  initial.angular_velocity = reading.turning("angular_velocity");
   initial.deformation = reading.formulas("deformation", {"x", "y"});
   initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
   return initial;
@@ -96,8 +90,6 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
     body.parts = read_parts(document, reading);
   else
     body.section = read_section(document, reading, body.rigid);
-  if (!in_space && reading.given("parts"))
-    document.fault(reading.where("parts"), "does not apply here", "it only in a scene in space");
   body.strain = reading.choice<Strain>("strain", {{"averaged", Strain::averaged}, {"pointwise", Strain::pointwise}});
   body.rotary_inertia = reading.flag("rotary_inertia");
   body.frame = read_frame(document, reading, name);
@@ -107,7 +99,6 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing), name);
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
-  if (in_space) refuse_planar_keys(document, reading);
   if (in_space) return body;  // its mesh is checked when it is there
   fit_default_modes(reading, body);
   if (document.fault_count() == before) check_body(document, body);

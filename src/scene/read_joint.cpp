@@ -1,4 +1,4 @@
-#include <cmath>
+#include <fmt/format.h>
 
 #include "readers.h"
 
@@ -13,24 +13,95 @@ void check_spring(Document& document, const Reading& reading, const Where& where
                  "one of stiffness, viscosity, torsional_stiffness, torsional_viscosity");
 }
 
+void check_bushing(Document& document, const Reading& reading, const Where& where) {
+  for (const char* key : {"translation", "rotation", "translation_viscosity", "rotation_viscosity"})
+    if (reading.given(key)) return;
+  document.fault(where, "has no stiffness and no viscosity",
+                 "one of translation, rotation, translation_viscosity, rotation_viscosity");
+}
+
+using Kind = Joint::Kind;
+
+const std::vector<std::pair<std::string, Kind>> kinds{{"fixed", Kind::fixed},
+                                                      {"revolute", Kind::revolute},
+                                                      {"prismatic", Kind::prismatic},
+                                                      {"driven", Kind::driven},
+                                                      {"spring", Kind::spring},
+                                                      {"cylindrical", Kind::cylindrical},
+                                                      {"spherical", Kind::spherical},
+                                                      {"universal", Kind::universal},
+                                                      {"planar", Kind::planar},
+                                                      {"distance", Kind::distance},
+                                                      {"driven_slide", Kind::driven_slide},
+                                                      {"bushing", Kind::bushing}};
+
+void read_axes(Document& document, Reading& reading, Joint& joint) {
+  const auto direction = [&](const char* key) {
+    const Point axis = reading.point(key);
+    if (axis == Point{})
+      document.fault(reading.where(key), document.dimension == 2 ? "is [0, 0]" : "is [0, 0, 0]", "a direction");
+    return axis;
+  };
+  joint.axis_given = reading.given("axis");
+  if (joint.axis_given) joint.axis = direction("axis");
+  if (joint.axis_given && document.dimension == 2 && joint.kind != Kind::prismatic)
+    document.fault(reading.where("axis"), fmt::format("does not apply to type {}", reading.text("type")),
+                   "it only with type prismatic in the plane");
+  if (reading.given("second_axis")) joint.second_axis = direction("second_axis");
+}
+
+void check_axes(Document& document, const Reading& reading, const Joint& joint) {
+  const auto needs = [&](const char* key) {
+    if (!reading.given(key)) document.fault(reading.where(key), "is missing", "three numbers [x, y, z]");
+  };
+  switch (joint.kind) {
+    case Kind::universal:
+      needs("axis"), needs("second_axis");
+      break;
+    case Kind::prismatic:
+    case Kind::cylindrical:
+    case Kind::planar:
+    case Kind::driven_slide:
+      needs("axis");
+      break;
+    case Kind::spring:
+      if (joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0) needs("axis");
+      break;
+    default:
+      break;
+  }
+}
+
+void read_properties(Document& document, Reading& reading, Joint& joint) {
+  if (joint.kind == Kind::driven) joint.angle = reading.formula("angle");
+  if (joint.kind == Kind::driven_slide) joint.position = reading.formula("position");
+  joint.stiffness = reading.number("stiffness");
+  joint.viscosity = reading.number("viscosity");
+  joint.length = reading.optional_number("length");
+  joint.torsional_stiffness = reading.number("torsional_stiffness");
+  joint.torsional_viscosity = reading.number("torsional_viscosity");
+  joint.translation = reading.three("translation");
+  joint.rotation = reading.three("rotation");
+  joint.translation_viscosity = reading.three("translation_viscosity");
+  joint.rotation_viscosity = reading.three("rotation_viscosity");
+  if (joint.kind == Kind::spring) check_spring(document, reading, reading.where("type"));
+  if (joint.kind == Kind::bushing) check_bushing(document, reading, reading.where("type"));
+}
+
 }  // namespace
 
 Joint read_joint(Document& document, const std::string& name, const Value& value) {
-  using Kind = Joint::Kind;
   Joint joint;
   joint.name = name;
   joint.where = value.where;
   Reading reading(document, value, "joint");
   if (!value.node.IsMap()) return joint;
   const std::size_t before = document.fault_count();
-  joint.kind = reading.choice<Kind>("type", {{"fixed", Kind::fixed},
-                                             {"revolute", Kind::revolute},
-                                             {"prismatic", Kind::prismatic},
-                                             {"driven", Kind::driven},
-                                             {"spring", Kind::spring}});
+  joint.kind = reading.choice<Kind>("type", kinds);
   const bool known = document.fault_count() == before;
-  if (known && document.dimension == 3 && joint.kind != Kind::fixed && joint.kind != Kind::revolute)
-    document.fault(reading.where("type"), "is " + reading.text("type"), "fixed or revolute in a scene in space");
+  if (known && document.dimension == 2 && joint.kind > Kind::spring)
+    document.fault(reading.where("type"), "is " + reading.text("type"),
+                   "fixed, revolute, prismatic, driven or spring in a scene in the plane");
   if (known) reading.set_kind(reading.text("type"));
   if (const auto between = reading.value("between")) {
     const auto places = read_list(document, *between, reading.key("between"), 2);
@@ -39,16 +110,10 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
       joint.second = read_place(document, places[1], reading.key("between"));
     }
   }
-  if (known && joint.kind == Kind::driven) joint.angle = reading.formula("angle");
-  if (reading.given("axis")) joint.axis = reading.point("axis");
-  if (joint.axis == Point{})
-    document.fault(reading.where("axis"), document.dimension == 2 ? "is [0, 0]" : "is [0, 0, 0]", "a direction");
-  joint.stiffness = reading.number("stiffness");
-  joint.viscosity = reading.number("viscosity");
-  joint.length = reading.optional_number("length");
-  joint.torsional_stiffness = reading.number("torsional_stiffness");
-  joint.torsional_viscosity = reading.number("torsional_viscosity");
-  if (known && joint.kind == Kind::spring) check_spring(document, reading, reading.where("type"));
+  if (!known) return joint;
+  read_axes(document, reading, joint);
+  read_properties(document, reading, joint);
+  if (document.dimension == 3) check_axes(document, reading, joint);
   return joint;
 }
 

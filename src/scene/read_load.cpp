@@ -19,14 +19,14 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   } else if (const auto at = reading.value("at")) {
     load.at = read_place(document, *at, reading.key("at"));
   }
-  if (load.kind == Kind::moment && document.dimension == 3) {
-    document.fault(reading.where("type"), "is a moment", "force or distributed in a scene in space");
-  } else if (load.kind == Kind::moment) {
-    load.moment = reading.formula("moment");
-  } else {
+  if (load.kind == Kind::moment)
+    load.moment = reading.moment("moment");
+  else
     load.force = reading.force("force");
-  }
-  load.axes = reading.choice<Load::Axes>("axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}});
+  load.axes = reading.choice<Load::Axes>(
+      "axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}, {"place", Load::Axes::place}});
+  if (load.axes == Load::Axes::place && (document.dimension == 2 || load.kind == Kind::distributed))
+    document.fault(reading.where("axes"), "is place", "it only for a force or moment in space");
   return load;
 }
 

@@ -55,11 +55,6 @@ Body read_reduced(Document& document, const std::string& name, Reading& reading)
   }
   body.reduced->path = document.beside(body.reduced->path);
   read_file(document, *body.reduced);
-  if (document.dimension == 3) {
-    if (reading.given("initial"))
-      document.fault(reading.where("initial"), "does not apply here", "it only in a scene in the plane");
-    return body;
-  }
   const std::size_t sound = document.fault_count();
   body.initial = read_initial(document, reading);
   if (document.fault_count() == sound) refuse_deformation(document, reading);

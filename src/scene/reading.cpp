@@ -15,7 +15,12 @@ Reading::Reading(Document& document, const Value& value, const std::string& sect
   const std::string expected = fmt::format("a mapping with the keys {}", fmt::join(known, ", "));
   for (auto& entry : read_mapping(document, value, expected)) {
     if (std::count(known.begin(), known.end(), entry.name)) {
-      values_.emplace(entry.name, entry.value);
+      const int dimension = section_.key(entry.name).dimension;
+      if (dimension != 0 && dimension != document.dimension)
+        document.fault(entry.value.where, "does not apply here",
+                       dimension == 2 ? "it only in a scene in the plane" : "it only in a scene in space");
+      else
+        values_.emplace(entry.name, entry.value);
     } else {
       document.fault(entry.where, "unknown key", fmt::format("one of {}", fmt::join(known, ", ")), entry.name, known);
     }
@@ -109,6 +114,25 @@ std::array<math::Formula, 3> Reading::force(const std::string& name) {
   const auto parts = read_list(document_, *found, key(name), document_.dimension);
   for (std::size_t i = 0; i < parts.size(); ++i) force[i] = read_formula(document_, parts[i], key(name), {"t"});
   return force;
+}
+
+std::array<math::Formula, 3> Reading::moment(const std::string& name) {
+  if (document_.dimension == 3) return force(name);
+  return {0.0, 0.0, formula(name)};
+}
+
+Point Reading::turning(const std::string& name) {
+  if (document_.dimension == 3) return given(name) ? point(name) : Point{};
+  return {0, 0, number(name)};
+}
+
+std::array<double, 3> Reading::three(const std::string& name) {
+  std::array<double, 3> all{};
+  const auto found = value(name);
+  if (!found) return all;
+  const auto parts = read_list(document_, *found, key(name), 3);
+  for (std::size_t i = 0; i < parts.size(); ++i) all[i] = read_number(document_, parts[i], key(name));
+  return all;
 }
 
 std::optional<std::array<math::Formula, 2>> Reading::formulas(const std::string& name,

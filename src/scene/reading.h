@@ -43,6 +43,12 @@ class Reading {
   math::Formula formula(const std::string& key);
   /// As many formulas of t as the scene has dimensions, zero behind.
   std::array<math::Formula, 3> force(const std::string& key);
+  /// About x, y, z: in the plane one formula, that about z.
+  std::array<math::Formula, 3> moment(const std::string& key);
+  /// Likewise of numbers.
+  Point turning(const std::string& key);
+  /// Exactly three numbers.
+  std::array<double, 3> three(const std::string& key);
   std::optional<std::array<math::Formula, 2>> formulas(const std::string& key,
                                                        const std::vector<std::string>& variables);
   /// As it stands in the file, or the default; nothing when it is absent (a fault when it is required).

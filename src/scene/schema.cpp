@@ -14,6 +14,14 @@ Key part(const char* name, Type type, const char* fallback, const char* text, co
 Key choice(const char* name, const char* fallback, const char* text, std::vector<std::string> choices) {
   return {name, Type::choice, "", fallback, text, any, std::move(choices)};
 }
+Key in_plane(Key key) {
+  key.dimension = 2;
+  return key;
+}
+Key in_space(Key key) {
+  key.dimension = 3;
+  return key;
+}
 Key only(std::vector<std::string> kinds, Key key) {
   key.kinds = std::move(kinds);
   return key;
@@ -53,20 +61,20 @@ const SchemaSection body_section{
              "cross-section, or stiffness and mass per length; in space: of all parts that `parts` does not name",
              "section"),
         part("material", Type::section, "", "absent: section gives EA, EI and rhoA", "material"),
-        part("parts", Type::named_sections, "", "in space: sections and materials of the mesh's parts, by name",
-             "part"),
+        in_space(
+            part("parts", Type::named_sections, "", "sections and materials of the mesh's parts, by name", "part")),
         choice("strain", "averaged",
                "membrane strain in an element: averaged over it (free of locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
-        {"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"},
+        in_plane({"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"}),
         {"rigid", Type::flag, "", "false",
          "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},
         part("frame", Type::frame, "",
              "where the floating frame is attached; absent: pinned from start to end; in space clamped where the "
              "ground holds the body, else mean-axis",
              "frame"),
-        {"frames", Type::integer, "", "1",
-         "split a straight line into so many floating frames, joined rigidly; divides the elements", counts},
+        in_plane({"frames", Type::integer, "", "1",
+                  "split a straight line into so many floating frames, joined rigidly; divides the elements", counts}),
         part("reduction", Type::section, "", "the reduced basis", "reduction"),
         part("damping", Type::section, "", "absent: none", "damping"),
         part("initial", Type::section, "", "absent: at rest, undeformed, mesh axes on world axes", "initial"),
@@ -199,29 +207,39 @@ const SchemaSection initial_section{
     "position: [0, 1]\nangle: pi/2\nangular_velocity: 6\ndeformation: [0, \"0.01*sin(pi*x/L)\"]",
     {
         {"position", Type::point, "m", "", "of the mesh's origin, world axes; absent: 0"},
-        {"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"},
+        in_plane({"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"}),
+        in_space({"rotation", Type::point, "rad", "", "rotation vector of the mesh's axes, world axes; absent: 0"}),
         {"velocity", Type::point, "m/s", "", "of the mesh's origin, world axes; absent: 0"},
-        {"angular_velocity", Type::number, "rad/s", "0", "of the mesh's axes"},
-        {"deformation", Type::formula_of_place, "m", "",
-         "displacements u, v; absent: undeformed; the frame goes along"},
-        {"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"},
+        {"angular_velocity", Type::turning, "rad/s", "0", "of the mesh's axes; in space a vector in world axes"},
+        in_plane({"deformation", Type::formula_of_place, "m", "",
+                  "displacements u, v; absent: undeformed; the frame goes along"}),
+        in_plane({"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"}),
     }};
 
 const SchemaSection joint_section{
     "joint",
-    "Holds two places together, named by its key.",
-    "type: revolute\nbetween: [ground, arm.start]",
+    "Holds two places together, named by its key. In the plane: fixed, revolute, prismatic, driven, spring.",
+    "type: revolute\nbetween: [ground, arm.start]\naxis: [0, 0, 1]",
     {
         choice("type", required,
                "fixed: clamp; revolute: hinge; prismatic: slides along axis; driven: hinge with given angle; spring: "
-               "with dampers",
-               {"fixed", "revolute", "prismatic", "driven", "spring"}),
+               "with dampers; cylindrical: slides along axis and turns about it; spherical: ball; universal: two "
+               "crossing axes; planar: slides across axis and turns about it; distance: keeps its length; "
+               "driven_slide: prismatic with given position; bushing: springs along and about three axes",
+               {"fixed", "revolute", "prismatic", "driven", "spring", "cylindrical", "spherical", "universal", "planar",
+                "distance", "driven_slide", "bushing"}),
         {"between", Type::places, "", required,
          "`ground` alone is the point of the ground that meets the other place at the start"},
         only({"driven"}, {"angle", Type::formula, "rad", required,
                           "turn of the second place against the first since the start; 0 at t = 0"}),
-        only({"prismatic"}, {"axis", Type::point, "", "",
-                             "direction of sliding at the start, world axes; turns with the first place; absent: x"}),
+        only({"driven_slide"}, {"position", Type::formula, "m", required,
+                                "of the second place from the first along axis since the start; 0 at t = 0"}),
+        only({"prismatic", "revolute", "driven", "cylindrical", "universal", "planar", "driven_slide", "spring"},
+             {"axis", Type::point, "", "",
+              "at the start, world axes; turns with the first place. Absent: of prismatic x, of a hinge in space the "
+              "line of its nodes. Of a spring in space: about which it is torsional"}),
+        only({"universal"}, in_space({"second_axis", Type::point, "", "",
+                                      "at the start, world axes; turns with the second place; required"})),
         only({"spring"}, {"stiffness", Type::number, "N/m", "0", "along the line between the places", nonnegative}),
         only({"spring"}, {"viscosity", Type::number, "N s/m", "0", "along the line between the places", nonnegative}),
         only({"spring"},
@@ -229,6 +247,14 @@ const SchemaSection joint_section{
         only({"spring"},
              {"torsional_stiffness", Type::number, "N m/rad", "0", "against turning from the start", nonnegative}),
         only({"spring"}, {"torsional_viscosity", Type::number, "N m s/rad", "0", "against turning", nonnegative}),
+        only({"bushing"}, {"translation", Type::numbers, "N/m", "[0, 0, 0]",
+                           "along x, y, z; axes as at the start in the "
+                           "world, carried by the first place",
+                           nonnegative}),
+        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
+        only({"bushing"}, {"translation_viscosity", Type::numbers, "N s/m", "[0, 0, 0]", "along x, y, z", nonnegative}),
+        only({"bushing"},
+             {"rotation_viscosity", Type::numbers, "N m s/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
     }};
 
 const SchemaSection load_section{
@@ -242,9 +268,11 @@ const SchemaSection load_section{
         only({"distributed"}, {"body", Type::body, "", required, "on which it acts"}),
         only({"force", "distributed"},
              {"force", Type::formulas, "N; N/m", required, "components, per length if distributed"}),
-        only({"moment"}, {"moment", Type::formula, "N m", required, "anticlockwise"}),
-        only({"force", "distributed"},
-             choice("axes", "world", "of the components; body: they turn with the floating frame", {"world", "body"})),
+        only({"moment"}, {"moment", Type::moment, "N m", required, "anticlockwise; in space about x, y, z"}),
+        only({"force", "moment", "distributed"},
+             choice("axes", "world",
+                    "of the components; body: they turn with the floating frame; place: with the place (in space)",
+                    {"world", "body", "place"})),
     }};
 
 const SchemaSection motion_section{

@@ -66,6 +66,10 @@ std::string describe(const Key& key, int dimension) {
       return "a number or a formula of t";
     case Type::formulas:
       return fmt::format("{} formulas of t {}", count, coordinates);
+    case Type::moment:
+      return space ? "three formulas of t [x, y, z]" : "a number or a formula of t";
+    case Type::turning:
+      return space ? "three numbers [x, y, z]" : "a number or a formula of the parameters";
     case Type::formula_of_place:
       return "two formulas of x and y [u, v]";
     case Type::choice:
@@ -113,6 +117,7 @@ std::string schema_reference() {
       if (const std::string range = key.range.text(); !range.empty()) line += "; " + range;
       if (key.fallback == Key::required) line += "; required";
       if (!key.fallback.empty() && key.fallback != Key::required) line += "; default " + key.fallback;
+      if (key.dimension != 0) line += key.dimension == 2 ? "; only in the plane" : "; only in space";
       if (!key.kinds.empty()) line += fmt::format("; only for type {}", fmt::join(key.kinds, ", "));
       out += fmt::format("  {:<20}   {}\n", "", line);
     }

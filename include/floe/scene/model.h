@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "floe/dynamics/joints.h"
+#include "floe/dynamics/spatial_marker.h"
 #include "floe/dynamics/system.h"
 #include "floe/reduction/reduce.h"
 #include "floe/scene/scene.h"
@@ -51,6 +52,13 @@ struct PreparedBody {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
   std::vector<std::string> parts = {};                       ///< in space: names
   std::vector<std::string> notices = {};                     ///< in space: of the mesh
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();    ///< in space: axes of the frame at the start, world
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< in space: its origin, R, at the start
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< in space: R. at the start, world
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();            ///< in space: angular velocity at the start, frame axes
+  /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
+  /// and the ground clamps the body, followers.
+  fem::Conditions clamp = {};
 };
 
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
@@ -65,20 +73,21 @@ struct BodyReport {
   std::vector<double> omega, residual;
   std::vector<reduction::ColumnOrigin> origins;
   double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;
-  int first_coordinate = 0;  ///< local index of the frame's R_x
-  int first_elastic = 0;     ///< local index of the first elastic coordinate
+  int first_coordinate = 0;                                 ///< local index of the frame's R_x; -1: it stands still
+  std::shared_ptr<const dynamics::Attitude> attitude = {};  ///< in space, of a frame that moves
+  int first_elastic = 0;                                    ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
   PetscInt first_node = 0;        ///< of this rank
   std::vector<double> positions;  ///< of this rank's own nodes, x y (z), in the frame
 };
 
-/// A place of a body in space whose frame stands still: displacement axes S q, rotation axes psi q.
-struct HeldProbe {
-  Eigen::Vector3d origin;
-  Eigen::Matrix3d axes;
-  Eigen::Vector3d x;
-  Eigen::MatrixXd S, psi;
-  std::vector<int> coordinates;
+/// A place of a body in space. Its axes at the start are those of the world.
+struct SpatialProbe {
+  dynamics::SpatialMarker marker;
+  std::optional<dynamics::SpatialMarker> relative_to;
+  Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< position; relative to the other place, if there is one
+  Eigen::Matrix3d mesh =
+      Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
 };
 
 struct ModelProbe {
@@ -88,7 +97,7 @@ struct ModelProbe {
   std::optional<dynamics::Marker> relative_to;
   std::vector<dynamics::Marker> frame;  ///< deflection of corotational bodies: the nodes that define the frame
   Eigen::Vector3d start, start_relative;
-  std::optional<HeldProbe> held = {};  ///< in space; the rest stands for the plane
+  std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
 };
 
 /// A scene in one formulation, ready to move.
@@ -127,6 +136,10 @@ struct ProbeColumn {
   std::string name, unit;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
+/// How many bodies have a frame that moves in space.
+int moving_frames(const Model& model);
+/// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.
+std::vector<double> attitudes(const Model& model, Vec U);
 /// Values at an instant, the same on all ranks of the system. Collective.
 std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V);
 

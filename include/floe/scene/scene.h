@@ -113,10 +113,11 @@ struct DampingSpec {
 };
 
 struct InitialSpec {
-  Point position{};  ///< of the mesh's origin, world
-  double angle = 0;  ///< of the mesh's axes [rad]
-  Point velocity{};  ///< of the mesh's origin, world
-  double angular_velocity = 0;
+  Point position{};                                              ///< of the mesh's origin, world
+  double angle = 0;                                              ///< of the mesh's axes [rad]; in the plane
+  Point rotation{};                                              ///< likewise in space: a rotation vector, world
+  Point velocity{};                                              ///< of the mesh's origin, world
+  Point angular_velocity{};                                      ///< world; in the plane about z
   std::optional<std::array<math::Formula, 2>> deformation;       ///< (u, v)(x, y) in mesh axes
   std::optional<std::array<math::Formula, 2>> deformation_rate;  ///< likewise, 1/s
   Where where;
@@ -149,15 +150,35 @@ struct Body {
 };
 
 struct Joint {
-  enum class Kind { fixed, revolute, prismatic, driven, spring } kind = Kind::fixed;
+  /// In the plane: fixed to spring.
+  enum class Kind {
+    fixed,
+    revolute,
+    prismatic,
+    driven,
+    spring,
+    cylindrical,
+    spherical,
+    universal,
+    planar,
+    distance,
+    driven_slide,
+    bushing
+  } kind = Kind::fixed;
   std::string name;
   Place first, second;
-  math::Formula angle;   ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
-  Point axis{1, 0, 0};   ///< prismatic: sliding direction in world axes at the start, carried by the first place
-  double stiffness = 0;  ///< spring [N/m]
-  double viscosity = 0;  ///< spring [N s/m]
+  math::Formula angle;     ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
+  math::Formula position;  ///< driven_slide: likewise along the axis [m]
+  /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
+  Point axis{1, 0, 0};
+  bool axis_given = false;
+  Point second_axis{};                                      ///< universal: carried by the second place
+  double stiffness = 0;                                     ///< spring [N/m]
+  double viscosity = 0;                                     ///< spring [N s/m]
   std::optional<double> length;                             ///< spring, unstretched; absent: the distance at the start
   double torsional_stiffness = 0, torsional_viscosity = 0;  ///< spring [N m/rad], [N m s/rad]
+  /// Bushing, along and about the axes x, y, z of the first place as it is at the start (world axes).
+  std::array<double, 3> translation{}, rotation{}, translation_viscosity{}, rotation_viscosity{};
   Where where;
 };
 
@@ -167,8 +188,9 @@ struct Load {
   Place at;                                            ///< force, moment
   std::string body;                                    ///< distributed: uniform along all its segments
   std::array<math::Formula, 3> force{0.0, 0.0, 0.0};   ///< of t [N], distributed [N/m], [N/m2]
-  math::Formula moment;                                ///< of t [N m]
-  enum class Axes { world, body } axes = Axes::world;  ///< body: follows the frame
+  std::array<math::Formula, 3> moment{0.0, 0.0, 0.0};  ///< of t [N m]; in the plane about z
+  /// body: they follow the frame; place: they turn with the place (in space).
+  enum class Axes { world, body, place } axes = Axes::world;
   Where where;
 };
 

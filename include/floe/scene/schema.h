@@ -19,6 +19,8 @@ enum class Type {
   pair,
   formula,
   formulas,
+  moment,
+  turning,
   formula_of_place,
   choice,
   derivatives,
@@ -54,6 +56,7 @@ struct Key {
   std::vector<std::string> choices = {};  ///< of Type::choice
   std::vector<std::string> kinds = {};    ///< the values of the section's `type` to which the key applies; empty: all
   std::string section = {};               ///< of Type::section, modes, frame, named_sections: the section that it holds
+  int dimension = 0;                      ///< 2 or 3: only in scenes of the plane, or in space
 };
 
 /// The keys that may stand together in one mapping.

@@ -64,7 +64,8 @@ TEST_CASE("keys beside a reduced body are refused, each where it stands") {
         Faults{"s.yaml:1:65: bodies.b.initial.deformation: does not apply to a body from a file; expected it only with "
                "a mesh"});
   CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {angle: 1}}}\n") ==
-        Faults{"s.yaml:1:33: bodies.b.initial: does not apply here; expected it only in a scene in the plane"});
+        Faults{"s.yaml:1:50: bodies.b.initial.angle: does not apply here; expected it only in a scene in the plane"});
+  CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {rotation: [0, 0, 1]}}}\n").empty());
 }
 
 TEST_CASE("a file that is missing or of another kind is one fault at its key") {
@@ -113,14 +114,14 @@ TEST_CASE("nodes by coordinates need the shapes in the file") {
             "one of end, middle, start"});
 }
 
-TEST_CASE("a reduced body in space stands where it was held when its file was made") {
+TEST_CASE("a reduced body in space floats, is clamped where it was held, and also where it moves") {
   const Files files;
   const std::string body = "bodies: {b: {reduced: plate.h5}}\n";
-  CHECK(files.faults(body).at(0).starts_with("s.yaml:1:10: bodies.b: floats;"));
-  CHECK(files.faults(body + "joints: {j: {type: fixed, between: [ground, b.left]}, k: {type: fixed, between: [b.p3, "
-                            "ground]}}\n") ==
-        Faults{"s.yaml:2:55: joints.k: holds body b where its columns move; expected a place where it was held when "
-               "plate.h5 was made"});
+  CHECK(files.faults(body).empty());
+  CHECK(files
+            .faults(body + "joints: {j: {type: fixed, between: [ground, b.left]}, k: {type: fixed, between: [b.p3, "
+                           "ground]}}\n")
+            .empty());
 }
 
 TEST_CASE("a body that is reduced already is not reduced again") {

@@ -136,7 +136,7 @@ TEST_CASE("joints, loads, motion and probes are read as they stand") {
   CHECK(scene.joints[2].angle(2) == 5000);
   CHECK(scene.loads[0].force[1](0.1) == Approx(2500 * std::sin(0.95)).epsilon(1e-15));
   CHECK(scene.loads[0].axes == Load::Axes::body);
-  CHECK(scene.loads[1].moment(0.5) == 0.5);
+  CHECK(scene.loads[1].moment[2](0.5) == 0.5);
   CHECK(scene.loads[2].body == "arm");
   CHECK(scene.motion.spectral_radius == 0.5);
   CHECK(scene.motion.tolerance == 1e-4);
@@ -194,8 +194,8 @@ TEST_CASE("the examples are read") {
   CHECK(cantilever.bodies[0].section.rhoI == Approx(4.563));
   CHECK(cantilever.loads[0].force[1](0.2) == Approx(2500 * std::sin(1.9)));
   const Scene arm = read_scene("examples/robot_arm/scene.yaml");
-  CHECK(arm.loads[0].moment(2.5) == 80);
-  CHECK(arm.loads[0].moment(7) == 0);
+  CHECK(arm.loads[0].moment[2](2.5) == 80);
+  CHECK(arm.loads[0].moment[2](7) == 0);
   CHECK(arm.bodies[0].section.rhoI == 1.0 / 48);
   CHECK(read_scene("examples/blade/scene.yaml").dimension == 3);
   const Scene spin = read_scene("examples/spin_up/scene.yaml");
@@ -206,5 +206,5 @@ TEST_CASE("the examples are read") {
   const Scene crank = read_scene("examples/slider_crank/scene.yaml");
   CHECK(crank.bodies.size() == 3);
   CHECK(crank.bodies[2].section.rhoA * total_length(crank.bodies[2].mesh) == Approx(0.033378));
-  CHECK(crank.bodies[1].initial.angular_velocity == Approx(-75));
+  CHECK(crank.bodies[1].initial.angular_velocity[2] == Approx(-75));
 }

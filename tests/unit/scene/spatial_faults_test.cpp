@@ -214,20 +214,36 @@ TEST_CASE("what bodies and joints in space do not know is refused, not left asid
   const auto with = [](const std::string& key) {
     return faults_of(one_body(testing::plate, testing::thickness + testing::metal + "    " + key + "\n"));
   };
-  for (const std::string key : {"rotary_inertia", "rigid"})
-    CHECK(with(key + ": false") == Faults{"s.yaml:6:" + std::to_string(key.size() + 7) + ": bodies.b." + key +
-                                          ": does not apply here; expected it only in a scene in the plane"});
+  CHECK(with("rotary_inertia: false") ==
+        Faults{"s.yaml:6:21: bodies.b.rotary_inertia: does not apply here; expected it only in a scene in the plane"});
   CHECK(with("frames: 2").size() == 1);
   CHECK(with("initial: {angle: 1}").size() == 1);
+  CHECK(with("initial: {rotation: [0, 0, 1], angular_velocity: [1, 2, 3]}").empty());
   const auto joint = [](const std::string& keys) {
     return faults_of(one_body(testing::plate, testing::thickness + testing::metal, "joints: {j: {" + keys + "}}\n"));
   };
   CHECK(joint("type: prismatic, between: [ground, b.left]") ==
-        Faults{"s.yaml:7:20: joints.j.type: is prismatic; expected fixed or revolute in a scene in space"});
+        Faults{"s.yaml:7:10: joints.j.axis: is missing; expected three numbers [x, y, z]"});
+  CHECK(joint("type: universal, between: [ground, b.left], axis: [0, 0, 1]") ==
+        Faults{"s.yaml:7:10: joints.j.second_axis: is missing; expected three numbers [x, y, z]"});
+  CHECK(joint("type: universal, between: [ground, b.left], axis: [0, 0, 1], second_axis: [1, 0, 1]") ==
+        Faults{"s.yaml:7:10: joints.j.second_axis: is not normal to axis; expected two axes that cross at 90 deg"});
+  CHECK(joint("type: bushing, between: [ground, b.left]") ==
+        Faults{"s.yaml:7:20: joints.j.type: has no stiffness and no viscosity; expected one of translation, rotation, "
+               "translation_viscosity, rotation_viscosity"});
   CHECK(joint("type: revolute, between: [ground, b.left]").empty());
+  CHECK(joint("type: revolute, between: [ground, b.p1], axis: [1, 0, 0]").empty());
   CHECK(joint("type: revolute, between: [ground, b.p1]") ==
-        Faults{"s.yaml:7:10: joints.j: a hinge in space turns about the line of its nodes, and these lie on none; "
-               "expected a place that is an edge"});
+        Faults{"s.yaml:7:10: joints.j.axis: is missing, and the joint's places are no edges whose line could be it; "
+               "expected three numbers [x, y, z]"});
+}
+
+TEST_CASE("joints that are known in space only are refused in the plane") {
+  CHECK(
+      faults_of("bodies:\n  b:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}\n    section: {EA: 1, EI: 1, "
+                "rhoA: 1}\njoints: {j: {type: spherical, between: [ground, b.start]}}\n") ==
+      Faults{"s.yaml:5:20: joints.j.type: is spherical; expected fixed, revolute, prismatic, driven or spring in a "
+             "scene in the plane"});
 }
 
 TEST_CASE("the ground's point and a body's are compared in all three coordinates") {

@@ -1,0 +1,132 @@
+#include "floe/reference/spatial_full_order.h"
+
+#include <algorithm>
+
+namespace floe::reference {
+namespace {
+
+constexpr int dofs = 6;  // of a node
+
+bool is_held(const fem::Conditions& held, PetscInt dof) { return std::binary_search(held.begin(), held.end(), dof); }
+
+std::vector<int> coordinates_of(const fem::Mesh::Cell& cell, const NodeCoordinates& nodes) {
+  std::vector<int> all;
+  for (int node : cell.nodes())
+    for (int d = 0; d < dofs; ++d) all.push_back(nodes.of_local_node(node) + d);
+  return all;
+}
+
+std::vector<int> behind_frame(const SpatialFrame& frame, const std::vector<int>& elastic) {
+  std::vector<int> all(6);
+  for (int i = 0; i < 6; ++i) all[i] = frame.first + i;
+  all.insert(all.end(), elastic.begin(), elastic.end());
+  return all;
+}
+
+}  // namespace
+
+FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& held, const fem::Mesh::Cell& cell,
+                   const NodeCoordinates& nodes) {
+  const std::vector<int> all = structure.cell_dofs(cell), where = coordinates_of(cell, nodes);
+  FreeDofs free;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_held(held, structure.global_dof(all[i]))) continue;
+    kept.push_back(static_cast<Eigen::Index>(i));
+    free.coordinates.push_back(where[i]);
+  }
+  free.V = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t j = 0; j < kept.size(); ++j) free.V(kept[j], static_cast<Eigen::Index>(j)) = 1;
+  return free;
+}
+
+namespace {
+
+/// Of one element on its free dofs, with mass for all of them: what the drilling dofs lack is shared by M_xx, M_yy,
+/// M_zz.
+body::Inertia inertia_of(const fem::Structure& structure, const fem::Mesh::Cell& cell, const fem::ElementMaps& maps,
+                         const Eigen::MatrixXd& V) {
+  body::Inertia inertia = fem::inertia(maps, V);
+  const Eigen::MatrixXd M = maps.mass_matrix();
+  const Eigen::MatrixXd lacking = V.transpose() * (with_drilling_inertia(structure, cell, M) - M) * V / 3;
+  for (int a = 0; a < 3; ++a) inertia.M[a][a] += lacking;
+  return inertia;
+}
+
+}  // namespace
+
+Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell, Eigen::MatrixXd M) {
+  if (cell.kind != fem::CellKind::triangle && cell.kind != fem::CellKind::quadrilateral) return M;
+  const auto at = [&](int i) { return structure.mesh.positions[cell.corner[i]]; };
+  const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
+  const Eigen::MatrixXd own =  // of its corners, whomever they follow: a follower's rotations are its leader's
+      cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 0, 1) : M;
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.nodes().size()); ++i)
+    M.block<3, 3>(6 * i + 3, 6 * i + 3) += 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace() * n * n.transpose();
+  return M;
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
+    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
+    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, Rayleigh damping) {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  const bool mean_axis = reference.kind == fem::ReferenceFrame::Kind::mean_axis;
+  std::vector<Eigen::VectorXd> rigid;
+  for (const auto& motion : reference.rigid) rigid.push_back(structure.exchange.gather(motion));
+  double stiffest = 0;
+  for (const auto& cell : structure.mesh.cells) {
+    const fem::ElementMaps maps = structure.maps(cell);
+    stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
+    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    body::Elasticity elasticity = fem::elasticity(maps, free.V);
+    if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);
+    const body::Inertia inertia = inertia_of(structure, cell, maps, free.V);
+    Eigen::MatrixXd C;
+    if (damping.mass != 0 || damping.stiffness != 0)
+      C = damping.mass * (inertia.M[0][0] + inertia.M[1][1] + inertia.M[2][2]) +
+          damping.stiffness * elasticity.linear_stiffness();
+    if (mean_axis) {
+      const std::vector<int> all = structure.cell_dofs(cell);
+      Eigen::MatrixXd rows(6, free.V.cols());
+      for (int motion = 0; motion < 6; ++motion)
+        rows.row(motion) = rigid[motion](all).transpose() * maps.mass_matrix() * free.V;
+      std::vector<int> coordinates = free.coordinates;
+      for (int i = 0; i < 6; ++i) coordinates.push_back(frame.multipliers + i);
+      terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
+    }
+    terms.push_back(std::make_unique<dynamics::SpatialBody>(behind_frame(frame, free.coordinates), frame.attitude,
+                                                            body::spatial(inertia), std::move(elasticity),
+                                                            std::move(C)));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  for (PetscInt dof : held) {
+    const PetscInt local = dof - dofs * structure.mesh.first_node;
+    if (local >= 0 && local < structure.owned_dofs())
+      terms.push_back(std::make_unique<HeldDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
+  }
+  return terms;
+}
+
+std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
+                                                             const fem::Conditions& held, const NodeCoordinates& nodes,
+                                                             const SpatialFrame& frame, Density density) {
+  std::vector<dynamics::SpatialMarker> markers;
+  for (const auto& cell : structure.mesh.cells) {
+    fem::ElementMaps maps = structure.maps(cell);
+    if (density == Density::line) maps.mass = structure.line(cell);
+    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    const body::Inertia in = fem::inertia(maps, free.V);
+    if (in.m == 0) continue;
+    dynamics::SpatialMarker marker;
+    marker.coordinates = behind_frame(frame, free.coordinates);
+    marker.attitude = frame.attitude;
+    marker.mass = in.m;
+    marker.x0 = in.s0;
+    marker.S = in.S;
+    marker.psi = Eigen::Matrix3Xd::Zero(3, in.S.cols());
+    markers.push_back(std::move(marker));
+  }
+  return markers;
+}
+
+}  // namespace floe::reference

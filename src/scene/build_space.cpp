@@ -1,0 +1,276 @@
+#include "build_space.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "build_space_rows.h"
+#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/start.h"
+#include "floe/petsc/values.h"
+#include "prepare_reduced.h"
+
+namespace floe::scene {
+
+using dynamics::SpatialMarker;
+using petsc::check;
+
+namespace {
+
+MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
+  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
+}
+
+bool last_rank(MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  return rank == size - 1;
+}
+
+/// Whether a place of a body from a file has no motion in the body's frame.
+bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
+  const output::ReducedBodyFile& file = *body.spec.reduced->file;
+  const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
+  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
+}
+
+/// The joint by which the ground clamps the body in its clamped frame; -1: the frame moves.
+int clamp_of(const Prepared& prepared, int b) {
+  const PreparedBody& body = prepared.bodies[b];
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const auto& [first, second] = prepared.joints[j];
+    if (prepared.scene.joints[j].kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    const PreparedPlace& place = first.ground() ? second : first;
+    if (place.body != b) continue;
+    if (place.map ? at_rest(body, *place.map)
+                  : std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0)
+      return static_cast<int>(j);
+  }
+  return -1;
+}
+
+}  // namespace
+
+SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced)
+    : prepared_(prepared),
+      formulation_(formulation),
+      reduced_(reduced),
+      owner_(last_rank(comm_of(prepared, formulation))),
+      coordinates_(comm_of(prepared, formulation)),
+      slots_(prepared.bodies.size()) {
+  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, static_cast<int>(b)) >= 0;
+}
+
+bool SpaceAssembly::compact(int body) const {
+  const Body& spec = prepared_.bodies[body].spec;
+  return is_reduced(formulation_) || spec.rigid || spec.reduced;
+}
+
+bool SpaceAssembly::stands(int j) const {
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    if (slots_[b].still && clamp_of(prepared_, static_cast<int>(b)) == j) return true;
+  return false;
+}
+
+const fem::Conditions& SpaceAssembly::held(int b) const {
+  return slots_[b].still ? prepared_.bodies[b].held : prepared_.bodies[b].clamp;
+}
+
+void SpaceAssembly::refuse() const {
+  std::vector<std::string> faults;
+  if (formulation_ == Formulation::cfr)
+    faults.push_back(prepared_.scene.file + ": formulation cfr is known for planar beams only");
+  for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
+    const auto& [first, second] = prepared_.joints[j];
+    const Joint& joint = prepared_.scene.joints[j];
+    if (is_reduced(formulation_) || !prepared_.joint_held[j]) continue;
+    const PreparedPlace& place = first.ground() ? second : first;
+    if (compact(place.body) || place.nodes.size() < 2 || slots_[place.body].still) continue;
+    const fem::Conditions& held = prepared_.bodies[place.body].clamp;
+    if (std::all_of(place.nodes.begin(), place.nodes.end(),
+                    [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
+      continue;
+    faults.push_back(fmt::format(
+        "{}: holds {} nodes of body {}, which formulation {} knows only where the frame is clamped to them; expected "
+        "frame: {{type: clamped, at: ...}} at that place, or a place of one node",
+        joint.where.text(), place.nodes.size(), prepared_.bodies[place.body].spec.name, name_of(formulation_)));
+  }
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PreparedBody& body = prepared_.bodies[b];
+    if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
+      faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
+                                   body.spec.damping.where.text(), name_of(formulation_)));
+    if (slots_[b].still && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+      faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
+                                   body.spec.initial.where.text(), body.spec.name));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+std::vector<PetscInt> SpaceAssembly::visited(int body) const {
+  std::vector<PetscInt> nodes;
+  const auto visit = [&](const PreparedPlace& place) {
+    if (place.body == body) nodes.insert(nodes.end(), place.nodes.begin(), place.nodes.end());
+  };
+  for (const auto& joint : prepared_.joints) visit(joint[0]), visit(joint[1]);
+  for (std::size_t l = 0; l < prepared_.loads.size(); ++l)
+    if (prepared_.scene.loads[l].kind != Load::Kind::distributed) visit(prepared_.loads[l]);
+  for (const auto& probe : prepared_.probes) visit(probe[0]), visit(probe[1]);
+  return nodes;
+}
+
+void SpaceAssembly::add_coordinates() {
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PreparedBody& body = prepared_.bodies[b];
+    Slot& slot = slots_[b];
+    const int index = static_cast<int>(b);
+    coordinates_.belongs_to("body " + body.spec.name);
+    if (!slot.still) {
+      slot.frame = coordinates_.add_shared(6);
+      slot.attitude = std::make_shared<dynamics::Attitude>();
+      slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
+    }
+    if (compact(index)) {
+      slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
+      continue;
+    }
+    slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6);
+    if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
+      slot.multipliers = coordinates_.add_shared(6, true);
+  }
+  for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
+    coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
+    const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind);
+    multipliers_.push_back(coordinates_.add_shared(rows, true));
+  }
+  coordinates_.number();
+}
+
+std::vector<int> SpaceAssembly::coordinates_of(int b) const {
+  std::vector<int> all;
+  for (int i = 0; i < 6 && !slots_[b].still; ++i) all.push_back(slots_[b].frame + i);
+  for (int i = 0; i < reduced_[b].body.coordinates(); ++i) all.push_back(slots_[b].elastic + i);
+  return all;
+}
+
+reference::SpatialFrame SpaceAssembly::frame_of(int b) const {
+  return {slots_[b].frame, slots_[b].multipliers, slots_[b].attitude};
+}
+
+void SpaceAssembly::add_body(int b) {
+  const PreparedBody& body = prepared_.bodies[b];
+  const Slot& slot = slots_[b];
+  if (compact(b)) {
+    if (!owner_) return;
+    const ReducedBody& reduced = reduced_[b];
+    const body::Inertia& in = reduced.body.inertia;
+    if (!slot.still)
+      terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates_of(b), slot.attitude, body::spatial(in),
+                                                               reduced.body.elasticity, reduced.damping));
+    else if (reduced.body.coordinates() > 0)
+      terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates_of(b), in.M[0][0] + in.M[1][1] + in.M[2][2],
+                                                            reduced.body.elasticity, reduced.damping));
+    return;
+  }
+  if (slot.still) return add_still_cells(b);
+  const auto force =
+      formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
+  for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, held(b), *slot.nodes, frame_of(b),
+                                                        force, {body.spec.damping.mass, body.spec.damping.stiffness}))
+    terms_.push_back(std::move(term));
+}
+
+/// Each element on those of its dofs that are not held.
+void SpaceAssembly::add_still_cells(int b) {
+  const PreparedBody& body = prepared_.bodies[b];
+  const fem::Structure& structure = body.structure;
+  const DampingSpec& damping = body.spec.damping;
+  double stiffest = 1e-300;
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    const fem::ElementMaps maps = structure.maps(cell);
+    stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
+    const reference::FreeDofs free = reference::free_dofs(structure, held(b), cell, *slots_[b].nodes);
+    if (free.coordinates.empty()) continue;
+    body::Elasticity elasticity = fem::elasticity(maps, free.V);
+    if (formulation_ == Formulation::lffr) elasticity = body::linearised(elasticity);
+    const Eigen::MatrixXd M =
+        free.V.transpose() * reference::with_drilling_inertia(structure, cell, maps.mass_matrix()) * free.V;
+    Eigen::MatrixXd C;
+    if (damping.mass != 0 || damping.stiffness != 0)
+      C = damping.mass * M + damping.stiffness * elasticity.linear_stiffness();
+    terms_.push_back(std::make_unique<dynamics::HeldBody>(free.coordinates, M, std::move(elasticity), std::move(C)));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  for (PetscInt dof : held(b)) {
+    const PetscInt local = dof - 6 * structure.mesh.first_node;
+    if (local >= 0 && local < structure.owned_dofs())
+      terms_.push_back(
+          std::make_unique<reference::HeldDof>(slots_[b].nodes->first() + static_cast<int>(local), stiffest));
+  }
+}
+
+void SpaceAssembly::set_start(Model& model) {
+  const dynamics::System layout(coordinates_, {});
+  model.U = layout.create_vector();
+  model.V = layout.create_vector();
+  for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
+    const PreparedBody& body = prepared_.bodies[b];
+    if (slots_[b].still) continue;
+    for (int i = 0; i < 3; ++i) {
+      const PetscInt row = coordinates_.global()[slots_[b].frame + i],
+                     turn = coordinates_.global()[slots_[b].frame + 3 + i];
+      check(VecSetValue(model.U, row, body.place[i], INSERT_VALUES));
+      check(VecSetValue(model.V, row, body.rate[i], INSERT_VALUES));
+      check(VecSetValue(model.V, turn, body.spin[i], INSERT_VALUES));
+    }
+  }
+  for (Vec v : {model.U.get(), model.V.get()}) {
+    check(VecAssemblyBegin(v));
+    check(VecAssemblyEnd(v));
+  }
+  layout.gather(model.U, start_);
+}
+
+Model SpaceAssembly::model() {
+  refuse();
+  Model model;
+  model.formulation = formulation_;
+  add_coordinates();
+  set_start(model);
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const int index = static_cast<int>(b);
+    const PreparedBody& body = prepared_.bodies[b];
+    add_body(index);
+    add_gravity(index);
+    BodyReport report = reduced_[b].report;
+    const fem::Mesh& mesh = body.structure.mesh;
+    report.name = body.spec.name;
+    report.rigid = body.spec.rigid;
+    if (!body.spec.reduced)
+      report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
+    report.dimension = 3;
+    report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.attitude = slots_[b].attitude;
+    report.first_node = mesh.first_node;
+    for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
+      report.positions.insert(report.positions.end(), mesh.positions[i].data(), mesh.positions[i].data() + 3);
+    model.bodies.push_back(std::move(report));
+    model.warnings.insert(model.warnings.end(), body.notices.begin(), body.notices.end());
+  }
+  add_loads();
+  add_joints(model);
+  add_probes(model);
+  dynamics::Attitudes attitudes;
+  for (const Slot& slot : slots_)
+    if (slot.attitude) attitudes.emplace_back(slot.frame + 3, slot.attitude);
+  model.multipliers = coordinates_.multiplier_count();
+  model.coordinates = coordinates_.global_size() - model.multipliers;
+  model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
+  model.velocity_correction = dynamics::consistent_velocities(*model.system, 0, model.U, model.V);
+  return model;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,77 @@
+#pragma once
+#include "build_reduce.h"
+#include "floe/dynamics/spatial_joint.h"
+#include "floe/reference/spatial_full_order.h"
+
+namespace floe::scene {
+
+/// Turns prepared bodies in space into coordinates, terms, joints and a state at the start.
+///
+/// A body whose frame the ground clamps stands still: it has elastic coordinates only, and what the ground holds is
+/// left out of them. Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's
+/// communicator, where the last rank holds what is shared.
+class SpaceAssembly {
+ public:
+  /// @param reduced  one for each body: full for reduced formulations; rigid bodies and those from files else
+  SpaceAssembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced);
+  /// @throws InputError  joints whose places are apart, that contradict one another, or that a full-order formulation
+  /// does not know; formulation cfr. Collective.
+  Model model();
+
+ private:
+  struct Slot {
+    bool still = false;
+    std::shared_ptr<dynamics::Attitude> attitude;  // none: stands still
+    int frame = -1;                                // local index of R, x; -1: stands still
+    int elastic = -1;                              // local index of reduced coordinates
+    int multipliers = -1;                          // of the mean axes
+    std::unique_ptr<reference::NodeCoordinates> nodes;
+  };
+  /// A joint with rows, or a spring, ready to become a term.
+  struct PlacedJoint {
+    std::array<dynamics::SpatialMarker, 2> places;
+    dynamics::SpatialConstraint constraint;
+  };
+
+  void refuse() const;
+  bool compact(int body) const;  // described by a ReducedBody
+  bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
+  const fem::Conditions& held(int body) const;
+  std::vector<PetscInt> visited(int body) const;
+  std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
+  reference::SpatialFrame frame_of(int body) const;
+
+  void add_coordinates();
+  void add_body(int body);
+  void add_still_cells(int body);
+  void add_gravity(int body);
+  void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
+                   bool of_body, bool conservative);
+  void add_loads();
+  void add_joints(Model& model);
+  void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
+  void add_spring(int joint, const PlacedJoint& placed);
+  void add_probes(Model& model);
+  void set_start(Model& model);
+
+  dynamics::SpatialMarker marker(const PreparedPlace& place);
+  dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;
+  /// Where a marker is at the start.
+  dynamics::SpatialPose start_of(const dynamics::SpatialMarker& marker) const;
+  PlacedJoint place(int joint);
+
+  const Prepared& prepared_;
+  Formulation formulation_;
+  const std::vector<ReducedBody>& reduced_;
+  bool owner_;  // this rank has the shared terms
+  dynamics::Coordinates coordinates_;
+  std::vector<Slot> slots_;
+  std::vector<int> multipliers_;  // of each joint, the first
+  Eigen::VectorXd start_;         // local coordinates at the start
+  std::vector<std::unique_ptr<dynamics::Term>> terms_;
+};
+
+/// Rows that the kind of joint holds in space; none: a spring or bushing.
+int spatial_rows(Joint::Kind kind);
+
+}  // namespace floe::scene

@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "build_space.h"
+#include "build_space_rows.h"
+#include "floe/dynamics/spatial_spring.h"
+#include "floe/petsc/values.h"
+
+namespace floe::scene {
+
+using dynamics::SpatialConstraint;
+using dynamics::SpatialMarker;
+using Kind = Joint::Kind;
+
+int spatial_rows(Kind kind) {
+  switch (kind) {
+    case Kind::fixed:
+    case Kind::driven:
+    case Kind::driven_slide:
+      return 6;
+    case Kind::revolute:
+    case Kind::prismatic:
+      return 5;
+    case Kind::cylindrical:
+    case Kind::universal:
+      return 4;
+    case Kind::spherical:
+    case Kind::planar:
+      return 3;
+    case Kind::distance:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+namespace {
+
+dynamics::TimeFunction function_of(const math::Formula& formula) {
+  return {[formula](double t) { return formula(t); }, [formula](double t) { return formula.derivative(t); },
+          [formula](double t) { return formula.second_derivative(t); }};
+}
+
+void check_zero_at_start(const Joint& joint, const math::Formula& formula, const char* what) {
+  if (std::abs(formula(0)) > 1e-9)
+    throw InputError(
+        fmt::format("{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
+                    joint.where.text(), what, formula(0)));
+}
+
+/// @param apart  from the first place to the second at the start, world axes
+SpatialConstraint constraint_of(const Joint& joint, const Eigen::Vector3d& apart) {
+  switch (joint.kind) {
+    case Kind::fixed:
+      return SpatialConstraint::fixed();
+    case Kind::revolute:
+      return SpatialConstraint::revolute();
+    case Kind::prismatic:
+      return SpatialConstraint::prismatic();
+    case Kind::cylindrical:
+      return SpatialConstraint::cylindrical();
+    case Kind::spherical:
+      return SpatialConstraint::spherical();
+    case Kind::universal:
+      return SpatialConstraint::universal();
+    case Kind::planar:
+      return SpatialConstraint::planar();
+    case Kind::distance:
+      if (apart.norm() == 0)
+        throw InputError(joint.where.text() + ": its places coincide; expected a distance, or type spherical");
+      return SpatialConstraint::distance(apart.norm());
+    case Kind::driven:
+      check_zero_at_start(joint, joint.angle, "angle");
+      return SpatialConstraint::driven_revolute(function_of(joint.angle));
+    case Kind::driven_slide:
+      check_zero_at_start(joint, joint.position, "position");
+      return SpatialConstraint::driven_prismatic(function_of(joint.position));
+    default:
+      return {};
+  }
+}
+
+/// Whether the joint's places are one point.
+bool meets(Kind kind) {
+  return kind == Kind::fixed || kind == Kind::revolute || kind == Kind::driven || kind == Kind::spherical ||
+         kind == Kind::universal;
+}
+
+std::string point(const Eigen::Vector3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
+
+}  // namespace
+
+SpaceAssembly::PlacedJoint SpaceAssembly::place(int j) {
+  const Joint& joint = prepared_.scene.joints[j];
+  const Eigen::Matrix3d& W = prepared_.joint_axes[j];
+  PlacedJoint placed{{marker(prepared_.joints[j][0]), marker(prepared_.joints[j][1])}, {}};
+  if (!owner_) return placed;
+  for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
+    if (prepared_.joints[j][i].ground() && std::isnan(placed.places[i].x0.x()))
+      placed.places[i].x0 = start_of(placed.places[1 - i]).p;
+  for (SpatialMarker& place : placed.places) place.D0 = place.D0 * start_of(place).D.transpose() * W;
+  const Eigen::Vector3d from = start_of(placed.places[0]).p, to = start_of(placed.places[1]).p;
+  if (meets(joint.kind) && (to - from).norm() > 1e-6 * prepared_.extent)
+    throw InputError(
+        fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at {} and {}; expected "
+                    "the same point",
+                    joint.where.text(), joint.name, (to - from).norm(), point(from), point(to)));
+  placed.constraint = constraint_of(joint, to - from);
+  for (dynamics::SpatialRow& row : placed.constraint.rows)
+    if (auto* along = std::get_if<dynamics::Along>(&row)) along->offset = W.col(along->axis).dot(to - from);
+  return placed;
+}
+
+void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
+  const Joint& joint = prepared_.scene.joints[j];
+  if (joint.kind == Kind::bushing) {
+    dynamics::BushingProperties bushing;
+    for (int i = 0; i < 3; ++i) {
+      bushing.stiffness[i] = joint.translation[i], bushing.stiffness[3 + i] = joint.rotation[i];
+      bushing.viscosity[i] = joint.translation_viscosity[i], bushing.viscosity[3 + i] = joint.rotation_viscosity[i];
+    }
+    terms_.push_back(std::make_unique<dynamics::SpatialBushing>(placed.places[0], placed.places[1], bushing));
+    return;
+  }
+  const double apart = (start_of(placed.places[1]).p - start_of(placed.places[0]).p).norm();
+  terms_.push_back(std::make_unique<dynamics::SpatialSpring>(
+      placed.places[0], placed.places[1],
+      dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
+                                        joint.torsional_stiffness, joint.torsional_viscosity, 0}));
+}
+
+void SpaceAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
+  if (!standing.empty())
+    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
+                                                              multipliers_[j], standing));
+  for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
+    terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
+}
+
+void SpaceAssembly::add_joints(Model& model) {
+  std::vector<std::pair<int, PlacedJoint>> all;  // finding places is collective, what follows is rank-local
+  std::string notes;
+  const auto find = [&] {
+    for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
+      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), place(static_cast<int>(j)));
+  };
+  const auto add = [&] {
+    if (!owner_) return;
+    SpatialRows rows(prepared_, start_);
+    for (const auto& [j, placed] : all)
+      if (!placed.constraint.rows.empty()) rows.add(j, placed.places, placed.constraint);
+    const std::vector<std::vector<int>> standing = rows.standing(notes);
+    std::size_t next = 0;
+    for (const auto& [j, placed] : all)
+      if (placed.constraint.rows.empty())
+        add_spring(j, placed);
+      else
+        add_joint(j, placed, standing[next++]);
+  };
+  if (is_reduced(formulation_)) {
+    find();
+    add();
+  } else {
+    petsc::agree(prepared_.comm, find);
+    petsc::agree(prepared_.comm, add);
+    int length = static_cast<int>(notes.size()), size = 1;
+    MPI_Comm_size(prepared_.comm, &size);
+    MPI_Bcast(&length, 1, MPI_INT, size - 1, prepared_.comm);
+    notes.resize(length);
+    MPI_Bcast(notes.data(), length, MPI_CHAR, size - 1, prepared_.comm);
+  }
+  for (std::size_t begin = 0; begin < notes.size();) {
+    const std::size_t end = notes.find('\n', begin);
+    model.warnings.push_back(notes.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+}  // namespace floe::scene

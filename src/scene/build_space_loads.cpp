@@ -1,0 +1,176 @@
+#include "build_space.h"
+#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/spatial_force.h"
+
+namespace floe::scene {
+
+using dynamics::SpatialForce;
+using dynamics::SpatialMarker;
+using dynamics::SpatialPose;
+using dynamics::Wrench;
+using reference::Density;
+
+namespace {
+
+Eigen::MatrixXd total(const std::vector<body::MassPoint>& points, Eigen::Index dofs) {
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(3, dofs);
+  for (const body::MassPoint& point : points) S += point.mass * point.N;
+  return S;
+}
+
+}  // namespace
+
+SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
+  if (place.ground()) return SpatialMarker::ground(place.x);
+  const PreparedBody& body = prepared_.bodies[place.body];
+  const Slot& slot = slots_[place.body];
+  SpatialMarker at;
+  at.attitude = slot.attitude;
+  at.origin = body.place;
+  at.axes = body.attitude;
+  at.x0 = place.x;
+  if (compact(place.body)) {
+    at.coordinates = coordinates_of(place.body);
+    if (prepared_.bodies[place.body].spec.rigid) return at;
+    const body::PlaceMap map = place_map(prepared_, reduced_[place.body], place);
+    at.x0 = map.x;
+    at.S = map.S;
+    at.psi = map.psi;
+    return at;
+  }
+  if (!owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
+  const Eigen::Index n = static_cast<Eigen::Index>(place.nodes.size());
+  for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
+  at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int d = 0; d < 6; ++d) {
+      at.coordinates.push_back(slot.nodes->of_node(place.nodes[i]) + d);
+      if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * place.nodes[i] + d)) continue;
+      (d < 3 ? at.S : at.psi)(d % 3, 6 * i + d) = 1.0 / static_cast<double>(n);
+    }
+  return at;
+}
+
+SpatialPose SpaceAssembly::start_of(const SpatialMarker& marker) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd q(n), none = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) q[i] = start_[marker.coordinates[i]];
+  SpatialPose at;
+  dynamics::pose(marker, q, none, none, at);
+  return at;
+}
+
+SpatialMarker SpaceAssembly::density_marker(int b, const body::Inertia& inertia) const {
+  SpatialMarker marker;
+  marker.attitude = slots_[b].attitude;
+  marker.coordinates = coordinates_of(b);
+  marker.mass = inertia.m;
+  marker.x0 = inertia.s0;
+  marker.S = inertia.S;
+  marker.psi = Eigen::Matrix3Xd::Zero(3, inertia.S.cols());
+  return marker;
+}
+
+/// A force density, in world axes or in those of the body.
+void SpaceAssembly::add_density(int b, Density density, const std::function<Eigen::Vector3d(double)>& force,
+                                bool of_body, bool conservative) {
+  const PreparedBody& body = prepared_.bodies[b];
+  if (slots_[b].still) {
+    const Eigen::Matrix3d A = of_body ? body.axes.transpose() : body.attitude.transpose();
+    const auto add = [&](std::vector<int> coordinates, Eigen::MatrixXd S) {
+      auto term = std::make_unique<dynamics::DeadForce>(
+          std::move(coordinates), std::move(S), [A, force](double t) -> Eigen::VectorXd { return A * force(t); });
+      term->conservative = conservative;
+      terms_.push_back(std::move(term));
+    };
+    if (compact(b)) {
+      const body::FlexibleBody& reduced = reduced_[b].body;
+      if (owner_ && reduced.coordinates() > 0)
+        add(coordinates_of(b), (density == Density::mass ? reduced.inertia : reduced.line).S);
+      return;
+    }
+    for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
+      const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
+      if (free.coordinates.empty()) continue;
+      add(free.coordinates,
+          total(density == Density::mass ? body.structure.maps(cell).mass : body.structure.line(cell), free.V.rows()) *
+              free.V);
+    }
+    return;
+  }
+  std::vector<SpatialMarker> markers;
+  if (!compact(b))
+    markers = reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density);
+  else if (owner_)
+    markers.push_back(density_marker(b, density == Density::mass ? reduced_[b].body.inertia : reduced_[b].body.line));
+  const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+  for (SpatialMarker& marker : markers) {
+    auto term = std::make_unique<SpatialForce>(
+        std::move(marker),
+        [A, force](double t) {
+          Wrench w = Wrench::Zero();
+          w.head<3>() = A * force(t);
+          return w;
+        },
+        of_body ? SpatialForce::Axes::body : SpatialForce::Axes::world);
+    term->conservative = conservative;
+    terms_.push_back(std::move(term));
+  }
+}
+
+void SpaceAssembly::add_gravity(int b) {
+  const Point& p = prepared_.scene.gravity;
+  const Eigen::Vector3d g(p[0], p[1], p[2]);
+  if (!g.isZero(0))
+    add_density(
+        b, Density::mass, [g](double) { return g; }, false, true);
+}
+
+void SpaceAssembly::add_loads() {
+  for (std::size_t l = 0; l < prepared_.loads.size(); ++l) {
+    const Load& load = prepared_.scene.loads[l];
+    const PreparedPlace& place = prepared_.loads[l];
+    const bool of_body = load.axes == Load::Axes::body;
+    const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
+      return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
+    };
+    if (load.kind == Load::Kind::distributed) {
+      add_density(place.body, Density::line, value, of_body, false);
+      continue;
+    }
+    SpatialMarker at = marker(place);
+    if (!owner_ || at.coordinates.empty()) continue;
+    const PreparedBody& body = prepared_.bodies[place.body];
+    const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+    const int first = load.kind == Load::Kind::moment ? 3 : 0;
+    terms_.push_back(std::make_unique<SpatialForce>(
+        std::move(at),
+        [A, value, first](double t) {
+          Wrench w = Wrench::Zero();
+          w.segment<3>(first) = A * value(t);
+          return w;
+        },
+        of_body                          ? SpatialForce::Axes::body
+        : load.axes == Load::Axes::place ? SpatialForce::Axes::place
+                                         : SpatialForce::Axes::world));
+  }
+}
+
+void SpaceAssembly::add_probes(Model& model) {
+  for (std::size_t p = 0; p < prepared_.probes.size(); ++p) {
+    const Probe& spec = prepared_.scene.probes[p];
+    SpatialProbe probe{marker(prepared_.probes[p][0]), {}};
+    if (prepared_.probes[p][0].body >= 0) probe.mesh = prepared_.bodies[prepared_.probes[p][0].body].axes;
+    if (spec.relative_to) probe.relative_to = marker(prepared_.probes[p][1]);
+    if (owner_) {
+      for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
+        if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
+      probe.start = start_of(probe.marker).p;
+      if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
+    }
+    model.probes.push_back(
+        {spec.name, spec.quantity, {}, {}, {}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), std::move(probe)});
+  }
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,162 @@
+#include "build_space_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace floe::scene {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Rows in order, each if it is independent of those kept before it; rows of round-off are not.
+std::vector<Index> independent(const MatrixXd& G) {
+  std::vector<Index> kept;
+  MatrixXd basis(G.cols(), 0);
+  for (Index i = 0; i < G.rows(); ++i) {
+    VectorXd row = G.row(i).transpose();
+    const double size = std::max(row.norm(), 1e-3);
+    for (int twice = 0; twice < 2; ++twice) row -= basis * (basis.transpose() * row).eval();
+    if (!(row.norm() > 1e-8 * size)) continue;
+    kept.push_back(i);
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols<1>() = row.normalized();
+  }
+  return kept;
+}
+
+}  // namespace
+
+int SpatialRows::seen(int coordinate) {
+  const auto [found, fresh] = number_.emplace(coordinate, static_cast<int>(number_.size()));
+  if (fresh) start_.push_back(all_[coordinate]), scale_.push_back(0), moves_.push_back(0);
+  return found->second;
+}
+
+void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& places,
+                      const dynamics::SpatialConstraint& constraint) {
+  const int rows = dynamics::rows(constraint);
+  Entry entry{joint, std::make_shared<dynamics::SpatialJoint>(places[0], places[1], constraint, -1), {}, rows};
+  for (std::size_t i = 0; i + rows < entry.term->coordinates().size(); ++i)
+    entry.coordinates.push_back(seen(entry.term->coordinates()[i]));
+  for (const dynamics::SpatialMarker& place : places) {
+    for (std::size_t i = 0; i < place.coordinates.size(); ++i) {
+      const int at = seen(place.coordinates[i]);
+      if (place.framed() && i < 6) {
+        moves_[at] = 1;
+        scale_[at] = i < 3 ? prepared_.extent : 1;
+        continue;
+      }
+      const Index column = static_cast<Index>(i) - (place.framed() ? 6 : 0);
+      const double reach =
+          place.S.col(column).norm() / prepared_.extent + place.psi.col(column).norm();  // moves places by a hundredth
+      if (reach > 0) scale_[at] = std::max(scale_[at], 1e-2 / std::max(reach, 1e-12 / prepared_.extent));
+    }
+  }
+  for (const dynamics::SpatialRow& row : constraint.rows)
+    unit_.push_back(std::holds_alternative<dynamics::Product>(row) ? 1 : prepared_.extent);
+  entries_.push_back(std::move(entry));
+}
+
+VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) const {
+  const Index count = static_cast<Index>(unit_.size());
+  VectorXd C(count);
+  if (gradient) *gradient = MatrixXd::Zero(count, q.size());
+  Index first = 0;
+  for (const Entry& entry : entries_) {
+    const Index n = static_cast<Index>(entry.coordinates.size());
+    VectorXd own = VectorXd::Zero(n + entry.rows), none = VectorXd::Zero(n + entry.rows), r = none;
+    for (Index i = 0; i < n; ++i) own[i] = q[entry.coordinates[i]];
+    const dynamics::Motion motion{t, own, none, none};
+    entry.term->residual(motion, r);
+    C.segment(first, entry.rows) = r.tail(entry.rows);
+    if (gradient) {
+      MatrixXd J = MatrixXd::Zero(n + entry.rows, n + entry.rows);
+      entry.term->tangent(motion, {0, 0, 0}, J);
+      for (Index i = 0; i < n; ++i)
+        gradient->block(first, entry.coordinates[i], entry.rows, 1) +=
+            scale_[entry.coordinates[i]] * J.block(n, i, entry.rows, 1);
+    }
+    first += entry.rows;
+  }
+  for (Index i = 0; i < count; ++i) {
+    C[i] /= unit_[i];
+    if (gradient) gradient->row(i) /= unit_[i];
+  }
+  return C;
+}
+
+const SpatialRows::Entry& SpatialRows::entry_of(Index row) const {
+  std::size_t e = 0;
+  for (; row >= entries_[e].rows; ++e) row -= entries_[e].rows;
+  return entries_[e];
+}
+
+/// The nearest configuration in which the kept rows are met; NaN where none is found.
+VectorXd SpatialRows::allowed(const VectorXd& q, double t, const std::vector<Index>& kept) const {
+  VectorXd x = q;
+  MatrixXd gradient;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const VectorXd off = values(x, t, &gradient)(kept);
+    if (off.size() == 0 || off.cwiseAbs().maxCoeff() < 1e-13) return x;
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_squares(gradient(kept, Eigen::all));
+    x -= least_squares.solve(off).cwiseProduct(VectorXd::Map(scale_.data(), x.size()));
+  }
+  if (values(x, t, nullptr)(kept).cwiseAbs().maxCoeff() < 1e-11) return x;
+  return VectorXd::Constant(q.size(), std::nan(""));
+}
+
+void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
+  const auto complain = [&](Index row, const std::string& when) {
+    const Joint& joint = prepared_.scene.joints[entry_of(row).joint];
+    throw InputError(
+        fmt::format("{}: joint {} holds what other joints hold already, and not in the same way {}; expected joints "
+                    "that leave each "
+                    "body as free as they move it",
+                    joint.where.text(), joint.name, when));
+  };
+  Index row = 0;
+  const VectorXd q = VectorXd::Map(start_.data(), static_cast<Index>(start_.size()));
+  if (values(q, 0, nullptr).cwiseAbs().maxCoeff(&row) > 1e-6) complain(row, "at the start");
+  const double end = std::isfinite(prepared_.scene.motion.end) ? prepared_.scene.motion.end : 0;
+  for (int sample = 0; sample < 4; ++sample) {
+    const double t = end * sample / 64;
+    VectorXd moved = q;
+    for (Index i = 0; i < q.size(); ++i)  // frames by a twentieth, elastic coordinates by a hundredth
+      moved[i] += (moves_[i] ? 0.05 : 1) * scale_[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
+    moved = allowed(moved, t, kept);
+    if (!moved.allFinite()) continue;
+    if (values(moved, t, nullptr).cwiseAbs().maxCoeff(&row) > 1e-8)
+      complain(row, sample == 0 ? "once bodies move or deform" : fmt::format("at t = {:.6g}", t));
+  }
+}
+
+std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
+  std::vector<std::vector<int>> all;
+  if (entries_.empty()) return all;
+  MatrixXd gradient;
+  values(VectorXd::Map(start_.data(), static_cast<Index>(start_.size())), 0, &gradient);
+  const std::vector<Index> kept = independent(gradient);
+  if (static_cast<Index>(kept.size()) < gradient.rows()) check_left_out(kept);
+  Index first = 0;
+  for (const Entry& entry : entries_) {
+    auto& rows = all.emplace_back();
+    for (Index i : kept)
+      if (i >= first && i < first + entry.rows) rows.push_back(static_cast<int>(i - first));
+    int left_out = 0;  // rows without gradient are those that the columns meet by themselves
+    for (Index i = first; i < first + entry.rows; ++i)
+      if (!std::binary_search(kept.begin(), kept.end(), i) && gradient.row(i).norm() > 1e-6) ++left_out;
+    if (left_out > 0)
+      notes += fmt::format("joint {}: {} of its {} constraints follow from other joints and are left out\n",
+                           prepared_.scene.joints[entry.joint].name, left_out, entry.rows);
+    first += entry.rows;
+  }
+  return all;
+}
+
+}  // namespace floe::scene

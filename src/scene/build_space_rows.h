@@ -1,0 +1,48 @@
+#pragma once
+#include <map>
+
+#include "build_prepare.h"
+#include "floe/dynamics/spatial_joint.h"
+
+namespace floe::scene {
+
+/// The constraint rows of a scene in space at its start, and which of them say something that the others do not.
+///
+/// A row is left out if its gradient depends on those of the rows before it, and if it stays met when the bodies deform
+/// and move as these allow. Rank-local.
+class SpatialRows {
+ public:
+  /// @param start  local coordinates at the start
+  SpatialRows(const Prepared& prepared, const Eigen::VectorXd& start) : prepared_(prepared), all_(start) {}
+  void add(int joint, const std::array<dynamics::SpatialMarker, 2>& places,
+           const dynamics::SpatialConstraint& constraint);
+  /// Of each joint added, the rows that stand.
+  /// @param notes  a line for each joint that loses rows
+  /// @throws InputError  a row that depends on others is not met: joints contradict one another
+  std::vector<std::vector<int>> standing(std::string& notes) const;
+
+ private:
+  struct Entry {
+    int joint;
+    std::shared_ptr<dynamics::SpatialJoint> term;
+    std::vector<int> coordinates;  // without multipliers, among those that any joint sees
+    int rows;
+  };
+  /// C and its gradient with scaled coordinates; rotations count in radians, lengths in parts of the extent.
+  int seen(int coordinate);
+  Eigen::VectorXd values(const Eigen::VectorXd& q, double t, Eigen::MatrixXd* gradient) const;
+  Eigen::VectorXd allowed(const Eigen::VectorXd& q, double t, const std::vector<Eigen::Index>& kept) const;
+  void check_left_out(const std::vector<Eigen::Index>& kept) const;
+  const Entry& entry_of(Eigen::Index row) const;
+
+  const Prepared& prepared_;
+  const Eigen::VectorXd& all_;  // coordinates at the start
+  // Of each coordinate that a joint sees:
+  std::map<int, int> number_;  // by its local index
+  std::vector<double> start_, scale_;
+  std::vector<char> moves_;   // of a frame; others are elastic
+  std::vector<double> unit_;  // of each row
+  std::vector<Entry> entries_;
+};
+
+}  // namespace floe::scene
