@@ -171,6 +171,7 @@ Marker Assembly::marker(const PreparedPlace& place) {
     for (int i = 0; i < 3; ++i) at.coordinates.push_back(slot.frame + i);
     for (Eigen::Index i = 0; i < map.S.cols(); ++i) at.coordinates.push_back(slot.elastic + static_cast<int>(i));
     at.x = map.x.head<2>();
+    if (body.spec.rigid) at.x = place.x.head<2>();
     at.S = map.S;
     at.psi = map.psi;
     return at;

@@ -138,9 +138,10 @@ PreparedPlace find(const std::vector<PreparedBody>& bodies, const Place& place) 
       found.body = static_cast<int>(b);
       return found;
     }
-    const Point p = place_point(bodies[b].spec.mesh, place);
+    const Point p = place_point(bodies[b].spec, place);
     const Eigen::Vector2d x = turn(-bodies[b].frame_angle) * (planar(p) - bodies[b].frame_origin);
     const fem::NearestNode nearest = fem::nearest_node(bodies[b].structure.mesh, {x.x(), x.y(), 0});
+    if (bodies[b].spec.rigid) return {static_cast<int>(b), nearest.node, {x.x(), x.y(), 0}};
     return {static_cast<int>(b), nearest.node, nearest.position};
   }
   throw InputError(place.where.text() + ": no body \"" + place.body + "\"");

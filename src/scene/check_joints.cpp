@@ -56,7 +56,7 @@ std::optional<Spot> find_spot(const Scene& scene, const Place& place) {
     if (body.name != place.body || (body.mesh.points.empty() && !body.reduced)) continue;
     if (body.reduced && !body.reduced->file) return {};
     try {
-      const Point node = body.reduced ? reduced_point(body, place) : place_point(body.mesh, place);
+      const Point node = body.reduced ? reduced_point(body, place) : place_point(body, place);
       return Spot{&body, node, world_point(body, node, scene.dimension)};
     } catch (const InputError&) {
       return {};

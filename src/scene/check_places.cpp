@@ -48,7 +48,7 @@ void check_place(Document& document, const Scene& scene, const Place& place, boo
   }
   if (!body || body->mesh.points.empty() || scene.dimension == 3) return;  // in space found on the mesh itself
   try {
-    place_point(body->mesh, place);
+    place_point(*body, place);
   } catch (const InputError& error) {
     document.fault(place.where, error);
   }

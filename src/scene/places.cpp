@@ -111,4 +111,8 @@ Point place_point(const MeshSpec& mesh, const Place& place) {
                                mesh.points.size(), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
 }
 
+Point place_point(const Body& body, const Place& place) {
+  return body.rigid && place.point ? *place.point : place_point(body.mesh, place);
+}
+
 }  // namespace floe::scene

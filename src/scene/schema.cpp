@@ -312,7 +312,8 @@ const SchemaSection place_section{
     "body: beam\nnode: [50, 0]",
     {
         {"body", Type::body, "", required, "or ground"},
-        {"node", Type::point, "m", required, "a node's coordinates in mesh axes; world axes on the ground"},
+        {"node", Type::point, "m", required,
+         "a node's coordinates in mesh axes, any point's of a rigid body; world axes on the ground"},
     }};
 
 }  // namespace

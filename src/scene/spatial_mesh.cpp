@@ -230,6 +230,11 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
                             const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
                             const MeshAxes& axes) {
   PreparedPlace found;
+  if (place.point && body.rigid) {
+    found.x = axes.axes.transpose() * (vector(*place.point) - axes.origin);
+    found.nodes = {0};  // of no account
+    return found;
+  }
   if (place.point) {
     const fem::NearestNode nearest =
         fem::nearest_node(structure.mesh, axes.axes.transpose() * (vector(*place.point) - axes.origin));

@@ -30,5 +30,7 @@ Point nearest_node(const MeshSpec& mesh, const Point& point);
 /// @param place  of the body that has this mesh, not of the ground
 /// @throws InputError (with place.where) when there is no such node; names the nearest
 Point place_point(const MeshSpec& mesh, const Place& place);
+/// Likewise; on a rigid body any point is a place.
+Point place_point(const Body& body, const Place& place);
 
 }  // namespace floe::scene
