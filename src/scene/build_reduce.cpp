@@ -4,6 +4,7 @@
 #include <petsctime.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "build_attachments.h"
 #include "floe/reduction/ranking.h"
@@ -14,17 +15,22 @@ using petsc::check;
 
 namespace {
 
-/// C = sum 2 zeta_i omega_i (V'M phi_i)(V'M phi_i)' + alpha V'MV + beta V'KV.
+/// C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)' + alpha V'MV + beta V'KV.
+///
+/// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
+/// the frame, phi_i'K phi_i = omega_i^2.
 Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
   const DampingSpec& spec = body.spec.damping;
   const int k = reduced.body.coordinates();
   if (spec.mass == 0 && spec.stiffness == 0 && spec.modal.empty()) return {};
-  Eigen::MatrixXd C = spec.stiffness * reduced.body.elasticity.linear_stiffness();
+  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+  Eigen::MatrixXd C = spec.stiffness * K;
   C.diagonal().array() += spec.mass;
   for (std::size_t i = 0; i < std::min(spec.modal.size(), modes.omega.size()); ++i) {
-    Eigen::VectorXd along(k);
-    check(BVDotVec(reduced.basis->V, modes.shapes[i], along.data()));  // in the inner product of M
-    C += 2 * spec.modal[i] * modes.omega[i] * along * along.transpose();
+    Eigen::VectorXd phi(k);
+    check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
+    const Eigen::VectorXd force = K * phi;
+    C += 2 * spec.modal[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
   }
   return C;
 }
