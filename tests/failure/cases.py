@@ -112,14 +112,38 @@ SCENES = [
           says=("loads.tip.force[2]", "is not a number at t ="), changes={"loads.tip.force": [0, "sqrt(0.03 - t)"]}),
 ]
 
+OWN = '{"provenance": {"floe": {"version": "0.1"}}}'
+PLATE_MOTION = PLATE.replace("[60, 30]", "[4, 2]") + """loads: {tip: {type: force, at: plate.right, force: [0, 0, t]}}
+motion: {end: 0.001, step: 0.001}
+"""
+
 FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
     Case("folder without a name", ["run", "scene.yaml", "-o", ""], 2, ("needs a name",), lines=1, check=nothing),
     *case("folder that nothing came into", codes=1, lines=1, says=("PETSc error", "in EPSGetStartVector", "EPSSolve"),
           never=("epssolve.c",), changes={"bodies.beam.section.rhoA": 1e-320}, check=nothing),
-    Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": "old"},
+    Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": OWN},
          check=lambda folder: (kept("out/mine.txt", "mine")(folder), files("finished", 51)(folder))),
+    Case("folder forced for a bad scene", run("vm+md", "--force"), 2, ("100 modes",), lines=1,
+         scene=scene({"bodies.beam.reduction.modes": 100}), files={"out/summary.json": OWN},
+         check=kept("out/summary.json", OWN)),
+    *case("folder forced for a scene that cannot be built", formulations=("nlffr",), options=("--force",), codes=2,
+          lines=1, says=("modal damping",), changes={"bodies.beam.damping": {"modal": [0.01]}},
+          files={"out/summary.json": OWN}, check=kept("out/summary.json", OWN)),
+    Case("folder forced with another's summary", run("vm+md", "--force"), 2,
+         ("out': summary.json in it is no result of floe's",), lines=1, files={"out/summary.json": "{}"},
+         check=kept("out/summary.json", "{}")),
+    Case("comparison forced with another's probes", ["compare", "scene.yaml", "-o", "out", "--force"], 2,
+         ("out/vm': probes.csv in it is no result of floe's",), lines=1, files={"out/vm/probes.csv": "t [s],x\n"},
+         check=lambda folder: (kept("out/vm/probes.csv", "t [s],x\n")(folder), absent("out/cfr")(folder))),
+    *(Case(f"static to t = {at}", ["static", "scene.yaml", "--at", at, "-o", "out"], 2,
+           (f"--at: is {at}; expected a positive number",), lines=1, check=nothing)
+      for at in ("nan", "inf", "0", "-1", "1e-400", "2s")),
+    Case("shapes in a folder that is not there", ["modes", "scene.yaml", "--write", "none/q.xdmf"], 2,
+         ("shapes 'none/q.xdmf': cannot write none/q.xdmf: No such file",), never=("partial",), lines=1),
+    Case("partitioning by another library", run("vm+md", "-mesh_mat_partitioning_type", "ptscotch"), 0, lines=0,
+         scene=PLATE_MOTION, check=files("finished", 2)),
     Case("folder is a file", run(), 2, ("exists and is not a folder",), lines=1, files={"out": "mine"},
          check=kept("out", "mine")),
     Case("folder below a file", ["run", "scene.yaml", "-o", "mine/out"], 2, ("mine/out': ", "Not a directory"),
