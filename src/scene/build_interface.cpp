@@ -41,7 +41,7 @@ void check_interface(const Prepared& prepared, int index) {
   const PreparedBody& body = prepared.bodies[index];
   std::vector<std::string> faults;
   for (std::size_t i = 0; i < body.interface.size(); ++i) {
-    const std::string where = fmt::format("{}, place {}", body.spec.reduction.interface[i].where.text(), i + 1);
+    const std::string where = body.spec.reduction.interface[i].where.text();
     const std::string joint =
         body.structure.dimension() == 3 ? joint_that_holds(prepared, index, body.interface[i]) : "";
     if (!joint.empty())
@@ -49,8 +49,9 @@ void check_interface(const Prepared& prepared, int index) {
           "{}: has a node that joint {} holds; expected a place that no joint to the ground touches", where, joint));
     for (std::size_t j = 0; j < i; ++j)
       if (share_a_node(body.interface[i], body.interface[j]))
-        faults.push_back(fmt::format(
-            "{}: shares a node with place {}; expected places apart, each a rigid piece of its own", where, j + 1));
+        faults.push_back(
+            fmt::format("{}: shares a node with interface[{}]; expected places apart, each a rigid piece of its own",
+                        where, j + 1));
   }
   if (!faults.empty()) throw InputError(faults);
 }

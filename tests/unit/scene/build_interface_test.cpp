@@ -63,9 +63,9 @@ TEST_CASE("an interface that touches a joint to the ground is refused in space")
 
 TEST_CASE("interfaces that share a node are refused: neither is a rigid piece of its own") {
   const std::string text = complaint(plate("{modes: 2, interface: [p2, right]}"), Formulation::vm_md);
-  CHECK_THAT(text, Contains("place 2: shares a node with place 1") && !Contains("\n"));
+  CHECK_THAT(text, Contains("interface[2]: shares a node with interface[1]") && !Contains("\n"));
   CHECK_THAT(complaint(two_beams("{modes: 2, interface: [end, [1, 0]]}", "{modes: 2}"), Formulation::vm_md),
-             Contains("place 2: shares a node with place 1"));
+             Contains("interface[2]: shares a node with interface[1]"));
   CHECK(complaint(plate("{modes: 2, interface: [p2, p3]}"), Formulation::vm_md).empty());
 }
 
