@@ -7,6 +7,7 @@
 #include <string>
 
 #include "floe/fem/flat_body.h"
+#include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mode_quality.h"
@@ -127,22 +128,29 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
   return rigid;
 }
 
-/// EPSSolve, where a linear solve within it that does not converge is told by its options, or by its mesh.
+/// EPSSolve, where a linear solve within it that fails is told by its factor, its options, or its mesh.
 void solve_pairs(EPS eps, const Statics& statics) {
   try {
     check(EPSSolve(eps));
   } catch (const petsc::Error& error) {
-    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
-    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
     ST st = nullptr;
     KSP ksp = nullptr;
     const char* prefix = nullptr;
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(EPSGetST(eps, &st));
     check(STGetKSP(st, &ksp));
+    const petsc::FactorFault fault = petsc::factor_fault(ksp);
+    PetscBool inverts_mass = PETSC_FALSE;
+    check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSHIFT, &inverts_mass));
+    if (inverts_mass && !fault.text.empty())
+      throw InputError(
+          "option -modes_st_type shift: inverts the mass matrix, in which rotations may have no mass; expected "
+          "sinvert");
+    if (!fault.text.empty()) throw RunError(fault.text);
+    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
     check(KSPGetOptionsPrefix(ksp, &prefix));
     check(KSPGetConvergedReason(ksp, &reason));
-    if (const std::string why = why_failed(ksp); !why.empty()) throw RunError(why);
     throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
                                prefix ? prefix : "", KSPConvergedReasons[reason]));
   }
