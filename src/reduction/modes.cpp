@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "canonical_modes.h"
 #include "floe/fem/flat_body.h"
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
@@ -208,8 +209,9 @@ PetscInt ModeSolver::available() const {
 
 namespace {
 
+/// `count` pairs at least, and those that have converged of `wanted`.
 Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
-            const Statics& statics, int count) {
+            const Statics& statics, int count, int wanted) {
   std::vector<Vec> deflated(rigid.begin(), rigid.end());
   if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
   const petsc::VecHandle first = start(structure, held);
@@ -217,14 +219,40 @@ Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& hel
   check(EPSSetInitialSpace(eps, 1, initial));
   solve_pairs(eps, statics);
   check_converged(eps, count);
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
   Found found;
-  found.lambda.resize(count);
-  for (int i = 0; i < count; ++i) {
+  found.lambda.resize(std::min<PetscInt>(converged, wanted));
+  for (int i = 0; i < std::ssize(found.lambda); ++i) {
     found.raw.push_back(fem::field(structure));
     check(EPSGetEigenpair(eps, i, &found.lambda[i], nullptr, found.raw.back(), nullptr));
     fem::hold(found.raw.back(), held);
   }
   return found;
+}
+
+/// How many of the pairs have the frequency of the last one counted, but come after it.
+int left_out(const std::vector<double>& lambda, int count) {
+  for (const auto& [first, end] : clusters(lambda))
+    if (first < count && count <= end) return end - count;
+  return 0;
+}
+
+/// The pairs, with all of the last one's frequency. One more than counted shows whether there are some.
+Found complete_pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
+                     const Statics& statics, int count, int available) {
+  for (int more = 1;; more *= 2) {
+    const int wanted = std::min(count + more, available);
+    PetscInt asked = 0;
+    check(EPSGetDimensions(eps, &asked, nullptr, nullptr));
+    if (asked < wanted) check(EPSSetDimensions(eps, wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+    Found found = pairs(eps, structure, held, rigid, statics, count, wanted);
+    const int have = static_cast<int>(found.lambda.size()), equal = left_out(found.lambda, count);
+    if (count + equal == have && have == wanted && wanted < available && more < 16) continue;
+    found.lambda.resize(count + equal);
+    found.raw.resize(count + equal);
+    return found;
+  }
 }
 
 }  // namespace
@@ -235,21 +263,27 @@ Modes ModeSolver::solve(int count) {
   if (count > available())
     throw InputError(
         fmt::format("{} modes are asked of a body that has {} elastic dofs under its conditions", count, available()));
-  if (eps_)
-    check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
-  else
-    create(count);
+  if (!eps_) create(std::min<int>(count + 1, static_cast<int>(available())));
   const petsc::Stage stage("modes");
   const Transformation inverse(eps_, statics_, holding_.held);
   const bool shares = statics_.owns(inverse.ksp);
-  Found found = pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_, count);
+  Found found = complete_pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_,
+                               count, static_cast<int>(available()));
   std::vector<double> errors;
   if (inverse.ksp) errors = purify(inverse, M_, holding_.held, found);
   modes.raw = std::move(found.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
-  const std::vector<double> lambda =
+  std::vector<double> lambda =
       exact_values(*statics_.elements(), M_, shares && statics_.refines() && !statics_.iterates(), modes.raw);
+  make_canonical(structure_, M_, modes.raw, lambda);
+  for (const auto& [first, end] : clusters(lambda))
+    if (!errors.empty())
+      std::fill(errors.begin() + first, errors.begin() + end,
+                *std::max_element(errors.begin() + first, errors.begin() + end));
+  modes.left_out = static_cast<int>(modes.raw.size()) - count;
+  modes.raw.resize(count), lambda.resize(count), errors.resize(inverse.ksp ? count : 0);
   for (int i = 0; i < count; ++i) {
+    fem::separate(structure_, modes.raw[i], 1e-7);
     fix_sign(structure_, modes.raw[i]);
     modes.omega.push_back(std::sqrt(lambda[i]));
     modes.shapes.push_back(copy(modes.raw[i]));

@@ -304,6 +304,11 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     begin(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
     if (!stated) stages[b].pairs = pairs_of(spec.derivatives, static_cast<int>(stages[b].generators.fields.size()));
     warn(prepared, b, formulation, warnings);
+    if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
+      warnings.push_back(
+          fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",
+                      body.spec.name, modes.left_out, modes.left_out == 1 ? "mode has" : "modes have",
+                      modes.omega.size(), modes.left_out == 1 ? "is" : "are", modes.omega.size() + modes.left_out));
   }
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);
   for (int b = 0; b < count; ++b) {
