@@ -295,7 +295,7 @@ UNUSUAL = [
            scene=scene({"joints": None}), check=files("failed", 0, "no equilibrium")) for f in ("vm+md", "nlffr", "cfr")),
     *(Case(f"static of a pendulum whose weight grows, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "4",
                                                              "-o", "out"], 0, lines=0,
-           shows=("no equilibrium at t = 0: the table begins at t = 0.25", " -1\n"), never=("unstable",),
+           shows=("the table begins at t = 0.25", " -1\n"), never=("unstable",),
            scene=pendulum("-9.81*t"), check=files("finished", 4)) for f in ("vm+md", "nlffr", "cfr")),
     *(Case(f"static of a pendulum, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "2", "-o", "out"], 0,
            lines=0, shows=(" -1\n",), never=("unstable", "no equilibrium"), scene=pendulum("-9.81"),
