@@ -185,19 +185,21 @@ Undetermined open_directions(const System& system, double t, Vec U, Vec V) {
   return null_vectors(system, J);
 }
 
-/// The greatest K_ii / M_ii.
-double highest_square(const System& system, double t, Vec U, Vec V) {
-  const petsc::VecHandle A = system.create_vector(), k = system.create_vector(), m = system.create_vector();
+/// The greatest K_ii / M_ii or |F_i| / M_ii: s with which a step is no longer than one.
+double first_shift(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle A = system.create_vector(), k = system.create_vector(), m = system.create_vector(),
+                         F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   system.tangent(t, U, V, A, {1, 0, 0}, J);
   check(MatGetDiagonal(J, k));
   system.tangent(t, U, V, A, {0, 0, 1}, J);
   check(MatGetDiagonal(J, m));
+  system.residual(t, U, V, A, ConstraintLevel::position, F);
   double highest = 0;
   {
-    petsc::Values stiffness(k), mass(m);
+    petsc::Values stiffness(k), mass(m), force(F);
     for (PetscInt i = mass.first; i < mass.end; ++i)
-      if (mass[i] > 0) highest = std::max(highest, std::abs(stiffness[i]) / mass[i]);
+      if (mass[i] > 0) highest = std::max(highest, std::max(std::abs(stiffness[i]), std::abs(force[i])) / mass[i]);
   }
   MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
   return highest;
@@ -207,7 +209,7 @@ double highest_square(const System& system, double t, Vec U, Vec V) {
 PetscInt relax(const System& system, double t, Vec U, Vec V) {
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector(), step = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
-  const double highest = highest_square(system, t, U, V);
+  const double highest = first_shift(system, t, U, V);
   PetscInt steps = 0;
   for (double s = highest; s > 1e-14 * highest; s /= 4, ++steps) {
     system.residual(t, U, V, A, ConstraintLevel::position, F);

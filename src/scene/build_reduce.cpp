@@ -117,15 +117,15 @@ void rank_pairs(const PreparedBody& body, Stage& stage, const Eigen::MatrixXd& i
   }
 }
 
-reduction::Pairs pairs_of(const DerivativesSpec& spec, int fields) {
+reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
   using Choice = DerivativesSpec::Choice;
-  if (spec.choice == Choice::all) return reduction::all_pairs(fields);
+  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
   reduction::Pairs pairs;
   if (spec.choice == Choice::pairs)
     for (const auto& [i, j] : spec.pairs) {
-      if (j > fields)
+      if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
         throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
-                                     spec.where.text(), i, j, j, fields));
+                                     spec.where.text(), i, j, j, modes));
       pairs.push_back({i - 1, j - 1});
     }
   return pairs;
@@ -255,7 +255,7 @@ BodyFields fields_of_body(const Prepared& prepared, int index) {
   const int count = static_cast<int>(stage.generators.fields.size());
   const bool all = spec.choice == DerivativesSpec::Choice::count;
   reduction::DerivativeColumns derivatives =
-      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, count), spec.full);
+      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, stage.generators), spec.full);
   fields.columns = std::move(stage.generators.fields);
   fields.origins = std::move(stage.generators.origins);
   for (auto& column : derivatives.columns) fields.columns.push_back(std::move(column));
@@ -302,7 +302,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     }
     const bool stated = alone && spec.modes.alone > 0;
     begin(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
-    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, static_cast<int>(stages[b].generators.fields.size()));
+    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(prepared, b, formulation, warnings);
     if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
       warnings.push_back(

@@ -37,8 +37,8 @@ class NothingHolds : public RunError {
 /// shape of a body that turns at constant speed.
 ///
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
-/// will hold the configuration is not stressed yet, steps with K + s M, s falling from the highest squared frequency
-/// to nothing, come first (pseudo-transient continuation; Kelley and Keyes 1998).
+/// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
+/// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
 /// @throws RunError  not converged, or constraints repeat; NothingHolds; U is then whatever it was last.
 /// Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
