@@ -241,11 +241,15 @@ int left_out(const std::vector<double>& lambda, int count) {
 /// The pairs, with all of the last one's frequency. One more than counted shows whether there are some.
 Found complete_pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
                      const Statics& statics, int count, int available) {
+  const bool bounded = user_sets("modes_eps_ncv");  // the user's subspace holds one vector more than is asked for
+  PetscInt asked = 0, subspace = 0;
+  check(EPSGetDimensions(eps, &asked, &subspace, nullptr));
+  if (bounded) available = std::min(available, std::max<int>(count, subspace - 1));
   for (int more = 1;; more *= 2) {
     const int wanted = std::min(count + more, available);
-    PetscInt asked = 0;
     check(EPSGetDimensions(eps, &asked, nullptr, nullptr));
-    if (asked < wanted) check(EPSSetDimensions(eps, wanted, PETSC_DEFAULT, PETSC_DEFAULT));
+    if (asked < wanted || asked > available)
+      check(EPSSetDimensions(eps, wanted, bounded ? subspace : PETSC_DEFAULT, PETSC_DEFAULT));
     Found found = pairs(eps, structure, held, rigid, statics, count, wanted);
     const int have = static_cast<int>(found.lambda.size()), equal = left_out(found.lambda, count);
     if (count + equal == have && have == wanted && wanted < available && more < 16) continue;
