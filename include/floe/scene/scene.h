@@ -86,7 +86,7 @@ struct ModesSpec {
   enum class Of { joints, frame } of = Of::joints;
   int count = 6;
   bool given = false;  ///< count, by the scene; else it is lowered to what the body has
-  int alone = 0;  ///< how many in formulation vm; 0: as many as vm+md has columns
+  int alone = 0;       ///< how many in formulation vm; 0: as many as vm+md has columns
   Where where;
 };
 
