@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "commands.h"
@@ -56,6 +58,13 @@ std::string folder_of(const Choices& choices, const std::string& what) {
 
 void add_scene(CLI::App* command, Choices& choices) {
   command->add_option("SCENE", choices.scene, "the scene, a YAML file (floe schema prints its grammar)")->required();
+}
+/// Empty for a positive, finite number, else what is wrong with it.
+std::string positive(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  const bool whole = end != word.c_str() && *end == '\0';
+  return whole && number > 0 && std::isfinite(number) ? "" : "is " + word + "; expected a positive number";
 }
 void add_folder(CLI::App* command, Choices& choices) {
   command->add_option("-o,--out", choices.out, "folder for the results (default: results/NAME-...)");
@@ -131,7 +140,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   static_command
       ->add_option("--at", choices.at, "t of the last equilibrium, from 0 (default: the end of the motion, or 1)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(positive, "POSITIVE"));
   static_command->add_option("--steps", choices.steps, "equilibria on the way, at equal distances in t")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

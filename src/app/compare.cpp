@@ -67,6 +67,24 @@ int terminal_columns() {
   return columns > 0 ? columns : 100;
 }
 
+/// A folder for each formulation. The first results of any replace the older comparison.
+std::vector<output::ResultFolder> folders_of(const output::ResultFolder& folder,
+                                             const std::vector<Formulation>& formulations, MPI_Comm comm,
+                                             bool overwrite) {
+  std::vector<output::ResultFolder> subs;
+  try {
+    for (const Formulation formulation : formulations) {
+      subs.push_back(output::prepare_folder(comm, folder.path / scene::name_of(formulation), overwrite));
+      subs.back().replaces.insert(subs.back().replaces.end(), folder.replaces.begin(), folder.replaces.end());
+    }
+  } catch (const InputError&) {
+    for (const output::ResultFolder& sub : subs) output::discard_if_empty(sub);
+    output::discard_if_empty(folder);
+    throw;
+  }
+  return subs;
+}
+
 }  // namespace
 
 void compare(const scene::Scene& scene, const std::vector<Formulation>& formulations, MPI_Comm comm,
@@ -74,26 +92,35 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   const output::ResultFolder folder = output::prepare_folder(comm, path, overwrite);
+  const std::vector<output::ResultFolder> subs = folders_of(folder, formulations, comm, overwrite);
+  const auto discard = [&] {
+    for (const output::ResultFolder& sub : subs) output::discard_if_empty(sub);
+    output::discard_if_empty(folder);
+  };
   std::vector<Compared> rows;
   std::vector<std::pair<std::string, std::string>> stopped;
-  for (const Formulation formulation : formulations) {
-    Compared row{scene::name_of(formulation), {}};
-    const output::ResultFolder sub = output::prepare_folder(comm, folder.path / row.name, overwrite);
+  for (std::size_t f = 0; f < formulations.size(); ++f) {
+    const output::ResultFolder& sub = subs[f];
+    Compared row{scene::name_of(formulations[f]), {}};
     try {
-      row.result = run(scene, formulation, comm, sub);
+      if (f > 0) output::remove_replaced(comm, sub);  // the scene is no input fault, and a failure is a result, too
+      row.result = run(scene, formulations[f], comm, sub);
       rows.push_back(std::move(row));
     } catch (const InputError&) {
-      output::discard_if_empty(sub), output::discard_if_empty(folder);
+      discard();
       throw;
     } catch (const RunError& error) {  // one formulation that fails is a result, too
       output::discard_if_empty(sub);
-      if (Interruption::happened(comm)) throw;
+      if (Interruption::happened(comm)) {
+        discard();
+        throw;
+      }
       stopped.emplace_back(row.name, error.what());
       if (rank == 0) fmt::print(stderr, "floe: {}: {}\n", row.name, error.what());
     }
   }
   if (rows.empty()) {
-    output::discard_if_empty(folder);
+    discard();
     throw RunError("no formulation came to the end of its motion");
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
@@ -22,10 +23,12 @@ scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
   return scene;
 }
 
-/// Says once from which t on the equilibria give way.
+/// Says once from which t on the equilibria give way, or that nobody looks.
 void warn_of_instability(const scene::Model& model, double t, RunResult& result) {
   if (result.summary.contains("unstable_from")) return;
-  const int directions = dynamics::unstable_directions(*model.system, t, model.U, model.V);
+  const std::optional<int> looked = dynamics::unstable_directions(*model.system, t, model.U, model.V);
+  result.summary["stability"] = looked ? "looked at" : "not looked at: the tangent is not symmetric, or has no factor";
+  const int directions = looked.value_or(0);
   if (directions == 0) return;
   result.summary["unstable_from"] = t;
   result.warnings.push_back(fmt::format(
@@ -46,6 +49,18 @@ void advance(const scene::Model& model, double t, double next, double least, Pet
     advance(model, t, (t + next) / 2, least, iterations);
     advance(model, (t + next) / 2, next, least, iterations);
   }
+}
+
+/// The equilibrium at t = 0. Where no load has grown yet that would hold the configuration there is none that is
+/// determined: then U stays at the start, and the note says so.
+std::string start_of_table(const scene::Model& model, const LoadSteps& load, PetscInt& iterations) {
+  try {
+    iterations += dynamics::equilibrium(*model.system, 0, model.U, model.V);
+  } catch (const dynamics::NothingHolds& error) {
+    return fmt::format("{}: the table begins at t = {:.6g}",
+                       std::string(error.what()).substr(0, std::string(error.what()).rfind(';')), load.at / load.steps);
+  }
+  return "";
 }
 
 bool first_rank(MPI_Comm comm) {
@@ -80,8 +95,10 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, load.at);
-    report.newton += dynamics::equilibrium(*model.system, 0, model.U, model.V);
-    recorder.observe({0, 0, model.U, model.V, nullptr, false});
+    if (const std::string none = start_of_table(model, load, report.newton); none.empty())
+      recorder.observe({0, 0, model.U, model.V, nullptr, false});
+    else
+      result.warnings.push_back(none);
     for (int step = 1; step <= load.steps; ++step) {
       const double t = load.at * step / load.steps;
       advance(model, report.end, t, load.at / 1000, report.newton);

@@ -20,8 +20,10 @@ namespace {
 using Words = std::vector<std::string>;
 
 /// Of floe's solvers: EPS of the modes; KSP of the static solutions; TS of the motion (and, below it, start_: the KSP
-/// of the first accelerations); SNES of the start in equilibrium; TS of the motion that ranks derivatives.
-const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_"};
+/// of the first accelerations); SNES of the start in equilibrium; TS of the motion that ranks derivatives;
+/// MatPartitioning of a mesh.
+const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_", "mesh_"};
+const std::string partitioning = "mesh_mat_partitioning_";
 /// Of PETSc's objects that have no prefix of their own, and of its viewers.
 const Words objects = {"mat_", "vec_", "bv_", "is_", "sf_", "vecscatter_", "viewer_", "draw_"};
 /// What PETSc itself reads, at its start or its end.
@@ -97,8 +99,10 @@ void check_options() {
 
 void check_unused() {
   Words faults;
+  int ranks = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   for_each_left([&](const std::string& name, const std::string& value) {
-    if (begins(name, globals)) return;
+    if (begins(name, globals) || (ranks == 1 && begins(name, partitioning))) return;
     faults.push_back(fmt::format("option -{}{}{}: nothing in this run has read it; floe's solvers read -{}...", name,
                                  value.empty() ? "" : " ", value, fmt::join(solvers, "..., -")));
   });

@@ -81,6 +81,7 @@ Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Com
     : scene_(scene), model_(model), comm_(comm), folder_(folder), result_(result) {
   result_.summary = first_summary(scene, model, comm, result);
   if (!folder_) return;
+  output::remove_replaced(comm, *folder_);
   output::write_summary(comm, *folder_, result_.summary);
   try {
     open_files();

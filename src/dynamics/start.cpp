@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "at_base.h"
+#include "floe/petsc/factorisation.h"
 #include "floe/petsc/values.h"
 #include "undetermined.h"
 
@@ -78,11 +80,16 @@ petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec 
   petsc::MatHandle kept;  // a dense LU overwrites its matrix
   check(MatDuplicate(J, MAT_COPY_VALUES, kept.out()));
   const petsc::KspHandle ksp = tangent_solver(J, "motion_start_");
+  std::string raised;
   try {
     check(KSPSolve(ksp, right, x));
   } catch (const petsc::Error& error) {
-    throw RunError(is_singular(error.code()) ? singular_start + undetermined(system, kept) : error.what());
+    raised = error.what();
+    if (!is_singular(error.code())) throw RunError(raised);
   }
+  if (const petsc::FactorFault fault = petsc::factor_fault(ksp); !fault.text.empty() && !fault.singular)
+    throw RunError(fault.text);
+  if (!raised.empty()) throw RunError(singular_start + undetermined(system, kept));
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   double size = 0, residual = 0, given = 0;
   check(KSPGetConvergedReason(ksp, &reason));
@@ -173,21 +180,88 @@ PetscErrorCode equilibrium_tangent(SNES, Vec U, Mat J, Mat, void* context) {
   return c.guard.run([&] { c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J); });
 }
 
-/// What nothing holds at the start of the search, in words; empty where all is held.
-std::string loose(const System& system, double t, Vec U, Vec V, Mat J) {
+/// Null vectors of the static tangent.
+Undetermined open_directions(const System& system, double t, Vec U, Vec V) {
   const petsc::VecHandle A = system.create_vector();
+  const petsc::MatHandle J = system.create_tangent();
   system.tangent(t, U, V, A, {1, 0, 0}, J);
-  const std::string names = undetermined(system, J);
-  return names.empty()
-             ? ""
-             : "; nothing holds the configuration in some direction" + names + "; start from another one (`initial`)";
+  return null_vectors(system, J);
+}
+
+/// The greatest K_ii / M_ii or |F_i| / M_ii: s with which a step is no longer than one.
+double first_shift(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle A = system.create_vector(), k = system.create_vector(), m = system.create_vector(),
+                         F = system.create_vector();
+  const petsc::MatHandle J = system.create_tangent();
+  system.tangent(t, U, V, A, {1, 0, 0}, J);
+  check(MatGetDiagonal(J, k));
+  system.tangent(t, U, V, A, {0, 0, 1}, J);
+  check(MatGetDiagonal(J, m));
+  system.residual(t, U, V, A, ConstraintLevel::position, F);
+  double highest = 0;
+  {
+    petsc::Values stiffness(k), mass(m), force(F);
+    for (PetscInt i = mass.first; i < mass.end; ++i)
+      if (mass[i] > 0) highest = std::max(highest, std::max(std::abs(stiffness[i]), std::abs(force[i])) / mass[i]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &highest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
+  return highest;
+}
+
+/// U <- U - (K + s M)^-1 F, s = s_0, s_0/4, ... until it is nothing. Stops where a step fails. @return  steps
+PetscInt relax(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle A = system.create_vector(), F = system.create_vector(), step = system.create_vector();
+  const petsc::MatHandle J = system.create_tangent();
+  const double highest = first_shift(system, t, U, V);
+  PetscInt steps = 0;
+  for (double s = highest; s > 1e-14 * highest; s /= 4, ++steps) {
+    system.residual(t, U, V, A, ConstraintLevel::position, F);
+    system.tangent(t, U, V, A, {1, 0, s}, J);
+    petsc::KspHandle ksp;
+    double size = 0;
+    check(KSPCreate(system.comm(), ksp.out()));
+    check(KSPSetOperators(ksp, J, J));
+    set_tangent_solver(ksp, J);
+    try {
+      check(KSPSolve(ksp, F, step));
+    } catch (const petsc::Error& error) {
+      if (!is_singular(error.code())) throw;
+      return steps;
+    }
+    check(VecNorm(step, NORM_INFINITY, &size));
+    if (!std::isfinite(size)) return steps;
+    check(VecAXPY(U, -1, step));
+  }
+  return steps;
+}
+
+/// Refuses what no search can find, and relaxes what nothing holds as it stands. @return  steps
+PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
+  const auto fault = [&](const std::string& why) { return fmt::format("no equilibrium at t = {:.6g}; {}", t, why); };
+  Undetermined open = open_directions(system, t, U, V);
+  if (!open.any()) return 0;
+  PetscInt steps = 0;
+  if (!open.repeated) {
+    const petsc::VecHandle before = system.create_vector();
+    check(VecCopy(U, before));
+    steps = relax(system, t, U, V);
+    const Undetermined now = open_directions(system, t, U, V);
+    if (!now.any()) return steps;
+    check(VecCopy(before, U));
+  }
+  if (open.repeated)
+    throw RunError(
+        fault(fmt::format("constraints repeat one another{}: leave out one of these joints, or let it hold "
+                          "less",
+                          open.joints)));
+  throw NothingHolds(fault(fmt::format(
+      "nothing holds the configuration in some direction{}; start from another one (`initial`)", open.bodies)));
 }
 
 }  // namespace
 
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
-  if (const std::string why = loose(system, t, U, V, petsc::MatHandle(system.create_tangent())); !why.empty())
-    throw RunError(fmt::format("no equilibrium at t = {:.6g}{}", t, why));
+  const PetscInt relaxed = prepare_search(system, t, U, V);
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   EquilibriumContext context{system, t, V, A, {}};
@@ -212,11 +286,14 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
     if (!is_singular(error.code())) throw;
     why = "singular tangent";
   }
+  check(SNESGetKSP(snes, &ksp));
+  if (const petsc::FactorFault fault = petsc::factor_fault(ksp); !fault.text.empty() && !fault.singular)
+    throw RunError(fault.text);
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
-  if (why.empty() && reason >= 0) return iterations;
+  if (why.empty() && reason >= 0) return relaxed + iterations;
   if (why.empty()) why = SNESConvergedReasons[reason];
   throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
                              iterations));

@@ -6,7 +6,6 @@
 #include <Eigen/Dense>
 #include <numeric>
 
-#include "at_base.h"
 #include "floe/dynamics/start.h"
 
 namespace floe::dynamics {
@@ -42,56 +41,63 @@ Eigen::MatrixXd scaled(Eigen::MatrixXd J) {
   return J;
 }
 
-}  // namespace
-
-int unstable_directions(const System& system, double t, Vec U, Vec V) {
-  const Coordinates& coordinates = system.coordinates();
-  if (coordinates.global_size() > 500) return 0;
-  const AtBase at_base(system, U);
-  const petsc::MatHandle J = system.create_tangent();
-  const petsc::VecHandle A = system.create_vector();
-  system.tangent(t, U, V, A, {1, 0, 0}, J);
-  Eigen::MatrixXd K = everywhere(J);
-  if (!K.allFinite()) return 0;
-  K = (K + K.transpose()).eval() / 2;
-  const auto root = [](double greatest) { return greatest > 0 ? 1 / std::sqrt(greatest) : 1.0; };
-  for (int sweep = 0; sweep < 10; ++sweep) {  // D K D has the signs of K
-    const Eigen::VectorXd D = K.cwiseAbs().rowwise().maxCoeff().unaryExpr(root);
-    K = (D.asDiagonal() * K * D.asDiagonal()).eval();
-  }
-  const Eigen::VectorXd signs = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
-  const int negative = static_cast<int>((signs.array() < -1e-10 * signs.cwiseAbs().maxCoeff()).count());
-  return std::max(0, negative - static_cast<int>(coordinates.multiplier_count()));
+/// For each row of J on this rank or another: whether it is of a multiplier. Collective.
+std::vector<char> multiplier_rows(const System& system) {
+  std::vector<char> is(system.coordinates().global_size(), 0);
+  for (PetscInt row : system.coordinates().owned_multipliers()) is[row] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, is.data(), static_cast<int>(is.size()), MPI_CHAR, MPI_MAX, system.comm());
+  return is;
 }
 
-std::string undetermined(const System& system, Mat J) {
+/// Who takes part in the null vectors N (orthonormal columns) with unknowns of one kind.
+std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::vector<char>& multiplier, bool kind) {
   const Coordinates& coordinates = system.coordinates();
   const std::vector<std::string>& owners = coordinates.owners();
-  if (owners.empty() || coordinates.global_size() > 1000) return "";
-  const Eigen::MatrixXd dense = everywhere(J);
-  if (!dense.allFinite()) return "";
-  const Eigen::MatrixXd J_scaled = scaled(dense);
-  const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(J_scaled).matrixQR().diagonal().cwiseAbs();
-  const double nothing = 1e-15 * static_cast<double>(dense.rows()) * pivots.maxCoeff();  // slender bodies come near it
-  if (pivots.minCoeff() > nothing) return "";
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_scaled, Eigen::ComputeFullV);
-  const Eigen::VectorXd& size = svd.singularValues();
   std::vector<double> share(owners.size(), 0);
   const std::vector<int> owner = coordinates.owner_of_local();
-  std::vector<char> counted(dense.rows(), 0);
   for (std::size_t i = 0; i < owner.size(); ++i) {
     const PetscInt global = coordinates.global()[i];
-    if (owner[i] < 0 || counted[global]) continue;
-    counted[global] = 1;
-    for (Eigen::Index v = 0; v < size.size(); ++v)
-      if (size[v] <= std::max(10 * nothing, 1.001 * size.minCoeff()))
-        share[owner[i]] = std::max(share[owner[i]], std::abs(svd.matrixV()(global, v)));
+    if (owner[i] >= 0 && (multiplier[global] != 0) == kind)
+      share[owner[i]] = std::max(share[owner[i]], N.row(global).cwiseAbs().maxCoeff());
   }
   MPI_Allreduce(MPI_IN_PLACE, share.data(), static_cast<int>(share.size()), MPI_DOUBLE, MPI_MAX, system.comm());
   std::vector<std::string> named;
   for (std::size_t o = 0; o < owners.size(); ++o)
     if (share[o] > 1e-3) named.push_back(owners[o]);
   return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
+}
+
+}  // namespace
+
+Undetermined null_vectors(const System& system, Mat J) {
+  const Coordinates& coordinates = system.coordinates();
+  if (coordinates.owners().empty() || coordinates.global_size() > 1000) return {};
+  const Eigen::MatrixXd dense = everywhere(J);
+  if (!dense.allFinite()) return {};
+  const Eigen::MatrixXd J_scaled = scaled(dense);
+  const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(J_scaled).matrixQR().diagonal().cwiseAbs();
+  const double nothing = 1e-15 * static_cast<double>(dense.rows()) * pivots.maxCoeff();  // slender bodies come near it
+  if (pivots.minCoeff() > nothing) return {};
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_scaled, Eigen::ComputeFullV);
+  const Eigen::VectorXd& size = svd.singularValues();  // descending
+  const Eigen::Index count = (size.array() <= std::max(10 * nothing, 1.001 * size[size.size() - 1])).count();
+  const Eigen::MatrixXd N = svd.matrixV().rightCols(count);
+  const std::vector<char> multiplier = multiplier_rows(system);
+  double of_multipliers = 0;  // K q = 0 and C'l = 0 go apart: the number of null vectors of the latter kind
+  for (Eigen::Index i = 0; i < N.rows(); ++i)
+    if (multiplier[i]) of_multipliers += N.row(i).squaredNorm();
+  Undetermined open;
+  open.repeated = of_multipliers > 0.5;
+  open.loose = of_multipliers < static_cast<double>(count) - 0.5;
+  open.bodies = names_of(system, N, multiplier, false);
+  open.joints = names_of(system, N, multiplier, true);
+  return open;
+}
+
+std::string undetermined(const System& system, Mat J) {
+  const Undetermined open = null_vectors(system, J);
+  if (open.bodies.empty() || open.joints.empty()) return open.bodies + open.joints;
+  return open.bodies.substr(0, open.bodies.size() - 1) + ", " + open.joints.substr(2);
 }
 
 }  // namespace floe::dynamics

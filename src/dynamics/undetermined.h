@@ -5,10 +5,19 @@
 
 namespace floe::dynamics {
 
-/// Names what a singular tangent leaves open: the bodies and joints (Coordinates::belongs_to) whose unknowns take part
-/// in its null vectors, as ` (body arm, joint tip)`; empty where none was named or the system is too large to look.
-///
-/// The same on every rank. Collective. Gathers J where it has at most 1000 rows: O(n^3).
+/// What a singular tangent [K C'; C 0] leaves open: the bodies and joints (Coordinates::belongs_to) whose unknowns take
+/// part in its null vectors, as ` (body arm, joint tip)`.
+struct Undetermined {
+  bool loose = false, repeated = false;  ///< null vectors among the coordinates, among the multipliers
+  std::string bodies, joints;            ///< in them
+  bool any() const { return loose || repeated; }
+};
+
+/// Nothing where no unknown was named or the system is too large to look. The same on every rank. Collective. Gathers J
+/// where it has at most 1000 rows: O(n^3).
+Undetermined null_vectors(const System& system, Mat J);
+
+/// Both names in one, for tangents whose null vectors are of one kind.
 std::string undetermined(const System& system, Mat J);
 
 }  // namespace floe::dynamics

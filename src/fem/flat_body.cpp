@@ -4,6 +4,7 @@
 
 #include "floe/petsc/values.h"
 #include "kept.h"
+#include "straight_body.h"
 
 namespace floe::fem {
 namespace {
@@ -117,6 +118,7 @@ const FlatBody* flat_body(const Structure& structure) {
 }
 
 void separate(const Structure& structure, Vec field, double share) {
+  if (structure.dimension() == 2) return separate_straight(structure, field, share);
   const FlatBody* flat = flat_body(structure);
   if (!flat) return;
   const double length = extent(structure);

@@ -10,11 +10,13 @@ void refuse_repeated(MPI_Comm comm, const FileMesh& file, const LabelDirectory& 
   for (const std::size_t i : nodes.repeated(file.node_labels))
     faults.add(file.node_where[i], "node " + std::to_string(file.node_labels[i]) + " is defined a second time");
   std::vector<long long> labels;
-  labels.reserve(file.cells.size());
+  labels.reserve(file.cells.size() + file.masses.size());
   for (const auto& cell : file.cells) labels.push_back(cell.label);
+  for (const auto& mass : file.masses) labels.push_back(mass.label);
   const LabelDirectory cells(comm, labels);
   for (const std::size_t i : cells.repeated(labels))
-    faults.add(file.cells[i].where, "element " + std::to_string(labels[i]) + " is defined a second time");
+    faults.add(i < file.cells.size() ? file.cells[i].where : file.masses[i - file.cells.size()].where,
+               "element " + std::to_string(labels[i]) + " is defined a second time");
 }
 
 Translation labels_used(const FileMesh& file) {

@@ -20,6 +20,12 @@ struct FilePlace {
   std::vector<long long> labels;  // that this rank found
 };
 
+/// An element that is no cell.
+struct FileMass {
+  long long label;
+  Where where;
+};
+
 /// A node that something else than a cell uses, and that is therefore kept.
 struct Mention {
   long long label;
@@ -35,6 +41,7 @@ struct FileMesh {
   std::vector<std::string> parts;  // same on all ranks
   std::vector<FilePlace> places;   // same names on all ranks
   std::vector<Mention> mentions;
+  std::vector<FileMass> masses;
 };
 
 struct Numbered {

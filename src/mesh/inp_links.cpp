@@ -11,7 +11,9 @@ void read_mass(const InpBlock& block, InpReading& reading) {
   if (set.empty() || lines.empty()) return;
   const auto mass = numbers(lines[0].second, lines[0].first, 1, 1, "a mass", reading.faults);
   if (!mass) return;
-  if (!(mass->front() >= 0)) reading.faults.add(lines[0].first, "a mass must not be negative");
+  constexpr double greatest = 1e100;  // its square is a number, too
+  if (!(mass->front() > 0 && mass->front() <= greatest))
+    reading.faults.add(lines[0].first, "a mass must be greater than 0 and at most 1e100");
   reading.uses.push_back({InpUse::mass, set, block.where, mass->front()});
 }
 

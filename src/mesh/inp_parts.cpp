@@ -106,6 +106,7 @@ std::vector<double> assign_sections(MPI_Comm comm, InpReading& reading) {
     if (element.use < 0) continue;
     if (element.nodes == 1) {
       mesh.mentions.push_back({element.node_labels[0], element.where});
+      mesh.masses.push_back({element.label, element.where});
       masses.push_back(reading.uses[element.use].amount);
     } else {
       mesh.cells.push_back({element.label, static_cast<CellKind>(element.nodes - 2), part_of[element.use],

@@ -4,24 +4,50 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "floe/petsc/error.h"
+#include "replaceable.h"
 
 namespace floe::output {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array results = {"summary.json", "probes.csv",  "result.h5",   "compare.json", "compare.md",
-                                "compare.csv",  "compare.png", "compare.svg", "compare.pdf"};
+/// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
+const std::vector<std::vector<std::string>> results = {
+    {"summary.json", "probes.csv", "result.h5"},
+    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("output folder '{}': {}", path.string(), why));
 }
 
-void prepare(const fs::path& path, bool overwrite) {
+bool of_floe(const fs::path& path, const fs::path& mark) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || !is_own_json(mark)) return false;
+  return path.extension() != ".csv" || path.stem() != "probes" || is_series(path);
+}
+
+/// Floe's own results in the folder, and drafts of them. @throws InputError  a file of that name is not floe's
+std::vector<fs::path> own_results(const fs::path& folder) {
+  std::vector<fs::path> own;
+  for (const auto& names : results)
+    for (auto name = names.rbegin(); name != names.rend(); ++name) {
+      const fs::path file = folder / *name;
+      std::error_code ignored;
+      if (fs::exists(fs::symlink_status(draft_of(file), ignored))) own.push_back(draft_of(file));
+      if (!fs::exists(fs::symlink_status(file, ignored))) continue;
+      if (!of_floe(file, folder / names.front()))
+        refuse(folder, fmt::format("{} in it is no result of floe's; name another folder, or move it away", *name));
+      own.push_back(file);
+    }
+  return own;
+}
+
+std::vector<fs::path> prepare(const fs::path& path, bool overwrite) {
   if (path.empty()) refuse(path, "needs a name");
   std::error_code error;
   const auto status = fs::status(path, error);
@@ -37,10 +63,7 @@ void prepare(const fs::path& path, bool overwrite) {
     refuse(path, fmt::format("is not writable: {}", fault.what()));
   }
   fs::remove(path / "floe.try", error);
-  for (const char* name : results)
-    for (const fs::path& old : {path / name, draft_of(path / name)})
-      if (!fs::remove(old, error) && error)
-        refuse(path, fmt::format("{} cannot be removed: {}", old.string(), error.message()));
+  return own_results(path);
 }
 
 /// The first of a path's folders that does not exist; empty if all do.
@@ -86,13 +109,22 @@ void sync(const fs::path& path, int flags) {
 ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  fs::path made;
+  ResultFolder folder{path};
   petsc::agree(comm, [&] {
     if (rank != 0) return;
-    made = first_missing(path);
-    prepare(path, overwrite);
+    folder.made = first_missing(path);
+    folder.replaces = prepare(path, overwrite);
   });
-  return {path, made};
+  return folder;
+}
+
+void remove_replaced(MPI_Comm comm, const ResultFolder& folder) {
+  petsc::agree(comm, [&] {
+    std::error_code error;
+    for (const fs::path& old : folder.replaces)
+      if (!fs::remove(old, error) && error)
+        throw RunError(fmt::format("cannot remove {}: {}", old.string(), error.message()));
+  });
 }
 
 void discard_if_empty(const ResultFolder& folder) noexcept {

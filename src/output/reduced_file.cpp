@@ -45,15 +45,6 @@ void remove_draft(const fs::path& path) {
   fs::remove(draft_of(path), ignored);
 }
 
-/// The file's own name for that of its drafts.
-std::string with_name(std::string text, const fs::path& path) {
-  const fs::path draft = draft_of(path);
-  for (const fs::path& each : {draft_of(draft), draft})
-    if (const auto at = text.find(each.string()); at != std::string::npos)
-      text.replace(at, each.string().size(), path.string());
-  return text;
-}
-
 /// The draft with all but the shapes. What could not be read back is not written.
 void write_draft(const fs::path& path, ReducedBodyFile file, bool shapes) {
   file.has_shapes = shapes;

@@ -1,6 +1,7 @@
 #include "replaceable.h"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "floe/output/hdf5.h"
 
@@ -26,11 +27,33 @@ bool is_of_format(const fs::path& path, const std::string& format) {
   }
 }
 
-bool is_xdmf(const fs::path& path) {
+namespace {
+
+std::string first_bytes(const fs::path& path, std::size_t count) {
   std::ifstream file(path);
-  std::string start(512, '\0');
+  std::string start(count, '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return file.gcount() == 0 || start.find("<Xdmf") != std::string::npos;
+  start.resize(file.gcount());
+  return start;
+}
+
+}  // namespace
+
+bool is_own_xdmf(const fs::path& path) {
+  const std::string start = first_bytes(path, 512);
+  return start.empty() || start.find(xdmf_mark) != std::string::npos;
+}
+
+bool is_own_json(const fs::path& path) {
+  std::ifstream file(path);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains("provenance") && json["provenance"].is_object() &&
+         json["provenance"].contains("floe");
+}
+
+bool is_series(const fs::path& path) {
+  const std::string start = first_bytes(path, 3);
+  return start.empty() || start == "t [";
 }
 
 }  // namespace floe::output

@@ -7,7 +7,15 @@ namespace floe::output {
 /// Whether --force may replace a file: one that is empty, or HDF5 whose attribute `format` is this. Rank-local.
 bool is_of_format(const std::filesystem::path& path, const std::string& format);
 
-/// Likewise an XDMF file. Rank-local.
-bool is_xdmf(const std::filesystem::path& path);
+/// What floe's own XDMF files say of themselves.
+inline const std::string xdmf_mark = "<Information Name=\"program\" Value=\"floe\"/>";
+/// Likewise an XDMF file with this mark. Rank-local.
+bool is_own_xdmf(const std::filesystem::path& path);
+
+/// Whether the file is JSON whose `provenance` names floe. Rank-local.
+bool is_own_json(const std::filesystem::path& path);
+
+/// Whether a file may be the probes of a run: one that is empty, or begins with `t [`. Rank-local.
+bool is_series(const std::filesystem::path& path);
 
 }  // namespace floe::output

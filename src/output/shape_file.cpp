@@ -40,7 +40,7 @@ void check_free(const fs::path& path, bool overwrite, bool ours) {
   try {
     write_file_atomically(draft_of(path), "");
   } catch (const RunError& fault) {
-    refuse(fault.what());
+    refuse(with_name(fault.what(), path));
   }
   fs::remove(draft_of(path), ignored);
 }
@@ -112,7 +112,7 @@ void check_shapes_path(MPI_Comm comm, const fs::path& xdmf, bool overwrite) {
     if (xdmf.extension() != ".xdmf" || xdmf.stem().empty())
       throw InputError(fmt::format("shapes '{}': expected a name that ends in .xdmf", xdmf.string()));
     const fs::path data = data_of(xdmf);
-    check_free(xdmf, overwrite, is_xdmf(xdmf)), check_free(data, overwrite, is_of_format(data, shapes_format));
+    check_free(xdmf, overwrite, is_own_xdmf(xdmf)), check_free(data, overwrite, is_of_format(data, shapes_format));
   });
 }
 
@@ -142,10 +142,10 @@ void write_shapes(MPI_Comm comm, const fs::path& xdmf, const std::vector<ShapeGr
     alone(xdmf, [&] { fs::remove(xdmf); });
     alone(data, [&] { publish_draft(draft, data); });
     alone(xdmf, [&] { write_file_atomically(xdmf, xdmf_text(grids, sizes, data.filename().string())); });
-  } catch (const RunError&) {
+  } catch (const RunError& fault) {
     std::error_code ignored;
     if (first) fs::remove(draft, ignored);
-    throw;
+    throw RunError(with_name(fault.what(), data));
   }
 }
 

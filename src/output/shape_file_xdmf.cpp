@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "replaceable.h"
+
 namespace floe::output {
 namespace {
 
@@ -58,7 +60,8 @@ std::string field_dataset(const ShapeGrid& grid, std::size_t field, bool rotatio
 
 std::string xdmf_text(const std::vector<ShapeGrid>& grids, const std::vector<std::int64_t>& sizes,
                       const std::string& data) {
-  std::string text = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n";
+  std::string text = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<Xdmf Version=\"3.0\">\n  ";
+  text += xdmf_mark + "\n  <Domain>\n";
   for (std::size_t g = 0; g < grids.size(); ++g) text += grid_text(grids[g], sizes[g], data);
   return text + "  </Domain>\n</Xdmf>\n";
 }

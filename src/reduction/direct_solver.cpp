@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/reduction/statics.h"
 
@@ -34,66 +35,6 @@ void widen_blocks(KSP ksp) {
 }
 
 }  // namespace
-
-namespace {
-
-/// What MUMPS' INFOG(1) means to the user, and what helps. Source: MUMPS 5.5 users' guide, section 8.
-std::string mumps_words(PetscInt infog, PetscInt detail, const std::string& prefix) {
-  const std::string less =
-      fmt::format("run on more ranks, or keep the factor on disk (-{}mat_mumps_icntl_22 1)", prefix);
-  switch (infog) {
-    case -5:
-    case -7:
-    case -13:
-      return fmt::format("memory ran out, {} entries short: {}", detail, less);
-    case -19:
-      return fmt::format("the memory allowed (-{}mat_mumps_icntl_23) is too small: allow more, or {}", prefix, less);
-    case -8:
-    case -9:
-    case -11:
-    case -12:
-    case -14:
-    case -15:
-    case -17:
-    case -20:
-      return fmt::format(
-          "its work space is too small: give it more (-{0}mat_mumps_icntl_14 100, or less bound by "
-          "-{0}mat_mumps_icntl_23), or {1}",
-          prefix, less);
-    case -6:
-    case -10:
-      return "the matrix is singular: something is not held";
-    case -90:
-      return "the factor cannot be written to disk (MUMPS_OOC_TMPDIR names the folder)";
-    default:
-      return "see MUMPS' users' guide, section 8";
-  }
-}
-
-}  // namespace
-
-std::string why_failed(KSP ksp) {
-  PC pc = nullptr;
-  PCFailedReason reason = PC_NOERROR;
-  PetscBool factors = PETSC_FALSE, mumps = PETSC_FALSE;
-  MatSolverType type = nullptr;
-  const char* prefix = nullptr;
-  check(KSPGetPC(ksp, &pc));
-  check(PCGetFailedReason(pc, &reason));
-  if (reason == PC_NOERROR) return "";
-  check(KSPGetOptionsPrefix(ksp, &prefix));
-  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &factors, PCCHOLESKY, PCLU, ""));
-  if (factors) check(PCFactorGetMatSolverType(pc, &type));
-  if (type) check(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
-  if (!mumps) return PCFailedReasons[reason];
-  Mat factor = nullptr;
-  PetscInt infog = 0, detail = 0;
-  check(PCFactorGetMatrix(pc, &factor));
-  check(MatMumpsGetInfog(factor, 1, &infog));
-  check(MatMumpsGetInfog(factor, 2, &detail));
-  return fmt::format("MUMPS' factorisation failed, INFOG(1) = {}: {}", infog,
-                     mumps_words(infog, detail, prefix ? prefix : ""));
-}
 
 petsc::KspHandle direct_solver(Mat A, const char* prefix) {
   petsc::KspHandle ksp;
@@ -171,7 +112,7 @@ void check_converged(KSP ksp) {
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   check(KSPGetConvergedReason(ksp, &reason));
   if (reason >= 0) return;
-  if (const std::string why = why_failed(ksp); !why.empty()) throw RunError(why);
+  if (const std::string why = petsc::why_failed(ksp); !why.empty()) throw RunError(why);
   const char* prefix = nullptr;
   check(KSPGetOptionsPrefix(ksp, &prefix));
   throw RunError(fmt::format("a linear solve (options -{}ksp_...) did not converge: {}", prefix ? prefix : "",

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <string>
 
+#include "canonical_modes.h"
 #include "floe/fem/flat_body.h"
+#include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mode_quality.h"
@@ -127,22 +129,29 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
   return rigid;
 }
 
-/// EPSSolve, where a linear solve within it that does not converge is told by its options, or by its mesh.
+/// EPSSolve, where a linear solve within it that fails is told by its factor, its options, or its mesh.
 void solve_pairs(EPS eps, const Statics& statics) {
   try {
     check(EPSSolve(eps));
   } catch (const petsc::Error& error) {
-    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
-    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
     ST st = nullptr;
     KSP ksp = nullptr;
     const char* prefix = nullptr;
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
     check(EPSGetST(eps, &st));
     check(STGetKSP(st, &ksp));
+    const petsc::FactorFault fault = petsc::factor_fault(ksp);
+    PetscBool inverts_mass = PETSC_FALSE;
+    check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSHIFT, &inverts_mass));
+    if (inverts_mass && !fault.text.empty())
+      throw InputError(
+          "option -modes_st_type shift: inverts the mass matrix, in which rotations may have no mass; expected "
+          "sinvert");
+    if (!fault.text.empty()) throw RunError(fault.text);
+    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
+    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
     check(KSPGetOptionsPrefix(ksp, &prefix));
     check(KSPGetConvergedReason(ksp, &reason));
-    if (const std::string why = why_failed(ksp); !why.empty()) throw RunError(why);
     throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
                                prefix ? prefix : "", KSPConvergedReasons[reason]));
   }
@@ -200,8 +209,9 @@ PetscInt ModeSolver::available() const {
 
 namespace {
 
+/// `count` pairs at least, and those that have converged of `wanted`.
 Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
-            const Statics& statics, int count) {
+            const Statics& statics, int count, int wanted) {
   std::vector<Vec> deflated(rigid.begin(), rigid.end());
   if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
   const petsc::VecHandle first = start(structure, held);
@@ -209,14 +219,44 @@ Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& hel
   check(EPSSetInitialSpace(eps, 1, initial));
   solve_pairs(eps, statics);
   check_converged(eps, count);
+  PetscInt converged = 0;
+  check(EPSGetConverged(eps, &converged));
   Found found;
-  found.lambda.resize(count);
-  for (int i = 0; i < count; ++i) {
+  found.lambda.resize(std::min<PetscInt>(converged, wanted));
+  for (int i = 0; i < std::ssize(found.lambda); ++i) {
     found.raw.push_back(fem::field(structure));
     check(EPSGetEigenpair(eps, i, &found.lambda[i], nullptr, found.raw.back(), nullptr));
     fem::hold(found.raw.back(), held);
   }
   return found;
+}
+
+/// How many of the pairs have the frequency of the last one counted, but come after it.
+int left_out(const std::vector<double>& lambda, int count) {
+  for (const auto& [first, end] : clusters(lambda))
+    if (first < count && count <= end) return end - count;
+  return 0;
+}
+
+/// The pairs, with all of the last one's frequency. One more than counted shows whether there are some.
+Found complete_pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
+                     const Statics& statics, int count, int available) {
+  const bool bounded = user_sets("modes_eps_ncv");  // the user's subspace holds one vector more than is asked for
+  PetscInt asked = 0, subspace = 0;
+  check(EPSGetDimensions(eps, &asked, &subspace, nullptr));
+  if (bounded) available = std::min(available, std::max<int>(count, subspace - 1));
+  for (int more = 1;; more *= 2) {
+    const int wanted = std::min(count + more, available);
+    check(EPSGetDimensions(eps, &asked, nullptr, nullptr));
+    if (asked < wanted || asked > available)
+      check(EPSSetDimensions(eps, wanted, bounded ? subspace : PETSC_DEFAULT, PETSC_DEFAULT));
+    Found found = pairs(eps, structure, held, rigid, statics, count, wanted);
+    const int have = static_cast<int>(found.lambda.size()), equal = left_out(found.lambda, count);
+    if (count + equal == have && have == wanted && wanted < available && more < 16) continue;
+    found.lambda.resize(count + equal);
+    found.raw.resize(count + equal);
+    return found;
+  }
 }
 
 }  // namespace
@@ -227,21 +267,27 @@ Modes ModeSolver::solve(int count) {
   if (count > available())
     throw InputError(
         fmt::format("{} modes are asked of a body that has {} elastic dofs under its conditions", count, available()));
-  if (eps_)
-    check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
-  else
-    create(count);
+  if (!eps_) create(std::min<int>(count + 1, static_cast<int>(available())));
   const petsc::Stage stage("modes");
   const Transformation inverse(eps_, statics_, holding_.held);
   const bool shares = statics_.owns(inverse.ksp);
-  Found found = pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_, count);
+  Found found = complete_pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_,
+                               count, static_cast<int>(available()));
   std::vector<double> errors;
   if (inverse.ksp) errors = purify(inverse, M_, holding_.held, found);
   modes.raw = std::move(found.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
-  const std::vector<double> lambda =
+  std::vector<double> lambda =
       exact_values(*statics_.elements(), M_, shares && statics_.refines() && !statics_.iterates(), modes.raw);
+  make_canonical(structure_, M_, modes.raw, lambda);
+  for (const auto& [first, end] : clusters(lambda))
+    if (!errors.empty())
+      std::fill(errors.begin() + first, errors.begin() + end,
+                *std::max_element(errors.begin() + first, errors.begin() + end));
+  modes.left_out = static_cast<int>(modes.raw.size()) - count;
+  modes.raw.resize(count), lambda.resize(count), errors.resize(inverse.ksp ? count : 0);
   for (int i = 0; i < count; ++i) {
+    fem::separate(structure_, modes.raw[i], 1e-7);
     fix_sign(structure_, modes.raw[i]);
     modes.omega.push_back(std::sqrt(lambda[i]));
     modes.shapes.push_back(copy(modes.raw[i]));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floe/fem/field_rows.h"
+#include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 
@@ -18,13 +19,36 @@ bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& held) 
          std::includes(held.begin(), held.end(), frame.conditions.begin(), frame.conditions.end());
 }
 
+namespace {
+
+/// @throws InputError  the user's options leave a preconditioner alone
+void check_solver(KSP ksp) {
+  PC pc = nullptr;
+  PetscBool factors = PETSC_FALSE, direct = PETSC_FALSE;
+  PCType preconditioner = nullptr;
+  check(KSPGetPC(ksp, &pc));
+  check(
+      PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &factors, PCCHOLESKY, PCLU, PCREDUNDANT, PCSVD, ""));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPPREONLY, &direct));
+  check(PCGetType(pc, &preconditioner));
+  if (direct && !factors)
+    throw InputError(
+        fmt::format("option -derivatives_pc_type {}: is no solver by itself; expected a factorisation "
+                    "(cholesky, lu), or an iteration besides (-derivatives_ksp_type cg)",
+                    preconditioner));
+}
+
+}  // namespace
+
 Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding)
     : frame_(frame),
       conditions_(holding.statics),
       K_(fem::stiffness(structure, holding.statics)),
       elements_(std::make_shared<fem::ElementStiffness>(structure)),
       exact_(fem::stiffness_operator(elements_, holding.statics)),
-      ksp_(direct_solver(K_, "derivatives_")) {}
+      ksp_(direct_solver(K_, "derivatives_")) {
+  check_solver(ksp_);
+}
 
 double Statics::factor_error() const {
   if (factor_error_ < 0) solver();
@@ -34,7 +58,7 @@ double Statics::factor_error() const {
 void Statics::factor() const {
   const petsc::Stage stage("factorisation");
   check(KSPSetUp(ksp_));
-  if (const std::string why = why_failed(ksp_); !why.empty()) throw RunError(why);
+  if (const std::string why = petsc::why_failed(ksp_); !why.empty()) throw RunError(why);
 }
 
 double Statics::measured_error() const {

@@ -4,8 +4,10 @@
 #include <petsctime.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "build_attachments.h"
+#include "build_interface.h"
 #include "floe/reduction/ranking.h"
 
 namespace floe::scene {
@@ -14,17 +16,22 @@ using petsc::check;
 
 namespace {
 
-/// C = sum 2 zeta_i omega_i (V'M phi_i)(V'M phi_i)' + alpha V'MV + beta V'KV.
+/// C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)' + alpha V'MV + beta V'KV.
+///
+/// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
+/// the frame, phi_i'K phi_i = omega_i^2.
 Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
   const DampingSpec& spec = body.spec.damping;
   const int k = reduced.body.coordinates();
   if (spec.mass == 0 && spec.stiffness == 0 && spec.modal.empty()) return {};
-  Eigen::MatrixXd C = spec.stiffness * reduced.body.elasticity.linear_stiffness();
+  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+  Eigen::MatrixXd C = spec.stiffness * K;
   C.diagonal().array() += spec.mass;
   for (std::size_t i = 0; i < std::min(spec.modal.size(), modes.omega.size()); ++i) {
-    Eigen::VectorXd along(k);
-    check(BVDotVec(reduced.basis->V, modes.shapes[i], along.data()));  // in the inner product of M
-    C += 2 * spec.modal[i] * modes.omega[i] * along * along.transpose();
+    Eigen::VectorXd phi(k);
+    check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
+    const Eigen::VectorXd force = K * phi;
+    C += 2 * spec.modal[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
   }
   return C;
 }
@@ -54,26 +61,24 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   report.seconds_modes = MPI_Wtime() - start;
 }
 
-/// Dofs that joints hold, and those of the interface.
-fem::Conditions held_by_modes(const PreparedBody& body) {
-  fem::Conditions held = body.held;
-  const int n = body.structure.dofs_per_node;
-  for (const PreparedPlace& place : body.interface)
-    for (PetscInt node : place.nodes)
-      for (int d = 0; d < n; ++d) held.push_back(n * node + d);
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
-  return held;
+/// In place of a count of modes: the default, or fewer where the body has fewer under its conditions.
+constexpr int as_the_body_has = -1;
+
+int count_of_modes(const PreparedBody& body) {
+  return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
 }
 
 void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
   const PreparedBody& body = prepared.bodies[index];
+  check_interface(prepared, index);
   stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
   stage.for_modes =
       of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
   stage.attachments = attachments(prepared, index);
+  if (modes == as_the_body_has)
+    modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
   generate(prepared, index, modes, stage, report);
 }
 
@@ -112,13 +117,33 @@ void rank_pairs(const PreparedBody& body, Stage& stage, const Eigen::MatrixXd& i
   }
 }
 
-reduction::Pairs pairs_of(const DerivativesSpec& spec, int fields) {
+reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
   using Choice = DerivativesSpec::Choice;
-  if (spec.choice == Choice::all) return reduction::all_pairs(fields);
+  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
   reduction::Pairs pairs;
   if (spec.choice == Choice::pairs)
-    for (const auto& [i, j] : spec.pairs) pairs.push_back({i - 1, j - 1});
+    for (const auto& [i, j] : spec.pairs) {
+      if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
+        throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
+                                     spec.where.text(), i, j, j, modes));
+      pairs.push_back({i - 1, j - 1});
+    }
   return pairs;
+}
+
+/// Whether the ground holds more than the rigid motions, so that bending has to stretch the body. In space one clamped
+/// edge holds many dofs and lets the rest of the body follow: there two joints, on nodes of their own.
+bool held_lengthwise(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  if (body.structure.dimension() == 2) return body.held.size() > 3;
+  std::vector<const PreparedPlace*> places;
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const auto& [first, second] = prepared.joints[j];
+    if (first.ground() == second.ground() || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
+    if (const PreparedPlace& held = first.ground() ? second : first; held.body == index) places.push_back(&held);
+  }
+  return std::any_of(places.begin(), places.end(),
+                     [&](const PreparedPlace* place) { return !share_a_node(*place, *places.front()); });
 }
 
 void warn(const Prepared& prepared, int index, Formulation formulation, std::vector<std::string>& warnings) {
@@ -126,6 +151,11 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
   const ReductionSpec& spec = body.spec.reduction;
   const bool no_columns =
       spec.attachment == ReductionSpec::Attachment::none || spec.attachment == ReductionSpec::Attachment::loads;
+  const auto of_interface = [&](const PreparedPlace& joint) {
+    return std::any_of(body.interface.begin(), body.interface.end(), [&](const PreparedPlace& place) {
+      return std::find(place.nodes.begin(), place.nodes.end(), joint.node) != place.nodes.end();
+    });
+  };
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
     const bool touches = prepared.joints[j][0].body == index || prepared.joints[j][1].body == index;
@@ -134,13 +164,15 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
     if (!touches || !moment || !no_columns) continue;
     if (body.spec.frame.kind == FrameSpec::Kind::clamped && to_ground) continue;
     if (to_ground && !of_frame(body)) continue;
+    const auto& [first, second] = prepared.joints[j];
+    if (of_interface(first.body == index ? first : second)) continue;  // its columns carry all
     warnings.push_back(fmt::format(
         "body {}: its modes cannot carry the moment of joint {} (they have none there), and converge slowly. Choose "
         "{}attachment: joints",
         body.spec.name, joint.name, to_ground ? "modes: {of: joints}, or " : ""));
   }
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
-    if (static_cast<PetscInt>(body.held.size()) > 3 && formulation != Formulation::vm)
+    if (held_lengthwise(prepared, index) && formulation != Formulation::vm)
       warnings.push_back(
           fmt::format("body {}: its joints hold it lengthwise, and without derivatives no column can give way to the "
                       "bending: its cubic "
@@ -200,7 +232,8 @@ void modes_for_derivatives(const Prepared& prepared, int index, Stage& stage, Bo
       reduction::basis_of(body.structure, stage.generators,
                           derivatives_of(body, stage, stage.pairs, spec.derivatives.full), spec.drop_tolerance);
   const auto modes = std::min<PetscInt>(both.columns - static_cast<PetscInt>(attached), stage.solver->available());
-  if (modes > spec.modes.count) generate(prepared, index, static_cast<int>(modes), stage, report);
+  if (modes > std::ssize(stage.generators.modes.omega))
+    generate(prepared, index, static_cast<int>(modes), stage, report);
 }
 
 }  // namespace
@@ -218,11 +251,11 @@ BodyFields fields_of_body(const Prepared& prepared, int index) {
   const DerivativesSpec& spec = body.spec.reduction.derivatives;
   BodyFields fields;
   Stage stage;
-  begin(prepared, index, body.spec.reduction.modes.count, stage, fields.report);
+  begin(prepared, index, count_of_modes(body), stage, fields.report);
   const int count = static_cast<int>(stage.generators.fields.size());
   const bool all = spec.choice == DerivativesSpec::Choice::count;
   reduction::DerivativeColumns derivatives =
-      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, count), spec.full);
+      derivatives_of(body, stage, all ? reduction::all_pairs(count) : pairs_of(spec, stage.generators), spec.full);
   fields.columns = std::move(stage.generators.fields);
   fields.origins = std::move(stage.generators.origins);
   for (auto& column : derivatives.columns) fields.columns.push_back(std::move(column));
@@ -244,7 +277,7 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
       continue;
     }
     Stage stage;
-    if (!report.rigid) begin(prepared, static_cast<int>(b), body.spec.reduction.modes.count, stage, report);
+    if (!report.rigid) begin(prepared, static_cast<int>(b), count_of_modes(body), stage, report);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -268,9 +301,14 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
       continue;
     }
     const bool stated = alone && spec.modes.alone > 0;
-    begin(prepared, b, stated ? spec.modes.alone : spec.modes.count, stages[b], all[b].report);
-    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, static_cast<int>(stages[b].generators.fields.size()));
+    begin(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
+    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(prepared, b, formulation, warnings);
+    if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
+      warnings.push_back(
+          fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",
+                      body.spec.name, modes.left_out, modes.left_out == 1 ? "mode has" : "modes have",
+                      modes.omega.size(), modes.left_out == 1 ? "is" : "are", modes.omega.size() + modes.left_out));
   }
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);
   for (int b = 0; b < count; ++b) {

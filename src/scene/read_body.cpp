@@ -48,13 +48,10 @@ DampingSpec read_damping(Document& document, Reading& body) {
 }
 
 // The default count of modes fits every mesh; what the file asks for is taken at its word.
-void fit_default_modes(Reading& body, Body& out) {
-  const auto reduction = body.value("reduction");
-  const bool given = reduction && reduction->node.IsMap() && reduction->node["modes"] &&
-                     (!reduction->node["modes"].IsMap() || reduction->node["modes"]["count"]);
-  if (given || out.mesh.points.empty() || out.frames < 1) return;
-  const int elastic = 3 * ((node_count(out.mesh) - 1) / out.frames);
-  out.reduction.modes.count = std::min(out.reduction.modes.count, std::max(elastic, 0));
+void fit_default_modes(Body& body) {
+  if (body.reduction.modes.given || body.mesh.points.empty() || body.frames < 1) return;
+  const int elastic = 3 * ((node_count(body.mesh) - 1) / body.frames);
+  body.reduction.modes.count = std::min(body.reduction.modes.count, std::max(elastic, 0));
 }
 
 }  // namespace
@@ -100,7 +97,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
   if (in_space) return body;  // its mesh is checked when it is there
-  fit_default_modes(reading, body);
+  fit_default_modes(body);
   if (document.fault_count() == before) check_body(document, body);
   return body;
 }

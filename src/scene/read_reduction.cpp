@@ -14,6 +14,7 @@ ModesSpec read_modes(Document& document, Reading& reduction) {
   const bool only_count = value.node.IsScalar();
   Reading reading(document, only_count ? Value{YAML::Node(YAML::NodeType::Map), value.where} : value, "modes");
   modes.count = only_count ? read_integer(document, value, reading.key("count")) : reading.integer("count");
+  modes.given = only_count ? reduction.given("modes") : reading.given("count");
   modes.alone = reading.integer("alone");
   modes.of = reading.choice<ModesSpec::Of>("of", {{"joints", ModesSpec::Of::joints}, {"frame", ModesSpec::Of::frame}});
   return modes;

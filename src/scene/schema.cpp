@@ -198,7 +198,8 @@ const SchemaSection damping_section{
     {
         {"mass", Type::number, "1/s", "0", "Rayleigh alpha", nonnegative},
         {"stiffness", Type::number, "s", "0", "Rayleigh beta", nonnegative},
-        {"modal", Type::numbers, "", "[]", "damping ratios of the first modes", nonnegative},
+        {"modal", Type::numbers, "", "[]", "damping ratios of the first modes, with an interface those that hold it",
+         nonnegative},
     }};
 
 const SchemaSection initial_section{

@@ -5,7 +5,7 @@ import signal
 from typing import Callable, Optional, Union
 
 import reduced
-from results import absent, files, full, kept, killed, no_error_of, no_results, nothing, stands
+from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
@@ -112,14 +112,38 @@ SCENES = [
           says=("loads.tip.force[2]", "is not a number at t ="), changes={"loads.tip.force": [0, "sqrt(0.03 - t)"]}),
 ]
 
+OWN = '{"provenance": {"floe": {"version": "0.1"}}}'
+PLATE_MOTION = PLATE.replace("[60, 30]", "[4, 2]") + """loads: {tip: {type: force, at: plate.right, force: [0, 0, t]}}
+motion: {end: 0.001, step: 0.001}
+"""
+
 FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
     Case("folder without a name", ["run", "scene.yaml", "-o", ""], 2, ("needs a name",), lines=1, check=nothing),
     *case("folder that nothing came into", codes=1, lines=1, says=("PETSc error", "in EPSGetStartVector", "EPSSolve"),
           never=("epssolve.c",), changes={"bodies.beam.section.rhoA": 1e-320}, check=nothing),
-    Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": "old"},
+    Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": OWN},
          check=lambda folder: (kept("out/mine.txt", "mine")(folder), files("finished", 51)(folder))),
+    Case("folder forced for a bad scene", run("vm+md", "--force"), 2, ("100 modes",), lines=1,
+         scene=scene({"bodies.beam.reduction.modes": 100}), files={"out/summary.json": OWN},
+         check=kept("out/summary.json", OWN)),
+    *case("folder forced for a scene that cannot be built", formulations=("nlffr",), options=("--force",), codes=2,
+          lines=1, says=("modal damping",), changes={"bodies.beam.damping": {"modal": [0.01]}},
+          files={"out/summary.json": OWN}, check=kept("out/summary.json", OWN)),
+    Case("folder forced with another's summary", run("vm+md", "--force"), 2,
+         ("out': summary.json in it is no result of floe's",), lines=1, files={"out/summary.json": "{}"},
+         check=kept("out/summary.json", "{}")),
+    Case("comparison forced with another's probes", ["compare", "scene.yaml", "-o", "out", "--force"], 2,
+         ("out/vm': probes.csv in it is no result of floe's",), lines=1, files={"out/vm/probes.csv": "t [s],x\n"},
+         check=lambda folder: (kept("out/vm/probes.csv", "t [s],x\n")(folder), absent("out/cfr")(folder))),
+    *(Case(f"static to t = {at}", ["static", "scene.yaml", "--at", at, "-o", "out"], 2,
+           (f"--at: is {at}; expected a positive number",), lines=1, check=nothing)
+      for at in ("nan", "inf", "0", "-1", "1e-400", "2s")),
+    Case("shapes in a folder that is not there", ["modes", "scene.yaml", "--write", "none/q.xdmf"], 2,
+         ("shapes 'none/q.xdmf': cannot write none/q.xdmf: No such file",), never=("partial",), lines=1),
+    Case("partitioning by another library", run("vm+md", "-mesh_mat_partitioning_type", "ptscotch"), 0, lines=0,
+         scene=PLATE_MOTION, check=files("finished", 2)),
     Case("folder is a file", run(), 2, ("exists and is not a folder",), lines=1, files={"out": "mine"},
          check=kept("out", "mine")),
     Case("folder below a file", ["run", "scene.yaml", "-o", "mine/out"], 2, ("mine/out': ", "Not a directory"),
@@ -240,6 +264,23 @@ OPTIONS = [
           says=("spectral radius",)),
 ]
 
+def pendulum(weight):
+    """Hinged, at an angle of -1, under a weight along y: it hangs at (0, -1)."""
+    return scene({"bodies.beam.initial": {"angle": -1}, "bodies.beam.section": {"EA": 1e6, "EI": 100, "rhoA": 1},
+                  "joints.clamp": {"type": "revolute", "between": ["ground", "beam.start"]},
+                  "loads.tip": {"type": "distributed", "body": "beam", "force": [0, weight]}, "motion": None,
+                  "probes.tip.quantity": "position"})
+
+
+# A rigid body clamped to the ground, and to a body that is clamped to the ground at the same place.
+TRIANGLE = {"bodies.post": {"mesh": {"line": {"from": [0, 0], "to": [0, 1], "elements": 8}},
+                            "section": {"EA": 1e4, "EI": 1, "rhoA": 1}, "rigid": True},
+            "joints.foot": {"type": "fixed", "between": ["ground", "post.start"]},
+            "joints.corner": {"type": "fixed", "between": ["beam.start", "post.start"]},
+            "joints.head": {"type": "revolute", "between": ["ground", "post.end"]}}
+
+MANY = scene({"bodies.beam.mesh.line.elements": 4000})
+
 UNUSUAL = [
     *case("free body", formulations=("vm+md", "nlffr", "cfr"), changes={"joints": None}, check=files("finished", 51)),
     *case("no load", changes={"loads": None}, check=files("finished", 51)),
@@ -252,11 +293,39 @@ UNUSUAL = [
     *(Case(f"static of what nothing holds, {f}", ["static", "scene.yaml", "--formulation", f, "-o", "out"], 1,
            ("no equilibrium at t = ", "nothing holds the configuration in some direction (body beam)"), lines=1,
            scene=scene({"joints": None}), check=files("failed", 0, "no equilibrium")) for f in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"static of a pendulum whose weight grows, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "4",
+                                                             "-o", "out"], 0, lines=0,
+           shows=("the table begins at t = 0.25", " -1\n"), never=("unstable",),
+           scene=pendulum("-9.81*t"), check=files("finished", 4)) for f in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"static of a pendulum, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "2", "-o", "out"], 0,
+           lines=0, shows=(" -1\n",), never=("unstable", "no equilibrium"), scene=pendulum("-9.81"),
+           check=files("finished", 3)) for f in ("vm+md", "nlffr", "cfr")),
+    Case("static with joints that repeat", ["static", "scene.yaml", "-o", "out"], 1,
+         ("constraints repeat one another (joint ",), never=("nothing holds",), lines=1, scene=scene(TRIANGLE)),
+    *(Case(f"static of a column beyond its critical load, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1",
+                                                                 "--at", "1", "-o", "out"], 0, lines=0,
+           shows=("is unstable in 1 direction",), check=files("finished", 2),
+           scene=scene({"bodies.beam.mesh.line.elements": 150, "loads.tip.force": ["-3*t", 0]}))
+      for f in ("vm+md", "cfr")),
+    Case("static of a column whose load follows it", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0,
+         lines=0, never=("unstable",), check=lambda folder: (files("finished", 2)(folder), not_looked(folder)),
+         scene=scene({"loads.tip": {"type": "force", "at": "beam.end", "axes": "body", "force": ["-15*t", 0]}})),
     Case("mesh finer than numbers", ["modes", "scene.yaml"], 1,
          ("the mesh of 400000 elements is finer than double precision resolves", "take fewer elements"), lines=1,
          scene=scene({"bodies.beam.mesh.line.elements": 400000, "bodies.beam.reduction.modes": 1}), ranks=(1,)),
     Case("memory of the factor", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_23", "1"], 1,
          ("INFOG(1) = -19: the memory allowed", "-derivatives_mat_mumps_icntl_22 1"), lines=1, scene=PLATE),
+    *(Case(f"memory of the {what}", words, 1, ("INFOG(1) = -19: the memory allowed", f"-{prefix}mat_mumps_icntl_22 1"),
+           never=("constraints repeat", "PETSc error"), lines=1, scene=big)
+      for what, prefix, words, big in (
+          ("modes", "modes_st_", ["modes", "scene.yaml", "-modes_st_mat_mumps_icntl_23", "1"], PLATE),
+          ("start", "motion_start_", run("nlffr", "-motion_start_mat_mumps_icntl_23", "1"), MANY),
+          ("equilibrium", "static_", ["static", "scene.yaml", "--formulation", "nlffr", "-static_mat_mumps_icntl_23", "1",
+                                      "-o", "out"], MANY))),
+    Case("modes by another transformation", ["modes", "scene.yaml", "-modes_st_type", "shift"], (1, 2),
+         ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
+    Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
+         ("option -derivatives_pc_type jacobi: is no solver by itself",), never=("finer",), lines=1, scene=PLATE),
     Case("factor on disk", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_22", "1"], 0, shows=("rad/s",), lines=0,
          scene=PLATE),
     Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",

@@ -90,6 +90,11 @@ def no_results(folder):
     assert not list(folder.rglob(".*.partial")), "drafts are left"
 
 
+def not_looked(folder):
+    """An equilibrium whose stability nobody can tell says so."""
+    assert json.loads((folder / "out/summary.json").read_text())["stability"].startswith("not looked at")
+
+
 def absent(path):
     def check(folder):
         assert not (folder / path).exists(), f"{path} was made"

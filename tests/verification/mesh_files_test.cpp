@@ -141,15 +141,15 @@ TEST_CASE("a free plate with a hub has the same frequencies whichever edge the h
 
 // Cantilever with a tip mass as heavy as itself: omega = 1.2479174^2 sqrt(EI / rhoA L^4), a root of
 // 1 + cos cosh + x (cos sinh - sin cosh).
-TEST_CASE("a deck's point mass") {
+TEST_CASE("a deck's point mass, and two on one node") {
+  const std::string masses = GENERATE("99, 21\n*MASS, ELSET=tip\n7.8\n", "99, 21\n98, 21\n*MASS, ELSET=tip\n3.9\n");
   const Scratch scratch;
   const std::string folder = scratch.path.string();
   std::string text = "*NODE\n";
   for (int i = 0; i <= 20; ++i) text += fmt::format("{}, {}, 0., 0.\n", i + 1, i / 20.);
   text += "*ELEMENT, TYPE=B31, ELSET=beam\n";
   for (int i = 1; i <= 20; ++i) text += fmt::format("{}, {}, {}\n", i, i, i + 1);
-  write_text(folder + "/beam.inp", text +
-                                       "*ELEMENT, TYPE=MASS, ELSET=tip\n99, 21\n*MASS, ELSET=tip\n7.8\n"
+  write_text(folder + "/beam.inp", text + "*ELEMENT, TYPE=MASS, ELSET=tip\n" + masses +
                                        "*NSET, NSET=root\n1\n*MATERIAL, NAME=m\n*ELASTIC\n2e11, 0.3\n*DENSITY\n"
                                        "7800.\n*BEAM SECTION, ELSET=beam, MATERIAL=m, SECTION=RECT\n.02, .05\n"
                                        "0., 0., -1.\n");

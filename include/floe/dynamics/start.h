@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "floe/dynamics/system.h"
 
 namespace floe::dynamics {
@@ -27,18 +29,27 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V);
 /// |C(q, t)|, or of its rate, greatest over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
 
+/// At the start of the search and after relaxation, nothing holds the configuration in some direction.
+class NothingHolds : public RunError {
+  using RunError::RunError;
+};
+
 /// Coordinates and multipliers with F(t, U, V, 0) = 0 at given velocities: a static equilibrium (V = 0) or the steady
 /// shape of a body that turns at constant speed.
 ///
-/// SNES prefix static_ (Newton with full steps). Returns its iterations.
-/// @throws RunError  not converged, and what nothing holds where that is why; U is then whatever it was last.
+/// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
+/// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
+/// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
+/// @throws RunError  not converged, or constraints repeat; NothingHolds; U is then whatever it was last.
 /// Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
 
-/// Directions in which an equilibrium gives way: negative eigenvalues of [K C'; C 0] beyond one for each multiplier. 0
-/// for a stable one, and for systems of more than 500 unknowns, where nobody looks. Collective, the same on every
-/// rank.
-int unstable_directions(const System& system, double t, Vec U, Vec V);
+/// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for
+/// each multiplier, counted by the signs of an LDL' factor (Sylvester), whatever the size.
+///
+/// Nothing where K is not symmetric, as under loads that follow the body: its signs do not tell (such a body flutters
+/// while K is regular), or where it has no factor. The same on every rank. Collective.
+std::optional<int> unstable_directions(const System& system, double t, Vec U, Vec V);
 
 /// A direct solver for a tangent: LAPACK's LU where it is dense, MUMPS' where it is sparse; `prefix` for the user.
 /// Collective.

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 namespace floe::output {
 
@@ -10,6 +11,7 @@ namespace floe::output {
 struct ResultFolder {
   std::filesystem::path path;
   std::filesystem::path made = {};  ///< `path`, or its first parent, that was not there before (rank 0); else empty
+  std::vector<std::filesystem::path> replaces = {};  ///< what remove_replaced removes (rank 0)
   std::filesystem::path summary() const { return path / "summary.json"; }
   std::filesystem::path probes() const { return path / "probes.csv"; }
   std::filesystem::path result() const { return path / "result.h5"; }
@@ -17,11 +19,16 @@ struct ResultFolder {
 
 /// Makes `path` (and its parents) ready to take results; tries it by writing a file.
 ///
-/// A folder that holds anything is refused unless `overwrite`; then floe's own results are removed from it, by name,
-/// and nothing else is touched.
-/// @throws InputError  not empty, not a folder, cannot be made, not writable: one line, the same on every rank
+/// A folder that holds anything is refused unless `overwrite`; then floe's own results in it are found, by name and by
+/// what they hold, and stay until remove_replaced: whoever fails before that has lost nothing.
+/// @throws InputError  not empty, not a folder, cannot be made, not writable, a file with the name of a result that is
+/// not floe's: one line, the same on every rank
 /// Collective; rank 0 alone touches the file system.
 ResultFolder prepare_folder(MPI_Comm comm, const std::filesystem::path& path, bool overwrite);
+
+/// Removes the results that new ones replace: to be called when these begin.
+/// @throws RunError  one cannot be removed. Collective; rank 0 alone touches the file system.
+void remove_replaced(MPI_Comm comm, const ResultFolder& folder);
 
 /// Removes the folder, and the parents that were made for it, if nothing was written into them: for runs that fail at
 /// their start.

@@ -10,6 +10,7 @@ struct Modes {
                                  ///< omega^2
   Columns raw;                   ///< phi as the body is held in space
   Columns shapes;                ///< phi in the floating frame, P phi
+  int left_out = 0;              ///< modes with the frequency of the last one that the count leaves out
 };
 
 /// Finds the lowest modes of the body as `holding.held` holds it; rigid motions that are left free are deflated, not
@@ -18,7 +19,9 @@ struct Modes {
 /// EPS prefix modes_ (default: Krylov-Schur, shift-invert at 0, or just below it for bodies that can still move
 /// rigidly, Cholesky by MUMPS). At shift 0 under the conditions of `statics`, the solver of `statics` serves with its
 /// factor and its options -derivatives_...; any option -modes_st_... gives the EPS a solver of its own. The sign of
-/// each mode makes the first translation above half the greatest one positive.
+/// each mode makes the first translation above half the greatest one positive. Where frequencies repeat, all modes of
+/// one are found, and combined by a rule of which neither ranks nor the EPS know (the first, say, moves along y where
+/// the second stands still); then those beyond the count are left out.
 /// Modes of a flat body move in its plane or out of it (fem::separate).
 class ModeSolver {
  public:

@@ -66,9 +66,6 @@ class Statics {
 /// go through it 64 at a time (MUMPS' ICNTL(27)), unless the options say otherwise. Collective.
 petsc::KspHandle direct_solver(Mat A, const char* prefix);
 
-/// Why a solver's factorisation failed, in MUMPS' words and what helps; empty if it did not. Collective.
-std::string why_failed(KSP ksp);
-
 /// Turns a direct solver into an iteration that its factor preconditions: a few steps, to 1e-12 of the preconditioned
 /// residual (the other norm is all round-off of u, multiplied by EI/h^3). The operator is set by the caller.
 void iterate(KSP ksp, KSPType type);

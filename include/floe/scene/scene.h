@@ -85,7 +85,8 @@ struct FrameSpec {
 struct ModesSpec {
   enum class Of { joints, frame } of = Of::joints;
   int count = 6;
-  int alone = 0;  ///< how many in formulation vm; 0: as many as vm+md has columns
+  bool given = false;  ///< count, by the scene; else it is lowered to what the body has
+  int alone = 0;       ///< how many in formulation vm; 0: as many as vm+md has columns
   Where where;
 };
 

@@ -6,9 +6,10 @@ using namespace floe::app;
 using Catch::Matchers::Contains;
 
 TEST_CASE("options with a prefix of floe's solvers or of PETSc's own pass") {
-  for (const char* name : {"modes_eps_nev", "derivatives_ksp_rtol", "motion_ts_max_steps", "motion_start_ksp_type",
-                           "static_snes_monitor", "ranking_ts_type", "mat_mumps_icntl_14", "bv_type", "vec_type",
-                           "log_view", "options_left", "options_view", "malloc_dump", "on_error_abort"})
+  for (const char* name :
+       {"modes_eps_nev", "derivatives_ksp_rtol", "motion_ts_max_steps", "motion_start_ksp_type", "static_snes_monitor",
+        "ranking_ts_type", "mat_mumps_icntl_14", "bv_type", "vec_type", "mesh_mat_partitioning_type", "log_view",
+        "options_left", "options_view", "malloc_dump", "on_error_abort"})
     CHECK(option_fault(name, "") == "");
 }
 

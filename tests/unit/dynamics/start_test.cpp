@@ -144,22 +144,57 @@ TEST_CASE("a pendulum hangs in a stable equilibrium and stands in an unstable on
   }
 }
 
-TEST_CASE("where nothing resists at the start no equilibrium is looked for") {
-  testing::Terms push;
+TEST_CASE("whether an equilibrium gives way is not said where a load follows the body") {
+  testing::Terms push;  // along the rod: the weight still holds it
   push.push_back(std::make_unique<dynamics::Force>(
-      testing::on_rod(l), [](double) { return Eigen::Vector3d(0, 3, 0); }, dynamics::Force::Axes::world));
+      testing::on_rod(l), [](double) { return Eigen::Vector3d(-1, 0.5, 0); }, dynamics::Force::Axes::body));
+  const dynamics::System system = testing::pendulum(m, l, g, std::move(push));
+  const petsc::VecHandle U = vector_of(system, {0, 0, -M_PI / 2 + 0.1, 0, 0}), V = system.create_vector();
+  dynamics::equilibrium(system, 0, U, V);
+  CHECK_FALSE(dynamics::unstable_directions(system, 0, U, V).has_value());
+}
+
+namespace {
+
+/// A rod on a hinge, pushed at its end by a force in world axes.
+dynamics::System pushed_rod(const Eigen::Vector3d& force, int hinges = 1) {
+  testing::Terms terms;
+  terms.push_back(std::make_unique<dynamics::Force>(
+      testing::on_rod(l), [force](double) { return force; }, dynamics::Force::Axes::world));
   dynamics::Coordinates c(PETSC_COMM_SELF);
   c.belongs_to("body rod");
   c.add_shared(3);
-  c.belongs_to("joint hinge");
-  c.add_shared(2, true);
+  for (int i = 0; i < hinges; ++i) {
+    c.belongs_to("joint hinge " + std::to_string(i + 1));
+    c.add_shared(2, true);
+  }
   c.number();
-  push.push_back(testing::rigid_rod(m, l));
-  push.push_back(testing::to_ground(testing::on_rod(0), dynamics::Revolute{}, 3));
-  const dynamics::System system(c, std::move(push));
-  const petsc::VecHandle U = system.create_vector(), V = system.create_vector();
-  CHECK_THROWS_WITH(dynamics::equilibrium(system, 0.5, U, V),
+  terms.push_back(testing::rigid_rod(m, l));
+  for (int i = 0; i < hinges; ++i)
+    terms.push_back(testing::to_ground(testing::on_rod(0), dynamics::Revolute{}, 3 + 2 * i));
+  return dynamics::System(c, std::move(terms));
+}
+
+}  // namespace
+
+TEST_CASE("where nothing resists at the start but will, the equilibrium is found") {
+  const dynamics::System system = pushed_rod({0, 3, 0});
+  const petsc::VecHandle U = vector_of(system, {0, 0, 0, 0, 0}), V = system.create_vector();
+  dynamics::equilibrium(system, 0.5, U, V);
+  CHECK(std::abs(std::cos(numbers_of(U)[2])) < 1e-9);
+  CHECK(dynamics::unstable_directions(system, 0.5, U, V) == 0);
+}
+
+TEST_CASE("where nothing resists at all, and where constraints repeat, the search says which, and of whom") {
+  const dynamics::System loose = pushed_rod({0, 0, 0});
+  const petsc::VecHandle U = loose.create_vector(), V = loose.create_vector();
+  CHECK_THROWS_AS(dynamics::equilibrium(loose, 0.5, U, V), dynamics::NothingHolds);
+  CHECK_THROWS_WITH(dynamics::equilibrium(loose, 0.5, U, V),
                     Catch::Contains("nothing holds the configuration in some direction (body rod)"));
+  const dynamics::System twice = pushed_rod({3, 0, 0}, 2);
+  const petsc::VecHandle U2 = twice.create_vector(), V2 = twice.create_vector();
+  CHECK_THROWS_WITH(dynamics::equilibrium(twice, 0.5, U2, V2),
+                    Catch::Contains("constraints repeat one another (joint hinge 1, joint hinge 2)"));
 }
 
 TEST_CASE("no equilibrium is a run error that says when") {

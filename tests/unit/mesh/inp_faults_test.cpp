@@ -54,6 +54,18 @@ TEST_CASE("nodes and elements that are wrong are refused with their lines") {
   CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\nm\n" + section), Contains("holds 'm', which is no set"));
 }
 
+TEST_CASE("masses that are none are refused with their lines") {
+  const auto with_masses = [](const std::string& list, const std::string& mass) {  // line 14 on
+    return said(nodes + elements + section + "*ELEMENT, TYPE=MASS, ELSET=P\n" + list + "*MASS, ELSET=P\n" + mass +
+                "\n");
+  };
+  for (const char* mass : {"0", "-1", "1e300"})
+    CHECK(with_masses("9, 3\n", mass) == "bad.inp:17: a mass must be greater than 0 and at most 1e100");
+  CHECK(with_masses("9, 3\n9, 4\n", "1") == "bad.inp:16: element 9 is defined a second time");
+  CHECK_THAT(with_masses("2, 3\n", "1"), Contains("element 2 is defined a second time"));
+  CHECK(with_masses("8, 3\n9, 3\n", "1") == "nothing was thrown");
+}
+
 TEST_CASE("sections that do not fit the elements are refused") {
   CHECK_THAT(said(nodes + elements), Contains("bad.inp:7: element 1 has no section"));
   CHECK_THAT(said(nodes + elements + section + "*ELSET, ELSET=F\n2\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"),

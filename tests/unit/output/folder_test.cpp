@@ -30,20 +30,42 @@ TEST_CASE("a result folder is made with its parents") {
   CHECK_NOTHROW(prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false));
 }
 
-TEST_CASE("a folder that holds something is replaced only when asked, and only what is ours in it") {
+TEST_CASE("a folder that holds something is replaced only when asked, only what is ours in it, and not at once") {
   Scratch scratch;
-  put(scratch, scratch / "summary.json", "old");
+  const std::string own = R"({"provenance": {"floe": {"version": "1"}}})";
+  put(scratch, scratch / "summary.json", own);
+  put(scratch, scratch / "probes.csv", "t [s],tip.x [m]\n");
   put(scratch, scratch / ".result.h5.partial", "old");
   put(scratch, scratch / "notes.txt", "mine");
   put(scratch, scratch / "photo.png", "mine");
   CHECK_THROWS_WITH(prepare_folder(PETSC_COMM_WORLD, scratch, false), Contains("not empty") && Contains("--force"));
-  CHECK(text_of(scratch / "summary.json") == "old");
   meet();
-  prepare_folder(PETSC_COMM_WORLD, scratch, true);
-  CHECK_FALSE(std::filesystem::exists(scratch / "summary.json"));
-  CHECK_FALSE(std::filesystem::exists(scratch / ".result.h5.partial"));
+  const ResultFolder folder = prepare_folder(PETSC_COMM_WORLD, scratch, true);
+  CHECK(text_of(scratch / "summary.json") == own);
+  meet();
+  remove_replaced(PETSC_COMM_WORLD, folder);
+  for (const char* name : {"summary.json", "probes.csv", ".result.h5.partial"}) {
+    INFO(name);
+    CHECK_FALSE(std::filesystem::exists(scratch / name));
+  }
   CHECK(text_of(scratch / "notes.txt") == "mine");
   CHECK(text_of(scratch / "photo.png") == "mine");
+}
+
+TEST_CASE("a file that is called like a result and is none of floe's is not replaced") {
+  const std::string own = R"({"provenance": {"floe": {"version": "1"}}})";
+  using Files = std::vector<std::pair<std::string, std::string>>;
+  for (const Files& files : {Files{{"summary.json", R"({"title": "mine"})"}}, Files{{"summary.json", "mine"}},
+                             Files{{"probes.csv", "t [s],x\n"}}, Files{{"compare.png", "mine"}},
+                             Files{{"summary.json", own}, {"probes.csv", "a,b\n"}}}) {
+    Scratch scratch;
+    for (const auto& [name, text] : files) put(scratch, scratch / name, text);
+    const std::string& last = files.back().first;
+    INFO(last);
+    CHECK_THROWS_WITH(prepare_folder(PETSC_COMM_WORLD, scratch, true), Contains(last + " in it is no result of floe"));
+    CHECK(text_of(scratch / last) == files.back().second);
+    meet();
+  }
 }
 
 TEST_CASE("what cannot be a result folder is an input error of one line on every rank") {

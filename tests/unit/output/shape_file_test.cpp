@@ -66,10 +66,19 @@ TEST_CASE("shapes replace nothing unasked, and a fault leaves what was there") {
   const auto path = scratch / "m.xdmf";
   for (const char* name : {"m.h5", "", ".xdmf"})
     CHECK_THROWS_AS(check_shapes_path(PETSC_COMM_WORLD, scratch / name, true), InputError);
-  CHECK_THROWS_AS(check_shapes_path(PETSC_COMM_WORLD, scratch / "none" / "m.xdmf", true), InputError);
+  CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, scratch / "none" / "m.xdmf", true),
+                    Catch::Contains("none/m.xdmf") && !Catch::Contains("partial"));
+  if (scratch.rank() == 0)
+    std::ofstream(scratch / "other.xdmf") << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"/>\n";
+  meet();
+  CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, scratch / "other.xdmf", true),
+                    Catch::Contains("holds no shapes of floe's"));
+  meet();
+  if (scratch.rank() == 0) std::filesystem::remove(scratch / "other.xdmf");
   write_shapes(PETSC_COMM_WORLD, path, {dealt()});
   meet();
   CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, path, false), Catch::Contains("m.xdmf': exists; name another"));
+  CHECK_NOTHROW(check_shapes_path(PETSC_COMM_WORLD, path, true));
   const std::string xdmf = text_of(path), data = text_of(scratch / "m.h5");
   ShapeGrid bad = dealt();
   bad.shapes.column = [](int, std::span<double> values) { std::fill(values.begin(), values.end(), NAN); };

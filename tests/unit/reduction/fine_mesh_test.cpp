@@ -86,3 +86,27 @@ TEST_CASE("with a solver of the user's own, a spoilt factor's frequency is as un
   }
   petsc::check(PetscOptionsClearValue(nullptr, "-modes_st_ksp_type"));
 }
+
+// What is left along a bending mode, 1e-13 of it, would bend the derivatives by EA L^2 / EI times as much.
+TEST_CASE("modes of a slender straight beam have nothing along it, nor their derivatives across it") {
+  const Held body(testing::straight(PETSC_COMM_WORLD, 20, 1, {1e10, 1, 1, 0}), Kind::clamped, {0, 1, 2, 30, 31, 32});
+  const reduction::Generators g = body.generators(3);
+  const reduction::DerivativeColumns theta = reduction::derivative_columns(
+      body.structure, body.frame, body.holding, body.statics, g, reduction::all_pairs(3), false);
+  const auto parts = [](Vec field) {
+    const Eigen::VectorXd u = testing::everywhere(field);
+    const auto rows = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic>>(u.data(), 3, u.size() / 3);
+    return std::pair(rows.row(0).norm(), rows.bottomRows<2>().norm());
+  };
+  for (const auto& mode : g.modes.raw) {
+    const auto [along, across] = parts(mode);
+    CHECK(along == 0);
+    CHECK(across > 0);
+  }
+  REQUIRE(theta.columns.size() == 6);
+  for (const auto& column : theta.columns) {
+    const auto [along, across] = parts(column);
+    CHECK(across == 0);
+    CHECK(along > 0);
+  }
+}

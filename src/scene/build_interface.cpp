@@ -1,0 +1,59 @@
+#include "build_interface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace floe::scene {
+bool share_a_node(const PreparedPlace& one, const PreparedPlace& other) {
+  return std::any_of(one.nodes.begin(), one.nodes.end(), [&](PetscInt node) {
+    return std::find(other.nodes.begin(), other.nodes.end(), node) != other.nodes.end();
+  });
+}
+
+namespace {
+
+/// The joint to the ground that holds a node of the place; empty if none does.
+std::string joint_that_holds(const Prepared& prepared, int index, const PreparedPlace& place) {
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const auto& [first, second] = prepared.joints[j];
+    if (first.ground() == second.ground() || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
+    const PreparedPlace& held = first.ground() ? second : first;
+    if (held.body == index && share_a_node(held, place)) return prepared.scene.joints[j].name;
+  }
+  return "";
+}
+
+}  // namespace
+
+fem::Conditions held_by_modes(const PreparedBody& body) {
+  fem::Conditions held = body.held;
+  const int n = body.structure.dofs_per_node;
+  for (const PreparedPlace& place : body.interface)
+    for (PetscInt node : place.nodes)
+      for (int d = 0; d < n; ++d) held.push_back(n * node + d);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
+}
+
+void check_interface(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  std::vector<std::string> faults;
+  for (std::size_t i = 0; i < body.interface.size(); ++i) {
+    const std::string where = body.spec.reduction.interface[i].where.text();
+    const std::string joint =
+        body.structure.dimension() == 3 ? joint_that_holds(prepared, index, body.interface[i]) : "";
+    if (!joint.empty())
+      faults.push_back(fmt::format(
+          "{}: has a node that joint {} holds; expected a place that no joint to the ground touches", where, joint));
+    for (std::size_t j = 0; j < i; ++j)
+      if (share_a_node(body.interface[i], body.interface[j]))
+        faults.push_back(
+            fmt::format("{}: shares a node with interface[{}]; expected places apart, each a rigid piece of its own",
+                        where, j + 1));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace floe::scene
