@@ -153,6 +153,15 @@ def components(description, probe):
             and p.get("unit", "") == probe.get("unit", "")] or [probe["column"]]
 
 
+def moving(description):
+    """Components worth a panel: those that move in the reference, if only by a thousandth of their probe's greatest."""
+    name = description.get("reference") or description["runs"][0]["name"]
+    series = next(run["series"] for run in description["runs"] if run["name"] == name)
+    shown = [probe for probe in description["probes"]
+             if span(series[probe["column"]]) > 1e-3 * max(span(series[c]) for c in components(description, probe))]
+    return shown or description["probes"]
+
+
 def draw_errors(axes, description, probe):
     """|p - p_ref|, a vector's length, at the times of each run; the axis shows the good runs whole and cuts one that diverges."""
     runs = {run["name"]: run for run in description["runs"]}
@@ -203,7 +212,7 @@ def draw(description, path, dpi):
     matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
                                 "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "floe"})
     give_styles(description)
-    probes = description["probes"]
+    probes = moving(description)
     main = main_probe(description)
     with_errors = description.get("reference") is not None and len(description["runs"]) > 1
     panels = len(probes) + with_errors
