@@ -120,7 +120,7 @@ Energy SpatialSpring::energy(const Motion& motion) const {
   return {0, 0.5 * p.stiffness * stretch * stretch + 0.5 * p.torsional_stiffness * turned * turned, 0};
 }
 
-void SpatialSpring::follow(const Motion& motion) {
+void SpatialSpring::begin_step(const Motion& motion) {
   if (!torsional(properties_)) return;
   pair_.evaluate(motion);
   nearest_ = twist(pair_, nearest_).angle;

@@ -19,7 +19,15 @@ void System::rebase(Vec U) const {
   for (const auto& [first, attitude] : attitudes_) {
     attitude->advance(local_.q.segment<3>(first));
     for (int i = 0; i < 3; ++i) set_owned(coordinates_, owned, first + i, 0);
+    local_.q.segment<3>(first).setZero();
   }
+  local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
+  petsc::agree_if_parallel(comm(), whole_, [&] {
+    for (const auto& term : terms_) {
+      const TermWork& w = pick(*term);
+      term->begin_step({0, w.q, w.v, w.a});
+    }
+  });
 }
 
 void System::bracket(Vec a, Vec b, Vec W) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floe/fem/field_rows.h"
@@ -113,6 +114,17 @@ std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fie
   return sloped;
 }
 
+/// What is nothing beside the others becomes zero: modes in two planes of bending have no derivative in common.
+/// Collective.
+void drop_round_off(const fem::Structure& structure, Columns& columns) {
+  const petsc::MatHandle M = fem::mass(structure, {});
+  std::vector<double> norms;
+  for (const auto& column : columns) norms.push_back(mass_norm(M, column));
+  const double greatest = norms.empty() ? 0 : *std::max_element(norms.begin(), norms.end());
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (norms[i] <= 1e-10 * greatest) check(VecSet(columns[i], 0));
+}
+
 }  // namespace
 
 DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
@@ -142,6 +154,7 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
     if (!sloped[i] && !sloped[j]) check(VecSet(result.columns[p], 0));
     result.origins.push_back(origin(i, j));
   }
+  drop_round_off(structure, result.columns);
   return result;
 }
 

@@ -34,7 +34,7 @@ std::vector<Index> independent(const MatrixXd& G) {
 
 int SpatialRows::seen(int coordinate) {
   const auto [found, fresh] = number_.emplace(coordinate, static_cast<int>(number_.size()));
-  if (fresh) start_.push_back(all_[coordinate]), scale_.push_back(0), moves_.push_back(0);
+  if (fresh) start_.push_back(all_[coordinate]), reach_.push_back(0), moves_.push_back(0);
   return found->second;
 }
 
@@ -49,13 +49,12 @@ void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& p
       const int at = seen(place.coordinates[i]);
       if (place.framed() && i < 6) {
         moves_[at] = 1;
-        scale_[at] = i < 3 ? prepared_.extent : 1;
+        reach_[at] = 1e-2 / (i < 3 ? prepared_.extent : 1);
         continue;
       }
       const Index column = static_cast<Index>(i) - (place.framed() ? 6 : 0);
-      const double reach =
-          place.S.col(column).norm() / prepared_.extent + place.psi.col(column).norm();  // moves places by a hundredth
-      if (reach > 0) scale_[at] = std::max(scale_[at], 1e-2 / std::max(reach, 1e-12 / prepared_.extent));
+      reach_[at] = std::max(reach_[at], place.S.col(column).norm() / prepared_.extent + place.psi.col(column).norm());
+      greatest_reach_ = std::max(greatest_reach_, reach_[at]);
     }
   }
   for (const dynamics::SpatialRow& row : constraint.rows)
@@ -63,9 +62,17 @@ void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& p
   entries_.push_back(std::move(entry));
 }
 
+VectorXd SpatialRows::scales() const {
+  VectorXd scales = VectorXd::Zero(static_cast<Index>(reach_.size()));
+  for (std::size_t i = 0; i < reach_.size(); ++i)
+    if (moves_[i] || reach_[i] > 1e-10 * greatest_reach_) scales[static_cast<Index>(i)] = 1e-2 / reach_[i];
+  return scales;
+}
+
 VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) const {
   const Index count = static_cast<Index>(unit_.size());
   VectorXd C(count);
+  const VectorXd scale = scales();
   if (gradient) *gradient = MatrixXd::Zero(count, q.size());
   Index first = 0;
   for (const Entry& entry : entries_) {
@@ -80,7 +87,7 @@ VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) co
       entry.term->tangent(motion, {0, 0, 0}, J);
       for (Index i = 0; i < n; ++i)
         gradient->block(first, entry.coordinates[i], entry.rows, 1) +=
-            scale_[entry.coordinates[i]] * J.block(n, i, entry.rows, 1);
+            scale[entry.coordinates[i]] * J.block(n, i, entry.rows, 1);
     }
     first += entry.rows;
   }
@@ -105,7 +112,7 @@ VectorXd SpatialRows::allowed(const VectorXd& q, double t, const std::vector<Ind
     const VectorXd off = values(x, t, &gradient)(kept);
     if (off.size() == 0 || off.cwiseAbs().maxCoeff() < 1e-13) return x;
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_squares(gradient(kept, Eigen::all));
-    x -= least_squares.solve(off).cwiseProduct(VectorXd::Map(scale_.data(), x.size()));
+    x -= least_squares.solve(off).cwiseProduct(scales());
   }
   if (values(x, t, nullptr)(kept).cwiseAbs().maxCoeff() < 1e-11) return x;
   return VectorXd::Constant(q.size(), std::nan(""));
@@ -124,11 +131,12 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
   const VectorXd q = VectorXd::Map(start_.data(), static_cast<Index>(start_.size()));
   if (values(q, 0, nullptr).cwiseAbs().maxCoeff(&row) > 1e-6) complain(row, "at the start");
   const double end = std::isfinite(prepared_.scene.motion.end) ? prepared_.scene.motion.end : 0;
+  const VectorXd scale = scales();
   for (int sample = 0; sample < 4; ++sample) {
     const double t = end * sample / 64;
     VectorXd moved = q;
     for (Index i = 0; i < q.size(); ++i)  // frames by a twentieth, elastic coordinates by a hundredth
-      moved[i] += (moves_[i] ? 0.05 : 1) * scale_[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
+      moved[i] += (moves_[i] ? 0.05 : 1) * scale[i] * std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * sample);
     moved = allowed(moved, t, kept);
     if (!moved.allFinite()) continue;
     if (values(moved, t, nullptr).cwiseAbs().maxCoeff(&row) > 1e-8)

@@ -30,6 +30,9 @@ class SpatialRows {
   };
   /// C and its gradient with scaled coordinates; rotations count in radians, lengths in parts of the extent.
   int seen(int coordinate);
+  /// Of each coordinate: for frames the extent and a radian; else what moves a place by a hundredth of these; 0 where
+  /// columns move places by round-off alone.
+  Eigen::VectorXd scales() const;
   Eigen::VectorXd values(const Eigen::VectorXd& q, double t, Eigen::MatrixXd* gradient) const;
   Eigen::VectorXd allowed(const Eigen::VectorXd& q, double t, const std::vector<Eigen::Index>& kept) const;
   void check_left_out(const std::vector<Eigen::Index>& kept) const;
@@ -38,10 +41,11 @@ class SpatialRows {
   const Prepared& prepared_;
   const Eigen::VectorXd& all_;  // coordinates at the start
   // Of each coordinate that a joint sees:
-  std::map<int, int> number_;  // by its local index
-  std::vector<double> start_, scale_;
-  std::vector<char> moves_;   // of a frame; others are elastic
-  std::vector<double> unit_;  // of each row
+  std::map<int, int> number_;          // by its local index
+  std::vector<double> start_, reach_;  // a unit moves one of the places by so many extents and radians at most
+  double greatest_reach_ = 0;          // of elastic coordinates
+  std::vector<char> moves_;            // of a frame; others are elastic
+  std::vector<double> unit_;           // of each row
   std::vector<Entry> entries_;
 };
 

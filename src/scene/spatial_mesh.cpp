@@ -12,6 +12,7 @@
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
 #include "floe/mesh/partition.h"
+#include "floe/scene/places.h"
 #include "prepare_spatial.h"
 
 namespace floe::scene {
@@ -161,6 +162,14 @@ std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine)
   return all;
 }
 
+/// The place `middle` of what is one line from start to end. Collective.
+void add_middle(const Body& body, SpatialMesh& found) {
+  if (!unbranched(body.mesh)) return;
+  Place middle;
+  middle.name = "middle";
+  found.places["middle"] = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};
+}
+
 }  // namespace
 
 SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
@@ -188,6 +197,7 @@ SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
     SpatialMesh found{
         fem::Structure(std::move(mesh), std::move(sections), strain), std::move(places), source.mesh.parts, {}};
     found.notices = std::move(source.notices);
+    add_middle(body, found);
     found.notices.insert(found.notices.end(), inspection.notices.begin(), inspection.notices.end());
     return found;
   } catch (const InputError& error) {

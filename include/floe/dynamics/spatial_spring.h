@@ -27,8 +27,8 @@ class SpatialSpring final : public Term {
   /// Counts turns: from now on phi is the twist nearest to the present one; before the first call, nearest to `angle`.
   ///
   /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
-  /// a step, between evaluations. Never called, the spring holds as long as |phi - angle| < pi.
-  void follow(const Motion& motion);
+  /// a step, between evaluations. Within a step phi may change by less than half a turn.
+  void begin_step(const Motion& motion) override;
 
  private:
   mutable SpatialPair pair_;

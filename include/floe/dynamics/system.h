@@ -47,7 +47,8 @@ class System {
   Energy energy(double t, Vec U, Vec V) const;
 
   const Attitudes& attitudes() const { return attitudes_; }
-  /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration. Collective.
+  /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration, at which every
+  /// term begins a step (Term::begin_step). Without attitudes nothing happens. Collective.
   void rebase(Vec U) const;
   /// W = a x b in the three rows of every attitude, zero in all others. Collective.
   void bracket(Vec a, Vec b, Vec W) const;

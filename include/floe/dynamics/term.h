@@ -51,6 +51,9 @@ class Term {
   /// J (square, zero at entry) receives the weighted derivatives of residual at level position.
   virtual void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const = 0;
   virtual Energy energy(const Motion&) const { return {}; }
+  /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
+  /// and nowhere else. Of the motion only q counts. Called more than once for one step.
+  virtual void begin_step(const Motion&) {}
 };
 
 }  // namespace floe::dynamics

@@ -123,7 +123,7 @@ TEST_CASE("a torsional spring follows its turns when it is told to, and knows ha
   for (int step = 1; step <= 10; ++step) {
     State s = at_rest();
     s.q[5] = 2.0 * step;
-    spring.follow({0, s.q, s.v, s.a});
+    spring.begin_step({0, s.q, s.v, s.a});
   }
   CHECK(moment(spring, 21) == Approx(2 * 20.5).epsilon(1e-13));
 }
