@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array results = {"summary.json", "probes.csv",  "result.h5",   "compare.json", "compare.md",
-                                "compare.csv",  "compare.png", "compare.svg", "compare.pdf"};
+                                "compare.csv",  "compare.png", "compare.svg", "compare.pdf",  "campbell.csv"};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("output folder '{}': {}", path.string(), why));
