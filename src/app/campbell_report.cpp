@@ -82,7 +82,8 @@ void write(const scene::Scene& scene, const CampbellDiagram& diagram, const std:
 }
 
 void show(const scene::Scene& scene, const CampbellDiagram& diagram, const output::ResultFolder& folder) {
-  const Eigen::Vector3d &about = diagram.axis.direction, &through = diagram.axis.point;
+  const auto tidy = [](double x) { return std::abs(x) < 1e-12 ? 0 : x; };  // -1.7e-18 for a place on the axis
+  const Eigen::Vector3d about = diagram.axis.direction.unaryExpr(tidy), through = diagram.axis.point.unaryExpr(tidy);
   fmt::print("{} as {} ({}): {} coordinates, about ({:.4g}, {:.4g}, {:.4g}) through ({:.4g}, {:.4g}, {:.4g})\n",
              scene.title.empty() ? scene.file : scene.title, scene::name_of(diagram.model.formulation), diagram.label,
              diagram.model.coordinates, about.x(), about.y(), about.z(), through.x(), through.y(), through.z());

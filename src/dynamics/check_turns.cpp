@@ -38,10 +38,9 @@ std::vector<Index> angle_rows(const RotatingSystem& rotating, const std::vector<
   return angles;
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InputError(what +
-                   " does not turn with the scene about the axis: there is no steady rotation; expected joints to the "
-                   "ground on the axis that leave the turn about it free or drive it");
+[[noreturn]] void refuse(const std::string& what, const std::string& expected) {
+  throw InputError(fmt::format(
+      "{} does not turn with the scene about the axis, and there is no steady rotation; expected {}", what, expected));
 }
 
 /// The constraints' values and gradients at the configuration and at the turned one, and the forces there.
@@ -98,13 +97,15 @@ void check_turns(const RotatingSystem& rotating, Vec U) {
     const double size = at.here.G.row(i).cwiseAbs() * reach;
     const bool met = std::abs(at.there.F[i] - at.here.F[i]) <= 1e-7 * size ||
                      std::find(angles.begin(), angles.end(), i) != angles.end();
-    if (!met || (size > 0 && lost.col(i).norm() * mass.turn > 1e-7 * size)) refuse(names[i]);
+    if (!met || (size > 0 && lost.col(i).norm() * mass.turn > 1e-7 * size))
+      refuse(names[i], "joints to the ground on the axis that leave the turn about it free or drive it");
   }
   const VectorXd change = at.there.F - at.here.F, stiff = at.here.K.cwiseAbs() * reach;
   for (Index i = 0; i < unknowns; ++i)
     if (!is_multiplier[i] &&
         std::abs(change[i]) > 1e-7 * std::max(std::abs(at.here.F[i]), std::abs(at.there.F[i])) + 1e-10 * stiff[i])
-      refuse("what acts on " + (names[i].empty() ? "the bodies" : names[i]) + " (gravity, loads, springs)");
+      refuse("what acts on " + (names[i].empty() ? "the bodies" : names[i]),
+             "gravity along the axis or none, loads in axes of the body, springs to the ground on the axis");
 }
 
 }  // namespace floe::dynamics

@@ -101,7 +101,8 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
     const double size = size_of(step.change, mass_scale(rotating, at.M));
     if (!step.change.allFinite()) break;
     set(U, u + step.change);
-    if (size <= 1e-10 || (size <= 1e-6 && size > 0.3 * last)) {  // the second: all that round-off allows
+    if (size <= 1e-10 ||
+        (iteration > 15 && size <= 1e-7 && size > 0.3 * last)) {  // the second: all that round-off allows
       check_balance(rotating, speed, step.spin_up, U);
       return iteration;
     }
