@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "campbell.h"
 #include "commands.h"
 #include "compare.h"
 #include "equilibrium.h"
@@ -24,6 +25,7 @@ struct Choices {
   std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
   std::optional<double> at;
   int steps = 10;
+  CampbellRequest campbell;
   bool force = false, no_reference_error = false;
 };
 
@@ -89,7 +91,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "PETSc's and SLEPc's options follow with one dash: -modes_eps_..., -derivatives_ksp_..., -motion_ts_..., "
-      "-static_snes_..., -log_view; -help lists those of a command's solvers. Under mpirun -n N the answer is the "
+      "-static_snes_..., -campbell_pep_..., -log_view; -help lists those of a command's solvers. Under mpirun -n N the "
+      "answer is the "
       "same.");
 
   CLI::App* run_command = app.add_subcommand("run", "simulate a scene in one formulation");
@@ -155,6 +158,30 @@ int main(int argc, char** argv) {
     };
   });
 
+  CLI::App* campbell_command =
+      app.add_subcommand("campbell", "steady rotation of a scene at several speeds, and its vibrations there");
+  add_scene(campbell_command, choices);
+  campbell_command->add_option("--formulation", choices.formulation, "nlffr | lffr | vm | vm+md")
+      ->capture_default_str();
+  campbell_command->add_option("--speeds", choices.campbell.speeds, "FROM:TO:STEP or a list A,B,C [rad/s]")->required();
+  campbell_command->add_option(
+      "--about", choices.campbell.about,
+      "direction of the axis X,Y,Z (default: of the one driven or revolute joint to the ground)");
+  campbell_command->add_option("--through", choices.campbell.through,
+                               "a point of the axis X,Y,Z (default: that joint's, or 0,0,0 with --about)");
+  campbell_command->add_option("--modes", choices.campbell.modes, "how many vibrations at each speed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  add_folder(campbell_command, choices);
+  campbell_command->callback([&] {
+    work = [&] {
+      const scene::Formulation formulation = scene::formulation_of(choices.formulation);
+      const scene::Scene scene = read(choices.scene);
+      campbell_one(scene, formulation, PETSC_COMM_WORLD, choices.campbell,
+                   output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "campbell"), choices.force));
+    };
+  });
+
   CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
   add_scene(modes_command, choices);
   modes_command->add_option("--write", choices.out,
@@ -196,8 +223,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
-      what = fmt::format("\"{}\" is no command; expected run, compare, static, modes, reduce, info, check or schema",
-                         line.own.front());
+      what = fmt::format(
+          "\"{}\" is no command; expected run, compare, static, campbell, modes, reduce, info, check or schema",
+          line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }
   return in_session(line, work);

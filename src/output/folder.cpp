@@ -18,7 +18,7 @@ namespace {
 
 /// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
 const std::vector<std::vector<std::string>> results = {
-    {"summary.json", "probes.csv", "result.h5"},
+    {"summary.json", "probes.csv", "result.h5", "campbell.csv"},
     {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {

@@ -1,0 +1,137 @@
+#include "campbell.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "floe/output/progress.h"
+#include "interruption.h"
+#include "run.h"
+
+namespace floe::app {
+namespace {
+
+using Kind = scene::Joint::Kind;
+
+bool turns(const scene::Joint& joint) {
+  return (joint.kind == Kind::driven || joint.kind == Kind::revolute) && joint.first.ground() != joint.second.ground();
+}
+
+/// The one joint that the scene turns about; none: it has several, or none.
+const scene::Joint* hub_of(const scene::Scene& scene) {
+  const scene::Joint* hub = nullptr;
+  for (const scene::Joint& joint : scene.joints) {
+    if (!turns(joint)) continue;
+    if (hub) return nullptr;
+    hub = &joint;
+  }
+  return hub;
+}
+
+Eigen::Vector3d vector_of(const scene::Point& p) { return {p[0], p[1], p[2]}; }
+
+Eigen::Vector3d direction_of(const scene::Scene& scene, const CampbellRequest& request, const scene::Joint* hub) {
+  if (request.about) {
+    const Eigen::Vector3d about = parse_point(*request.about, "--about");
+    if (about.norm() == 0) throw InputError("--about: has no direction; expected three numbers, as [0,0,1]");
+    if (scene.dimension == 2 && about.normalized().z() < 1 - 1e-12)
+      throw InputError("--about: a scene in the plane turns about [0,0,1]");
+    return about.normalized();
+  }
+  if (scene.dimension == 2) return Eigen::Vector3d::UnitZ();
+  if (hub && hub->axis_given) return vector_of(hub->axis).normalized();
+  throw InputError(fmt::format("{}: {}; expected --about X,Y,Z and --through X,Y,Z", scene.file,
+                               hub ? fmt::format("joint {} about which it turns has no `axis`", hub->name)
+                                   : "the axis is not that of one driven or revolute joint to the ground"));
+}
+
+/// The scene with a probe more, that shows where the hub is at the start.
+scene::Scene with_hub(scene::Scene scene, const scene::Joint& hub) {
+  scene::Probe probe;
+  probe.name = "hub";
+  probe.at = hub.first.ground() ? hub.second : hub.first;
+  probe.quantity = scene::Probe::Quantity::position;
+  scene.probes.push_back(probe);
+  return scene;
+}
+
+Eigen::Vector3d hub_position(const scene::Model& model, int dimension) {
+  const std::vector<double> values = scene::probe_values(model, 0, model.U, model.V);
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  for (int i = 0; i < dimension; ++i) at[i] = values[values.size() - dimension + i];
+  return at;
+}
+
+scene::Model prepared(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
+  const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
+  return scene::build(scene, formulation, comm);
+}
+
+dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
+  dynamics::RotatingSystem rotating{*diagram.model.system, {}, diagram.axis, {}};
+  for (const scene::BodyReport& body : diagram.model.bodies) {
+    if (body.first_coordinate < 0)
+      throw InputError(
+          fmt::format("{}: body {} is clamped to the ground, and cannot turn; expected a joint of type "
+                      "driven or revolute to the ground in place of a fixed one",
+                      scene.file, body.name));
+    if (!body.attitude) rotating.planar_frames.push_back(body.first_coordinate);
+  }
+  for (const scene::Joint& joint : scene.joints)
+    if (turns(joint) && joint.kind == Kind::driven) rotating.drives.push_back("joint " + joint.name);
+  return rotating;
+}
+
+/// From the steady rotation at `from` to the vibrations at `speed`. Returns where the next search begins.
+double visit(const dynamics::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
+  try {
+    point.iterations = dynamics::steady_rotation(rotating, from, point.speed, U);
+  } catch (const RunError& error) {
+    point.fault = error.what();
+    return from;
+  }
+  point.vibrations = dynamics::vibrations(rotating, point.speed, U, modes);
+  return point.speed;
+}
+
+}  // namespace
+
+CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm,
+                         const CampbellRequest& request, std::exception_ptr& fault) {
+  const std::vector<double> speeds = parse_speeds(request.speeds);
+  if (formulation == scene::Formulation::cfr)
+    throw InputError("--formulation: cfr has no frames that turn; expected nlffr, lffr, vm or vm+md");
+  const scene::Joint* hub = hub_of(given);
+  CampbellDiagram diagram;
+  diagram.axis.direction = direction_of(given, request, hub);
+  if (request.through) diagram.axis.point = parse_point(*request.through, "--through");
+  const bool look = !request.through && !request.about && hub;
+  if (!request.through && !request.about && !hub)
+    throw InputError(given.file +
+                     ": the axis is not that of one driven or revolute joint to the ground; expected --through X,Y");
+  const double begin = MPI_Wtime();
+  diagram.model = prepared(look ? with_hub(given, *hub) : given, formulation, comm);
+  if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
+  diagram.label = label_of(diagram.model);
+  const dynamics::RotatingSystem rotating = rotating_system(given, diagram);
+  dynamics::check_turns(rotating, diagram.model.U);
+  const double started = MPI_Wtime();
+  diagram.offline_seconds = started - begin;
+  try {
+    const Interruption interruption;
+    output::Progress progress(comm, 0, static_cast<double>(speeds.size()));
+    double from = 0;
+    for (const double speed : speeds) {
+      CampbellPoint point{speed, {}, 0, {}};
+      from = visit(rotating, from, request.modes, diagram.model.U, point);
+      diagram.points.push_back(std::move(point));
+      progress.update(static_cast<double>(diagram.points.size()), static_cast<PetscInt>(diagram.points.size()));
+      interruption.check(comm);
+    }
+  } catch (const std::exception&) {
+    fault = std::current_exception();
+  }
+  diagram.seconds = MPI_Wtime() - started;
+  return diagram;
+}
+
+}  // namespace floe::app

@@ -1,0 +1,59 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floe/dynamics/steady_rotation.h"
+#include "floe/output/folder.h"
+#include "floe/output/table.h"
+#include "floe/scene/model.h"
+
+namespace floe::app {
+
+/// What `floe campbell` is asked for, as on the command line.
+struct CampbellRequest {
+  std::string speeds;                         ///< `from:to:step` or `a,b,c` [rad/s]
+  std::optional<std::string> about, through;  ///< `x,y,z`, brackets as one likes
+  int modes = 6;
+};
+
+/// @throws InputError  no such list, or one of more than 10000 speeds
+std::vector<double> parse_speeds(const std::string& text);
+/// @param option  for messages  @throws InputError  not two or three numbers
+Eigen::Vector3d parse_point(const std::string& text, const std::string& option);
+
+/// One speed of the diagram.
+struct CampbellPoint {
+  double speed = 0;
+  std::string fault;  ///< why there is no steady rotation; empty: there is
+  PetscInt iterations = 0;
+  std::vector<dynamics::Vibration> vibrations;
+};
+
+struct CampbellDiagram {
+  std::vector<CampbellPoint> points;
+  dynamics::RotationAxis axis;
+  scene::Model model;  ///< at the last steady rotation
+  std::string label;
+  double offline_seconds = 0, seconds = 0;
+};
+
+/// Builds one scene in one formulation, turns it steadily at each speed in turn, each from the one before and the first
+/// from rest, and finds its vibrations.
+///
+/// @param fault  why it ended before the last speed, to be thrown once what was reached is written
+/// @throws InputError  no axis, a scene that cannot turn, formulation cfr; RunError. Collective.
+CampbellDiagram campbell(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+                         const CampbellRequest& request, std::exception_ptr& fault);
+
+/// A row for each vibration at each speed; remarks say what is unstable, a zero mode, or not there.
+output::Table campbell_table(const CampbellDiagram& diagram);
+nlohmann::ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& diagram, MPI_Comm comm);
+
+/// `floe campbell`: the diagram as a table, campbell.csv and summary.json. Collective.
+/// @throws RunError  also where there is no steady rotation at any speed
+void campbell_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+                  const CampbellRequest& request, const output::ResultFolder& folder);
+
+}  // namespace floe::app

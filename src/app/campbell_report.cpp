@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "campbell.h"
+#include "floe/output/provenance.h"
+#include "floe/output/summary.h"
+
+namespace floe::app {
+
+using nlohmann::ordered_json;
+
+output::Table campbell_table(const CampbellDiagram& diagram) {
+  output::Table table;
+  table.columns = {{"speed", "rad/s", 6},     {"mode", ""},         {"frequency", "Hz", 6},
+                   {"frequency", "rad/s", 6}, {"growth", "1/s", 4}, {"remark", ""}};
+  for (const CampbellPoint& point : diagram.points) {
+    const std::string empty;
+    if (!point.fault.empty() || point.vibrations.empty())
+      table.rows.push_back({point.speed, empty, empty, empty, empty,
+                            std::string(point.fault.empty() ? "nothing vibrates" : "no steady rotation")});
+    for (std::size_t i = 0; i < point.vibrations.size(); ++i) {
+      const dynamics::Vibration& v = point.vibrations[i];
+      table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
+                            v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
+                            std::string(v.unstable() ? "unstable"
+                                        : v.zero     ? "zero mode"
+                                                     : "")});
+    }
+  }
+  return table;
+}
+
+ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& diagram, MPI_Comm comm) {
+  ordered_json j;
+  j["status"] = "finished";
+  j["scene"] = {{"file", scene.file}, {"title", scene.title}};
+  j["formulation"] = scene::name_of(diagram.model.formulation);
+  j["label"] = diagram.label;
+  j["provenance"] = output::provenance(comm);
+  j["unknowns"] = {{"coordinates", diagram.model.coordinates}, {"multipliers", diagram.model.multipliers}};
+  const Eigen::Vector3d &about = diagram.axis.direction, &through = diagram.axis.point;
+  j["axis"] = {{"about", {about.x(), about.y(), about.z()}}, {"through", {through.x(), through.y(), through.z()}}};
+  j["speeds"] = ordered_json::array();
+  for (const CampbellPoint& point : diagram.points) {
+    ordered_json at{{"rad_per_s", point.speed}, {"steady", point.fault.empty()}};
+    if (!point.fault.empty())
+      at["reason"] = point.fault;
+    else
+      at["newton_iterations"] = point.iterations, at["vibrations"] = ordered_json::array();
+    for (const dynamics::Vibration& v : point.vibrations)
+      at["vibrations"].push_back(
+          {{"Hz", v.omega / (2 * M_PI)}, {"rad_per_s", v.omega}, {"growth_per_s", v.growth}, {"zero", v.zero}});
+    j["speeds"].push_back(at);
+  }
+  j["warnings"] = diagram.model.warnings;
+  j["seconds"] = {{"offline", diagram.offline_seconds}, {"speeds", diagram.seconds}};
+  return j;
+}
+
+namespace {
+
+std::string words(std::exception_ptr fault) {
+  try {
+    std::rethrow_exception(fault);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+void write(const scene::Scene& scene, const CampbellDiagram& diagram, const std::string& stopped, MPI_Comm comm,
+           const output::ResultFolder& folder) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  ordered_json summary = campbell_summary(scene, diagram, comm);
+  if (!stopped.empty()) summary["status"] = "failed", summary["reason"] = stopped;
+  petsc::agree(comm, [&] {
+    if (rank == 0) output::write_file_atomically(folder.path / "campbell.csv", output::to_csv(campbell_table(diagram)));
+  });
+  output::write_summary(comm, folder, summary);
+}
+
+void show(const scene::Scene& scene, const CampbellDiagram& diagram, const output::ResultFolder& folder) {
+  const auto tidy = [](double x) { return std::abs(x) < 1e-12 ? 0 : x; };  // -1.7e-18 for a place on the axis
+  const Eigen::Vector3d about = diagram.axis.direction.unaryExpr(tidy), through = diagram.axis.point.unaryExpr(tidy);
+  fmt::print("{} as {} ({}): {} coordinates, about ({:.4g}, {:.4g}, {:.4g}) through ({:.4g}, {:.4g}, {:.4g})\n",
+             scene.title.empty() ? scene.file : scene.title, scene::name_of(diagram.model.formulation), diagram.label,
+             diagram.model.coordinates, about.x(), about.y(), about.z(), through.x(), through.y(), through.z());
+  fmt::print("offline {:.3g} s, {} speeds {:.3g} s\n\n", diagram.offline_seconds, diagram.points.size(),
+             diagram.seconds);
+  fmt::print("{}", output::to_text(campbell_table(diagram)));
+  for (const CampbellPoint& point : diagram.points)
+    if (!point.fault.empty()) fmt::print("Note: {}\n", point.fault);
+  for (const std::string& warning : diagram.model.warnings) fmt::print("Note: {}\n", warning);
+  fmt::print("Results: {}\n", folder.path.string());
+}
+
+}  // namespace
+
+void campbell_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+                  const CampbellRequest& request, const output::ResultFolder& folder) {
+  std::exception_ptr fault;
+  const CampbellDiagram diagram = [&] {
+    try {
+      return campbell(scene, formulation, comm, request, fault);
+    } catch (const std::exception&) {
+      output::discard_if_empty(folder);
+      throw;
+    }
+  }();
+  const auto steady = [](const CampbellPoint& point) { return point.fault.empty(); };
+  if (!fault && std::none_of(diagram.points.begin(), diagram.points.end(), steady))
+    fault = std::make_exception_ptr(RunError(diagram.points.front().fault));
+  write(scene, diagram, fault ? words(fault) : "", comm, folder);
+  if (fault) std::rethrow_exception(fault);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) show(scene, diagram, folder);
+}
+
+}  // namespace floe::app

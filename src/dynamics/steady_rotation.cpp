@@ -1,0 +1,138 @@
+#include "floe/dynamics/steady_rotation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "everywhere.h"
+#include "rotating_axes.h"
+
+namespace floe::dynamics {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// J x = b with rows and columns of greatest entry one (Ruiz 2001, RAL-TR-2001-034); where J is small the solution of
+/// least norm, which singular directions leave alone.
+VectorXd solve(MatrixXd J, VectorXd b) {
+  const auto root = [](double greatest) { return greatest > 0 ? 1 / std::sqrt(greatest) : 1.0; };
+  VectorXd columns = VectorXd::Ones(J.cols());
+  for (int sweep = 0; sweep < 5; ++sweep) {
+    const VectorXd left = J.cwiseAbs().rowwise().maxCoeff().unaryExpr(root),
+                   right = J.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(root);
+    J = left.asDiagonal() * J * right.asDiagonal();
+    b.array() *= left.array(), columns.array() *= right.array();
+  }
+  constexpr Index small = 400;
+  const VectorXd x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(J).solve(b))
+                                       : VectorXd(J.partialPivLu().solve(b));
+  return columns.cwiseProduct(x);
+}
+
+/// Change of the coordinates as the scene turns about the axis by one radian; zero where a drive holds its angle.
+VectorXd free_turn(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& U) {
+  const VectorXd turn = rotating_motion(rotating, 1, U).V;
+  const VectorXd held = at.G * turn, size = at.G.cwiseAbs() * turn.cwiseAbs();
+  for (Index i = 0; i < held.size(); ++i)
+    if (std::abs(held[i]) > 1e-7 * size[i]) return VectorXd::Zero(U.size());
+  return turn;
+}
+
+struct Step {
+  VectorXd change;
+  double spin_up = 0;  ///< angular acceleration about the axis that is left over [rad/s2]
+};
+
+/// Newton's step; where the scene is free to turn, it does not, and may spin up instead: [J M b; (M b)' 0].
+Step newton_step(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& U) {
+  const VectorXd turn = free_turn(rotating, at, U), weighted = at.M * turn;
+  const double inertia = turn.dot(weighted);
+  if (!(inertia > 0)) return {solve(at.K + at.G, -at.F)};
+  const Index n = U.size();
+  MatrixXd J = MatrixXd::Zero(n + 1, n + 1);
+  J.topLeftCorner(n, n) = at.K + at.G;
+  J.topRightCorner(n, 1) = weighted / inertia;
+  J.bottomLeftCorner(1, n) = weighted.transpose() / inertia;
+  VectorXd b = VectorXd::Zero(n + 1);
+  b.head(n) = -at.F;
+  const VectorXd x = solve(std::move(J), std::move(b));
+  return {x.head(n), x[n] / inertia};
+}
+
+/// Accelerations that round-off, or a search that came near enough, leaves. [rad/s2]
+double negligible(const RotatingTangent& at, const MassScale& mass, double speed) {
+  double fastest = 0;  // square of the highest frequency
+  for (Index i = 0; i < at.K.rows(); ++i)
+    if (mass.root[i] > 0) fastest = std::max(fastest, std::abs(at.K(i, i)) / std::pow(mass.root[i], 2));
+  return 1e-6 * speed * speed + 1e-12 * fastest;
+}
+
+/// That forces balance: what singular directions have left is no equilibrium.
+void check_balance(const RotatingSystem& rotating, double speed, double spin_up, Vec U) {
+  const RotatingTangent at = rotating_tangent(rotating, speed, U);
+  const MassScale mass = mass_scale(rotating, at.M);
+  const double small = negligible(at, mass, speed);
+  if (std::abs(spin_up) > small)
+    throw RunError(
+        fmt::format("a moment about the axis is left that spins the scene up at {:.3g} rad/s2; expected a "
+                    "drive, or loads without such a moment",
+                    std::abs(spin_up)));
+  double greatest = 0;
+  for (Index i = 0; i < at.F.size(); ++i)
+    if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.turn));
+  if (!(greatest <= small)) throw RunError(fmt::format("forces cannot balance (left over: {:.3g} rad/s2)", greatest));
+}
+
+/// In units of a frame's turn by one radian.
+double size_of(const VectorXd& change, const MassScale& mass) {
+  return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.turn;
+}
+
+PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
+  double last = INFINITY;
+  for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
+    const RotatingTangent at = rotating_tangent(rotating, speed, U);
+    const VectorXd u = everywhere(rotating.system, U);
+    Step step = newton_step(rotating, at, u);
+    MPI_Bcast(step.change.data(), static_cast<int>(step.change.size()), MPI_DOUBLE, 0, rotating.system.comm());
+    const double size = size_of(step.change, mass_scale(rotating, at.M));
+    if (!step.change.allFinite()) break;
+    set(U, u + step.change);
+    if (size <= 1e-10 ||
+        (iteration > 15 && size <= 1e-7 && size > 0.3 * last)) {  // the second: all that round-off allows
+      check_balance(rotating, speed, step.spin_up, U);
+      return iteration;
+    }
+    last = size;
+  }
+  throw RunError("Newton's method found none");
+}
+
+PetscInt advance(const RotatingSystem& rotating, double from, double speed, double least, Vec U) {
+  const KeptState before(rotating.system, U);
+  try {
+    return newton(rotating, speed, U);
+  } catch (const RunError&) {
+    before.restore(U);
+    if (std::abs(speed - from) < 2 * least || speed == from) throw;
+  }
+  const PetscInt half = advance(rotating, from, (from + speed) / 2, least, U);
+  return half + advance(rotating, (from + speed) / 2, speed, least, U);
+}
+
+}  // namespace
+
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U) {
+  const KeptState before(rotating.system, U);
+  try {
+    return advance(rotating, from, speed, std::abs(speed - from) / 1000, U);
+  } catch (const RunError& error) {
+    before.restore(U);
+    throw RunError(fmt::format("no steady rotation at {:.6g} rad/s: {}", speed, error.what()));
+  }
+}
+
+}  // namespace floe::dynamics

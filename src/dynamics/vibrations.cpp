@@ -1,0 +1,167 @@
+#include <fmt/format.h>
+#include <slepcpep.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "floe/dynamics/steady_rotation.h"
+#include "null_space.h"
+
+namespace floe::dynamics {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using petsc::check;
+using Exponents = std::vector<std::complex<double>>;
+
+namespace {
+
+using PepHandle = petsc::Handle<PEP, PEPDestroy>;
+
+struct Quadratic {
+  MatrixXd M, C, K;
+};
+
+petsc::MatHandle dense(const MatrixXd& X) {
+  petsc::MatHandle mat;
+  double* values = nullptr;
+  check(MatCreateSeqDense(PETSC_COMM_SELF, X.rows(), X.cols(), nullptr, mat.out()));
+  check(MatDenseGetArrayWrite(mat, &values));
+  std::copy(X.data(), X.data() + X.size(), values);
+  check(MatDenseRestoreArrayWrite(mat, &values));
+  check(MatAssemblyBegin(mat, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(mat, MAT_FINAL_ASSEMBLY));
+  return mat;
+}
+
+/// Greatest |K_ii| / M_ii, the square of about the highest frequency.
+double fastest(const Quadratic& problem) {
+  double greatest = 0;
+  for (Index i = 0; i < problem.K.rows(); ++i)
+    if (problem.M(i, i) > 0) greatest = std::max(greatest, std::abs(problem.K(i, i)) / problem.M(i, i));
+  return greatest;
+}
+
+/// About the frequency of the slower ones of the first vibrations: inverse iteration with a block, without C.
+double typical(const Quadratic& problem) {
+  const Index n = problem.K.rows(), block = std::min<Index>(6, n);
+  const MatrixXd K = (problem.K + problem.K.transpose()) / 2, M = (problem.M + problem.M.transpose()) / 2;
+  const Eigen::PartialPivLU<MatrixXd> factor(K + 1e-13 * fastest(problem) * M);
+  MatrixXd X(n, block);
+  for (Index j = 0; j < block; ++j)
+    for (Index i = 0; i < n; ++i)
+      X(i, j) = std::sin(1 + 1.7 * static_cast<double>(i) + 2.3 * static_cast<double>(j * i));
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    X = factor.solve(M * X);
+    if (!X.allFinite()) return 0;
+    X = Eigen::HouseholderQR<MatrixXd>(X).householderQ() * MatrixXd::Identity(n, block);
+  }
+  const VectorXd squares =
+      Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(X.transpose() * K * X, X.transpose() * M * X).eigenvalues();
+  const double middle = std::sqrt(std::abs(squares[block / 2]));
+  return std::isfinite(middle) ? middle : 0;
+}
+
+/// All exponents s of (s^2 M + s C + K) y = 0, by its linearisation in (y, s y / shift), shifted and inverted:
+///
+///   T = [-P (C' + M'), -P M'; I - P (C' + M'), -P M'],  C' = shift C, M' = shift^2 M, P = (K + C' + M')^-1
+///
+/// with eigenvalues 1 / (s / shift - 1): the slow ones are the greatest, and round-off is small beside them.
+Exponents all_exponents(const Quadratic& problem, double shift) {
+  const Index n = problem.K.rows();
+  const MatrixXd M = shift * shift * problem.M, CM = shift * problem.C + M;
+  const Eigen::PartialPivLU<MatrixXd> P(problem.K + CM);
+  MatrixXd T(2 * n, 2 * n);
+  T.topLeftCorner(n, n) = T.bottomLeftCorner(n, n) = -P.solve(CM);
+  T.topRightCorner(n, n) = T.bottomRightCorner(n, n) = -P.solve(M);
+  T.bottomLeftCorner(n, n) += MatrixXd::Identity(n, n);
+  const Eigen::EigenSolver<MatrixXd> solver(T, false);
+  if (!T.allFinite() || solver.info() != Eigen::Success) throw RunError("vibrations not found: no finite eigenvalues");
+  Exponents found;
+  for (const std::complex<double>& theta : solver.eigenvalues())
+    if (std::abs(theta) > 0) found.push_back(shift * (1.0 + 1.0 / theta));
+  return found;
+}
+
+/// Those nearest to `shift` > 0, which for swings are the slowest.
+Exponents first_exponents(const Quadratic& problem, double shift, int count) {
+  const PetscInt n = static_cast<PetscInt>(problem.K.rows());
+  const petsc::MatHandle K = dense(problem.K), C = dense(problem.C), M = dense(problem.M);
+  Mat all[3] = {K, C, M};
+  PepHandle pep;
+  ST st = nullptr;
+  check(PEPCreate(PETSC_COMM_SELF, pep.out()));
+  check(PEPSetOptionsPrefix(pep, "campbell_"));
+  check(PEPSetOperators(pep, 3, all));
+  check(PEPSetType(pep, PEPTOAR));
+  check(PEPGetST(pep, &st));
+  check(STSetType(st, STSINVERT));
+  check(PEPSetTarget(pep, shift));
+  check(PEPSetWhichEigenpairs(pep, PEP_TARGET_MAGNITUDE));
+  check(PEPSetDimensions(pep, std::min<PetscInt>(2 * count + 8, n), PETSC_DEFAULT, PETSC_DEFAULT));
+  check(PEPSetTolerances(pep, 1e-11, 1000));
+  petsc::check_options(PEPSetFromOptions(pep), "campbell_");
+  check(PEPSolve(pep));
+  PEPConvergedReason reason = PEP_CONVERGED_ITERATING;
+  PetscInt converged = 0;
+  check(PEPGetConvergedReason(pep, &reason));
+  check(PEPGetConverged(pep, &converged));
+  if (reason < 0)
+    throw RunError(fmt::format("vibrations not found (options -campbell_pep_...): {}, {} of them converged",
+                               PEPConvergedReasons[reason], converged));
+  Exponents found(converged);
+  for (PetscInt i = 0; i < converged; ++i) {
+    double re = 0, im = 0;
+    check(PEPGetEigenpair(pep, i, &re, &im, nullptr, nullptr));
+    found[i] = {re, im};
+  }
+  return found;
+}
+
+/// One vibration for each pair of exponents.
+std::vector<Vibration> paired(const Exponents& exponents, double nothing, double small) {
+  std::vector<Vibration> all;
+  std::vector<double> real;
+  int zeros = 0;
+  for (const auto& s : exponents) {
+    if (!std::isfinite(std::abs(s))) continue;
+    if (std::abs(s) <= nothing)
+      ++zeros;
+    else if (std::abs(s.imag()) <= 1e-9 * std::abs(s))
+      real.push_back(s.real());
+    else if (s.imag() > 0)
+      all.push_back({s.imag(), std::abs(s.real()) > small + 1e-7 * std::abs(s) ? s.real() : 0});
+  }
+  std::sort(real.rbegin(), real.rend());
+  for (std::size_t i = 0; 2 * i < real.size(); ++i) all.push_back({0, real[i]});
+  for (int i = 0; 2 * i < zeros; ++i) all.push_back({0, 0, true});
+  std::sort(all.begin(), all.end(), [](const Vibration& a, const Vibration& b) {
+    return a.omega != b.omega ? a.omega < b.omega : a.growth > b.growth;
+  });
+  return all;
+}
+
+}  // namespace
+
+std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, Vec U, int count) {
+  const RotatingTangent at = rotating_tangent(rotating, speed, U);
+  const AllowedMotions allowed(rotating.system, at, mass_scale(rotating, at.M).root);
+  if (allowed.size() == 0) return {};
+  const Quadratic problem{allowed.restrict_both(at.M), allowed.restrict_both(at.C), allowed.restrict_both(at.K)};
+  const double swing = std::max(typical(problem), std::abs(speed)), highest = std::sqrt(fastest(problem));
+  const double scale = swing > 0 ? swing : 1;
+  // a double zero of a matrix with errors of eps |K| splits by the square root of that
+  const double noise =
+      std::clamp(4 * std::sqrt(std::numeric_limits<double>::epsilon()) * highest, 1e-6 * scale, 1e-2 * scale);
+  constexpr Index small = 150;
+  const Exponents found =
+      allowed.size() <= small ? all_exponents(problem, scale) : first_exponents(problem, scale, count);
+  std::vector<Vibration> all = paired(found, noise, 1e-6 * scale);
+  if (all.size() > static_cast<std::size_t>(count)) all.resize(count);
+  return all;
+}
+
+}  // namespace floe::dynamics

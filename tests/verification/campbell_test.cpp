@@ -1,0 +1,293 @@
+#include "../../src/app/campbell.h"
+
+#include <catch2/catch.hpp>
+
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+app::CampbellDiagram diagram(const std::string& text, Formulation formulation, const std::string& speeds, int modes = 6,
+                             const app::CampbellRequest& axis = {}) {
+  app::CampbellRequest request = axis;
+  request.speeds = speeds, request.modes = modes;
+  std::exception_ptr fault;
+  app::CampbellDiagram found =
+      app::campbell(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, request, fault);
+  if (fault) std::rethrow_exception(fault);
+  return found;
+}
+
+std::vector<double> omega(const app::CampbellPoint& point) {
+  REQUIRE(point.fault == "");
+  std::vector<double> all;
+  for (const auto& vibration : point.vibrations) {
+    CHECK(vibration.growth == 0);
+    all.push_back(vibration.omega);
+  }
+  return all;
+}
+
+/// Flap frequencies of a clamped beam, hub radius 0, no rotary inertia, by independent converged computation.
+struct Flap {
+  double gamma, omega[3];
+};
+const Flap flaps[] = {{2, {4.1373196, 22.6149220, 62.2731841}},
+                      {6, {7.3603730, 26.8090817, 66.6839144}},
+                      {12, {13.1701505, 37.6031123, 79.6144785}}};
+double lag(const Flap& flap, int i) { return std::sqrt(std::pow(flap.omega[i], 2) - std::pow(flap.gamma, 2)); }
+
+/// L = EI = rhoA = 1, driven at its root.
+std::string planar(const std::string& frame, const std::string& joint, const std::string& elements,
+                   const std::string& EA = "1e8") {
+  return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [3, 2], to: [4, 2], elements: $elements}}
+    section: {EA: $EA, EI: 1, rhoA: 1}
+    frame: $frame
+    reduction: {modes: 8, derivatives: all}
+joints: {root: {$joint, between: [ground, beam.start]}}
+probes: {tip: {at: beam.end, quantity: deflection}}
+)yaml",
+              {{"EA", EA}, {"frame", frame}, {"joint", joint}, {"elements", elements}});
+}
+const std::string driven = "type: driven, angle: \"2*t\"";
+
+/// The same in space along x, as stiff in both directions, turning about z.
+std::string spatial(const std::string& elements, const std::string& joint) {
+  return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 1], to: [1, 0, 1], elements: $elements}}
+    section: {A: 1, Iy: 1e-8, Iz: 1e-8, J: 2e-8, orientation: [0, 1, 0]}
+    material: {E: 1e8, G: 4e7, rho: 1}
+    reduction: {modes: 12, derivatives: all}
+joints: {root: {$joint, between: [ground, beam.start]}}
+)yaml",
+              {{"elements", elements}, {"joint", joint}});
+}
+
+/// A rigid rod of length 1 on a driven rigid hub, hinged at the distance e from the axis.
+std::string hinged_rod(double e, const std::string& hinge, const std::string& rigid = "true") {
+  return fill(R"yaml(
+bodies:
+  hub:
+    mesh: {line: {from: [0, 0, -1], to: [$e, 0, 0], elements: 1}}
+    section: {A: 1, Iy: 1e-3, Iz: 1e-3, J: 2e-3, orientation: [0, 1, 0]}
+    material: {E: 1e8, G: 4e7, rho: 1}
+    rigid: true
+  rod:
+    mesh: {line: {from: [$e, 0, 0], to: [$tip, 0, 0], elements: 40}}
+    section: {A: 1, Iy: 1e-8, Iz: 1e-8, J: 2e-8, orientation: [0, 1, 0]}
+    material: {E: 1e8, G: 4e7, rho: 1}
+    rigid: $rigid
+joints:
+  hub: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
+  hinge: {type: revolute, between: [hub.end, rod.start], axis: $hinge}
+)yaml",
+              {{"e", number(e)}, {"tip", number(1 + e)}, {"hinge", hinge}, {"rigid", rigid}});
+}
+
+/// A square plate of side and bending stiffness 1, mass 1 per area, driven at its left edge.
+std::string plate(const std::string& elements, const std::string& modes) {
+  const double h = 1e-3, E = 12 * (1 - 0.09) / (h * h * h), rho = 1 / h;
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {origin: [0, -0.5, 0], along: [1, 0, 0], across: [0, 1, 0], elements: [$n, $n], cells: $cells}}
+    section: {thickness: 1e-3}
+    material: {E: $E, nu: 0.3, rho: $rho}
+    frame: {type: clamped, at: left}
+    reduction: {modes: $modes, derivatives: all}
+joints: {root: {type: driven, between: [ground, plate.left], axis: [0, 0, 1], angle: "t"}}
+)yaml",
+              {{"n", elements}, {"cells", "quadrilaterals"}, {"E", number(E)}, {"rho", number(rho)}, {"modes", modes}});
+}
+
+}  // namespace
+
+// Coriolis forces couple lag to stretch and change omega by a part of the order (gamma r/L)^2, 1e-6 here at most. The
+// tension acts on the mean slope of an element: error O(h^2), removed by extrapolation from two meshes.
+TEST_CASE("campbell: a driven planar beam lags at sqrt(flap^2 - gamma^2)") {
+  for (const std::string frame : {"pinned", "clamped"}) {
+    const auto coarse = diagram(planar(frame, driven, "12"), Formulation::nlffr, "2,6,12", 3),
+               fine = diagram(planar(frame, driven, "24"), Formulation::nlffr, "2,6,12", 3),
+               reduced = diagram(planar(frame, driven, "24"), Formulation::vm_md, "2,6,12", 3);
+    for (int s = 0; s < 3; ++s) {
+      INFO(frame << " at gamma = " << flaps[s].gamma);
+      const auto a = omega(coarse.points.at(s)), b = omega(fine.points.at(s)), r = omega(reduced.points.at(s));
+      for (int i = 0; i < 3; ++i) {
+        CHECK((4 * b.at(i) - a.at(i)) / 3 == Approx(lag(flaps[s], i)).epsilon(5e-5));
+        CHECK(r.at(i) == Approx(b.at(i)).epsilon(2e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("campbell: a driven beam in space flaps as the table has it, and lags") {
+  const std::string drive = "type: driven, axis: [0, 0, 1], angle: \"t\"";
+  const auto coarse = diagram(spatial("12", drive), Formulation::nlffr, "2:12:2", 6),
+             fine = diagram(spatial("24", drive), Formulation::nlffr, "2,6,12", 6),
+             reduced = diagram(spatial("24", drive), Formulation::vm_md, "2,6,12", 6);
+  for (int s = 0; s < 3; ++s) {
+    INFO("gamma = " << flaps[s].gamma);
+    const auto a = omega(coarse.points.at(s == 0   ? 0
+                                          : s == 1 ? 2
+                                                   : 5)),
+               b = omega(fine.points.at(s)), r = omega(reduced.points.at(s));
+    for (int i = 0; i < 3; ++i) {
+      CHECK((4 * b.at(2 * i) - a.at(2 * i)) / 3 == Approx(lag(flaps[s], i)).epsilon(5e-5));
+      CHECK((4 * b.at(2 * i + 1) - a.at(2 * i + 1)) / 3 == Approx(flaps[s].omega[i]).epsilon(5e-5));
+      CHECK(r.at(2 * i) == Approx(b.at(2 * i)).epsilon(2e-3));
+      CHECK(r.at(2 * i + 1) == Approx(b.at(2 * i + 1)).epsilon(2e-3));
+    }
+  }
+}
+
+// A rod that is hinged at the distance e: flap^2 = gamma^2 (1 + 3e/2), lag^2 = gamma^2 3e/2 (moments about the hinge);
+// e = 0: flap omega_1 = gamma exactly, for elastic beams too. Blades fold outwards as the hub begins to turn.
+TEST_CASE("campbell: hinged rods swing in proportion to the speed") {
+  for (const double e : {0., 0.1}) {
+    for (const bool flap : {true, false}) {
+      INFO("e = " << e << (flap ? ", flap" : ", lag"));
+      const auto found = diagram(hinged_rod(e, flap ? "[0, 1, 0]" : "[0, 0, 1]"), Formulation::nlffr, "0,5,100", 1);
+      CHECK(found.points.at(0).vibrations.at(0).zero);
+      for (int s = 1; s < 3; ++s) {
+        const auto& at = found.points.at(s);
+        const double ratio = std::sqrt((flap ? 1 : 0) + 1.5 * e);
+        if (ratio > 0.01)
+          CHECK(omega(at).at(0) == Approx(ratio * at.speed).epsilon(1e-7));
+        else
+          CHECK(at.vibrations.at(0).omega < 1e-3 * at.speed);
+      }
+    }
+  }
+}
+
+TEST_CASE("campbell: an elastic beam that is hinged at the axis flaps at the speed of rotation") {
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto found = diagram(hinged_rod(0, "[0, 1, 0]", "false"), formulation, "2,12", 4);
+    for (const auto& point : found.points) {
+      const auto all = omega(point);
+      CHECK(std::any_of(all.begin(), all.end(), [&](double one) { return one == Approx(point.speed).epsilon(1e-5); }));
+    }
+  }
+}
+
+// Hinged at the axis the first flap is gamma (above), so the first lag is neutral: the beam turns on.
+TEST_CASE("campbell: a beam on a free hub has a zero mode, and turns as one that is driven") {
+  for (const bool space : {false, true}) {
+    const auto found =
+        diagram(space ? spatial("16", "type: revolute, axis: [0, 0, 1]") : planar("pinned", "type: revolute", "16"),
+                Formulation::vm_md, "0,2,6", 4);
+    for (const auto& point : found.points) {
+      INFO((space ? "space" : "plane") << " at " << point.speed << ": " << point.fault);
+      REQUIRE(point.vibrations.size() == 4);
+      CHECK(point.vibrations[0].zero);
+      CHECK_FALSE(point.vibrations[1].zero);
+    }
+    if (!space) {
+      CHECK(found.axis.point.isApprox(Eigen::Vector3d(3, 2, 0)));
+      // free-hinged beam at rest: (4k+1)^2 pi^2/16 approximately; exactly tan = tanh
+      CHECK(found.points[0].vibrations[1].omega == Approx(15.418206).epsilon(1e-4));
+    }
+  }
+}
+
+// Linear elastic forces in the clamped frame: lag^2 = beta_1^4 - gamma^2 is negative beyond gamma = 3.516015, and the
+// motion grows at sqrt(gamma^2 - beta_1^4).
+TEST_CASE("campbell: linear elastic forces grow beyond gamma = 3.516, von Karman's do not") {
+  for (const Formulation formulation : {Formulation::lffr, Formulation::nlffr, Formulation::vm_md}) {
+    const auto found = diagram(planar("clamped", driven, "16"), formulation, "3.49,3.54,4,6", 2);
+    for (const auto& point : found.points) {
+      INFO(scene::name_of(formulation) << " at " << point.speed << ": " << point.fault);
+      REQUIRE(point.vibrations.size() == 2);
+      if (formulation == Formulation::lffr && point.speed > 3.5) {
+        CHECK(point.vibrations[0].unstable());
+        CHECK(point.vibrations[0].growth ==
+              Approx(std::sqrt(std::pow(point.speed, 2) - std::pow(3.5160152685, 2))).epsilon(1e-2));
+      } else {
+        CHECK_FALSE(point.vibrations[0].unstable());
+      }
+    }
+  }
+}
+
+// omega a^2 sqrt(rho h / D), nu = 0.3, the plate in the plane of rotation: independent converged computation. The error
+// of the mesh is of order 2.
+TEST_CASE("campbell: a rotating square plate") {
+  const double exact[3][3] = {{3.6393, 8.6267, 21.429}, {4.7677, 9.5316, 22.544}, {11.1945, 16.6312, 31.956}};
+  const auto coarse = diagram(plate("6", "6"), Formulation::nlffr, "1,3,10", 3),
+             fine = diagram(plate("12", "6"), Formulation::nlffr, "1,3,10", 3),
+             reduced = diagram(plate("12", "10"), Formulation::vm_md, "1,3,10", 3);
+  for (int s = 0; s < 3; ++s) {
+    INFO("gamma = " << fine.points[s].speed);
+    const auto a = omega(coarse.points[s]), b = omega(fine.points[s]), r = omega(reduced.points[s]);
+    for (int i = 0; i < 3; ++i) {
+      CHECK((4 * b.at(i) - a.at(i)) / 3 == Approx(exact[s][i]).epsilon(1e-3));
+      CHECK(r.at(i) == Approx(b.at(i)).epsilon(4e-3));
+    }
+  }
+}
+
+// EA u'' + rhoA Omega^2 (x + u) = 0: u(L) = sin(kL)/(k cos kL) - L, k = Omega sqrt(rhoA/EA).
+TEST_CASE("campbell: the steady stretch has its closed form") {
+  for (const double k : {0.1, 0.5}) {
+    const auto found = diagram(planar("clamped", driven, "40", "1e4"), Formulation::nlffr, number(100 * k), 1);
+    REQUIRE(found.points.at(0).fault == "");
+    const auto values = scene::probe_values(found.model, 0, found.model.U, found.model.V);
+    CHECK(values.at(0) == Approx(std::sin(k) / (k * std::cos(k)) - 1).epsilon(5e-4));
+    CHECK(std::abs(values.at(1)) < 1e-9);
+  }
+}
+
+TEST_CASE("campbell: at rest the frequencies are those of the held body") {
+  for (const std::string& text : {planar("pinned", driven, "16"),
+                                  spatial("16", "type: driven, axis: [0, 0, 1], angle: \"t\""), plate("8", "5")}) {
+    const auto at = omega(diagram(text, Formulation::vm_md, "0", 4).points.at(0));
+    const auto modes = omega_of(text);
+    for (int i = 0; i < 4; ++i) CHECK(at.at(i) == Approx(modes.at(i)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("campbell: scenes that cannot turn are refused in words") {
+  using Catch::Matchers::Contains;
+  const auto fault = [](const std::string& text, const app::CampbellRequest& axis = {}) -> std::string {
+    try {
+      diagram(text, Formulation::vm_md, "1", 1, axis);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string drive = "type: driven, axis: [0, 0, 1], angle: \"t\"";
+  CHECK_THAT(fault(planar("pinned", "type: fixed", "4")), Contains("--through"));
+  CHECK_THAT(fault(planar("pinned", "type: fixed", "4"), {"", {}, "3,2"}), Contains("joint root does not turn"));
+  CHECK_THAT(fault(planar("pinned", driven, "4"), {"", {}, "3,2.5"}), Contains("joint root does not turn"));
+  CHECK_THAT(fault(spatial("4", drive), {"", "1,0,0", {}}), Contains("joint root does not turn"));
+  CHECK_THAT(fault(spatial("4", drive), {"", "0,0,1", "0,0.1,0"}), Contains("joint root does not turn"));
+  CHECK(fault(spatial("4", drive), {"", "0,0,1", "0,0,7"}) == "");
+  CHECK_THAT(fault(spatial("4", "type: fixed"), {"", "0,0,1", {}}), Contains("clamped to the ground"));
+  CHECK_THAT(fault(planar("pinned", driven, "4") + "gravity: [0, -9.81]\n"), Contains("gravity"));
+  CHECK(fault(spatial("4", drive) + "gravity: [0, 0, -9.81]\n") == "");
+  CHECK_THAT(fault(spatial("4", drive) + "gravity: [0, -9.81, 0]\n"), Contains("gravity"));
+}
+
+TEST_CASE("campbell: a moment on a free hub leaves no steady rotation") {
+  const auto found = diagram(planar("pinned", "type: revolute", "4") +
+                                 "loads: {motor: {type: moment, at: beam.end, "
+                                 "moment: 0.01}}\n",
+                             Formulation::vm_md, "1", 1);
+  CHECK_THAT(found.points.at(0).fault, Catch::Matchers::Contains("spins the scene up"));
+}
+
+TEST_CASE("campbell: speeds as a list or a range") {
+  CHECK(app::parse_speeds("0,2.5,-1") == std::vector<double>{0, 2.5, -1});
+  CHECK(app::parse_speeds("0:0.3:0.1").size() == 4);
+  CHECK(app::parse_speeds("4:0:-2") == std::vector<double>{4, 2, 0});
+  for (const char* wrong : {"", "a", "1,,2", "0:1", "0:1:0", "0:1:-1", "0:1:1e-9", "1:2:nan"})
+    CHECK_THROWS_AS(app::parse_speeds(wrong), InputError);
+}
