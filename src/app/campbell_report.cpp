@@ -75,6 +75,7 @@ void write(const scene::Scene& scene, const CampbellDiagram& diagram, const std:
   MPI_Comm_rank(comm, &rank);
   ordered_json summary = campbell_summary(scene, diagram, comm);
   if (!stopped.empty()) summary["status"] = "failed", summary["reason"] = stopped;
+  output::remove_replaced(comm, folder);
   petsc::agree(comm, [&] {
     if (rank == 0) output::write_file_atomically(folder.path / "campbell.csv", output::to_csv(campbell_table(diagram)));
   });
