@@ -32,13 +32,10 @@ VectorXd solve(MatrixXd J, VectorXd b) {
   return columns.cwiseProduct(x);
 }
 
-/// Change of the coordinates as the scene turns about the axis by one radian; zero where a drive holds its angle.
-VectorXd free_turn(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& U) {
-  const VectorXd turn = rotating_motion(rotating, 1, U).V;
+/// Whether nothing holds the scene's turn about the axis, at a configuration that meets the constraints.
+bool turns_freely(const RotatingTangent& at, const VectorXd& turn) {
   const VectorXd held = at.G * turn, size = at.G.cwiseAbs() * turn.cwiseAbs();
-  for (Index i = 0; i < held.size(); ++i)
-    if (std::abs(held[i]) > 1e-7 * size[i]) return VectorXd::Zero(U.size());
-  return turn;
+  return (held.cwiseAbs().array() <= 1e-7 * size.array()).all();
 }
 
 struct Step {
@@ -47,11 +44,13 @@ struct Step {
 };
 
 /// Newton's step; where the scene is free to turn, it does not, and may spin up instead: [J M b; (M b)' 0].
-Step newton_step(const RotatingSystem& rotating, const RotatingTangent& at, const VectorXd& U) {
-  const VectorXd turn = free_turn(rotating, at, U), weighted = at.M * turn;
+///
+/// @param turn  change of the coordinates as the scene turns by one radian; zero where a drive holds it
+Step newton_step(const RotatingTangent& at, const VectorXd& turn) {
+  const VectorXd weighted = at.M * turn;
   const double inertia = turn.dot(weighted);
   if (!(inertia > 0)) return {solve(at.K + at.G, -at.F)};
-  const Index n = U.size();
+  const Index n = turn.size();
   MatrixXd J = MatrixXd::Zero(n + 1, n + 1);
   J.topLeftCorner(n, n) = at.K + at.G;
   J.topRightCorner(n, 1) = weighted / inertia;
@@ -93,10 +92,14 @@ double size_of(const VectorXd& change, const MassScale& mass) {
 
 PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   double last = INFINITY;
+  bool free = false;
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
     const VectorXd u = everywhere(rotating.system, U);
-    Step step = newton_step(rotating, at, u);
+    VectorXd turn = rotating_motion(rotating, 1, u).V;
+    if (iteration == 1) free = turns_freely(at, turn);
+    if (!free) turn.setZero();
+    Step step = newton_step(at, turn);
     MPI_Bcast(step.change.data(), static_cast<int>(step.change.size()), MPI_DOUBLE, 0, rotating.system.comm());
     const double size = size_of(step.change, mass_scale(rotating, at.M));
     if (!step.change.allFinite()) break;

@@ -48,7 +48,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "campbell", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -310,6 +310,16 @@ UNUSUAL = [
     Case("static of a column whose load follows it", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0,
          lines=0, never=("unstable",), check=lambda folder: (files("finished", 2)(folder), not_looked(folder)),
          scene=scene({"loads.tip": {"type": "force", "at": "beam.end", "axes": "body", "force": ["-15*t", 0]}})),
+    *(Case(f"campbell, {name}", ["campbell", "scene.yaml", "--speeds", *words, "-o", "out"], 2, (says,), lines=1)
+      for name, words, says in (("no speeds", ["0:1"], "expected FROM:TO:STEP"),
+                                ("no axis", ["0,1"], "is not that of one driven or revolute joint to the ground"),
+                                ("a clamp", ["0,1", "--through", "0,0"], "joint clamp does not turn with the scene"),
+                                ("no point", ["0,1", "--through", "here"], "--through: \"here\" is no point"),
+                                ("cfr", ["0,1", "--formulation", "cfr"], "expected nlffr, lffr, vm or vm+md"))),
+    Case("campbell of a scene that spins up", ["campbell", "scene.yaml", "--speeds", "1,2", "-o", "out"], 1,
+         ("no steady rotation at 1 rad/s: a moment about the axis is left",), lines=1,
+         scene=scene({"joints.clamp.type": "revolute",
+                      "loads": {"motor": {"type": "moment", "at": "beam.end", "moment": 1e-3}}})),
     Case("mesh finer than numbers", ["modes", "scene.yaml"], 1,
          ("the mesh of 400000 elements is finer than double precision resolves", "take fewer elements"), lines=1,
          scene=scene({"bodies.beam.mesh.line.elements": 400000, "bodies.beam.reduction.modes": 1}), ranks=(1,)),
