@@ -17,11 +17,11 @@ namespace {
 
 using Data = GeneralizedAlpha;
 
-constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,     &Data::A0,     &Data::a0,     &Data::U1,
-                                  &Data::V1,        &Data::A1,     &Data::a1,     &Data::jerk,   &Data::normal,
-                                  &Data::a_used,    &Data::base_q, &Data::base_v, &Data::base_A, &Data::dynamic,
-                                  &Data::stiffness, &Data::mass,   &Data::row,    &Data::scale,  &Data::weight,
-                                  &Data::origin,    &Data::work_U, &Data::work_V, &Data::work_A, &Data::work_F};
+constexpr Vec Data::*vectors[] = {
+    &Data::U0,      &Data::V0,        &Data::A0,     &Data::a0,     &Data::U1,     &Data::V1,     &Data::A1,
+    &Data::a1,      &Data::jerk,      &Data::normal, &Data::a_used, &Data::base_q, &Data::base_v, &Data::base_A,
+    &Data::dynamic, &Data::stiffness, &Data::mass,   &Data::row,    &Data::scale,  &Data::weight, &Data::origin,
+    &Data::turns,   &Data::work_U,    &Data::work_V, &Data::work_A, &Data::work_F};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -63,6 +63,7 @@ PetscErrorCode set_up(TS ts) {
     PetscCall(VecSet(data->*vector, 0));
   }
   PetscCall(mark_dynamic_rows(data));
+  PetscCall(mark_attitudes(ts));
   // With a fixed step TS ends at the first failed Newton solve; with an adaptive one it cuts the step, max_reject
   // times.
   PetscCall(TSGetAdapt(ts, &ts->adapt));

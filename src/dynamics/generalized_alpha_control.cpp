@@ -8,7 +8,8 @@ struct Norms {
 };
 
 // Weighted norms of Newton's last update, of the lesser of q_1 - q_0 and q_1 - q_0 - h v_0 (a steady motion is no
-// measure of what a step solves for, nor is the speed of a stiff one), and of q_1. Multipliers have no weight.
+// measure of what a step solves for, nor is the speed of a stiff one), and of q_1, where an attitude counts as 1 rad
+// (its entries count from a base that moves with it). Multipliers have no weight.
 // Collective.
 PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   Vec U_vec, update_vec;
@@ -22,12 +23,12 @@ PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   PetscCall(SNESGetSolutionUpdate(snes, &update_vec));
   PetscCall(SNESGetLineSearch(snes, &line_search));
   PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
-  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight);
+  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight), turns(data->turns);
   for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
     sums[0] += weight[i] * PetscSqr(update[i]);
     sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
     sums[2] += weight[i] * PetscSqr(U[i] - U0[i] - data->h * V0[i]);
-    sums[3] += weight[i] * PetscSqr(U[i]);
+    sums[3] += weight[i] * (PetscSqr(U[i]) + turns[i]);
   }
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));
   if (ranks > 1)
@@ -99,7 +100,7 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
     data->idle = data->growing = 0;
   } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, 1e3 * floor)) {
     *reason = SNES_CONVERGED_SNORM_RELATIVE;
-  } else if (data->growing >= 2) {
+  } else if (data->growing >= 2 && norms.update > 1e3 * floor) {
     *reason = SNES_DIVERGED_DTOL;
   }
   data->update = norms.update;

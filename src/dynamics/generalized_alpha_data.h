@@ -31,6 +31,7 @@ struct GeneralizedAlpha {
 
   // Of each row: 1 for dynamic and 0 for constraint; |dF/dU|_ii, |dF/dA|_ii; 1 / norm of a constraint row.
   Vec dynamic = nullptr, stiffness = nullptr, mass = nullptr, row = nullptr;
+  Vec turns = nullptr;                    // of each row: 1 for an attitude, else 0
   Vec scale = nullptr, weight = nullptr;  // row scaling and |J_ii| (0 for multipliers), for the step size h_scale
   PetscReal h_scale = 0;
 
@@ -98,6 +99,8 @@ PetscErrorCode start_consistently(TS ts);
 PetscErrorCode smooth_rates(TS ts);
 
 // generalized_alpha_rotations.cpp
+/// Fills `turns`. Collective.
+PetscErrorCode mark_attitudes(TS ts);
 /// ts->vec_sol takes its own rotations for bases; `origin` moves with it. Collective.
 PetscErrorCode rebase(TS ts);
 /// y += factor [a, b]; W is overwritten.

@@ -22,6 +22,32 @@ PetscErrorCode rebase(TS ts) {
   PetscFunctionReturn(0);
 }
 
+// A row is one of an attitude where the bracket of two vectors, no three entries of which are parallel, is not zero.
+PetscErrorCode mark_attitudes(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscInt first;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(data->turns, 0));
+  if (!data->rotations.bracket) PetscFunctionReturn(0);
+  PetscCall(VecGetOwnershipRange(data->turns, &first, nullptr));
+  {
+    Changed a(data->work_U), b(data->work_V);
+    for (PetscInt i = 0, n = local_size(data->turns); i < n; ++i) {
+      a[i] = PetscSinReal(1 + 1.3 * (PetscReal)(first + i));
+      b[i] = PetscSinReal(2 + 1.9 * (PetscReal)(first + i));
+    }
+  }
+  PetscCall((*data->rotations.bracket)(ts, data->work_U, data->work_V, data->turns, data->rotations.context));
+  {
+    Changed turns(data->turns);
+    for (PetscInt i = 0, n = local_size(data->turns); i < n; ++i) turns[i] = turns[i] != 0 ? 1 : 0;
+  }
+  PetscCall(VecSet(data->work_U, 0));
+  PetscCall(VecSet(data->work_V, 0));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
