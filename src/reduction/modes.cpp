@@ -103,7 +103,7 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, K, M));
   check(EPSSetProblemType(eps, EPS_GHEP));
-  check(EPSSetTolerances(eps, 1e-13, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
   check(EPSSetTarget(eps, shift));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetPurify(eps, PETSC_FALSE));
