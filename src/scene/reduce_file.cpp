@@ -56,12 +56,13 @@ Scene alone(const Scene& scene, int index) {
   return part;
 }
 
-/// |eta_i eta_j| of fields that each take the same strain energy, eta_i = 1 / sqrt(phi_i' K phi_i): 1 / (omega_i omega_j)
-/// of two modes. No motion is known that could tell more.
-Eigen::MatrixXd equal_energy(const ReducedBody& linear) {
+/// |eta_i eta_j| of fields that loads move alike: eta_i = 1 / phi_i' K phi_i, the static answer to a unit generalised
+/// force, 1 / omega_i^2 of a mode. No motion is known that could tell more.
+Eigen::MatrixXd interaction_at_unit_force(const ReducedBody& linear) {
   const Eigen::MatrixXd fields = linear.of_fields.inverse();  // in the coordinates of the basis
-  const Eigen::VectorXd energies = (fields.transpose() * linear.body.elasticity.linear_stiffness() * fields).diagonal();
-  const Eigen::VectorXd eta = (energies.array() > 0).select(energies.array().rsqrt(), 0);
+  const Eigen::VectorXd stiffness =
+      (fields.transpose() * linear.body.elasticity.linear_stiffness() * fields).diagonal();
+  const Eigen::VectorXd eta = (stiffness.array() > 0).select(stiffness.array().inverse(), 0);
   return eta * eta.transpose();
 }
 
@@ -151,7 +152,7 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       prepared, Formulation::vm_md,
-      [](const std::vector<ReducedBody>& linear) { return std::vector{equal_energy(linear[0])}; }, warnings);
+      [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; }, warnings);
   const BodyReport& report = reduced[0].report;
   output::ReducedBodyFile file;
   file.name = body.spec.name;

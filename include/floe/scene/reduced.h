@@ -10,7 +10,7 @@ namespace floe::scene {
 ///
 /// Places in the file: all that the mesh names, and those that joints, loads and probes of the scene name by
 /// coordinates (as `at(x, y, z)`, mesh axes). Derivatives that are chosen by count are those of maximum modal interaction
-/// when all fields have the same strain energy, |eta_i eta_j| = 1 / (omega_i omega_j): the file knows no motion.
+/// under equal generalised forces, |eta_i eta_j| = 1 / (omega_i omega_j)^2 of two modes: no motion is known here.
 /// @param body       its name; empty: the only body of the scene
 /// @param warnings   receives what the user should know of the choice of columns and of the mesh
 /// @return what was written, but for the shapes
