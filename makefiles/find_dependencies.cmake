@@ -1,8 +1,12 @@
 # Everything from outside, as imported targets: for the build, and for find_package(floe).
 find_package(PkgConfig REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C CXX)
-pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc)
-pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc)
+# Indices of 64 bits are another build of PETSc and SLEPc, which Debian installs beside the usual one.
+if(FLOE_INDEX64)
+  set(index64 64)
+endif()
+pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc${index64})
+pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc${index64})
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 pkg_check_modules(EIGEN REQUIRED IMPORTED_TARGET eigen3)
