@@ -11,12 +11,20 @@ namespace {
 
 using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
 
+/// Integral, estimate of its error and integral of |f|, from <= to.
+struct Estimate {
+  double value, error, size;
+  Estimate(const std::function<double(double)>& f, double from, double to) {
+    value = Rule::integrate(f, from, to, 0, 0, &error, &size);
+    error *= (to - from) / 2;  // Boost gives it for an interval of length 2
+  }
+};
+
 /// Halves until each part is known to `error`, or as short as a jump can be told from; the tolerance does not shrink with
 /// the parts, because only those at corners and jumps are halved often.
 double adaptive(const std::function<double(double)>& f, double from, double to, double error, int halvings) {
-  double found = 0;
-  const double value = Rule::integrate(f, from, to, 0, 0, &found);
-  if (found <= error || halvings == 0) return value;
+  const Estimate whole(f, from, to);
+  if (whole.error <= error || halvings == 0) return whole.value;
   const double middle = (from + to) / 2;
   return adaptive(f, from, middle, error, halvings - 1) + adaptive(f, middle, to, error, halvings - 1);
 }
@@ -31,9 +39,7 @@ struct Integral::Kept {
   double over(double from, double to) const {
     if (from == to) return 0;
     if (to < from) return -over(to, from);
-    double error = 0, size = 0;
-    const double value = Rule::integrate(f, from, to, 0, 0, &error, &size);
-    return error <= 1e-14 * size ? value : adaptive(f, from, to, 1e-14 * size, 46);
+    return adaptive(f, from, to, 1e-14 * Estimate(f, from, to).size, 46);
   }
 };
 
