@@ -199,7 +199,7 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
   }
   for (const Load& load : scene.loads) {
     PreparedPlace place;
-    if (load.kind == Load::Kind::distributed)
+    if (load.spread())
       place.body = body_index(scene, load.body);
     else
       place = find(prepared.bodies, load.at);

@@ -152,7 +152,7 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
       spec.attachment == ReductionSpec::Attachment::none || spec.attachment == ReductionSpec::Attachment::loads;
   const auto of_interface = [&](const PreparedPlace& joint) {
     return std::any_of(body.interface.begin(), body.interface.end(), [&](const PreparedPlace& place) {
-      return std::find(place.nodes.begin(), place.nodes.end(), joint.node) != place.nodes.end();
+      return place.moved_by(joint.node);
     });
   };
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {

@@ -35,7 +35,7 @@ int clamp_of(const Prepared& prepared, int b) {
     const PreparedPlace& place = first.ground() ? second : first;
     if (place.body != b) continue;
     if (place.map ? at_rest(body, *place.map)
-                  : std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0)
+                  : place.moved_by(body.frame.conditions.front() / 6))
       return static_cast<int>(j);
   }
   return -1;
@@ -108,11 +108,12 @@ void SpaceAssembly::refuse() const {
 std::vector<PetscInt> SpaceAssembly::visited(int body) const {
   std::vector<PetscInt> nodes;
   const auto visit = [&](const PreparedPlace& place) {
-    if (place.body == body) nodes.insert(nodes.end(), place.nodes.begin(), place.nodes.end());
+    for (const Lever& lever : place.levers)
+      if (place.body == body) nodes.push_back(lever.node);
   };
   for (const auto& joint : prepared_.joints) visit(joint[0]), visit(joint[1]);
   for (std::size_t l = 0; l < prepared_.loads.size(); ++l)
-    if (prepared_.scene.loads[l].kind != Load::Kind::distributed) visit(prepared_.loads[l]);
+    if (!prepared_.scene.loads[l].spread()) visit(prepared_.loads[l]);
   for (const auto& probe : prepared_.probes) visit(probe[0]), visit(probe[1]);
   return nodes;
 }

@@ -50,9 +50,11 @@ class SpaceAssembly {
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative);
   void add_loads();
+  void add_pressure(const Load& load, int body);
   void add_joints(Model& model);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
   void add_spring(int joint, const PlacedJoint& placed);
+  void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
   void add_probes(Model& model);
   void set_start(Model& model);
 

@@ -24,6 +24,15 @@ bool clamps(const Joint& joint) {
          joint.kind == Joint::Kind::driven_slide;
 }
 
+}  // namespace
+
+bool holds_a_piece(const Joint& joint) {
+  const bool to_ground = joint.first.ground() || joint.second.ground();
+  return joint.edges == Joint::Edges::rigid && !(clamps(joint) && to_ground);
+}
+
+namespace {
+
 /// The place of the body where the ground clamps it, moved or not, if any.
 const Place* clamp_of(const Scene& scene, const Body& body) {
   for (const Joint& joint : scene.joints) {
@@ -96,7 +105,7 @@ FrameChoice frame_of_host(const Scene& scene, const Body& body, const SpatialMes
 /// @param host  of a guest
 PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
                           const PreparedBody* host) {
-  SpatialMesh mesh = spatial_mesh(spec, comm);
+  SpatialMesh mesh = spatial_mesh(scene, spec, comm);
   const FrameChoice choice = host ? frame_of_host(scene, spec, mesh, shared, *host) : choose_frame(scene, spec, mesh);
   fem::express_in_frame(mesh.structure.mesh, choice.origin, choice.axes);
   for (fem::Section& section : mesh.structure.sections) section = fem::turned(section, choice.axes);
@@ -208,17 +217,24 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedB
                    fem::Conditions& held) {
   using Kind = Joint::Kind;
   const auto hold = [&](std::initializer_list<int> dofs) {
-    for (PetscInt node : place.nodes)
-      for (int dof : dofs) held.push_back(6 * node + dof);
+    for (const Lever& lever : place.levers)
+      for (int dof : dofs) held.push_back(6 * lever.node + dof);
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const Eigen::Vector3d axis = body.attitude.transpose() * W.col(2);
+  const bool carried = place.levers.size() < place.nodes.size() || !place.levers.front().arm.isZero(0);
   if (place.nodes.size() > 1) {
     const auto line = line_of(body, place);
-    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9) return false;
+    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
+      return false;
+    if (carried)
+      throw InputError(joint.where.text() +
+                       ": its edge has nodes of a rigid piece that a link or another joint makes; expected places "
+                       "without a node in common");
     return hold({0, 1, 2}), true;
   }
+  if (carried) return false;
   if (joint.kind == Kind::spherical || joint.kind == Kind::universal)
     return hold({0, 1, 2}), joint.kind == Kind::spherical;
   Eigen::Index along = 0;
@@ -289,7 +305,7 @@ void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const 
     const std::size_t before = body.held.size();
     prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
     const bool here = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
-                      std::count(at.nodes.begin(), at.nodes.end(), body.frame.conditions.front() / 6);
+                      at.moved_by(body.frame.conditions.front() / 6);
     if (clamps(joint) && here) body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
   }
 }
@@ -316,9 +332,9 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   }
   for (const Load& load : scene.loads) {
     PreparedPlace where;
-    if (load.kind != Load::Kind::distributed) where = place(load.at);
+    if (!load.spread()) where = place(load.at);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (load.kind == Load::Kind::distributed && scene.bodies[b].name == load.body) where.body = static_cast<int>(b);
+      if (load.spread() && scene.bodies[b].name == load.body) where.body = static_cast<int>(b);
     prepared.loads.push_back(where);
   }
   for (const Probe& probe : scene.probes) {

@@ -117,6 +117,34 @@ PLATE_MOTION = PLATE.replace("[60, 30]", "[4, 2]") + """loads: {tip: {type: forc
 motion: {end: 0.001, step: 0.001}
 """
 
+HUB = """
+bodies:
+  hub: {rigid: true, mesh: {line: {from: [-1, 0.5, 0], to: [0, 0.5, 0], elements: 1}},
+        section: {shape: circle, radius: 0.1, orientation: [0, 1, 0]}, material: {E: 1, nu: 0.3, rho: 1000}}
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 2]}}
+    section: {thickness: 0.002}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 2}
+joints:
+  root: {type: fixed, between: [hub.end, plate.left]}
+"""
+IN_SPACE = [
+    *(Case(f"pressure on {name}, {formulation}", run(formulation), 2, (says,), scene=HUB + load + "motion: {end: 0.002, step: 0.001}\n",
+           lines=1, check=no_results)
+      for name, load, says in (
+          ("beams", "loads: {p: {type: pressure, body: hub, pressure: 1}}\n", "the mesh of body hub has no shells"),
+          ("a part that is not there", "loads: {p: {type: pressure, body: plate, part: skin, pressure: 1}}\n",
+           'loads.p.part: plate has no part "skin"'))
+      for formulation in ("vm+md", "nlffr")),
+    Case("a hinge along an edge at a rigid piece", run(), 2, ("joints.hinge: its edge has nodes of a rigid piece",), lines=1,
+         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom]}\n"
+         "motion: {end: 0.002, step: 0.001}\n"),
+    Case("an edge of a piece that a clamp holds besides", run(), scene=HUB
+         + "  clamp: {type: fixed, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
+         check=files("finished", 3)),
+]
+
 FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
@@ -377,4 +405,4 @@ REDUCED = [
          scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
 ]
 
-CASES = REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+CASES = REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

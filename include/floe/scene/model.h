@@ -7,6 +7,7 @@
 
 #include "floe/dynamics/joints.h"
 #include "floe/dynamics/spatial_marker.h"
+#include "floe/dynamics/stop.h"
 #include "floe/dynamics/system.h"
 #include "floe/reduction/reduce.h"
 #include "floe/scene/scene.h"
@@ -22,16 +23,29 @@ Formulation formulation_of(const std::string& name);
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
+/// How a node moves a place in space: u += share u_node + theta_node x arm, theta += share theta_node.
+struct Lever {
+  PetscInt node;  ///< global
+  double share;
+  Eigen::Vector3d arm;
+};
+
 /// A node that something acts on.
 struct PreparedPlace {
   int body = -1;  ///< index of prepared bodies; -1: ground; elsewhere: a body that is not here
   PetscInt node = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
-  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
+  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes
+  /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
+  /// is the first of them.
+  std::vector<Lever> levers = {};
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
   bool ground() const { return body == -1; }
+  /// Nodes whose dofs move the place; in the plane its one node.
+  std::vector<Lever> moved_by() const;
+  bool moved_by(PetscInt other) const;
 };
 
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
@@ -102,6 +116,13 @@ struct ModelProbe {
   std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
 };
 
+/// One side of a joint's limits.
+struct ModelStop {
+  std::string joint;
+  bool upper = false;
+  const dynamics::Stop* term = nullptr;  ///< of the system; on its last rank
+};
+
 /// A scene in one formulation, ready to move.
 struct Model {
   Formulation formulation;
@@ -109,6 +130,7 @@ struct Model {
   petsc::VecHandle U, V;  ///< at the start, consistent with the joints
   std::vector<ModelProbe> probes;
   std::vector<BodyReport> bodies;
+  std::vector<ModelStop> stops;
   std::vector<std::string> warnings;
   PetscInt coordinates = 0, multipliers = 0;
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
@@ -138,6 +160,8 @@ struct ProbeColumn {
   std::string name, unit;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
+/// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
+std::vector<double> stop_gaps(const Model& model, Vec U);
 /// How many bodies have a frame that moves in space.
 int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.
