@@ -218,6 +218,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
+  j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
   if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
   if (!folder_) return;
   std::exception_ptr fault;  // of one file: the others are finished all the same

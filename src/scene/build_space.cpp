@@ -18,17 +18,6 @@ using petsc::check;
 
 namespace {
 
-MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
-  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
-}
-
-bool last_rank(MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return rank == size - 1;
-}
-
 /// Whether a place of a body from a file has no motion in the body's frame.
 bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
   const output::ReducedBodyFile& file = *body.spec.reduced->file;
@@ -61,7 +50,12 @@ SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, 
       owner_(last_rank(comm_of(prepared, formulation))),
       coordinates_(comm_of(prepared, formulation)),
       slots_(prepared.bodies.size()) {
-  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, static_cast<int>(b)) >= 0;
+  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, owner_of_frame(b)) >= 0;
+}
+
+int SpaceAssembly::owner_of_frame(std::size_t body) const {
+  const int host = prepared_.bodies[body].host;
+  return host >= 0 ? host : static_cast<int>(body);
 }
 
 bool SpaceAssembly::compact(int body) const {
@@ -70,8 +64,10 @@ bool SpaceAssembly::compact(int body) const {
 }
 
 bool SpaceAssembly::stands(int j) const {
-  for (std::size_t b = 0; b < slots_.size(); ++b)
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    if (prepared_.bodies[b].host_joint == j) return true;
     if (slots_[b].still && clamp_of(prepared_, static_cast<int>(b)) == j) return true;
+  }
   return false;
 }
 
@@ -84,10 +80,9 @@ void SpaceAssembly::refuse() const {
   if (formulation_ == Formulation::cfr)
     faults.push_back(prepared_.scene.file + ": formulation cfr is known for planar beams only");
   for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
-    const auto& [first, second] = prepared_.joints[j];
     const Joint& joint = prepared_.scene.joints[j];
     if (is_reduced(formulation_) || !prepared_.joint_held[j]) continue;
-    const PreparedPlace& place = first.ground() ? second : first;
+    const PreparedPlace& place = *held_place(prepared_, j);
     if (compact(place.body) || place.nodes.size() < 2 || slots_[place.body].still) continue;
     const fem::Conditions& held = prepared_.bodies[place.body].clamp;
     if (std::all_of(place.nodes.begin(), place.nodes.end(),
@@ -103,7 +98,7 @@ void SpaceAssembly::refuse() const {
     if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
       faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
                                    body.spec.damping.where.text(), name_of(formulation_)));
-    if (slots_[b].still && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+    if (slots_[b].still && body.host < 0 && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
   }
@@ -122,17 +117,24 @@ std::vector<PetscInt> SpaceAssembly::visited(int body) const {
   return nodes;
 }
 
+void SpaceAssembly::add_frame(int b) {
+  Slot& slot = slots_[b];
+  if (slot.still || slot.attitude) return;
+  const PreparedBody& body = prepared_.bodies[b];
+  coordinates_.belongs_to("body " + body.spec.name);
+  slot.frame = coordinates_.add_shared(6);
+  slot.attitude = std::make_shared<dynamics::Attitude>();
+  slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
+}
+
 void SpaceAssembly::add_coordinates() {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PreparedBody& body = prepared_.bodies[b];
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
+    add_frame(owner_of_frame(b));
+    slot.frame = slots_[owner_of_frame(b)].frame, slot.attitude = slots_[owner_of_frame(b)].attitude;
     coordinates_.belongs_to("body " + body.spec.name);
-    if (!slot.still) {
-      slot.frame = coordinates_.add_shared(6);
-      slot.attitude = std::make_shared<dynamics::Attitude>();
-      slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
-    }
     if (compact(index)) {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
       continue;
@@ -218,7 +220,7 @@ void SpaceAssembly::set_start(Model& model) {
   model.V = layout.create_vector();
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PreparedBody& body = prepared_.bodies[b];
-    if (slots_[b].still) continue;
+    if (slots_[b].still || body.host >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       const PetscInt row = coordinates_.global()[slots_[b].frame + i],
                      turn = coordinates_.global()[slots_[b].frame + 3 + i];
@@ -264,8 +266,9 @@ Model SpaceAssembly::model() {
   add_joints(model);
   add_probes(model);
   dynamics::Attitudes attitudes;
-  for (const Slot& slot : slots_)
-    if (slot.attitude) attitudes.emplace_back(slot.frame + 3, slot.attitude);
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    if (slots_[b].attitude && prepared_.bodies[b].host < 0)
+      attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));

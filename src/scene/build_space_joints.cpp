@@ -144,7 +144,8 @@ void SpaceAssembly::add_joints(Model& model) {
   std::string notes;
   const auto find = [&] {
     for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
-      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), place(static_cast<int>(j)));
+      if (PlacedJoint placed = place(static_cast<int>(j)); !stands(static_cast<int>(j)))
+        all.emplace_back(static_cast<int>(j), std::move(placed));
   };
   const auto add = [&] {
     if (!owner_) return;

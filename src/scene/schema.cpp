@@ -38,6 +38,9 @@ const SchemaSection scene_section{
         {"parameters", Type::parameters, "", "",
          "numbers by name, for use in every number and formula below; each may use those above it"},
         {"gravity", Type::point, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
+        {"share_frames", Type::flag, "", "true",
+         "in space: a body that a fixed joint makes one with a rigid body has its frame, without coordinates and "
+         "multipliers of its own; false: never"},
         part("bodies", Type::named_sections, required, "the bodies by name", "body"),
         part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "the loads by name", "load"),

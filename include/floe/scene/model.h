@@ -59,6 +59,8 @@ struct PreparedBody {
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
   /// and the ground clamps the body, followers.
   fem::Conditions clamp = {};
+  int host = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
+  int host_joint = -1;  ///< the joint that makes it so
 };
 
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
@@ -67,7 +69,7 @@ struct BodyReport {
   std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
-  std::string frame = {};  ///< pinned, clamped, mean-axis; set by body_sizes
+  std::string frame = {};  ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;

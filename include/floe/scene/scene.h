@@ -223,6 +223,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<Load> loads;
   Point gravity{};
+  bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
   std::vector<Probe> probes;
 };
