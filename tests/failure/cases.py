@@ -1,6 +1,7 @@
 """The table of the failure tests."""
 import dataclasses
 import os
+import pathlib
 import signal
 from typing import Callable, Optional, Union
 
@@ -9,6 +10,7 @@ from results import absent, files, full, kept, killed, no_error_of, no_results, 
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
+BLADE = pathlib.Path(__file__).resolve().parents[2] / "examples/blade/options"
 
 
 @dataclasses.dataclass
@@ -364,6 +366,13 @@ UNUSUAL = [
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
          ("option -derivatives_pc_type jacobi: is no solver by itself",), never=("finer",), lines=1, scene=PLATE),
+    *(Case(f"modes by {name}", ["modes", "scene.yaml", "-options_file", str(BLADE / name)], 0, shows=("rad/s",), lines=0,
+           scene=text)
+      for name, text in (("iterative.opts", PLATE_MOTION), ("out_of_core.opts", PLATE_MOTION),
+                         ("iterative_free.opts", PLATE_MOTION[:PLATE_MOTION.index("joints:")]))),
+    Case("full derivatives by multigrid", run("vm+md", "-options_file", str(BLADE / "iterative.opts")), 2,
+         ("derivatives with inertia", "expected a factorisation"), lines=1,
+         scene=PLATE_MOTION.replace("modes: ", "derivative_type: full, modes: ")),
     Case("factor on disk", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_22", "1"], 0, shows=("rad/s",), lines=0,
          scene=PLATE),
     Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
