@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline sanitize
+.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline tradeoff sanitize
 all: build
 
 setup:
@@ -27,6 +27,9 @@ bench-planar: build
 
 bench-offline: build
 	@bash makefiles/bench_offline.sh $(BUILD)
+
+tradeoff: build
+	@bash makefiles/tradeoff.sh $(BUILD)
 
 sanitize: setup
 	@bash makefiles/sanitize.sh
