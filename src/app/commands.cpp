@@ -201,10 +201,9 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
   const bool estimated = result.estimate.none.empty();
-  std::map<std::string, double> errors;
-  if (estimated)
-    for (const auto& [probe, error] : s["estimate"].value("probes", nlohmann::ordered_json::object()).items())
-      errors[probe] = error;
+  const auto probes_estimate = [&](const std::string& column) {
+    return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
+  };
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
   for (std::size_t c = 0; c < result.series.columns.size(); ++c) {
@@ -212,8 +211,7 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
     for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
     table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
                           result.series.columns[c].unit});
-    const std::string& name = result.series.columns[c].name;
-    if (estimated) table.rows.back().emplace_back(100 * errors[name.substr(0, name.rfind('.'))]);
+    if (estimated) table.rows.back().emplace_back(probes_estimate(result.series.columns[c].name));
   }
   if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
