@@ -63,6 +63,14 @@ def key_lines(description):
     return lines
 
 
+def copy_of_size(line, size):
+    from matplotlib.lines import Line2D
+    copy = Line2D([], [])
+    copy.update_from(line)
+    copy.set_markersize(size)
+    return copy
+
+
 def draw(description, shown, path, dpi):
     import matplotlib
 
@@ -104,13 +112,14 @@ def draw(description, shown, path, dpi):
     axes.set_xlabel("time of the motion [s]")
     axes.set_ylabel("greatest relative error of the probes [%]")
     handles, labels = axes.get_legend_handles_labels()
+    handles = [copy_of_size(handle, 9) if label == "choice" else handle for handle, label in zip(handles, labels)]
     figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.745, (below + HEIGHT - 0.42) / whole),
                   frameon=False, fontsize=8, handlelength=2.2)
     figure.text(0.5, 1 - 0.1 / whole, description.get("title", ""), ha="center", va="top", fontsize=11)
     for i, words in enumerate(lines):
         figure.text(0.03, (below - 0.1 - LINE * (i + 1)) / whole, words, fontsize=8, va="bottom",
                     fontweight="bold" if chosen and "← choice" in words else "normal")
-    save(figure, path, dpi)
+    save(figure, path, dpi, 256)
 
 
 def main():
