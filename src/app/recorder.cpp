@@ -204,7 +204,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
   result_.series.energy.push_back(energy);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (instant.step == 0) energy_start_ = energy_now_;
+  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
@@ -252,6 +252,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
+  j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
   if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
   if (!folder_) return;
   std::exception_ptr fault;  // of one file: the others are finished all the same
