@@ -14,6 +14,7 @@
 #include "equilibrium.h"
 #include "floe/version.h"
 #include "session.h"
+#include "tradeoff.h"
 
 namespace floe::app {
 
@@ -26,7 +27,9 @@ struct Choices {
   std::optional<double> at;
   int steps = 10;
   CampbellRequest campbell;
-  bool force = false, no_reference_error = false;
+  std::string reference = "nlffr";
+  TradeoffRequest tradeoff;
+  bool force = false, no_reference_error = false, no_estimate = false;
 };
 
 std::string stem(const std::string& path) {
@@ -99,13 +102,16 @@ int main(int argc, char** argv) {
   add_scene(run_command, choices);
   run_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
       ->capture_default_str();
+  run_command->add_flag("--no-estimate", choices.no_estimate,
+                        "spare the estimate of the error against full order (vm, vm+md)");
   add_folder(run_command, choices);
   run_command->callback([&] {
     work = [&] {
       const scene::Formulation formulation = scene::formulation_of(choices.formulation);
       const scene::Scene scene = read_moving(choices.scene);
       run_one(scene, formulation, PETSC_COMM_WORLD,
-              output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force));
+              output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force),
+              !choices.no_estimate);
     };
   });
 
@@ -134,6 +140,25 @@ int main(int argc, char** argv) {
       }
       compare(scene, formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
+    };
+  });
+
+  CLI::App* tradeoff_command =
+      app.add_subcommand("tradeoff", "a ladder of cheaper models against full order: error against time, one picture");
+  add_scene(tradeoff_command, choices);
+  tradeoff_command->add_option("--reference", choices.reference, "nlffr | cfr")->capture_default_str();
+  tradeoff_command
+      ->add_option("--accuracy", choices.tradeoff.accuracy, "the cheapest model within this error is named the choice")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->capture_default_str();
+  add_folder(tradeoff_command, choices);
+  tradeoff_command->callback([&] {
+    work = [&] {
+      choices.tradeoff.reference = scene::formulation_of(choices.reference);
+      if (choices.reference != "nlffr" && choices.reference != "cfr")
+        throw InputError("--reference: is " + choices.reference + "; expected nlffr or cfr, of full order");
+      tradeoff(read_moving(choices.scene), PETSC_COMM_WORLD, choices.tradeoff, folder_of(choices, "tradeoff"),
+               choices.force);
     };
   });
 
@@ -224,7 +249,7 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, static, campbell, modes, reduce, info, check or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, static, campbell, modes, reduce, info, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

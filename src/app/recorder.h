@@ -22,6 +22,7 @@ class Recorder {
  private:
   void open_files();
   void write_basis();
+  void write_estimate();
   void store_state(const dynamics::Instant& instant);
   const scene::Scene& scene_;
   const scene::Model& model_;

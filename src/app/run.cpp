@@ -77,12 +77,12 @@ std::string label_of(const scene::Model& model) {
 }
 
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-              const std::optional<output::ResultFolder>& folder) {
+              const std::optional<output::ResultFolder>& folder, bool estimate) {
   RunResult result;
   const double begin = MPI_Wtime();
   scene::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
-    return scene::build(scene, formulation, comm);
+    return scene::build(scene, formulation, comm, estimate);
   }();
   result.offline_seconds = MPI_Wtime() - begin;
   result.label = label_of(model);
@@ -90,6 +90,7 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   result.warnings = model.warnings;
   result.series.columns = scene::probe_columns(model);
 
+  scene::KeptMotion kept(model, scene::is_reduced(formulation) ? 4000 : 100);
   Recorder recorder(scene, model, comm, folder, result);
   dynamics::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   dynamics::IntegrationReport report;
@@ -104,6 +105,7 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
     output::Progress progress(comm, 0, scene.motion.end);
     const auto observe = [&](const dynamics::Instant& instant) {
       recorder.observe(instant);
+      if (formulation != scene::Formulation::cfr) kept.keep(instant);
       progress.update(instant.t, instant.step);
       interruption.check(reduced ? MPI_COMM_SELF : comm);
       if (!reduced || instant.step % steps_alone != steps_alone - 1) return;
@@ -135,6 +137,15 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   result.motion_seconds = report.seconds - recorder.seconds();
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
+  if (!fault) {
+    result.out_of_range = scene::out_of_range(scene, model, kept, comm);
+    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+  }
+  if (estimate && !fault) {
+    const output::Waiting waiting(comm, "estimating the error");
+    result.estimate = scene::estimate_error(
+        model, kept, std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+  }
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
     const std::exception_ptr lost = fault_of([&] {

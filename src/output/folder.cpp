@@ -19,7 +19,8 @@ namespace {
 /// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
 const std::vector<std::vector<std::string>> results = {
     {"summary.json", "probes.csv", "result.h5", "campbell.csv"},
-    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"}};
+    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"},
+    {"tradeoff.json", "tradeoff.md", "tradeoff.csv", "tradeoff.png"}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("output folder '{}': {}", path.string(), why));

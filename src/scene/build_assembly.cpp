@@ -207,6 +207,8 @@ Model Assembly::model() {
       report.dofs = prepared_.bodies[b].structure.dofs();
     }
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(prepared_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
@@ -221,6 +223,7 @@ Model Assembly::model() {
   add_loads();
   add_joints(model, q);
   add_probes(model, q);
+  for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));

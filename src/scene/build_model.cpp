@@ -3,15 +3,21 @@
 #include "build_assembly.h"
 #include "build_space.h"
 #include "floe/dynamics/simulation.h"
+#include "offline.h"
 
 namespace floe::scene {
+
+Model assemble(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced) {
+  return prepared.scene.dimension == 3 ? SpaceAssembly(prepared, formulation, reduced).model()
+                                       : Assembly(prepared, formulation, reduced).model();
+}
+
 namespace {
 
 /// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
 /// fields.
 std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
-  Model model = prepared.scene.dimension == 3 ? SpaceAssembly(prepared, Formulation::vm, linear).model()
-                                              : Assembly(prepared, Formulation::vm, linear).model();
+  Model model = assemble(prepared, Formulation::vm, linear);
   std::vector<Eigen::MatrixXd> sums;
   for (const ReducedBody& body : linear)
     sums.push_back(Eigen::MatrixXd::Zero(body.body.coordinates(), body.body.coordinates()));
@@ -46,16 +52,17 @@ void refuse_meshless(const Scene& scene, Formulation formulation) {
 
 }  // namespace
 
-Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
-  const Scene scene = formulation == Formulation::cfr ? whole : split_frames(whole);
-  refuse_meshless(scene, formulation);
-  const Prepared prepared = prepare(scene, comm);
+Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
+  refuse_meshless(whole, formulation);
+  const auto offline = std::make_shared<Offline>(formulation == Formulation::cfr ? whole : split_frames(whole), comm);
+  const Prepared& prepared = offline->prepared;
   std::vector<std::string> warnings;
-  std::vector<ReducedBody> reduced(prepared.bodies.size());
+  std::vector<ReducedBody>& reduced = offline->reduced;
+  reduced.resize(prepared.bodies.size());
   if (is_reduced(formulation)) {
     reduced = reduce_bodies(
         prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
-        warnings);
+        warnings, keep_offline);
   } else {
     for (std::size_t b = 0; b < reduced.size(); ++b)
       if (prepared.bodies[b].spec.rigid)
@@ -63,9 +70,9 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
       else if (prepared.bodies[b].spec.reduced)
         reduced[b] = from_file(prepared.bodies[b], formulation);
   }
-  Model model = scene.dimension == 3 ? SpaceAssembly(prepared, formulation, reduced).model()
-                                     : Assembly(prepared, formulation, reduced).model();
+  Model model = assemble(prepared, formulation, reduced);
   model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
+  if (keep_offline && is_reduced(formulation)) model.offline = offline;
   return model;
 }
 

@@ -284,7 +284,8 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
 }
 
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
-                                       const InteractionRun& linear_run, std::vector<std::string>& warnings) {
+                                       const InteractionRun& linear_run, std::vector<std::string>& warnings,
+                                       bool keep_statics) {
   const int count = static_cast<int>(prepared.bodies.size());
   const bool alone = formulation == Formulation::vm;
   std::vector<Stage> stages(count);
@@ -326,6 +327,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     }
     end(body, stages[b], std::move(derivatives), all[b]);
     stages[b].solver.reset();  // before the statics whose factor it uses
+    if (keep_statics) all[b].statics = std::move(stages[b].statics);
     stages[b] = Stage();
   }
   return all;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "build_space_rows.h"
 #include "floe/dynamics/held_body.h"
@@ -256,6 +257,8 @@ Model SpaceAssembly::model() {
       report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
     report.dimension = 3;
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(prepared_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.attitude = slots_[b].attitude;
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
@@ -270,6 +273,11 @@ Model SpaceAssembly::model() {
   for (std::size_t b = 0; b < slots_.size(); ++b)
     if (slots_[b].attitude && prepared_.bodies[b].host < 0)
       attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
+  for (std::size_t j = 0; j < multipliers_.size(); ++j) {
+    std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind));
+    std::iota(rows.begin(), rows.end(), 0);
+    model.joints.push_back({multipliers_[j], std::move(rows)});
+  }
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));

@@ -50,7 +50,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "campbell", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "tradeoff", "static", "campbell", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -70,6 +70,10 @@ COMMANDS = [
          ('"vm+mb" is not one of', 'did you mean "vm+md"?'), lines=1, check=nothing),
     Case("formulation named twice", ["compare", "scene.yaml", "--formulations", "vm,lffr,vm", "-o", "out"], 2,
          ('"vm" is named twice',), lines=1, check=nothing),
+    Case("trade-off against a reduced model", ["tradeoff", "scene.yaml", "--reference", "vm", "-o", "out"], 2,
+         ("--reference: is vm; expected nlffr or cfr",), lines=1, check=nothing),
+    Case("trade-off for no accuracy", ["tradeoff", "scene.yaml", "--accuracy", "0", "-o", "out"], 2, ("accuracy",),
+         check=nothing),
     Case("unknown formulation of several", ["compare", "scene.yaml", "--formulations", "cfr,nlfr", "-o", "out"], 2,
          ('"nlfr" is not one of', 'did you mean "nlffr"?'), lines=1, check=nothing),
 ]

@@ -94,6 +94,7 @@ struct BodyReport {
   int first_elastic = 0;                                    ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
   PetscInt first_node = 0;        ///< of this rank
+  int first_dof = -1;             ///< full order: local index of the first of this rank's own dofs
   std::vector<double> positions;  ///< of this rank's own nodes, x y (z), in the frame
 };
 
@@ -123,6 +124,15 @@ struct ModelStop {
   const dynamics::Stop* term = nullptr;  ///< of the system; on its last rank
 };
 
+/// The multipliers of a joint: local index of the first, and which rows of its constraint they belong to.
+struct JointMultipliers {
+  int first = 0;
+  std::vector<int> rows;
+};
+
+/// What a reduced model was made from: its meshes, bases and factors.
+struct Offline;
+
 /// A scene in one formulation, ready to move.
 struct Model {
   Formulation formulation;
@@ -134,11 +144,14 @@ struct Model {
   std::vector<std::string> warnings;
   PetscInt coordinates = 0, multipliers = 0;
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
+  std::vector<JointMultipliers> joints;
+  std::shared_ptr<Offline> offline = {};        ///< if it was to be kept
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
 /// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
-Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
+/// @param keep_offline  of reduced models: with the factors of K, for the estimate of their error (estimate.h)
+Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool keep_offline = false);
 
 /// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
 std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
