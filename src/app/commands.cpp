@@ -174,10 +174,10 @@ void info(const std::string& path, MPI_Comm comm) {
 }
 
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-             const output::ResultFolder& folder) {
+             const output::ResultFolder& folder, const RunPlan& plan) {
   RunResult result;
   try {
-    result = run(scene, formulation, comm, folder);
+    result = run(scene, formulation, comm, folder, plan);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;
@@ -191,6 +191,13 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   fmt::print("constraints within {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
+  for (const auto& event : s["events"])
+    fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
+               event["what"].get<std::string>(),
+               event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
+                                                        event["kinetic_energy_lost"].get<double>())
+                                          : "");
+  if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
   for (std::size_t c = 0; c < result.series.columns.size(); ++c) {

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "compare_table.h"
+#include "draw.h"
 #include "floe/output/provenance.h"
 #include "floe/output/table.h"
-#include "floe/version.h"
 #include "interruption.h"
 
 namespace floe::app {
@@ -20,26 +20,6 @@ using nlohmann::ordered_json;
 using scene::Formulation;
 
 namespace {
-
-std::string shell_quoted(const std::string& word) {
-  std::string safe = "'";
-  for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return safe + "'";
-}
-
-bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
-
-/// Draws with the script that is shipped. Returns the picture's path, or says why there is none.
-std::string draw(const std::string& folder) {
-  std::string script = std::string(FLOE_SCRIPTS_INSTALLED) + "/compare.py";
-  if (!readable(script)) script = std::string(FLOE_SCRIPTS_SOURCE) + "/compare.py";
-  const std::string python = readable("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  if (std::system(
-          (shell_quoted(python) + " " + shell_quoted(script) + " " + shell_quoted(folder) + " >/dev/null").c_str()) !=
-      0)
-    return "no picture: " + script + " failed (it needs python3 and matplotlib)";
-  return folder + "/compare.png";
-}
 
 scene::Scene refined(const scene::Scene& scene) {
   scene::Scene fine = scene;
@@ -189,7 +169,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     for (const Compared& row : rows)
       for (const std::string& warning : row.result.warnings) fmt::print("Note ({}): {}\n", row.name, warning);
     for (const auto& [name, why] : stopped) fmt::print("Failed ({}): {}\n", name, why);
-    fmt::print("Picture: {}\n", draw(folder.path.string()));
+    fmt::print("Picture: {}\n", draw(folder.path.string(), "compare"));
   });
   if (!failed.empty())
     throw RunError(
