@@ -275,7 +275,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   result_.series.values.push_back(values);
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (instant.step == 0) energy_start_ = energy_now_;
+  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
@@ -319,6 +319,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
+  j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
   if (report.steps > first_step_)
     j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps - first_step_);
   if (checkpoint_every_.any()) j["checkpoints"] = {{"written", checkpoints_}, {"seconds", kept_seconds_}};

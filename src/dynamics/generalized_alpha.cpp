@@ -2,6 +2,7 @@
 
 #include "floe/petsc/error.h"
 #include "generalized_alpha_data.h"
+#include "simplified_newton.h"
 
 // The scheme of Arnold and Bruels (2007) for F(t, U, V, A) = 0, U = (q, lambda), everything at the end of the step:
 //   F(t_1, U_1, V_1, A_1) = 0
@@ -180,7 +181,8 @@ PetscErrorCode destroy(TS ts) {
   PetscFunctionReturn(0);
 }
 
-// Newton takes full steps (near round-off a residual-reducing line search would refuse good ones) with a direct solver.
+// Newton takes full steps (near round-off a residual-reducing line search would refuse good ones) with a direct solver;
+// the line search is for -snes_type newtonls.
 PetscErrorCode set_solver_defaults(TS ts) {
   SNES snes;
   SNESLineSearch line_search;
@@ -189,6 +191,7 @@ PetscErrorCode set_solver_defaults(TS ts) {
 
   PetscFunctionBegin;
   PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESSetType(snes, simplified_newton));
   PetscCall(SNESSetConvergenceTest(snes, newton_converged, ts, nullptr));
   PetscCall(SNESSetTolerances(snes, PETSC_DEFAULT, 1e-10, PETSC_DEFAULT, 20, PETSC_DEFAULT));
   PetscCall(SNESGetLineSearch(snes, &line_search));
@@ -228,7 +231,10 @@ PetscErrorCode create(TS ts) {
 
 }  // namespace
 
-void register_generalized_alpha() { petsc::check(TSRegister(generalized_alpha, create)); }
+void register_generalized_alpha() {
+  petsc::check(TSRegister(generalized_alpha, create));
+  register_simplified_newton();
+}
 
 PetscErrorCode TSGeneralizedAlphaSetMultipliers(TS ts, IS multipliers) {
   PetscFunctionBegin;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "generalized_alpha_data.h"
+#include "simplified_newton.h"
 
 namespace floe::dynamics {
 namespace {
@@ -103,7 +104,7 @@ PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
 
   PetscFunctionBegin;
   PetscCall(predict(generalized_alpha_data(ts)));
-  PetscCall(SNESSolve(ts->snes, nullptr, generalized_alpha_data(ts)->U1));
+  PetscCall(solve_again(ts->snes, generalized_alpha_data(ts)->U1));
   PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
   PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
   PetscCall(SNESGetConvergedReason(ts->snes, reason));

@@ -92,7 +92,7 @@ SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialCon
 
 void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   if (!holds()) return add_open_rows(motion, multiplier_, rows(constraint_), r);
-  pair_.evaluate(motion);
+  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   for (int i = 0; i < rows(constraint_); ++i) {
@@ -105,7 +105,7 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);
-  pair_.evaluate(motion);
+  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   Matrix12 Y = Matrix12::Zero();

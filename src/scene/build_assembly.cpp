@@ -17,17 +17,6 @@ using petsc::check;
 
 namespace {
 
-MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
-  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
-}
-
-bool last_rank(MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return rank == size - 1;
-}
-
 std::vector<PetscInt> visited_nodes(const Prepared& prepared, int body) {
   std::vector<PetscInt> nodes;
   auto visit = [&](const PreparedPlace& place) {

@@ -23,6 +23,17 @@ std::string name_of(fem::ReferenceFrame::Kind kind) {
   }
 }
 
+MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
+  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
+}
+
+bool last_rank(MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  return rank == size - 1;
+}
+
 Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
 
 namespace {

@@ -26,6 +26,11 @@ Prepared prepare(const Scene& scene, MPI_Comm comm);
 
 Eigen::Matrix2d turn(double angle);
 
+/// Where the system of a formulation lives: on every rank by itself, or on all together.
+MPI_Comm comm_of(const Prepared& prepared, Formulation formulation);
+/// Whether this rank holds what the ranks of a system share.
+bool last_rank(MPI_Comm comm);
+
 /// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
 struct ReducedBody;
 body::PlaceMap place_map(const Prepared& prepared, const ReducedBody& reduced, const PreparedPlace& place);

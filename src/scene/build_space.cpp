@@ -18,17 +18,6 @@ using petsc::check;
 
 namespace {
 
-MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
-  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
-}
-
-bool last_rank(MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return rank == size - 1;
-}
-
 /// Whether a place of a body from a file has no motion in the body's frame.
 bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
   const output::ReducedBodyFile& file = *body.spec.reduced->file;

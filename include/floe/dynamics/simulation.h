@@ -35,6 +35,7 @@ struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
   double end = 0;      ///< reached [s]
   double seconds = 0;  ///< wall clock
+  double processor_seconds = 0;  ///< of this rank
   std::string type;    ///< of the TS
 };
 
