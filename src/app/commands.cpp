@@ -183,10 +183,10 @@ void info(const std::string& path, MPI_Comm comm) {
 }
 
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-             const output::ResultFolder& folder, bool estimate) {
+             const output::ResultFolder& folder, const RunPlan& plan) {
   RunResult result;
   try {
-    result = run(scene, formulation, comm, folder, estimate && scene::is_reduced(formulation));
+    result = run(scene, formulation, comm, folder, plan);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;
@@ -204,6 +204,13 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   const auto probes_estimate = [&](const std::string& column) {
     return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
   };
+  for (const auto& event : s["events"])
+    fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
+               event["what"].get<std::string>(),
+               event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
+                                                        event["kinetic_energy_lost"].get<double>())
+                                          : "");
+  if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
   for (std::size_t c = 0; c < result.series.columns.size(); ++c) {
@@ -215,7 +222,7 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   }
   if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
-  if (estimate && scene::is_reduced(formulation)) fmt::print("{}", estimate_words(result.estimate));
+  if (plan.estimate) fmt::print("{}", estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

@@ -71,6 +71,7 @@ ordered_json first_summary(const scene::Scene& scene, const scene::Model& model,
   if (model.velocity_correction > 1e-9) j["start_velocity_correction"] = model.velocity_correction;
   j["warnings"] = model.warnings;
   j["seconds"] = {{"offline", result.offline_seconds}};
+  j["events"] = ordered_json::array();
   return j;
 }
 
@@ -91,10 +92,26 @@ ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& 
 }  // namespace
 
 Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
-                   const std::optional<output::ResultFolder>& folder, RunResult& result)
-    : scene_(scene), model_(model), comm_(comm), folder_(folder), result_(result) {
+                   const std::optional<output::ResultFolder>& folder, RunResult& result, const RunPlan& plan)
+    : scene_(scene),
+      model_(model),
+      comm_(comm),
+      folder_(folder),
+      result_(result),
+      checkpoint_every_(plan.checkpoints),
+      end_(plan.until.value_or(scene.motion.end)),
+      alone_(scene::is_reduced(model.formulation)),
+      kept_at_(MPI_Wtime()) {
   result_.summary = first_summary(scene, model, comm, result);
   if (!folder_) return;
+  if (checkpoint_every_.any()) {
+    identity_ = identity_of(scene, model.formulation, comm);
+    identity_["checkpoint"] = {{"steps", checkpoint_every_.steps}, {"seconds", checkpoint_every_.seconds}};
+  }
+  if (plan.from) {
+    take_up_files(*plan.from);
+    return;
+  }
   output::remove_replaced(comm, *folder_);
   output::write_summary(comm, *folder_, result_.summary);
   try {
@@ -115,20 +132,104 @@ void Recorder::open_files() {
   file_->write_text("summary", result_.summary.dump(2));
   file_->write_text("scene", scene_.text);
   write_basis();
-  const std::int64_t rows =
-      scene_.motion.tolerance
-          ? 0
-          : static_cast<std::int64_t>(scene_.motion.end / scene_.motion.step / scene_.motion.every) + 2;
-  const PetscInt unknowns = model_.coordinates + model_.multipliers;
-  file_->add_series("motion/t", 1, {"s", "time"}, rows);
-  file_->add_series("motion/U", unknowns, {"", "coordinates and multipliers"}, rows);
-  file_->add_series("motion/V", unknowns, {"", "their rates"}, rows);
-  file_->add_series("motion/energy", 3, {"J", "kinetic, elastic, potential"}, rows);
-  if (const int frames = scene::moving_frames(model_); frames > 0)
-    file_->add_series(
-        "motion/attitude", 4 * frames,
-        {"", "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"}, rows);
+  for (const auto& [name, count, label] : all_series()) file_->add_series(name, count, label, expected_rows());
   file_->publish();
+}
+
+std::int64_t Recorder::expected_rows() const {
+  return scene_.motion.tolerance ? 0
+                                 : static_cast<std::int64_t>(end_ / scene_.motion.step / scene_.motion.every) + 2 +
+                                       static_cast<std::int64_t>(scene_.events.size());
+}
+
+std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_series() const {
+  const PetscInt unknowns = model_.coordinates + model_.multipliers;
+  std::vector<std::tuple<std::string, PetscInt, output::Label>> all{
+      {"motion/t", 1, {"s", "time"}},
+      {"motion/U", unknowns, {"", "coordinates and multipliers"}},
+      {"motion/V", unknowns, {"", "their rates"}},
+      {"motion/energy", 3, {"J", "kinetic, elastic, potential"}}};
+  if (const int frames = scene::moving_frames(model_); frames > 0)
+    all.emplace_back(
+        "motion/attitude", 4 * frames,
+        output::Label{"",
+                      "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"});
+  return all;
+}
+
+/// Everything as it was at the checkpoint; what was written after it is lost, and comes again.
+void Recorder::take_up_files(const output::Checkpoint& from) {
+  const std::vector<double>& record = from.shared.at("record");
+  const auto rows = static_cast<std::int64_t>(record[0]);
+  energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];
+  change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
+  first_step_ = kept_step_ = from.words.at("step");
+  result_.summary["events"] = from.words.at("events");
+  result_.summary["continued"] = from.words.at("continued");
+  result_.summary["continued"].push_back({{"step", first_step_}, {"t", from.words.at("t")}});
+  std::vector<output::SeriesColumn> columns;
+  for (const auto& column : result_.series.columns) columns.push_back({column.name, column.unit});
+  std::vector<std::vector<double>> kept;
+  probes_ = std::make_unique<output::SeriesFile>(comm_, folder_->probes(), columns, rows, kept);
+  for (const auto& row : kept) {
+    result_.series.t.push_back(row.front());
+    result_.series.values.emplace_back(row.begin() + 1, row.end());
+  }
+  file_ = std::make_unique<output::ResultFile>(comm_, folder_->result(), output::ResultFile::Existing::keep);
+  for (const auto& [name, count, label] : all_series()) file_->continue_series(name, count, rows, expected_rows());
+  file_->publish();
+  output::write_summary(comm_, *folder_, result_.summary);
+}
+
+void Recorder::note(const dynamics::EventReport& event) {
+  ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
+  if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost, j["impulses"] = event.impulses;
+  result_.summary["events"].push_back(j);
+}
+
+void Recorder::checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending) {
+  if (!folder_ || !checkpoint_every_.any() || !instant.state) return;
+  const auto [steps, seconds] = checkpoint_every_;
+  int due = seconds > 0 && MPI_Wtime() - kept_at_ > seconds;
+  if (seconds > 0 && !alone_) MPI_Bcast(&due, 1, MPI_INT, 0, comm_);
+  if (steps > 0 && instant.step % steps == 0) due = 1;
+  const bool end = ending() || instant.last;
+  if ((!due && !end) || instant.step == kept_step_) return;
+  kept_step_ = instant.step;
+  const double begin = MPI_Wtime();
+  write_checkpoint(instant);
+  ++checkpoints_;
+  kept_at_ = MPI_Wtime();
+  kept_seconds_ += kept_at_ - begin;
+  seconds_ += kept_at_ - begin;
+}
+
+/// Results first: a checkpoint never comes after what is on disk. Where all ranks move copies, rank 0 writes.
+void Recorder::write_checkpoint(const dynamics::Instant& instant) {
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  if (alone_ && rank != 0) return;
+  output::Checkpoint checkpoint;
+  checkpoint.words = {{"run", identity_},
+                      {"t", instant.t},
+                      {"step", instant.step},
+                      {"events", result_.summary.value("events", ordered_json::array())},
+                      {"continued", result_.summary.value("continued", ordered_json::array())}};
+  checkpoint.shared["record"] = {static_cast<double>(result_.series.t.size()),
+                                 energy_start_,
+                                 energy_now_,
+                                 energy_greatest_,
+                                 change_,
+                                 violation_,
+                                 velocity_violation_};
+  put_state((*instant.state)(), checkpoint);
+  const auto save_probes = [&] { probes_->save(); };
+  if (alone_)
+    save_probes();
+  else
+    petsc::agree(comm_, save_probes);
+  file_->save(alone_);
+  output::write_checkpoint(alone_ ? PETSC_COMM_SELF : comm_, folder_->checkpoint(), checkpoint);
 }
 
 void Recorder::write_basis() {
@@ -253,7 +354,9 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
   j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
-  if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
+  if (report.steps > first_step_)
+    j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps - first_step_);
+  if (checkpoint_every_.any()) j["checkpoints"] = {{"written", checkpoints_}, {"seconds", kept_seconds_}};
   if (!folder_) return;
   std::exception_ptr fault;  // of one file: the others are finished all the same
   const auto attempt = [&](const auto& work) {

@@ -50,8 +50,9 @@ Rung measured(const RunResult& result, const Series& reference) {
 Rung climb(const Member& member, const Series& reference, MPI_Comm comm) {
   Rung rung;
   try {
-    const bool reduced = scene::is_reduced(member.formulation);
-    rung = measured(run(member.scene, member.formulation, comm, std::nullopt, reduced), reference);
+    RunPlan plan;
+    plan.estimate = scene::is_reduced(member.formulation);
+    rung = measured(run(member.scene, member.formulation, comm, std::nullopt, plan), reference);
   } catch (const InputError& error) {
     rung.stopped = short_reason(error.what());
   } catch (const RunError& error) {

@@ -3,6 +3,7 @@
 #include "build_assembly.h"
 #include "build_space.h"
 #include "floe/dynamics/simulation.h"
+#include "floe/scene/variation.h"
 #include "offline.h"
 
 namespace floe::scene {
@@ -52,28 +53,63 @@ void refuse_meshless(const Scene& scene, Formulation formulation) {
 
 }  // namespace
 
+struct ReducedBodies {
+  Formulation formulation;
+  MPI_Comm comm;
+  std::vector<ReducedBody> bodies;
+  std::vector<std::string> warnings;
+};
+
+namespace {
+
+Scene in_parts(const Scene& whole, Formulation formulation) {
+  return formulation == Formulation::cfr ? whole : split_frames(whole);
+}
+
+ReducedBodies reduced_bodies(const Prepared& prepared, Formulation formulation, bool keep_offline = false) {
+  ReducedBodies all{formulation, prepared.comm, std::vector<ReducedBody>(prepared.bodies.size()), {}};
+  if (is_reduced(formulation)) {
+    all.bodies = reduce_bodies(
+        prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
+        all.warnings, keep_offline);
+    return all;
+  }
+  for (std::size_t b = 0; b < all.bodies.size(); ++b)
+    if (prepared.bodies[b].spec.rigid)
+      all.bodies[b] = rigid(prepared.bodies[b]);
+    else if (prepared.bodies[b].spec.reduced)
+      all.bodies[b] = from_file(prepared.bodies[b], formulation);
+  return all;
+}
+
+Model assembled(const Prepared& prepared, const ReducedBodies& reduced) {
+  Model model = assemble(prepared, reduced.formulation, reduced.bodies);
+  model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
+  return model;
+}
+
+}  // namespace
+
 Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
   refuse_meshless(whole, formulation);
-  const auto offline = std::make_shared<Offline>(formulation == Formulation::cfr ? whole : split_frames(whole), comm);
-  const Prepared& prepared = offline->prepared;
-  std::vector<std::string> warnings;
-  std::vector<ReducedBody>& reduced = offline->reduced;
-  reduced.resize(prepared.bodies.size());
-  if (is_reduced(formulation)) {
-    reduced = reduce_bodies(
-        prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
-        warnings, keep_offline);
-  } else {
-    for (std::size_t b = 0; b < reduced.size(); ++b)
-      if (prepared.bodies[b].spec.rigid)
-        reduced[b] = rigid(prepared.bodies[b]);
-      else if (prepared.bodies[b].spec.reduced)
-        reduced[b] = from_file(prepared.bodies[b], formulation);
-  }
-  Model model = assemble(prepared, formulation, reduced);
-  model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
-  if (keep_offline && is_reduced(formulation)) model.offline = offline;
+  const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
+  ReducedBodies reduced = reduced_bodies(offline->prepared, formulation, keep_offline);
+  Model model = assembled(offline->prepared, reduced);
+  if (!keep_offline || !is_reduced(formulation)) return model;
+  offline->reduced = std::move(reduced.bodies);
+  model.offline = offline;
   return model;
+}
+
+std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation formulation, MPI_Comm comm) {
+  const Scene scene = in_parts(whole, formulation);
+  refuse_meshless(scene, formulation);
+  return std::make_shared<const ReducedBodies>(reduced_bodies(prepare(scene, comm), formulation));
+}
+
+Model build_on(const ReducedBodies& bodies, const Scene& whole) {
+  const Scene scene = in_parts(whole, bodies.formulation);
+  return assembled(prepare(scene, bodies.comm), bodies);
 }
 
 }  // namespace floe::scene

@@ -32,7 +32,9 @@ int clamp_of(const Prepared& prepared, int b) {
   if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const auto& [first, second] = prepared.joints[j];
-    if (prepared.scene.joints[j].kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    const Joint& joint = prepared.scene.joints[j];
+    if (joint.kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    if (is_unlocked(prepared.scene, joint.name)) continue;
     const PreparedPlace& place = first.ground() ? second : first;
     if (place.body != b) continue;
     if (place.map ? at_rest(body, *place.map)
@@ -50,7 +52,8 @@ SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, 
       reduced_(reduced),
       owner_(last_rank(comm_of(prepared, formulation))),
       coordinates_(comm_of(prepared, formulation)),
-      slots_(prepared.bodies.size()) {
+      slots_(prepared.bodies.size()),
+      latches_(latches_of(prepared.scene)) {
   for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, owner_of_frame(b)) >= 0;
 }
 
@@ -149,6 +152,10 @@ void SpaceAssembly::add_coordinates() {
     coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
     const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind);
     multipliers_.push_back(coordinates_.add_shared(rows, true));
+    const auto latches = latches_.find(prepared_.scene.joints[j].name);
+    if (latches == latches_.end() || !latches->second.lock) continue;
+    latches->second.rows = 6 - rows;
+    latches->second.first_row = coordinates_.add_shared(6 - rows, true);
   }
   coordinates_.number();
 }
@@ -278,6 +285,7 @@ Model SpaceAssembly::model() {
     std::iota(rows.begin(), rows.end(), 0);
     model.joints.push_back({multipliers_[j], std::move(rows)});
   }
+  model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));

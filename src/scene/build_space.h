@@ -73,6 +73,7 @@ class SpaceAssembly {
   std::vector<int> multipliers_;  // of each joint, the first
   Eigen::VectorXd start_;         // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
 };
 
 /// Rows that the kind of joint holds in space; none: a spring or bushing.

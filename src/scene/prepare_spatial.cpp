@@ -306,7 +306,8 @@ void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const 
     prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
     const bool here = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
                       at.moved_by(body.frame.conditions.front() / 6);
-    if (clamps(joint) && here) body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
+    if (clamps(joint) && here && !is_unlocked(prepared.scene, joint.name))
+      body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
   }
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "floe/scene/model.h"
+
 namespace floe::scene {
 namespace {
 
@@ -53,7 +55,7 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
   };
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
-    if (joint.kind != Joint::Kind::fixed) continue;
+    if (joint.kind != Joint::Kind::fixed || is_unlocked(scene, joint.name)) continue;
     int a = index_of(scene, joint.first), b = index_of(scene, joint.second);
     if (a < 0 || b < 0 || a == b) continue;
     const auto attempt = [&](int guest, const Place& at, int host) {

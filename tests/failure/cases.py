@@ -6,6 +6,7 @@ import signal
 from typing import Callable, Optional, Union
 
 import reduced
+import runtime
 from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
@@ -50,7 +51,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "tradeoff", "static", "campbell", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "tradeoff", "sweep", "static", "campbell", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -418,4 +419,4 @@ REDUCED = [
          scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
 ]
 
-CASES = REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+CASES = runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "floe/dynamics/event.h"
 #include "floe/dynamics/joints.h"
 #include "floe/dynamics/spatial_marker.h"
 #include "floe/dynamics/stop.h"
@@ -133,6 +135,13 @@ struct JointMultipliers {
 /// What a reduced model was made from: its meshes, bases and factors.
 struct Offline;
 
+/// What events change of a joint.
+struct JointLatches {
+  std::shared_ptr<dynamics::Latch> joint = {};  ///< its own rows; none: no event unlocks it
+  std::shared_ptr<dynamics::Latch> lock = {};   ///< the rows that it leaves free; none: no event locks it
+  int first_row = 0, rows = 0;                  ///< local indices of the multipliers of the lock
+};
+
 /// A scene in one formulation, ready to move.
 struct Model {
   Formulation formulation;
@@ -142,6 +151,7 @@ struct Model {
   std::vector<BodyReport> bodies;
   std::vector<ModelStop> stops;
   std::vector<std::string> warnings;
+  std::map<std::string, JointLatches> latches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
   std::vector<JointMultipliers> joints;
@@ -152,6 +162,13 @@ struct Model {
 /// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
 /// @param keep_offline  of reduced models: with the factors of K, for the estimate of their error (estimate.h)
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool keep_offline = false);
+
+/// The scene's events for a motion of the model until `end`; the model must outlive them. Those whose formula of t does
+/// not change sign until then never happen. @throws InputError  a probe that the model does not have
+std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end);
+/// No latch, one, or two for each joint that events name; and whether an event unlocks it.
+std::map<std::string, JointLatches> latches_of(const Scene& scene);
+bool is_unlocked(const Scene& scene, const std::string& joint);
 
 /// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
 std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
