@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "floe/output/result_file.h"
 #include "sweep.h"

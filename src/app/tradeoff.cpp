@@ -47,7 +47,7 @@ Rung measured(const RunResult& result, const Series& reference) {
 }
 
 /// @param comm  of those who run it together
-Rung climb(const Member& member, const Series& reference, MPI_Comm comm) {
+Rung climb(const Candidate& member, const Series& reference, MPI_Comm comm) {
   Rung rung;
   try {
     RunPlan plan;
@@ -64,7 +64,7 @@ Rung climb(const Member& member, const Series& reference, MPI_Comm comm) {
 }
 
 /// Every rank takes each so many of the members; all ranks get all rungs. Collective.
-std::vector<Rung> climb_all(const std::vector<Member>& members, const Series& reference, MPI_Comm comm) {
+std::vector<Rung> climb_all(const std::vector<Candidate>& members, const Series& reference, MPI_Comm comm) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
@@ -109,7 +109,7 @@ void tradeoff(const scene::Scene& scene, MPI_Comm comm, const TradeoffRequest& r
   bool has_own = true;
   std::vector<std::string> names;
   try {
-    const Member best{"reference", scene::name_of(request.reference), scene, request.reference};
+    const Candidate best{"reference", scene::name_of(request.reference), scene, request.reference};
     const RunResult result = run(best.scene, best.formulation, comm, std::nullopt);
     if (result.series.columns.empty())
       throw InputError(scene.file + ": probes: there are none; a trade-off compares what they show");

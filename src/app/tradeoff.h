@@ -9,7 +9,7 @@
 namespace floe::app {
 
 /// One model of a scene on the way from cheap to accurate.
-struct Member {
+struct Candidate {
   std::string family;  ///< `modes`, `modes and derivatives`, `step`, ...: what is varied
   std::string name;    ///< `3 modes + all derivatives`
   scene::Scene scene;
@@ -19,7 +19,7 @@ struct Member {
 /// The ladder: linear elastic forces, rigid bodies, 1 to m modes alone and with all their derivatives or with a few by
 /// modal interaction, static columns, and the scene's own model with longer steps and other settings of the
 /// integrator. What the scene itself asks for is among them (family `scene`).
-std::vector<Member> ladder(const scene::Scene& scene);
+std::vector<Candidate> ladder(const scene::Scene& scene);
 
 /// What became of a member, against the reference.
 struct Rung {

@@ -54,7 +54,7 @@ Scene with_modes(const Scene& scene, int m, Choice derivatives, int count = 0) {
 
 std::string modes_word(int m) { return fmt::format("{} mode{}", m, m == 1 ? "" : "s"); }
 
-void add_models(const Scene& scene, std::vector<Member>& members) {
+void add_models(const Scene& scene, std::vector<Candidate>& members) {
   const int most = greatest_modes(scene);
   if (most == 0) return;
   for (const int m : counts(most))
@@ -70,7 +70,7 @@ void add_models(const Scene& scene, std::vector<Member>& members) {
                          with_modes(scene, m, Choice::count, s), Formulation::vm_md});
 }
 
-void add_attachments(const Scene& scene, std::vector<Member>& members) {
+void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
   using Attachment = scene::ReductionSpec::Attachment;
   const struct {
     Attachment choice;
@@ -89,7 +89,7 @@ void add_attachments(const Scene& scene, std::vector<Member>& members) {
   }
 }
 
-void add_steps(const Scene& scene, std::vector<Member>& members) {
+void add_steps(const Scene& scene, std::vector<Candidate>& members) {
   if (!scene.motion.tolerance)
     for (const int times : {2, 4, 8}) {
       Scene longer = scene;
@@ -111,8 +111,8 @@ void add_steps(const Scene& scene, std::vector<Member>& members) {
 
 }  // namespace
 
-std::vector<Member> ladder(const Scene& scene) {
-  std::vector<Member> members;
+std::vector<Candidate> ladder(const Scene& scene) {
+  std::vector<Candidate> members;
   const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.rigid; });
   members.push_back({"scene", "as the scene says", scene, Formulation::vm_md});
   if (!flexible) return members;

@@ -84,7 +84,7 @@ TEST_CASE("trade-off: a table has a row for the reference, for its own error and
 
 TEST_CASE("trade-off: the ladder varies one thing at a time and leaves rigid bodies alone") {
   std::set<std::string> names, families;
-  for (const Member& member : ladder(arm())) {
+  for (const Candidate& member : ladder(arm())) {
     CHECK(names.insert(member.family + member.name).second);
     families.insert(member.family);
     CHECK(member.scene.bodies[1].rigid);
