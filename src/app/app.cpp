@@ -16,6 +16,7 @@
 #include "restart.h"
 #include "session.h"
 #include "sweep.h"
+#include "tradeoff.h"
 
 namespace floe::app {
 
@@ -28,11 +29,13 @@ struct Choices {
   std::optional<double> at;
   int steps = 10;
   CampbellRequest campbell;
+  std::string reference = "nlffr";
+  TradeoffRequest tradeoff;
   std::optional<std::string> restart, checkpoint;
   std::optional<double> until;
   std::vector<std::string> varied;
   bool together = false;
-  bool force = false, no_reference_error = false;
+  bool force = false, no_reference_error = false, no_estimate = false;
 };
 
 std::string stem(const std::string& path) {
@@ -106,6 +109,8 @@ int main(int argc, char** argv) {
                           "the scene, a YAML file (floe schema prints its grammar); with --restart that of the run");
   run_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
       ->capture_default_str();
+  run_command->add_flag("--no-estimate", choices.no_estimate,
+                        "spare the estimate of the error against full order (vm, vm+md)");
   add_folder(run_command, choices);
   run_command->add_option("--checkpoint", choices.checkpoint,
                           "write a checkpoint each so many steps (1000) or seconds (60s), and at the end");
@@ -121,6 +126,7 @@ int main(int argc, char** argv) {
     if (choices.restart && choices.force) throw CLI::ExcludesError("--restart", "--force");
     work = [&, formulation_given] {
       RunPlan plan;
+      plan.estimate = !choices.no_estimate && scene::is_reduced(scene::formulation_of(choices.formulation));
       if (choices.checkpoint) plan.checkpoints = checkpoint_every(*choices.checkpoint);
       if (choices.restart)
         return restart_one(*choices.restart, choices.scene,
@@ -158,6 +164,25 @@ int main(int argc, char** argv) {
       }
       compare(scene, formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
+    };
+  });
+
+  CLI::App* tradeoff_command =
+      app.add_subcommand("tradeoff", "a ladder of cheaper models against full order: error against time, one picture");
+  add_scene(tradeoff_command, choices);
+  tradeoff_command->add_option("--reference", choices.reference, "nlffr | cfr")->capture_default_str();
+  tradeoff_command
+      ->add_option("--accuracy", choices.tradeoff.accuracy, "the cheapest model within this error is named the choice")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->capture_default_str();
+  add_folder(tradeoff_command, choices);
+  tradeoff_command->callback([&] {
+    work = [&] {
+      choices.tradeoff.reference = scene::formulation_of(choices.reference);
+      if (choices.reference != "nlffr" && choices.reference != "cfr")
+        throw InputError("--reference: is " + choices.reference + "; expected nlffr or cfr, of full order");
+      tradeoff(read_moving(choices.scene), PETSC_COMM_WORLD, choices.tradeoff, folder_of(choices, "tradeoff"),
+               choices.force);
     };
   });
 
@@ -270,7 +295,7 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, sweep, static, campbell, modes, reduce, info, check or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

@@ -75,6 +75,20 @@ ordered_json first_summary(const scene::Scene& scene, const scene::Model& model,
   return j;
 }
 
+ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& model) {
+  if (!estimate.none.empty()) return {{"none", estimate.none}};
+  ordered_json j;
+  j["deformation"] = estimate.deformation;
+  for (std::size_t p = 0; p < model.probes.size(); ++p) j["probes"][model.probes[p].name] = estimate.probes[p];
+  j["full_order_residuals"] = estimate.samples;
+  j["columns"] = estimate.columns;
+  j["steps"] = estimate.t.size();
+  j["unbalanced"] = estimate.unbalanced;
+  j["seconds"] = {{"taken", estimate.seconds}, {"allowed", estimate.allowed}};
+  if (!estimate.notes.empty()) j["notes"] = estimate.notes;
+  return j;
+}
+
 }  // namespace
 
 Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
@@ -253,6 +267,21 @@ void Recorder::write_basis() {
   }
 }
 
+void Recorder::write_estimate() {
+  const scene::Estimate& estimate = result_.estimate;
+  if (!estimate.none.empty() || estimate.t.empty()) return;
+  const auto rows = static_cast<std::int64_t>(estimate.t.size());
+  const auto columns = static_cast<std::int64_t>(result_.series.columns.size());
+  std::vector<double> errors;
+  for (const auto& row : estimate.errors) errors.insert(errors.end(), row.begin(), row.end());
+  file_->write_array("estimate/t", {rows}, estimate.t, {"s", "time"});
+  file_->write_array("estimate/deformation", {rows}, estimate.relative,
+                     {"", "estimated error of the deformations, mass-weighted, of their root mean square"});
+  if (columns > 0)
+    file_->write_array("estimate/probes", {rows, columns}, errors,
+                       {"", "estimated error of each column of probes.csv: full order less this model"});
+}
+
 void Recorder::store_state(const dynamics::Instant& instant) {
   const auto append = [&](const char* name, Vec vector) {
     petsc::Values values(vector);
@@ -274,6 +303,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   result_.series.t.push_back(instant.t);
   result_.series.values.push_back(values);
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
+  result_.series.energy.push_back(energy);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
@@ -306,6 +336,9 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["status"] = stopped.empty() ? "finished" : "failed";
   if (!stopped.empty()) j["reason"] = stopped;
   j["warnings"] = result_.warnings;
+  for (const scene::OutOfRange& one : result_.out_of_range)
+    j["out_of_range"].push_back(
+        {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   j["integration"] = {{"type", report.type},
                       {"reached", report.end},
                       {"steps", report.steps},
@@ -317,6 +350,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
                  {"greatest_part", energy_greatest_},
                  {"greatest_change_of_total_energy", change_}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
+  if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
   j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
@@ -337,6 +371,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   attempt([&] { probes_->finish(); });
   attempt([&] {
     file_->flush();
+    write_estimate();
     file_->write_text("summary", j.dump(2));
     file_->finish();
   });

@@ -33,6 +33,7 @@ class Recorder {
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const dynamics::Instant& instant);
   void write_basis();
+  void write_estimate();
   void store_state(const dynamics::Instant& instant);
   const scene::Scene& scene_;
   const scene::Model& model_;

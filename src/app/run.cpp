@@ -81,7 +81,7 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   const double begin = MPI_Wtime();
   scene::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
-    return scene::build(scene, formulation, comm);
+    return scene::build(scene, formulation, comm, plan.estimate);
   }();
   return move(scene, model, MPI_Wtime() - begin, comm, folder, plan);
 }
@@ -96,6 +96,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   result.warnings = model.warnings;
   result.series.columns = scene::probe_columns(model);
 
+  scene::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);
   Recorder recorder(scene, model, comm, folder, result, plan);
   dynamics::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   how.events = scene::events_of(scene, model, end);
@@ -116,6 +117,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     if (!plan.quiet) progress.emplace(comm, 0, end);
     const auto observe = [&](const dynamics::Instant& instant) {
       recorder.observe(instant);
+      if (model.formulation != scene::Formulation::cfr) kept.keep(instant);
       if (progress) progress->update(instant.t, instant.step);
       recorder.checkpoint_if_due(instant, [&] { return interruption.happened(reduced ? MPI_COMM_SELF : comm); });
       interruption.check(reduced ? MPI_COMM_SELF : comm);
@@ -148,6 +150,17 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   result.motion_seconds = report.seconds - recorder.seconds();
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
+  if (!fault) {
+    result.out_of_range = scene::out_of_range(scene, model, kept, comm);
+    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+  }
+  if (plan.estimate && (plan.from || !scene.events.empty())) {
+    result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
+  } else if (plan.estimate && !fault) {
+    const output::Waiting waiting(comm, "estimating the error");
+    result.estimate = scene::estimate_error(
+        model, kept, std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+  }
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
     const std::exception_ptr lost = fault_of([&] {

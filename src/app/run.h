@@ -7,7 +7,7 @@
 #include "checkpoint.h"
 #include "floe/dynamics/simulation.h"
 #include "floe/output/folder.h"
-#include "floe/scene/model.h"
+#include "floe/scene/range.h"
 
 namespace floe::app {
 
@@ -16,6 +16,7 @@ struct Series {
   std::vector<double> t;
   std::vector<std::vector<double>> values;  ///< of each instant
   std::vector<scene::ProbeColumn> columns;
+  std::vector<dynamics::Energy> energy;  ///< of each instant
 };
 
 /// What a run gives back.
@@ -28,6 +29,8 @@ struct RunResult {
   PetscInt steps = 0;
   double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;
+  scene::Estimate estimate;
+  std::vector<scene::OutOfRange> out_of_range;  ///< their texts are among the warnings
 };
 
 /// What keeps a run from being lost, and where it begins and ends.
@@ -36,6 +39,7 @@ struct RunPlan {
   std::optional<output::Checkpoint> from = {};  ///< of the run in the folder, which is taken up again
   std::optional<double> until = {};             ///< [s]; else the scene's motion.end
   bool quiet = false;                           ///< shows no progress
+  bool estimate = false;  ///< of the error, of reduced formulations (scene::estimate_error): a tenth of all the rest
 };
 
 /// Builds, moves and writes one scene in one formulation.

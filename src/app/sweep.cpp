@@ -8,7 +8,7 @@
 #include <memory>
 #include <optional>
 
-#include "draw.h"
+#include "drawing.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
 #include "interruption.h"
@@ -273,7 +273,7 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
   if (rank == 0)
     fmt::print("{} members ({} failed) in {:.3g} s; bodies were reduced {} times\nResults: {}\nPicture: {}\n",
                plan.members.size(), numbers[0], seconds, numbers[1], folder.path.string(),
-               draw(folder.path.string(), "sweep"));
+               draw("sweep", folder.path.string()));
   interruption.check(comm);
   if (numbers[0] > 0) throw RunError(fmt::format("{} of {} members failed", numbers[0], plan.members.size()));
 }

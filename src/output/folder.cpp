@@ -20,7 +20,8 @@ namespace {
 const std::vector<std::vector<std::string>> results = {
     {"summary.json", "probes.csv", "result.h5", "campbell.csv", "checkpoint.h5", "sweep.h5", "sweep.csv",
      "sweep.png"},
-    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"}};
+    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"},
+    {"tradeoff.json", "tradeoff.md", "tradeoff.csv", "tradeoff.png"}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("output folder '{}': {}", path.string(), why));

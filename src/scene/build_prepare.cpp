@@ -12,6 +12,14 @@
 
 namespace floe::scene {
 
+const PreparedPlace* held_place(const Prepared& prepared, std::size_t joint) {
+  const auto& [first, second] = prepared.joints[joint];
+  if (first.ground() != second.ground()) return first.ground() ? &second : &first;
+  for (const PreparedPlace* place : {&first, &second})
+    if (place->body >= 0 && prepared.bodies[place->body].host_joint == static_cast<int>(joint)) return place;
+  return nullptr;
+}
+
 std::string name_of(fem::ReferenceFrame::Kind kind) {
   switch (kind) {
     case fem::ReferenceFrame::Kind::pinned:
@@ -191,7 +199,7 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
   }
   for (const Load& load : scene.loads) {
     PreparedPlace place;
-    if (load.kind == Load::Kind::distributed)
+    if (load.spread())
       place.body = body_index(scene, load.body);
     else
       place = find(prepared.bodies, load.at);

@@ -80,7 +80,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   scene.title = reading.text("title");
-  if (reading.given("gravity")) scene.gravity = reading.point("gravity");
+  scene.gravity = reading.force("gravity");
+  if (const auto ground = reading.value("ground"))
+    scene.ground_acceleration = Reading(document, *ground, "ground").force("acceleration");
+  if (reading.given("share_frames")) scene.share_frames = reading.flag("share_frames");
   scene.bodies = read_named<Body>(document, reading, "bodies", read_body);
   scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
   scene.loads = read_named<Load>(document, reading, "loads", read_load);

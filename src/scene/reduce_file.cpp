@@ -48,7 +48,7 @@ Scene alone(const Scene& scene, int index) {
     for (Place* place : {&joint.first, &joint.second})
       if (!stays(*place)) *place = Place{}, place->where = joint.where;
   std::erase_if(part.loads, [&](const Load& load) {
-    return load.kind == Load::Kind::distributed ? load.body != name : load.at.body != name;
+    return load.spread() ? load.body != name : load.at.body != name;
   });
   std::erase_if(part.probes, [&](const Probe& probe) {
     return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
@@ -86,7 +86,7 @@ std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const Prep
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     add(scene.joints[j].first, prepared.joints[j][0]), add(scene.joints[j].second, prepared.joints[j][1]);
   for (std::size_t l = 0; l < scene.loads.size(); ++l)
-    if (scene.loads[l].kind != Load::Kind::distributed) add(scene.loads[l].at, prepared.loads[l]);
+    if (!scene.loads[l].spread()) add(scene.loads[l].at, prepared.loads[l]);
   for (std::size_t p = 0; p < scene.probes.size(); ++p) add(scene.probes[p].at, prepared.probes[p][0]);
   if (body.structure.dimension() == 2) {
     for (const std::string& name : place_names(body.spec.mesh)) {
