@@ -96,13 +96,13 @@ void remove_keys(YAML::Node node, const std::set<std::string>& keys) {
   for (const std::string& key : keys) node.remove(key);
 }
 
-void keep_keys(YAML::Node node, const std::set<std::string>& keys) {
-  if (!node.IsMap()) return;
-  std::set<std::string> others;
-  for (const std::string& name : names_in(node))
-    if (!keys.count(name)) others.insert(name);
-  remove_keys(node, others);
-}
+/// What of joints, loads and events acts on bodies, and changes nothing in their reduction. All other keys count.
+const std::vector<std::pair<std::string, std::set<std::string>>> acting = {
+    {"joints",
+     {"angle", "position", "speed", "stiffness", "viscosity", "length", "torsional_stiffness", "torsional_viscosity",
+      "translation", "rotation", "translation_viscosity", "rotation_viscosity", "limits", "turn_limits"}},
+    {"loads", {"force", "moment", "pressure"}},
+    {"events", {"at", "when", "probe", "crosses", "stop"}}};
 
 bool chooses_by_motion(const Scene& scene) {
   for (const Body& body : scene.bodies)
@@ -133,16 +133,15 @@ std::string offline_inputs(const std::string& text, const std::string& name, con
   if (chooses_by_motion(scene)) {
     remove_keys(root, {"title", "probes", "events", "parameters"});
   } else {
-    keep_keys(root, {"bodies", "joints", "loads", "events"});
+    remove_keys(root, {"title", "gravity", "ground", "motion", "probes", "parameters"});
     for (const auto& body : root["bodies"]) {
       const YAML::Node initial = child(body.second, "initial");
       if (initial.IsDefined()) remove_keys(initial, {"position", "velocity", "angular_velocity"});
     }
-    for (const char* section : {"joints", "loads", "events"}) {
+    for (const auto& [section, online] : acting) {
       const YAML::Node parts = child(root, section);
       if (!parts.IsDefined() || !parts.IsMap()) continue;
-      for (const auto& part : parts)
-        keep_keys(part.second, {"type", "between", "axis", "second_axis", "at", "body", "unlock", "lock"});
+      for (const auto& part : parts) remove_keys(part.second, online);
     }
   }
   std::set<std::string> names;

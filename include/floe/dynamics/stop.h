@@ -69,6 +69,8 @@ class SpatialStop final : public Stop {
   double position(const Motion& motion) const override;
   /// Counts turns, as SpatialSpring does.
   void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
+  void load(std::span<const double> carried) override { nearest_ = carried.front(); }
 
  private:
   struct Seen;

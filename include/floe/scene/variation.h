@@ -21,9 +21,9 @@ struct Variation {
 Scene parse_scene(const std::string& text, const std::string& name, const std::vector<Variation>& variations);
 
 /// A text that two scenes share only if their bodies are prepared and reduced alike: what the file says of bodies (not
-/// where they are at the start, and how fast), of joints without their springs and drives, of the places of loads,
-/// which joints events change, and the values of all parameters that these name. Derivatives that are chosen by count
-/// look at the whole motion: then all of the file but probes and events.
+/// where they are at the start, and how fast), of joints without their springs, drives and stops, of the places of
+/// loads, which joints events change, and the values of all parameters that these name. Derivatives that are chosen by
+/// count look at the whole motion: then all of the file but probes and events.
 std::string offline_inputs(const std::string& text, const std::string& name, const std::vector<Variation>& variations);
 
 /// Bodies reduced once, for scenes of the same offline_inputs().
