@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline bench-online sanitize install package
+.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package
 all: build
 
 setup:
@@ -27,6 +27,13 @@ bench-planar: build
 
 bench-offline: build
 	@bash makefiles/bench_offline.sh $(BUILD)
+
+check64:
+	@bash makefiles/setup.sh packages64.txt
+	@bash makefiles/check64.sh
+
+tradeoff: build
+	@bash makefiles/tradeoff.sh $(BUILD)
 
 bench-online: build
 	@bash makefiles/bench_online.sh $(BUILD)

@@ -18,11 +18,12 @@ namespace {
 
 using Data = GeneralizedAlpha;
 
-constexpr Vec Data::*vectors[] = {
-    &Data::U0,      &Data::V0,        &Data::A0,     &Data::a0,     &Data::U1,     &Data::V1,     &Data::A1,
-    &Data::a1,      &Data::jerk,      &Data::normal, &Data::a_used, &Data::base_q, &Data::base_v, &Data::base_A,
-    &Data::dynamic, &Data::stiffness, &Data::mass,   &Data::row,    &Data::scale,  &Data::weight, &Data::origin,
-    &Data::turns,   &Data::work_U,    &Data::work_V, &Data::work_A, &Data::work_F};
+constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,     &Data::A0,        &Data::a0,        &Data::U1,
+                                  &Data::V1,        &Data::A1,     &Data::a1,        &Data::jerk,      &Data::normal,
+                                  &Data::a_used,    &Data::base_q, &Data::base_v,    &Data::base_A,    &Data::dynamic,
+                                  &Data::stiffness, &Data::mass,   &Data::row,       &Data::scale,     &Data::weight,
+                                  &Data::origin,    &Data::turns,  &Data::tangent_U, &Data::tangent_V, &Data::tangent_A,
+                                  &Data::work_U,    &Data::work_V, &Data::work_A,    &Data::work_F};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;

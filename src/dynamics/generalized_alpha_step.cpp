@@ -249,6 +249,12 @@ PetscErrorCode form_jacobian(SNES, Vec U, Mat J, Mat P, TS ts) {
   PetscCall(TSComputeI2Jacobian(ts, end_time(ts), U, data->V1, data->A1, data->shift_v, data->shift_a, J, P));
   PetscCall(MatDiagonalScale(P, data->scale, nullptr));
   if (J != P) PetscCall(MatDiagonalScale(J, data->scale, nullptr));
+  PetscCall(VecCopy(U, data->tangent_U));
+  PetscCall(VecCopy(data->V1, data->tangent_V));
+  PetscCall(VecCopy(data->A1, data->tangent_A));
+  data->tangent_t = end_time(ts);
+  data->tangent_shift_v = data->shift_v;
+  data->tangent_shift_a = data->shift_a;
   data->new_jacobian = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "open_rows.h"
+
 namespace floe::dynamics {
 namespace {
 
@@ -97,11 +99,14 @@ std::vector<int> all_rows(const Constraint& constraint) {
 
 }  // namespace
 
-Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing)
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
+             std::shared_ptr<Latch> latch, bool captures)
     : pair_(std::move(first), std::move(second)),
       constraint_(std::move(constraint)),
       standing_(std::move(standing)),
-      multiplier_(static_cast<int>(pair_.coordinates.size())) {
+      multiplier_(static_cast<int>(pair_.coordinates.size())),
+      latch_(std::move(latch)),
+      captures_(captures) {
   for (std::size_t i = 0; i < standing_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
 }
 
@@ -115,6 +120,7 @@ Eigen::Vector3d Joint::multipliers(const Motion& motion) const {
 }
 
 void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  if (!holds()) return add_open_rows(motion, multiplier_, static_cast<int>(standing_.size()), r);
   const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
@@ -123,6 +129,7 @@ void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 }
 
 void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  if (!holds()) return add_open_tangent(multiplier_, static_cast<int>(standing_.size()), J);
   const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
@@ -133,6 +140,34 @@ void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) c
     J.row(multiplier_ + i) += row_.transpose();
     J.col(multiplier_ + i) += row_;
   }
+}
+
+void Joint::begin_step(const Motion& motion) {
+  if (!captures_) return;
+  if (!latch_->closed) captured_ = false;
+  if (captured_ || !latch_->closed) return;
+  captured_ = true;
+  pair_.evaluate(motion);
+  const Vector6 y = pair_.y();
+  if (auto* clamp = std::get_if<Clamp>(&constraint_)) *clamp = {y[5] - y[2], {}};
+  if (auto* slide = std::get_if<Prismatic>(&constraint_)) {
+    slide->gap = (Eigen::Rotation2Dd(y[2]) * slide->normal).dot(y.segment<2>(3) - y.head<2>());
+    slide->offset = y[5] - y[2];
+  }
+}
+
+void Joint::save(std::vector<double>& carried) const {
+  if (!latch_) return;
+  const auto* clamp = std::get_if<Clamp>(&constraint_);
+  const auto* slide = std::get_if<Prismatic>(&constraint_);
+  carried.push_back(latch_->closed), carried.push_back(captured_);
+  carried.push_back(slide ? slide->gap : 0), carried.push_back(slide ? slide->offset : clamp ? clamp->offset : 0);
+}
+
+void Joint::load(std::span<const double> carried) {
+  latch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
+  if (auto* clamp = std::get_if<Clamp>(&constraint_)) clamp->offset = carried[3];
+  if (auto* slide = std::get_if<Prismatic>(&constraint_)) slide->gap = carried[2], slide->offset = carried[3];
 }
 
 }  // namespace floe::dynamics

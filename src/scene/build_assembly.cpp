@@ -47,7 +47,8 @@ Assembly::Assembly(const Prepared& prepared, Formulation formulation, const std:
       reduced_(reduced),
       owner_(last_rank(comm_of(prepared, formulation))),
       coordinates_(comm_of(prepared, formulation)),
-      slots_(prepared.bodies.size()) {}
+      slots_(prepared.bodies.size()),
+      latches_(latches_of(prepared.scene)) {}
 
 bool Assembly::compact(int body) const {
   const Body& spec = prepared_.bodies[body].spec;
@@ -74,6 +75,11 @@ void Assembly::add_coordinates() {
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
     joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
+  }
+  for (auto& [joint, latches] : latches_) {
+    if (!latches.lock) continue;
+    latches.rows = 1;  // a hinge leaves an angle, a slide a distance
+    latches.first_row = coordinates_.add_shared(latches.rows, true);
   }
   coordinates_.number();
 }
@@ -207,6 +213,8 @@ Model Assembly::model() {
       report.dofs = prepared_.bodies[b].structure.dofs();
     }
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(prepared_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
@@ -221,6 +229,8 @@ Model Assembly::model() {
   add_loads();
   add_joints(model, q);
   add_probes(model, q);
+  for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
+  model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));

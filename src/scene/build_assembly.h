@@ -47,6 +47,7 @@ class Assembly {
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
 };
 
 }  // namespace floe::scene

@@ -41,25 +41,35 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
         fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at ({:.6g}, {:.6g}) and "
                     "({:.6g}, {:.6g}); expected the same point",
                     joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1]));
+  const auto found = latches_.find(joint.name);
+  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
   switch (joint.kind) {
     case Joint::Kind::revolute:
-      terms_.push_back(
-          std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers, joint_rows_[j]));
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
+                                                         joint_rows_[j], latches.joint));
+      if (latches.lock)
+        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, latches.first_row,
+                                                           std::vector<int>{2}, latches.lock, true));
       break;
     case Joint::Kind::fixed:
       terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
-                                                         joint_rows_[j]));
+                                                         joint_rows_[j], latches.joint));
       break;
     case Joint::Kind::driven:
       terms_.push_back(std::make_unique<dynamics::Joint>(
           places[0], places[1], dynamics::Clamp{offset, drive_of(joint, prepared_.scene.motion)}, multipliers,
-          joint_rows_[j]));
+          joint_rows_[j], latches.joint));
       break;
     case Joint::Kind::prismatic: {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
       const Eigen::Vector2d normal(-axis.y(), axis.x());
       const dynamics::Prismatic slide{turn(-y[0][2]) * normal, normal.dot(apart), offset};
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j]));
+      terms_.push_back(
+          std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j], latches.joint));
+      if (latches.lock)
+        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1],
+                                                           dynamics::Prismatic{turn(-y[0][2]) * axis, 0, 0},
+                                                           latches.first_row, std::vector<int>{0}, latches.lock, true));
       break;
     }
     case Joint::Kind::spring:

@@ -150,9 +150,9 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
   const PreparedBody& body = prepared.bodies[index];
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
-    const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
+    const PreparedPlace* held_there = held_place(prepared, j);
     const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : prepared.joint_held[j] != 0;
-    if (to_ground && held && !of_frame(body)) continue;
+    if (held_there && held_there->body == index && held && !of_frame(body)) continue;
     const bool moment = carries_moment(joint, body.structure.dimension());
     for (const PreparedPlace& place : prepared.joints[j])
       for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());

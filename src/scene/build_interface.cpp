@@ -25,10 +25,9 @@ namespace {
 /// The joint to the ground that holds a node of the place; empty if none does.
 std::string joint_that_holds(const Prepared& prepared, int index, const PreparedPlace& place) {
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
-    const auto& [first, second] = prepared.joints[j];
-    if (first.ground() == second.ground() || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
-    const PreparedPlace& held = first.ground() ? second : first;
-    if (held.body == index && share_a_node(held, place)) return prepared.scene.joints[j].name;
+    const PreparedPlace* held = held_place(prepared, j);
+    if (!held || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
+    if (held->body == index && share_a_node(*held, place)) return prepared.scene.joints[j].name;
   }
   return "";
 }

@@ -12,6 +12,14 @@
 
 namespace floe::scene {
 
+const PreparedPlace* held_place(const Prepared& prepared, std::size_t joint) {
+  const auto& [first, second] = prepared.joints[joint];
+  if (first.ground() != second.ground()) return first.ground() ? &second : &first;
+  for (const PreparedPlace* place : {&first, &second})
+    if (place->body >= 0 && prepared.bodies[place->body].host_joint == static_cast<int>(joint)) return place;
+  return nullptr;
+}
+
 std::string name_of(fem::ReferenceFrame::Kind kind) {
   switch (kind) {
     case fem::ReferenceFrame::Kind::pinned:

@@ -18,6 +18,10 @@ struct Prepared {
   std::vector<char> joint_held = {};
 };
 
+/// The place that the joint holds in the frame of its body: by the ground, or by a rigid body whose frame it has; null
+/// when the joint is between two frames.
+const PreparedPlace* held_place(const Prepared& prepared, std::size_t joint);
+
 /// `pinned`, `clamped`, `mean-axis`.
 std::string name_of(fem::ReferenceFrame::Kind kind);
 

@@ -37,10 +37,12 @@ class SpaceAssembly {
   bool compact(int body) const;  // described by a ReducedBody
   bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
   const fem::Conditions& held(int body) const;
+  int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
   reference::SpatialFrame frame_of(int body) const;
 
+  void add_frame(int body);
   void add_coordinates();
   void add_body(int body);
   void add_still_cells(int body);
@@ -71,6 +73,7 @@ class SpaceAssembly {
   std::vector<int> multipliers_;  // of each joint, the first
   Eigen::VectorXd start_;         // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
 };
 
 /// Rows that the kind of joint holds in space; none: a spring or bushing.

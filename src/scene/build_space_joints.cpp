@@ -120,9 +120,15 @@ void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
 }
 
 void SpaceAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
+  const auto found = latches_.find(prepared_.scene.joints[j].name);
+  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
   if (!standing.empty())
     terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                              multipliers_[j], standing));
+                                                              multipliers_[j], standing, latches.joint));
+  if (latches.lock)
+    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
+                                                              dynamics::lock_of(placed.constraint), latches.first_row,
+                                                              latches.lock, true));
   for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
     terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
 }
@@ -151,7 +157,8 @@ void SpaceAssembly::add_joints(Model& model) {
   std::string notes;
   const auto find = [&] {
     for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
-      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), place(static_cast<int>(j)));
+      if (PlacedJoint placed = place(static_cast<int>(j)); !stands(static_cast<int>(j)))
+        all.emplace_back(static_cast<int>(j), std::move(placed));
   };
   const auto add = [&] {
     if (!owner_) {

@@ -32,19 +32,23 @@ const SchemaSection scene_section{
     "The file: one mapping with these keys.",
     "title: Cantilever\nparameters: {L: 100, F: 2500}\ngravity: [0, -9.81]\nbodies: {...}\njoints: {...}\nloads: "
     "{...}\n"
-    "motion: {...}\nprobes: {...}",
+    "motion: {...}\nprobes: {...}\nevents: {...}",
     {
         {"title", Type::text, "", "", "what the scene shows"},
         {"parameters", Type::parameters, "", "",
          "numbers by name, for use in every number and formula below; each may use those above it"},
         {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
         part("ground", Type::section, "", "how the ground moves; absent: it stands", "ground"),
+        {"share_frames", Type::flag, "", "true",
+         "in space: a body that a fixed joint makes one with a rigid body has its frame, without coordinates and "
+         "multipliers of its own; false: never"},
         part("bodies", Type::named_sections, required, "the bodies by name", "body"),
         part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "the loads by name", "load"),
         part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
              "motion"),
         part("probes", Type::named_sections, "", "what to record, by name", "probe"),
+        part("events", Type::named_sections, "", "what happens once in the motion, by name", "event"),
     }};
 
 const SchemaSection ground_section{
@@ -348,6 +352,22 @@ const SchemaSection probe_section{
          "measured from this place, in axes that turn with its section; absent: world"},
     }};
 
+const SchemaSection event_section{
+    "event",
+    "Exactly one of unlock, lock, stop, and exactly one of at, when, probe.",
+    "unlock: clamp\nat: 1.5",
+    {
+        {"unlock", Type::text, "", "", "a joint that lets go; of one that an event locks: the lock alone"},
+        {"lock", Type::text, "", "",
+         "a joint whose places are held as they are then; velocities go to the nearest ones that fit, in kinetic "
+         "energy (a plastic impact), and its impulses are reported"},
+        {"stop", Type::flag, "", "false", "the motion ends"},
+        {"at", Type::number, "s", "", "when it happens", nonnegative},
+        {"when", Type::formula, "", "", "it happens where this formula of t first changes sign"},
+        {"probe", Type::text, "", "", "it happens where this column of probes.csv, as tip.y, passes `crosses`"},
+        {"crosses", Type::number, "", "0", "in the unit of the probe"},
+    }};
+
 const SchemaSection place_section{
     "place",
     "A node: `beam.end` (body.name; names under line, polyline and segments), `ground`, or this mapping.",
@@ -363,9 +383,10 @@ const SchemaSection place_section{
 const std::vector<SchemaSection>& schema() {
   static const std::vector<SchemaSection> all = [] {
     std::vector<SchemaSection> sections{
-        scene_section,   ground_section, limits_section, body_section,     mesh_section,  line_section,      polyline_section, segments_section,
-        section_section, material_section, frame_section, reduction_section, modes_section,    damping_section,
-        initial_section, joint_section,    load_section,  place_section,     motion_section,   probe_section};
+        scene_section,     ground_section,  body_section,     mesh_section,  line_section,      polyline_section,
+        segments_section,  section_section, material_section, frame_section, reduction_section, modes_section,
+        damping_section,   initial_section, joint_section,    limits_section, load_section,     place_section,
+        motion_section,    probe_section,   event_section};
     for (const SchemaSection& section : spatial_sections()) sections.push_back(section);
     return sections;
   }();

@@ -1,14 +1,17 @@
 """The table of the failure tests."""
 import dataclasses
 import os
+import pathlib
 import signal
 from typing import Callable, Optional, Union
 
 import reduced
+import runtime
 from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
+BLADE = pathlib.Path(__file__).resolve().parents[2] / "examples/blade/options"
 
 
 @dataclasses.dataclass
@@ -48,7 +51,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "campbell", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "tradeoff", "sweep", "static", "campbell", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -68,6 +71,10 @@ COMMANDS = [
          ('"vm+mb" is not one of', 'did you mean "vm+md"?'), lines=1, check=nothing),
     Case("formulation named twice", ["compare", "scene.yaml", "--formulations", "vm,lffr,vm", "-o", "out"], 2,
          ('"vm" is named twice',), lines=1, check=nothing),
+    Case("trade-off against a reduced model", ["tradeoff", "scene.yaml", "--reference", "vm", "-o", "out"], 2,
+         ("--reference: is vm; expected nlffr or cfr",), lines=1, check=nothing),
+    Case("trade-off for no accuracy", ["tradeoff", "scene.yaml", "--accuracy", "0", "-o", "out"], 2, ("accuracy",),
+         check=nothing),
     Case("unknown formulation of several", ["compare", "scene.yaml", "--formulations", "cfr,nlfr", "-o", "out"], 2,
          ('"nlfr" is not one of', 'did you mean "nlffr"?'), lines=1, check=nothing),
 ]
@@ -364,6 +371,13 @@ UNUSUAL = [
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
          ("option -derivatives_pc_type jacobi: is no solver by itself",), never=("finer",), lines=1, scene=PLATE),
+    *(Case(f"modes by {name}", ["modes", "scene.yaml", "-options_file", str(BLADE / name)], 0, shows=("rad/s",), lines=0,
+           scene=text)
+      for name, text in (("iterative.opts", PLATE_MOTION), ("out_of_core.opts", PLATE_MOTION),
+                         ("iterative_free.opts", PLATE_MOTION[:PLATE_MOTION.index("joints:")]))),
+    Case("full derivatives by multigrid", run("vm+md", "-options_file", str(BLADE / "iterative.opts")), 2,
+         ("derivatives with inertia", "expected a factorisation"), lines=1,
+         scene=PLATE_MOTION.replace("modes: ", "derivative_type: full, modes: ")),
     Case("factor on disk", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_22", "1"], 0, shows=("rad/s",), lines=0,
          scene=PLATE),
     Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
@@ -405,4 +419,4 @@ REDUCED = [
          scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
 ]
 
-CASES = REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+CASES = runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

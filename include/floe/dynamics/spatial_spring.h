@@ -29,6 +29,8 @@ class SpatialSpring final : public Term {
   /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
   /// a step, between evaluations. Within a step phi may change by less than half a turn.
   void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
+  void load(std::span<const double> carried) override { nearest_ = carried.front(); }
 
  private:
   mutable SpatialPair pair_;

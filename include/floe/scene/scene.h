@@ -229,6 +229,18 @@ struct Probe {
   Where where;
 };
 
+/// Something that happens once: a joint lets go or is locked where it is, or the motion ends.
+struct Event {
+  enum class Kind { unlock, lock, stop } kind = Kind::stop;
+  std::string name;
+  std::string joint;                  ///< of unlock, lock
+  std::optional<double> at;           ///< [s]
+  std::optional<math::Formula> when;  ///< instead: where this formula of t first changes sign
+  std::string probe;                  ///< instead: where this column (`tip.y`) passes `crosses`
+  double crosses = 0;                 ///< in the unit of the column
+  Where where;
+};
+
 /// A scene: plain data, checked, all numbers finite. Nothing is built yet.
 struct Scene {
   std::string file;
@@ -241,8 +253,10 @@ struct Scene {
   std::vector<Load> loads;
   std::array<math::Formula, 3> gravity{0.0, 0.0, 0.0};              ///< of t [m/s2]
   std::array<math::Formula, 3> ground_acceleration{0.0, 0.0, 0.0};  ///< of t [m/s2]: axes of the world go with the ground
+  bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
   std::vector<Probe> probes;
+  std::vector<Event> events;
 };
 
 /// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected,
