@@ -7,6 +7,9 @@ using namespace floe::scene;
 
 namespace {
 
+/// Formulas of time at t = 0.
+Point at_start(const std::array<floe::math::Formula, 3>& f) { return {f[0](0), f[1](0), f[2](0)}; }
+
 // Every key once, none at its default.
 const char* full = R"yaml(
 title: Everything
@@ -73,7 +76,7 @@ TEST_CASE("a body is read as it stands") {
   const Body& beam = scene.bodies[0];
   CHECK(scene.title == "Everything");
   CHECK(scene.parameters.at("half") == 2);
-  CHECK(scene.gravity == Point{0, -9.81, 0});
+  CHECK(at_start(scene.gravity) == Point{0, -9.81, 0});
   CHECK(scene.text == full);
   CHECK(beam.name == "beam");
   CHECK(beam.mesh.points == std::vector<Point>{{0, 0, 0}, {4, 0, 0}});
@@ -149,7 +152,7 @@ TEST_CASE("joints, loads, motion and probes are read as they stand") {
 TEST_CASE("what is absent takes the defaults of the data") {
   const Scene scene = parse_scene(small, "small.yaml"), fresh;
   const Body &beam = scene.bodies[0], none;
-  CHECK(scene.gravity == fresh.gravity);
+  CHECK(at_start(scene.gravity) == at_start(fresh.gravity));
   CHECK(beam.strain == none.strain);
   CHECK(beam.rotary_inertia == none.rotary_inertia);
   CHECK(beam.rigid == none.rigid);
@@ -202,9 +205,33 @@ TEST_CASE("the examples are read") {
   CHECK(spin.joints[0].angle(15) == Approx(45));  // Om Ts/2
   CHECK(spin.joints[0].angle.derivative(20) == Approx(6));
   CHECK(spin.joints[0].angle.derivative(7.5) == Approx(3));  // Om/Ts (t - Ts/(2 pi) sin(2 pi t/Ts))
-  CHECK(read_scene("examples/pendulum/scene.yaml").gravity[1] == -9.81);
+  CHECK(read_scene("examples/pendulum/scene.yaml").gravity[1](0) == -9.81);
   const Scene crank = read_scene("examples/slider_crank/scene.yaml");
   CHECK(crank.bodies.size() == 3);
   CHECK(crank.bodies[2].section.rhoA * total_length(crank.bodies[2].mesh) == Approx(0.033378));
   CHECK(crank.bodies[1].initial.angular_velocity[2] == Approx(-75));
+}
+
+TEST_CASE("drives by speed, limits, gravity of time and a ground that shakes") {
+  const Scene scene = parse_scene(R"yaml(
+gravity: [0, "-9.81*(1 + t)"]
+ground: {acceleration: ["2*t", 0]}
+bodies: {arm: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {EA: 1, EI: 1, rhoA: 1}}}
+joints:
+  motor: {type: driven, between: [ground, arm.start], speed: "3*t"}
+  stop: {type: revolute, between: [{body: ground, node: [1, 0]}, arm.end], limits: {upper: 0.5, stiffness: 4, damping: 2}}
+)yaml",
+                                  "new.yaml");
+  CHECK(scene.gravity[1](1) == Approx(-19.62));
+  CHECK(scene.ground_acceleration[0](2) == 4);
+  REQUIRE(scene.joints[0].speed);
+  CHECK((*scene.joints[0].speed)(2) == 6);
+  REQUIRE(scene.joints[1].limits);
+  const LimitsSpec& limits = *scene.joints[1].limits;
+  CHECK(limits.upper == 0.5);
+  CHECK(limits.lower == -INFINITY);
+  CHECK(limits.stiffness == 4);
+  CHECK(limits.damping == 2);
+  CHECK_FALSE(limits.width);
+  CHECK_FALSE(scene.joints[0].limits);
 }
