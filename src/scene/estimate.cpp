@@ -29,6 +29,8 @@ namespace {
 
 constexpr int most_samples = 32;  // of the full-order residual
 constexpr int most_columns = 8;   // for each body
+/// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
+constexpr PetscInt most_elements = 20000;
 
 /// Time that is left, as rank 0 sees it: all ranks decide alike.
 class Allowance {
@@ -47,6 +49,13 @@ class Allowance {
 };
 
 bool has_structure(const PreparedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
+
+PetscInt elements_of(const Offline& offline) {
+  PetscInt count = 0;
+  for (const PreparedBody& body : offline.prepared.bodies)
+    if (has_structure(body)) count += body.structure.mesh.cell_count;
+  return count;
+}
 
 /// Of full order; modal damping, which it does not know, is taken out of the residual by those who know V.
 Model full_order(Offline& offline) {
@@ -300,6 +309,9 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   const Allowance time(offline.prepared.comm, seconds);
   if (std::none_of(offline.prepared.bodies.begin(), offline.prepared.bodies.end(), has_structure))
     estimate.none = "no body has a mesh: those from files, or rigid, have no structure to compare with";
+  else if (const PetscInt elements = elements_of(offline); elements >= most_elements)
+    estimate.none = fmt::format("its full order of {} elements would take too long; it is made below {}", elements,
+                                most_elements);
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;

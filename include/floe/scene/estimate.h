@@ -51,6 +51,8 @@ struct Estimate {
 ///
 /// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
 ///
+/// Made below 20000 elements: the terms of full order stand in memory while it is made.
+///
 /// @param model    reduced, with its offline stage kept (build)
 /// @param seconds  that it may take, about; it thins its samples, columns and instants and says so
 /// Collective on the communicator of the offline stage.
