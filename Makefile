@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline bench-online sanitize
+.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline bench-online sanitize install package
 all: build
 
 setup:
@@ -33,6 +33,13 @@ bench-online: build
 
 sanitize: setup
 	@bash makefiles/sanitize.sh
+
+PREFIX ?= /usr/local
+install: build
+	@source makefiles/mpi_environment.sh; cmake --build $(BUILD) --target pages && cmake --install $(BUILD) --prefix $(PREFIX)
+
+package: build
+	@source makefiles/mpi_environment.sh; cmake --build $(BUILD) --target pages && cd $(BUILD) && cpack -G DEB && ls -1 $$PWD/*.deb
 
 clean:
 	rm -rf $(BUILD)

@@ -174,7 +174,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   result_.series.values.push_back(values);
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (instant.step == 0) energy_start_ = energy_now_;
+  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,

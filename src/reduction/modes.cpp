@@ -12,6 +12,7 @@
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mode_quality.h"
+#include "multigrid.h"
 
 namespace floe::reduction {
 
@@ -94,6 +95,24 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   iterate(ksp, KSPCG);
 }
 
+KSP solver_of(EPS eps) {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  check(EPSGetST(eps, &st));
+  check(STGetKSP(st, &ksp));
+  return ksp;
+}
+
+/// Where the user's options iterate: the assembled K - shift M as multigrid takes it, for the preconditioner.
+void precondition(EPS eps, double shift, const fem::Structure& structure, const fem::ReferenceFrame& frame,
+                  const fem::Conditions& held) {
+  ST st = nullptr;
+  const petsc::MatHandle shifted = fem::assemble(structure, held, 1, 1, -shift);
+  check(EPSGetST(eps, &st));
+  check(STSetMatMode(st, ST_MATMODE_SHELL));
+  check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, held)));
+}
+
 petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   petsc::EpsHandle eps;
   ST st = nullptr;
@@ -111,6 +130,7 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   check(STSetType(st, STSINVERT));
   check(STGetKSP(st, &ksp));
   check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));  // of an iteration, by options
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
@@ -209,14 +229,22 @@ void ModeSolver::create(int count) {
   if (!user_sets("modes_eps_n") && !user_sets("modes_eps_mpd"))
     check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
   exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
-  if (shares)
+  if (!factors(solver_of(eps_)))
+    precondition(eps_, shift, structure_, frame_, holding_.held);
+  else if (shares)
     share_factor(eps_, M_, statics_);
   else if (statics_.refines())
     refine(eps_, exact_, M_, shift, structure_, holding_.held);
 }
 
 PetscInt ModeSolver::available() const {
-  return structure_.dofs() - static_cast<PetscInt>(holding_.held.size()) - static_cast<PetscInt>(holding_.left.cols());
+  const petsc::VecHandle masses = fem::field(structure_);
+  check(MatGetDiagonal(fem::mass(structure_, {}), masses));
+  fem::hold(masses, holding_.held);
+  petsc::Values own(masses);
+  PetscInt moving = std::count_if(own.begin(), own.begin() + structure_.owned_dofs(), [](double m) { return m > 0; });
+  MPI_Allreduce(MPI_IN_PLACE, &moving, 1, MPIU_INT, MPI_SUM, structure_.mesh.comm);
+  return moving - static_cast<PetscInt>(holding_.left.cols());
 }
 
 namespace {
