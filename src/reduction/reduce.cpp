@@ -125,7 +125,8 @@ void drop_round_off(const fem::Structure& structure, Columns& columns) {
     const Eigen::Map<const Eigen::MatrixXd> nodes(values.begin(), per_node, structure.mesh.owned_nodes);
     squares.push_back(nodes.topRows(structure.dimension()).squaredNorm());
   }
-  MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM,
+                structure.mesh.comm);
   const double greatest = squares.empty() ? 0 : *std::max_element(squares.begin(), squares.end());
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (squares[i] <= 1e-20 * greatest) check(VecSet(columns[i], 0));

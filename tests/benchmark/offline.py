@@ -28,10 +28,11 @@ COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F
 
 
 def run(stage, cells, ranks, options, limit):
-    """The line of JSON that the program writes, or None where it takes too long. On one rank waiting ranks do not yield the
-    processor: MUMPS asks for messages all the time, and each yield on a busy machine costs what others take."""
+    """The line of JSON that the program writes, or None where it takes too long. Ranks that
+    wait yield the processor only where they are more than processors: MUMPS asks for messages all the time, on one rank too,
+    and each yield on a busy machine costs what others take."""
     command = ["mpirun", "-n", str(ranks), stage, "-cells", str(cells), *options]
-    environment = dict(os.environ, OMPI_MCA_mpi_yield_when_idle="0" if ranks == 1 else "1")
+    environment = dict(os.environ, OMPI_MCA_mpi_yield_when_idle="1" if ranks > os.cpu_count() else "0")
     try:
         done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit)
     except subprocess.TimeoutExpired:

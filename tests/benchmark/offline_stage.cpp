@@ -114,8 +114,8 @@ void note_factor(KSP ksp, Report& report) {
 void note_messages(Report& report) {
   double mine[3] = {petsc_isend_ct + petsc_send_ct, petsc_isend_len + petsc_send_len, petsc_allreduce_ct};
   MPI_Allreduce(MPI_IN_PLACE, mine, 3, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  report.note("messages", fmt::format("{{\"count\": {:.0f}, \"bytes\": {:.0f}, \"reductions\": {:.0f}}}", mine[0], mine[1],
-                                      mine[2]));
+  report.note("messages", fmt::format("{{\"count\": {:.0f}, \"bytes\": {:.0f}, \"reductions\": {:.0f}}}", mine[0],
+                                      mine[1], mine[2]));
 }
 
 /// Analysis, factorisation, single and blocked solves with K alone.
