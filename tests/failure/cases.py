@@ -5,6 +5,7 @@ import signal
 from typing import Callable, Optional, Union
 
 import reduced
+import space
 from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
@@ -377,4 +378,12 @@ REDUCED = [
          scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
 ]
 
-CASES = REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+SPACE = [
+    Case("space: a fast drive", run(), 0, lines=0, check=space.near("end.y", -0.01 * 0.5365729180004349, 1e-5),
+         scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 1e4]}", space.hinge("0.01*sin(1e6*t)"),
+                          motion="{end: 1.2e-5, step: 6e-8}")),
+    Case("space: a drive by a power", run(), 0, lines=0, check=space.turned(1),
+         scene=space.body(space.RIGID % "", space.hinge("t^2.5"), motion="{end: 1, step: 1e-2}")),
+]
+
+CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
