@@ -15,6 +15,7 @@ struct Context {
   const System& system;
   const std::function<void(const Instant&)>& observe;
   double end = 0;  ///< [s]
+  bool adaptive = false;
   petsc::Guard guard;
 };
 
@@ -42,6 +43,21 @@ PetscErrorCode rebase(TS, Vec U, void* context) {
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] { c.system.bracket(a, b, W); });
+}
+
+/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that turn too far are tried
+/// again, smaller.
+PetscErrorCode well_met(TS ts, PetscReal t, Vec U, PetscBool* accept) {
+  Context* c = nullptr;
+  const PetscErrorCode code = TSGetApplicationContext(ts, &c);
+  if (code) return code;
+  return c->guard.run([&] {
+    const System::Astray astray = c->system.astray(t, U);
+    *accept = astray.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
+    if (astray.joint.empty() || (c->adaptive && astray.standing == Standing::half_turn)) return;
+    throw RunError(fmt::format("at t = {:.6g} {}{}", t, astray.text(),
+                               astray.standing == Standing::half_turn ? "; expected a smaller motion.step" : ""));
+  });
 }
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
@@ -113,6 +129,8 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
   const TSGeneralizedAlphaRotations rotations{rebase, bracket, &context};
   if (!system.attitudes().empty()) check(TSGeneralizedAlphaSetRotations(ts, &rotations));
+  check(TSSetApplicationContext(ts, &context));
+  check(TSSetFunctionDomainError(ts, well_met));
   check(TSSetTimeStep(ts, how.step));
   check(TSSetMaxTime(ts, how.end));
   check(TSSetMaxSteps(ts, PETSC_MAX_INT));
@@ -158,7 +176,7 @@ std::string ending(TS ts, TSConvergedReason reason, const IntegrationReport& rep
 
 IntegrationReport simulate(const System& system, const Integration& how, Vec U, Vec V,
                            const std::function<void(const Instant&)>& observe) {
-  Context context{system, observe, how.end, {}};
+  Context context{system, observe, how.end, how.tolerance.has_value(), {}};
   const petsc::VecHandle F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   petsc::TsHandle ts;

@@ -132,9 +132,8 @@ void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
 }
 
 void SpaceAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
-  if (!standing.empty())
-    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                              multipliers_[j], standing));
+  terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
+                                                            multipliers_[j], standing, prepared_.extent));
   for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
     terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
 }

@@ -379,11 +379,27 @@ REDUCED = [
 ]
 
 SPACE = [
+    *(Case(f"space: static drive by {angle}", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0, lines=0,
+           scene=space.body(space.RIGID % "", space.hinge(f"{angle}*t"), motion=""), check=space.turned(angle))
+      for angle in (2, 3.141592653589793, 20)),
+    Case("space: half a turn in a step", run(), 1, ("joint d is met half a turn away", "expected a smaller motion.step"),
+         lines=1, scene=space.body(space.RIGID % "", space.hinge("3.1*ramp(t, 0.5, 1)"), motion="{end: 2, step: 0.5}")),
+    Case("space: a late drive that is left out", run(), 2, ("joint d holds what other joints hold already", "at t = "), lines=1,
+         scene=space.body(space.BEAM % ", reduction: {attachment: none}", space.CLAMP,
+                          space.MOVED.replace('"0.01*t"', space.LATE), motion="{end: 1, step: 1e-2}"), check=nothing),
+    Case("space: a late drive", run(), 0, lines=0, check=space.near("end.z", 0.01 * 0.9**3, 1e-9),
+         scene=space.body(space.BEAM % "", space.CLAMP, space.MOVED.replace('"0.01*t"', space.LATE),
+                          motion="{end: 1, step: 1e-2}")),
+    Case("space: a late weld", run(), 2, ("holds what other joints hold already", "at t = 0.1"), lines=1,
+         scene=space.TWO_ARMS, check=nothing),
     Case("space: a fast drive", run(), 0, lines=0, check=space.near("end.y", -0.01 * 0.5365729180004349, 1e-5),
          scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 1e4]}", space.hinge("0.01*sin(1e6*t)"),
                           motion="{end: 1.2e-5, step: 6e-8}")),
     Case("space: a drive by a power", run(), 0, lines=0, check=space.turned(1),
          scene=space.body(space.RIGID % "", space.hinge("t^2.5"), motion="{end: 1, step: 1e-2}")),
+    Case("space: a joint at an arm of a hundred million lengths", run(), 0, lines=0, check=space.near("end.x", 1, 1e-6),
+         scene=space.body(space.RIGID % "", "h: {type: revolute, between: [ground, {body: a, node: [1.0e+8, 0, 0]}], "
+                                            "axis: [0, 0, 1]}")),
 ]
 
 CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
