@@ -392,6 +392,11 @@ SPACE = [
                           motion="{end: 1, step: 1e-2}")),
     Case("space: a late weld", run(), 2, ("holds what other joints hold already", "at t = 0.1"), lines=1,
          scene=space.TWO_ARMS, check=nothing),
+    *(Case(f"space: bearings, {name}", ["campbell", "scene.yaml", "--speeds", "10", "--about", "0,0,1", "--through", "0,0,0",
+                                        "-o", "out"], code, says, lines=len(says[:1]), scene=space.bearings(*stiffness))
+      for name, code, says, stiffness in (
+          ("stiffer one way", 2, ("the stiffness of what acts on body a (to the ground: bushing l, bushing r)",), (1000, 3000)),
+          ("as stiff all around", 0, (), (1000, 1000)))),
     Case("space: a fast drive", run(), 0, lines=0, check=space.near("end.y", -0.01 * 0.5365729180004349, 1e-5),
          scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 1e4]}", space.hinge("0.01*sin(1e6*t)"),
                           motion="{end: 1.2e-5, step: 6e-8}")),
