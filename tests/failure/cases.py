@@ -397,6 +397,10 @@ SPACE = [
       for name, code, says, stiffness in (
           ("stiffer one way", 2, ("the stiffness of what acts on body a (to the ground: bushing l, bushing r)",), (1000, 3000)),
           ("as stiff all around", 0, (), (1000, 1000)))),
+    Case("space: a load in axes of its place", run(), 0, lines=0, check=space.near("end.y", 0, 1e-12),
+         scene=space.body(space.TILTED % ", frame: pinned, reduction: {modes: 3, derivatives: none, attachment: none}",
+                          more="loads: {f: {type: force, at: a.middle, force: [0.1, 0, 0], axes: place}}\n",
+                          probes="{end: {at: a.middle}}")),
     Case("space: a fast drive", run(), 0, lines=0, check=space.near("end.y", -0.01 * 0.5365729180004349, 1e-5),
          scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 1e4]}", space.hinge("0.01*sin(1e6*t)"),
                           motion="{end: 1.2e-5, step: 6e-8}")),
