@@ -142,8 +142,10 @@ void SpaceAssembly::add_joints(Model& model) {
   std::vector<std::pair<int, PlacedJoint>> all;  // finding places is collective, what follows is rank-local
   std::string notes;
   const auto find = [&] {
-    for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
-      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), place(static_cast<int>(j)));
+    for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
+      PlacedJoint placed = place(static_cast<int>(j));  // one that stands has to meet, too
+      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), std::move(placed));
+    }
   };
   const auto add = [&] {
     if (!owner_) return;

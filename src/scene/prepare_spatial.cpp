@@ -284,6 +284,7 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
       dofs->erase(std::unique(dofs->begin(), dofs->end()), dofs->end());
     }
   }
+  check_pairs(prepared);
   for (const Load& load : scene.loads) {
     PreparedPlace where;
     if (load.kind != Load::Kind::distributed) where = place(load.at);
