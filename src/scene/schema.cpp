@@ -249,10 +249,10 @@ const SchemaSection joint_section{
              {"torsional_stiffness", Type::number, "N m/rad", "0", "against turning from the start", nonnegative}),
         only({"spring"}, {"torsional_viscosity", Type::number, "N m s/rad", "0", "against turning", nonnegative}),
         only({"bushing"}, {"translation", Type::numbers, "N/m", "[0, 0, 0]",
-                           "along x, y, z; axes as at the start in the "
+                           "along x, y, z, unstretched at the start; axes as at the start in the "
                            "world, carried by the first place",
                            nonnegative}),
-        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
+        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z, by less than a turn", nonnegative}),
         only({"bushing"}, {"translation_viscosity", Type::numbers, "N s/m", "[0, 0, 0]", "along x, y, z", nonnegative}),
         only({"bushing"},
              {"rotation_viscosity", Type::numbers, "N m s/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
