@@ -9,6 +9,8 @@
 
 namespace floe::scene {
 
+using petsc::check;
+
 bool of_frame(const PreparedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
 
 namespace {
@@ -127,8 +129,6 @@ void add_constraint_modes(const Prepared& prepared, int index, Attachments& all)
   }
 }
 
-bool carries_moment(const Joint& joint, int dimension) {
-  using Kind = Joint::Kind;
 /// What a joint to the ground holds of a body in space, as one rigid piece.
 struct Support {
   int joint;
@@ -187,6 +187,8 @@ void add_spatial_constraint_modes(const Prepared& prepared, int index, Attachmen
   }
 }
 
+bool carries_moment(const Joint& joint, int dimension) {
+  using Kind = Joint::Kind;
   switch (joint.kind) {
     case Kind::spring:
       return joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0;
@@ -247,6 +249,27 @@ Attachments attachments(const Prepared& prepared, int index) {
     const int d = body.structure.dimension();
     for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
       all.push_back(unit_load(body, prepared.loads[l], c, load.name));
+  }
+  return all;
+}
+
+std::vector<reduction::Attachment> loads_on(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  Attachments all;
+  for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
+    const Load& load = prepared.scene.loads[l];
+    const PreparedPlace& place = prepared.loads[l];
+    if (place.body != index || load.kind == Load::Kind::distributed) continue;
+    const bool moment = load.kind == Load::Kind::moment;
+    const Eigen::Matrix3d to_frame = load.axes == Load::Axes::world ? body.attitude.transpose() : body.axes.transpose();
+    for (int c = 0; c < 3; ++c) {
+      const math::Formula& value = (moment ? load.moment : load.force)[c];
+      if (value.constant() && value() == 0) continue;
+      reduction::Attachment along{load.name, fem::field(body.structure), {}};
+      for (int i = 0; i < 3; ++i)
+        check(VecAXPY(along.load, to_frame(i, c), unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
+      all.push_back(std::move(along));
+    }
   }
   return all;
 }

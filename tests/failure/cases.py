@@ -427,6 +427,11 @@ SPACE = [
          scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 10]}",
                           "h: {type: revolute, between: [ground, a.start], axis: [0, 0, 1]}",
                           "s: {type: bushing, between: [ground, a.start], rotation: [0, 0, 1]}", motion="{end: 6, step: 5e-3}")),
+    *(Case(f"space: a torque, attachment {attachment}", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0,
+           lines=0, check=check,
+           scene=space.body(space.BEAM % f", reduction: {{attachment: {attachment}}}", space.CLAMP, motion="",
+                            more='loads: {m: {type: moment, at: a.end, moment: ["5*t", 0, 0]}}\n'))
+      for attachment, check in (("joints", space.warns("of the work of load m")), ("all", space.silent))),
     *(Case(f"space: two supports, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1", "--at", "1", "-o", "out"],
            0, lines=0, scene=space.SAGGING, check=space.near("end.z", -1.478073e-4, 3e-7)) for f in ("vm+md", "nlffr")),
     Case("space: motion on two supports", run(), 0, lines=0, scene=space.SAGGING + "motion: {end: 4e-3, step: 2e-4}\n",
