@@ -444,6 +444,9 @@ SPACE = [
     Case("space: a joint at an arm of a hundred million lengths", run(), 0, lines=0, check=space.near("end.x", 1, 1e-6),
          scene=space.body(space.RIGID % "", "h: {type: revolute, between: [ground, {body: a, node: [1.0e+8, 0, 0]}], "
                                             "axis: [0, 0, 1]}")),
+    Case("space: compare", ["compare", "scene.yaml", "-o", "out", "--no-reference-error"], 0, lines=0, shows=("nlffr", "vm+md"),
+         never=("cfr",), scene=space.body(space.BEAM % "", "c: {type: revolute, between: [ground, a.start], axis: [0, 1, 0]}",
+                                          motion="{end: 2e-3, step: 1e-3}")),
 ]
 
 CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
