@@ -80,8 +80,18 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
   return choice;
 }
 
+bool has_mass(const fem::Section& section) {
+  if (const auto* beam = std::get_if<fem::SpatialBeam>(&section)) return beam->section.rhoA > 0;
+  if (const auto* shell = std::get_if<fem::ShellSection>(&section)) return shell->mass > 0;
+  return true;
+}
+
 PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm) {
   SpatialMesh mesh = spatial_mesh(spec, comm);
+  if (const auto& sections = mesh.structure.sections;
+      !spec.rigid && std::none_of(sections.begin(), sections.end(), has_mass))
+    throw InputError(
+        fmt::format("{}: no part of body {} has mass; expected a material with rho > 0", spec.where.text(), spec.name));
   const FrameChoice choice = choose_frame(scene, spec, mesh);
   fem::express_in_frame(mesh.structure.mesh, choice.origin, choice.axes);
   for (fem::Section& section : mesh.structure.sections) section = fem::turned(section, choice.axes);
@@ -274,6 +284,7 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
         prepared.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
   }
   prepare_joints(prepared, place);
+  check_pairs(prepared);
   for (PreparedBody& body : prepared.bodies) {
     if (body.spec.reduced) continue;
     const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
@@ -284,7 +295,6 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
       dofs->erase(std::unique(dofs->begin(), dofs->end()), dofs->end());
     }
   }
-  check_pairs(prepared);
   for (const Load& load : scene.loads) {
     PreparedPlace where;
     if (load.kind != Load::Kind::distributed) where = place(load.at);

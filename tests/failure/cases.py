@@ -447,6 +447,10 @@ SPACE = [
     Case("space: compare", ["compare", "scene.yaml", "-o", "out", "--no-reference-error"], 0, lines=0, shows=("nlffr", "vm+md"),
          never=("cfr",), scene=space.body(space.BEAM % "", "c: {type: revolute, between: [ground, a.start], axis: [0, 1, 0]}",
                                           motion="{end: 2e-3, step: 1e-3}")),
+    Case("space: without mass", run(), 2, ("no part of body a has mass",), lines=1, check=nothing,
+         scene=space.body((space.BEAM % "").replace("rho: 2700", "rho: 0"), space.CLAMP)),
+    Case("space: a body of a micrometre", run(), 0, lines=0, check=space.near("end.x", 1e-6, 1e-15),
+         scene=space.body((space.RIGID % "").replace("[1, 0, 0]", "[1e-6, 0, 0]").replace("0.05", "5e-8"))),
 ]
 
 CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
