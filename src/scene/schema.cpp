@@ -301,7 +301,7 @@ const SchemaSection probe_section{
         {"at", Type::place, "", required, "where"},
         choice("quantity", "displacement",
                "position, displacement since the start, velocity: world axes; deflection: in "
-               "the floating frame; rotation of the section",
+               "the floating frame; rotation of the section (in space a rotation vector, of half a turn at most)",
                {"position", "displacement", "deflection", "velocity", "rotation"}),
         {"relative_to", Type::place, "", "",
          "measured from this place, in axes that turn with its section; absent: world"},

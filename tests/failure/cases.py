@@ -451,6 +451,10 @@ SPACE = [
          scene=space.body((space.BEAM % "").replace("rho: 2700", "rho: 0"), space.CLAMP)),
     Case("space: a body of a micrometre", run(), 0, lines=0, check=space.near("end.x", 1e-6, 1e-15),
          scene=space.body((space.RIGID % "").replace("[1, 0, 0]", "[1e-6, 0, 0]").replace("0.05", "5e-8"))),
+    Case("space: a deflection relative to a place", run(), 2, ("probes.end.relative_to", "does not apply to a deflection"),
+         lines=1, check=nothing,
+         scene=space.body(space.BEAM % "", space.CLAMP,
+                          probes="{end: {at: a.end, quantity: deflection, relative_to: a.start}}")),
 ]
 
 CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
