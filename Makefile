@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks clean bench-planar bench-offline sanitize
+.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package
 all: build
 
 setup:
@@ -28,8 +28,25 @@ bench-planar: build
 bench-offline: build
 	@bash makefiles/bench_offline.sh $(BUILD)
 
+check64:
+	@bash makefiles/setup.sh packages64.txt
+	@bash makefiles/check64.sh
+
+tradeoff: build
+	@bash makefiles/tradeoff.sh $(BUILD)
+
+bench-online: build
+	@bash makefiles/bench_online.sh $(BUILD)
+
 sanitize: setup
 	@bash makefiles/sanitize.sh
+
+PREFIX ?= /usr/local
+install: build
+	@source makefiles/mpi_environment.sh; cmake --build $(BUILD) --target pages && cmake --install $(BUILD) --prefix $(PREFIX)
+
+package: build
+	@source makefiles/mpi_environment.sh; cmake --build $(BUILD) --target pages && cd $(BUILD) && cpack -G DEB && ls -1 $$PWD/*.deb
 
 clean:
 	rm -rf $(BUILD)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Installs the packages of makefiles/packages.txt that are missing. Says nothing when there is nothing to do.
+# Installs the packages of makefiles/packages.txt, and of the lists that are named besides, that are missing. Says
+# nothing when there is nothing to do.
 set -euo pipefail
 cd "$(dirname "$0")"
-wanted=$(sed -e 's/#.*//' packages.txt | xargs)
+wanted=$(sed -e 's/#.*//' packages.txt "$@" | xargs)
 missing=()
 for package in $wanted; do
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)" = installed ] || missing+=("$package")

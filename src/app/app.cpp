@@ -13,7 +13,10 @@
 #include "compare.h"
 #include "equilibrium.h"
 #include "floe/version.h"
+#include "restart.h"
 #include "session.h"
+#include "sweep.h"
+#include "tradeoff.h"
 
 namespace floe::app {
 
@@ -26,7 +29,13 @@ struct Choices {
   std::optional<double> at;
   int steps = 10;
   CampbellRequest campbell;
-  bool force = false, no_reference_error = false;
+  std::string reference = "nlffr";
+  TradeoffRequest tradeoff;
+  std::optional<std::string> restart, checkpoint;
+  std::optional<double> until;
+  std::vector<std::string> varied;
+  bool together = false;
+  bool force = false, no_reference_error = false, no_estimate = false;
 };
 
 std::string stem(const std::string& path) {
@@ -96,16 +105,37 @@ int main(int argc, char** argv) {
       "same.");
 
   CLI::App* run_command = app.add_subcommand("run", "simulate a scene in one formulation");
-  add_scene(run_command, choices);
+  run_command->add_option("SCENE", choices.scene,
+                          "the scene, a YAML file (floe schema prints its grammar); with --restart that of the run");
   run_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
       ->capture_default_str();
+  run_command->add_flag("--no-estimate", choices.no_estimate,
+                        "spare the estimate of the error against full order (vm, vm+md)");
   add_folder(run_command, choices);
-  run_command->callback([&] {
-    work = [&] {
+  run_command->add_option("--checkpoint", choices.checkpoint,
+                          "write a checkpoint each so many steps (1000) or seconds (60s), and at the end");
+  run_command->add_option("--restart", choices.restart,
+                          "go on from the checkpoint in this folder: the same motion, bit for bit");
+  run_command
+      ->add_option("--until", choices.until, "with --restart: to this time (default: the scene's motion.end) [s]")
+      ->check(CLI::Validator(positive, "POSITIVE"));
+  run_command->callback([&, formulation_given = run_command->get_option("--formulation")] {
+    if (choices.scene.empty() && !choices.restart) throw CLI::RequiredError("SCENE");
+    if (choices.until && !choices.restart) throw CLI::RequiresError("--until", "--restart");
+    if (choices.restart && choices.out) throw CLI::ExcludesError("--restart", "--out");
+    if (choices.restart && choices.force) throw CLI::ExcludesError("--restart", "--force");
+    work = [&, formulation_given] {
+      RunPlan plan;
+      plan.estimate = !choices.no_estimate && scene::is_reduced(scene::formulation_of(choices.formulation));
+      if (choices.checkpoint) plan.checkpoints = checkpoint_every(*choices.checkpoint);
+      if (choices.restart)
+        return restart_one(*choices.restart, choices.scene,
+                           formulation_given->count() > 0 ? std::optional(choices.formulation) : std::nullopt,
+                           choices.until, plan, PETSC_COMM_WORLD);
       const scene::Formulation formulation = scene::formulation_of(choices.formulation);
       const scene::Scene scene = read_moving(choices.scene);
       run_one(scene, formulation, PETSC_COMM_WORLD,
-              output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force));
+              output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force), plan);
     };
   });
 
@@ -137,6 +167,25 @@ int main(int argc, char** argv) {
       }
       compare(scene, formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
               !choices.no_reference_error);
+    };
+  });
+
+  CLI::App* tradeoff_command =
+      app.add_subcommand("tradeoff", "a ladder of cheaper models against full order: error against time, one picture");
+  add_scene(tradeoff_command, choices);
+  tradeoff_command->add_option("--reference", choices.reference, "nlffr | cfr")->capture_default_str();
+  tradeoff_command
+      ->add_option("--accuracy", choices.tradeoff.accuracy, "the cheapest model within this error is named the choice")
+      ->check(CLI::Range(1e-9, 1.0))
+      ->capture_default_str();
+  add_folder(tradeoff_command, choices);
+  tradeoff_command->callback([&] {
+    work = [&] {
+      choices.tradeoff.reference = scene::formulation_of(choices.reference);
+      if (choices.reference != "nlffr" && choices.reference != "cfr")
+        throw InputError("--reference: is " + choices.reference + "; expected nlffr or cfr, of full order");
+      tradeoff(read_moving(choices.scene), PETSC_COMM_WORLD, choices.tradeoff, folder_of(choices, "tradeoff"),
+               choices.force);
     };
   });
 
@@ -185,6 +234,28 @@ int main(int argc, char** argv) {
     };
   });
 
+  CLI::App* sweep_command = app.add_subcommand(
+      "sweep", "simulate a reduced scene with some of its numbers varied, members spread over ranks");
+  add_scene(sweep_command, choices);
+  sweep_command->add_option("--formulation", choices.formulation, "vm+md | vm")->capture_default_str();
+  sweep_command
+      ->add_option("--vary", choices.varied,
+                   "PATH=FROM:TO:STEP or PATH=A,B,C: a number of the scene by its path (loads.tip.force[2], "
+                   "parameters by their name); several: every combination")
+      ->required()
+      ->allow_extra_args(false);
+  sweep_command->add_flag("--together", choices.together, "the i-th values of all together, not every combination");
+  add_folder(sweep_command, choices);
+  sweep_command->callback([&] {
+    work = [&] {
+      const scene::Formulation formulation = scene::formulation_of(choices.formulation);
+      std::vector<Varied> varied;
+      for (const std::string& text : choices.varied) varied.push_back(parse_varied(text));
+      sweep(choices.scene, formulation, varied, choices.together, PETSC_COMM_WORLD,
+            output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "sweep"), choices.force));
+    };
+  });
+
   CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
   add_scene(modes_command, choices);
   modes_command->add_option("--write", choices.out,
@@ -227,7 +298,7 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, static, campbell, modes, reduce, info, check or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ struct CampbellRequest {
   int modes = 6;
 };
 
+/// `from:to:step` or `a,b,c`, at most 10000 numbers. @throws what `fault` makes of what is wrong
+std::vector<double> parse_values(const std::string& text,
+                                 const std::function<InputError(const std::string& what)>& fault);
 /// @throws InputError  no such list, or one of more than 10000 speeds
 std::vector<double> parse_speeds(const std::string& text);
 /// @param option  for messages  @throws InputError  not two or three numbers

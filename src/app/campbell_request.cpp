@@ -27,25 +27,29 @@ constexpr int most = 10000;
 
 }  // namespace
 
-std::vector<double> parse_speeds(const std::string& text) {
-  const auto fault = [&](const std::string& what) {
-    return InputError(fmt::format(
-        "--speeds: \"{}\" {}; expected FROM:TO:STEP, as 0:600:50, or a list, as 0,100,250 [rad/s]", text, what));
-  };
+std::vector<double> parse_values(const std::string& text,
+                                 const std::function<InputError(const std::string& what)>& fault) {
   if (text.find(':') == std::string::npos) {
     const std::vector<double> list = numbers(text, ',');
     if (list.empty()) throw fault("is no list of numbers");
-    if (list.size() > most) throw fault(fmt::format("has more than {} speeds", most));
+    if (list.size() > most) throw fault(fmt::format("has more than {} numbers", most));
     return list;
   }
   const std::vector<double> range = numbers(text, ':');
   if (range.size() != 3) throw fault("is no range of three numbers");
   const double steps = (range[1] - range[0]) / range[2];
   if (!(steps >= 0)) throw fault("never arrives");
-  if (steps > most) throw fault(fmt::format("has more than {} speeds", most));
+  if (steps > most) throw fault(fmt::format("has more than {} numbers", most));
   std::vector<double> speeds;
   for (int i = 0; i <= std::floor(steps + 1e-9); ++i) speeds.push_back(range[0] + i * range[2]);
   return speeds;
+}
+
+std::vector<double> parse_speeds(const std::string& text) {
+  return parse_values(text, [&](const std::string& what) {
+    return InputError(fmt::format(
+        "--speeds: \"{}\" {}; expected FROM:TO:STEP, as 0:600:50, or a list, as 0,100,250 [rad/s]", text, what));
+  });
 }
 
 Eigen::Vector3d parse_point(const std::string& text, const std::string& option) {

@@ -102,6 +102,15 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
   return sizes;
 }
 
+std::string estimate_words(const scene::Estimate& estimate) {
+  if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
+  std::string words =
+      fmt::format("estimated error {:.2g} % (deformations, against the full order of the same mesh; {:.2g} s)\n",
+                  100 * estimate.deformation, estimate.seconds);
+  for (const std::string& note : estimate.notes) words += "Note (estimate): " + note + "\n";
+  return words;
+}
+
 }  // namespace
 
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
@@ -174,10 +183,10 @@ void info(const std::string& path, MPI_Comm comm) {
 }
 
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-             const output::ResultFolder& folder) {
+             const output::ResultFolder& folder, const RunPlan& plan) {
   RunResult result;
   try {
-    result = run(scene, formulation, comm, folder);
+    result = run(scene, formulation, comm, folder, plan);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;
@@ -191,6 +200,17 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   fmt::print("constraints within {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
+  const bool estimated = result.estimate.none.empty();
+  const auto probes_estimate = [&](const std::string& column) {
+    return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
+  };
+  for (const auto& event : s["events"])
+    fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
+               event["what"].get<std::string>(),
+               event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
+                                                        event["kinetic_energy_lost"].get<double>())
+                                          : "");
+  if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
   for (std::size_t c = 0; c < result.series.columns.size(); ++c) {
@@ -198,8 +218,11 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
     for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
     table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
                           result.series.columns[c].unit});
+    if (estimated) table.rows.back().emplace_back(probes_estimate(result.series.columns[c].name));
   }
+  if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
+  if (plan.estimate) fmt::print("{}", estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

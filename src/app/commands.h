@@ -4,6 +4,7 @@
 
 #include "floe/output/folder.h"
 #include "floe/scene/model.h"
+#include "run.h"
 
 namespace floe::app {
 
@@ -15,8 +16,8 @@ void check(const scene::Scene& scene, MPI_Comm comm);
 void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path, bool overwrite);
 /// `floe info`: what such a file holds. Collective.
 void info(const std::string& path, MPI_Comm comm);
-/// `floe run`. Collective.
+/// `floe run`. @param estimate  of the error, where there can be one. Collective.
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-             const output::ResultFolder& folder);
+             const output::ResultFolder& folder, const RunPlan& plan = {});
 
 }  // namespace floe::app

@@ -9,10 +9,11 @@
 #include <optional>
 
 #include "compare_table.h"
+#include "drawing.h"
 #include "floe/output/provenance.h"
 #include "floe/output/table.h"
-#include "floe/version.h"
 #include "interruption.h"
+#include "refined.h"
 
 namespace floe::app {
 
@@ -20,39 +21,6 @@ using nlohmann::ordered_json;
 using scene::Formulation;
 
 namespace {
-
-std::string shell_quoted(const std::string& word) {
-  std::string safe = "'";
-  for (const char c : word) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return safe + "'";
-}
-
-bool readable(const std::string& path) { return access(path.c_str(), R_OK) == 0; }
-
-/// Draws with the script that is shipped. Returns the picture's path, or says why there is none.
-std::string draw(const std::string& folder) {
-  std::string script = std::string(FLOE_SCRIPTS_INSTALLED) + "/compare.py";
-  if (!readable(script)) script = std::string(FLOE_SCRIPTS_SOURCE) + "/compare.py";
-  const std::string python = readable("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  if (std::system(
-          (shell_quoted(python) + " " + shell_quoted(script) + " " + shell_quoted(folder) + " >/dev/null").c_str()) !=
-      0)
-    return "no picture: " + script + " failed (it needs python3 and matplotlib)";
-  return folder + "/compare.png";
-}
-
-scene::Scene refined(const scene::Scene& scene) {
-  scene::Scene fine = scene;
-  for (scene::Body& body : fine.bodies) {
-    for (int& elements : body.mesh.elements) elements *= 2;
-    if (body.mesh.plate)
-      for (int& elements : body.mesh.plate->elements) elements *= 2;
-  }
-  fine.motion.step /= 2;
-  fine.motion.every *= 2;
-  if (fine.motion.tolerance) *fine.motion.tolerance /= 4;
-  return fine;
-}
 
 ordered_json number_or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json();
@@ -131,8 +99,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
   Compared own;
   if (reference_error && !references.empty()) {
     own.name = references.front()->name;
-    for (const scene::Body& body : scene.bodies)
-      if (body.mesh.file) own.refined = "step halved";  // a file has one mesh
+    own.refined = refined_words(scene);
     try {
       own.result = run(refined(scene), scene::formulation_of(own.name), comm, std::nullopt);
     } catch (const RunError& error) {
@@ -189,7 +156,7 @@ void compare(const scene::Scene& scene, const std::vector<Formulation>& formulat
     for (const Compared& row : rows)
       for (const std::string& warning : row.result.warnings) fmt::print("Note ({}): {}\n", row.name, warning);
     for (const auto& [name, why] : stopped) fmt::print("Failed ({}): {}\n", name, why);
-    fmt::print("Picture: {}\n", draw(folder.path.string()));
+    fmt::print("Picture: {}\n", draw("compare", folder.path.string()));
   });
   if (!failed.empty())
     throw RunError(

@@ -9,6 +9,26 @@ namespace {
 
 std::string probe_of(const scene::ProbeColumn& column) { return column.name.substr(0, column.name.rfind('.')); }
 
+/// Visits the instants of `series` that the reference has reached, with the reference's place there: instants k, k + 1
+/// and the share of the second.
+template <class Visit>
+void for_each_instant(const Series& series, const Series& reference, Visit&& visit) {
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < series.t.size(); ++i) {
+    const double t = series.t[i];
+    if (t > reference.t.back() * (1 + 1e-12)) break;
+    while (k + 2 < reference.t.size() && reference.t[k + 1] < t) ++k;
+    const double s =
+        reference.t.size() < 2 ? 0 : std::clamp((t - reference.t[k]) / (reference.t[k + 1] - reference.t[k]), 0.0, 1.0);
+    visit(i, k, s);
+  }
+}
+
+double between(const Series& reference, std::size_t k, double s, std::size_t c) {
+  return reference.t.size() < 2 ? reference.values[0][c]
+                                : (1 - s) * reference.values[k][c] + s * reference.values[k + 1][c];
+}
+
 /// Sums over the instants, of each column.
 struct Squares {
   std::vector<double> difference, size;
@@ -17,20 +37,13 @@ struct Squares {
 Squares squares(const Series& series, const Series& reference) {
   const std::size_t columns = series.columns.size();
   Squares sums{std::vector<double>(columns, 0), std::vector<double>(columns, 0)};
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < series.t.size(); ++i) {
-    const double t = series.t[i];
-    if (t > reference.t.back() * (1 + 1e-12)) break;
-    while (k + 2 < reference.t.size() && reference.t[k + 1] < t) ++k;
-    const double s =
-        reference.t.size() < 2 ? 0 : std::clamp((t - reference.t[k]) / (reference.t[k + 1] - reference.t[k]), 0.0, 1.0);
+  for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
     for (std::size_t c = 0; c < columns; ++c) {
-      const double r = reference.t.size() < 2 ? reference.values[0][c]
-                                              : (1 - s) * reference.values[k][c] + s * reference.values[k + 1][c];
+      const double r = between(reference, k, s, c);
       sums.difference[c] += std::pow(series.values[i][c] - r, 2);
       sums.size[c] += r * r;
     }
-  }
+  });
   return sums;
 }
 
@@ -66,6 +79,37 @@ std::vector<std::optional<double>> relative_vector_errors(const Series& series, 
     errors.push_back(size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt);
   }
   return errors;
+}
+
+std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference) {
+  const std::vector<std::string> names = probes(series.columns);
+  std::vector<double> error(names.size()), size(names.size());
+  for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
+    for (std::size_t p = 0; p < names.size(); ++p) {
+      double difference = 0, whole = 0;
+      for (std::size_t c = 0; c < series.columns.size(); ++c) {
+        if (probe_of(series.columns[c]) != names[p]) continue;
+        const double r = between(reference, k, s, c);
+        difference += std::pow(series.values[i][c] - r, 2), whole += r * r;
+      }
+      error[p] = std::max(error[p], std::sqrt(difference)), size[p] = std::max(size[p], std::sqrt(whole));
+    }
+  });
+  std::vector<std::optional<double>> peaks;
+  for (std::size_t p = 0; p < names.size(); ++p)
+    peaks.push_back(size[p] > 0 ? std::optional(error[p] / size[p]) : std::nullopt);
+  return peaks;
+}
+
+std::optional<double> relative_energy_error(const Series& series, const Series& reference) {
+  const auto of = [](const dynamics::Energy& e) { return e.kinetic + e.elastic; };
+  double difference = 0, size = 0;
+  for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
+    const std::size_t next = std::min(k + 1, reference.energy.size() - 1);
+    const double r = (1 - s) * of(reference.energy[k]) + s * of(reference.energy[next]);
+    difference += std::pow(of(series.energy[i]) - r, 2), size += r * r;
+  });
+  return size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt;
 }
 
 output::Table comparison(const std::vector<Compared>& rows, const std::vector<const Compared*>& references,

@@ -23,6 +23,12 @@ std::vector<std::optional<double>> relative_errors(const Series& series, const S
 /// The same for each probe as a vector, in the order of `probes`: |.|^2 is summed over its components.
 std::vector<std::optional<double>> relative_vector_errors(const Series& series, const Series& reference);
 
+/// Greatest |p - r| over the greatest |r| of each probe as a vector, at the times of `series`.
+std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference);
+
+/// sqrt(sum (e - r)^2 / sum r^2) of the energy that moves and deforms, kinetic and elastic.
+std::optional<double> relative_energy_error(const Series& series, const Series& reference);
+
 /// `tip` of the columns `tip.x`, `tip.y`: each probe once, in order.
 std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns);
 

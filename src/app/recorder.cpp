@@ -71,16 +71,47 @@ ordered_json first_summary(const scene::Scene& scene, const scene::Model& model,
   if (model.velocity_correction > 1e-9) j["start_velocity_correction"] = model.velocity_correction;
   j["warnings"] = model.warnings;
   j["seconds"] = {{"offline", result.offline_seconds}};
+  j["events"] = ordered_json::array();
+  return j;
+}
+
+ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& model) {
+  if (!estimate.none.empty()) return {{"none", estimate.none}};
+  ordered_json j;
+  j["deformation"] = estimate.deformation;
+  for (std::size_t p = 0; p < model.probes.size(); ++p) j["probes"][model.probes[p].name] = estimate.probes[p];
+  j["full_order_residuals"] = estimate.samples;
+  j["columns"] = estimate.columns;
+  j["steps"] = estimate.t.size();
+  j["unbalanced"] = estimate.unbalanced;
+  j["seconds"] = {{"taken", estimate.seconds}, {"allowed", estimate.allowed}};
+  if (!estimate.notes.empty()) j["notes"] = estimate.notes;
   return j;
 }
 
 }  // namespace
 
 Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
-                   const std::optional<output::ResultFolder>& folder, RunResult& result)
-    : scene_(scene), model_(model), comm_(comm), folder_(folder), result_(result) {
+                   const std::optional<output::ResultFolder>& folder, RunResult& result, const RunPlan& plan)
+    : scene_(scene),
+      model_(model),
+      comm_(comm),
+      folder_(folder),
+      result_(result),
+      checkpoint_every_(plan.checkpoints),
+      end_(plan.until.value_or(scene.motion.end)),
+      alone_(scene::is_reduced(model.formulation)),
+      kept_at_(MPI_Wtime()) {
   result_.summary = first_summary(scene, model, comm, result);
   if (!folder_) return;
+  if (checkpoint_every_.any()) {
+    identity_ = identity_of(scene, model.formulation, comm);
+    identity_["checkpoint"] = {{"steps", checkpoint_every_.steps}, {"seconds", checkpoint_every_.seconds}};
+  }
+  if (plan.from) {
+    take_up_files(*plan.from);
+    return;
+  }
   output::remove_replaced(comm, *folder_);
   output::write_summary(comm, *folder_, result_.summary);
   try {
@@ -101,20 +132,104 @@ void Recorder::open_files() {
   file_->write_text("summary", result_.summary.dump(2));
   file_->write_text("scene", scene_.text);
   write_basis();
-  const std::int64_t rows =
-      scene_.motion.tolerance
-          ? 0
-          : static_cast<std::int64_t>(scene_.motion.end / scene_.motion.step / scene_.motion.every) + 2;
-  const PetscInt unknowns = model_.coordinates + model_.multipliers;
-  file_->add_series("motion/t", 1, {"s", "time"}, rows);
-  file_->add_series("motion/U", unknowns, {"", "coordinates and multipliers"}, rows);
-  file_->add_series("motion/V", unknowns, {"", "their rates"}, rows);
-  file_->add_series("motion/energy", 3, {"J", "kinetic, elastic, potential"}, rows);
-  if (const int frames = scene::moving_frames(model_); frames > 0)
-    file_->add_series(
-        "motion/attitude", 4 * frames,
-        {"", "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"}, rows);
+  for (const auto& [name, count, label] : all_series()) file_->add_series(name, count, label, expected_rows());
   file_->publish();
+}
+
+std::int64_t Recorder::expected_rows() const {
+  return scene_.motion.tolerance ? 0
+                                 : static_cast<std::int64_t>(end_ / scene_.motion.step / scene_.motion.every) + 2 +
+                                       static_cast<std::int64_t>(scene_.events.size());
+}
+
+std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_series() const {
+  const PetscInt unknowns = model_.coordinates + model_.multipliers;
+  std::vector<std::tuple<std::string, PetscInt, output::Label>> all{
+      {"motion/t", 1, {"s", "time"}},
+      {"motion/U", unknowns, {"", "coordinates and multipliers"}},
+      {"motion/V", unknowns, {"", "their rates"}},
+      {"motion/energy", 3, {"J", "kinetic, elastic, potential"}}};
+  if (const int frames = scene::moving_frames(model_); frames > 0)
+    all.emplace_back(
+        "motion/attitude", 4 * frames,
+        output::Label{"",
+                      "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"});
+  return all;
+}
+
+/// Everything as it was at the checkpoint; what was written after it is lost, and comes again.
+void Recorder::take_up_files(const output::Checkpoint& from) {
+  const std::vector<double>& record = from.shared.at("record");
+  const auto rows = static_cast<std::int64_t>(record[0]);
+  energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];
+  change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
+  first_step_ = kept_step_ = from.words.at("step");
+  result_.summary["events"] = from.words.at("events");
+  result_.summary["continued"] = from.words.at("continued");
+  result_.summary["continued"].push_back({{"step", first_step_}, {"t", from.words.at("t")}});
+  std::vector<output::SeriesColumn> columns;
+  for (const auto& column : result_.series.columns) columns.push_back({column.name, column.unit});
+  std::vector<std::vector<double>> kept;
+  probes_ = std::make_unique<output::SeriesFile>(comm_, folder_->probes(), columns, rows, kept);
+  for (const auto& row : kept) {
+    result_.series.t.push_back(row.front());
+    result_.series.values.emplace_back(row.begin() + 1, row.end());
+  }
+  file_ = std::make_unique<output::ResultFile>(comm_, folder_->result(), output::ResultFile::Existing::keep);
+  for (const auto& [name, count, label] : all_series()) file_->continue_series(name, count, rows, expected_rows());
+  file_->publish();
+  output::write_summary(comm_, *folder_, result_.summary);
+}
+
+void Recorder::note(const dynamics::EventReport& event) {
+  ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
+  if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost, j["impulses"] = event.impulses;
+  result_.summary["events"].push_back(j);
+}
+
+void Recorder::checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending) {
+  if (!folder_ || !checkpoint_every_.any() || !instant.state) return;
+  const auto [steps, seconds] = checkpoint_every_;
+  int due = seconds > 0 && MPI_Wtime() - kept_at_ > seconds;
+  if (seconds > 0 && !alone_) MPI_Bcast(&due, 1, MPI_INT, 0, comm_);
+  if (steps > 0 && instant.step % steps == 0) due = 1;
+  const bool end = ending() || instant.last;
+  if ((!due && !end) || instant.step == kept_step_) return;
+  kept_step_ = instant.step;
+  const double begin = MPI_Wtime();
+  write_checkpoint(instant);
+  ++checkpoints_;
+  kept_at_ = MPI_Wtime();
+  kept_seconds_ += kept_at_ - begin;
+  seconds_ += kept_at_ - begin;
+}
+
+/// Results first: a checkpoint never comes after what is on disk. Where all ranks move copies, rank 0 writes.
+void Recorder::write_checkpoint(const dynamics::Instant& instant) {
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  if (alone_ && rank != 0) return;
+  output::Checkpoint checkpoint;
+  checkpoint.words = {{"run", identity_},
+                      {"t", instant.t},
+                      {"step", instant.step},
+                      {"events", result_.summary.value("events", ordered_json::array())},
+                      {"continued", result_.summary.value("continued", ordered_json::array())}};
+  checkpoint.shared["record"] = {static_cast<double>(result_.series.t.size()),
+                                 energy_start_,
+                                 energy_now_,
+                                 energy_greatest_,
+                                 change_,
+                                 violation_,
+                                 velocity_violation_};
+  put_state((*instant.state)(), checkpoint);
+  const auto save_probes = [&] { probes_->save(); };
+  if (alone_)
+    save_probes();
+  else
+    petsc::agree(comm_, save_probes);
+  file_->save(alone_);
+  output::write_checkpoint(alone_ ? PETSC_COMM_SELF : comm_, folder_->checkpoint(), checkpoint);
 }
 
 void Recorder::write_basis() {
@@ -152,6 +267,21 @@ void Recorder::write_basis() {
   }
 }
 
+void Recorder::write_estimate() {
+  const scene::Estimate& estimate = result_.estimate;
+  if (!estimate.none.empty() || estimate.t.empty()) return;
+  const auto rows = static_cast<std::int64_t>(estimate.t.size());
+  const auto columns = static_cast<std::int64_t>(result_.series.columns.size());
+  std::vector<double> errors;
+  for (const auto& row : estimate.errors) errors.insert(errors.end(), row.begin(), row.end());
+  file_->write_array("estimate/t", {rows}, estimate.t, {"s", "time"});
+  file_->write_array("estimate/deformation", {rows}, estimate.relative,
+                     {"", "estimated error of the deformations, mass-weighted, of their root mean square"});
+  if (columns > 0)
+    file_->write_array("estimate/probes", {rows, columns}, errors,
+                       {"", "estimated error of each column of probes.csv: full order less this model"});
+}
+
 void Recorder::store_state(const dynamics::Instant& instant) {
   const auto append = [&](const char* name, Vec vector) {
     petsc::Values values(vector);
@@ -173,8 +303,9 @@ void Recorder::observe(const dynamics::Instant& instant) {
   result_.series.t.push_back(instant.t);
   result_.series.values.push_back(values);
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
+  result_.series.energy.push_back(energy);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (instant.step == 0) energy_start_ = energy_now_;
+  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
@@ -205,6 +336,9 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["status"] = stopped.empty() ? "finished" : "failed";
   if (!stopped.empty()) j["reason"] = stopped;
   j["warnings"] = result_.warnings;
+  for (const scene::OutOfRange& one : result_.out_of_range)
+    j["out_of_range"].push_back(
+        {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   j["integration"] = {{"type", report.type},
                       {"reached", report.end},
                       {"steps", report.steps},
@@ -216,9 +350,13 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
                  {"greatest_part", energy_greatest_},
                  {"greatest_change_of_total_energy", change_}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
+  if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
-  if (report.steps > 0) j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps);
+  j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
+  if (report.steps > first_step_)
+    j["seconds"]["per_step"] = result_.motion_seconds / static_cast<double>(report.steps - first_step_);
+  if (checkpoint_every_.any()) j["checkpoints"] = {{"written", checkpoints_}, {"seconds", kept_seconds_}};
   if (!folder_) return;
   std::exception_ptr fault;  // of one file: the others are finished all the same
   const auto attempt = [&](const auto& work) {
@@ -233,6 +371,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   attempt([&] { probes_->finish(); });
   attempt([&] {
     file_->flush();
+    write_estimate();
     file_->write_text("summary", j.dump(2));
     file_->finish();
   });

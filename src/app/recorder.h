@@ -1,5 +1,7 @@
 #pragma once
+#include <functional>
 #include <memory>
+#include <tuple>
 
 #include "floe/output/result_file.h"
 #include "floe/output/series_file.h"
@@ -11,9 +13,14 @@ namespace floe::app {
 class Recorder {
  public:
   Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
-           const std::optional<output::ResultFolder>& folder, RunResult& result);
+           const std::optional<output::ResultFolder>& folder, RunResult& result, const RunPlan& plan = {});
   /// Called at the start and after each step.
   void observe(const dynamics::Instant& instant);
+  /// Writes a checkpoint where the plan wants one, at the end of the motion, and where it is about to be ended.
+  /// @param ending  whether that is so; collective over those who move one copy
+  void checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending);
+  /// An event that happened.
+  void note(const dynamics::EventReport& event);
   /// @param stopped  why the motion ended early, or empty. Collective.
   void finish(const dynamics::IntegrationReport& report, const std::string& stopped);
   /// Wall time that recording took. [s]
@@ -21,18 +28,29 @@ class Recorder {
 
  private:
   void open_files();
+  void take_up_files(const output::Checkpoint& from);
+  std::int64_t expected_rows() const;
+  std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
+  void write_checkpoint(const dynamics::Instant& instant);
   void write_basis();
+  void write_estimate();
   void store_state(const dynamics::Instant& instant);
   const scene::Scene& scene_;
   const scene::Model& model_;
   MPI_Comm comm_;
   std::optional<output::ResultFolder> folder_;
   RunResult& result_;
+  CheckpointEvery checkpoint_every_;
+  double end_;  // [s]
+  bool alone_;  // this rank moves a copy of its own
+  nlohmann::ordered_json identity_;
   std::unique_ptr<output::SeriesFile> probes_;
   std::unique_ptr<output::ResultFile> file_;
   double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
   double violation_ = 0, velocity_violation_ = 0;
+  PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
+  double kept_at_ = 0, kept_seconds_ = 0;  // wall clock
 };
 
 }  // namespace floe::app

@@ -77,34 +77,49 @@ std::string label_of(const scene::Model& model) {
 }
 
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-              const std::optional<output::ResultFolder>& folder) {
-  RunResult result;
+              const std::optional<output::ResultFolder>& folder, const RunPlan& plan) {
   const double begin = MPI_Wtime();
   scene::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
-    return scene::build(scene, formulation, comm);
+    return scene::build(scene, formulation, comm, plan.estimate);
   }();
-  result.offline_seconds = MPI_Wtime() - begin;
+  return move(scene, model, MPI_Wtime() - begin, comm, folder, plan);
+}
+
+RunResult move(const scene::Scene& scene, scene::Model& model, double offline_seconds, MPI_Comm comm,
+               const std::optional<output::ResultFolder>& folder, const RunPlan& plan) {
+  RunResult result;
+  const double end = plan.until.value_or(scene.motion.end);
+  result.offline_seconds = offline_seconds;
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
   result.series.columns = scene::probe_columns(model);
 
-  Recorder recorder(scene, model, comm, folder, result);
-  dynamics::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
+  scene::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);
+  Recorder recorder(scene, model, comm, folder, result, plan);
+  dynamics::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
+  how.events = scene::events_of(scene, model, end);
+  how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
+  const std::optional<dynamics::MotionState> from =
+      plan.from ? std::optional(state_of(*plan.from)) : std::optional<dynamics::MotionState>();
+  if (from) how.from = &*from;
   dynamics::IntegrationReport report;
   // Reduced, every rank moves its own copy and rank 0 writes; a fault of one is everybody's, at the latest so many
   // steps later.
   constexpr PetscInt steps_alone = 1024;
-  const bool reduced = scene::is_reduced(formulation);
+  const bool reduced = scene::is_reduced(model.formulation);
   bool told = false;  // of the fault of another rank
   std::exception_ptr fault;
   {
     const Interruption interruption;
-    output::Progress progress(comm, 0, scene.motion.end);
+    std::optional<output::Progress> progress;
+    if (!plan.quiet) progress.emplace(comm, 0, end);
     const auto observe = [&](const dynamics::Instant& instant) {
       recorder.observe(instant);
-      progress.update(instant.t, instant.step);
+      if (model.formulation != scene::Formulation::cfr) kept.keep(instant);
+      if (progress) progress->update(instant.t, instant.step);
+      recorder.checkpoint_if_due(instant, [&] { return interruption.happened(reduced ? MPI_COMM_SELF : comm); });
       interruption.check(reduced ? MPI_COMM_SELF : comm);
       if (!reduced || instant.step % steps_alone != steps_alone - 1) return;
       told = true;
@@ -135,6 +150,17 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   result.motion_seconds = report.seconds - recorder.seconds();
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
+  if (!fault) {
+    result.out_of_range = scene::out_of_range(scene, model, kept, comm);
+    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+  }
+  if (plan.estimate && (plan.from || !scene.events.empty())) {
+    result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
+  } else if (plan.estimate && !fault) {
+    const output::Waiting waiting(comm, "estimating the error");
+    result.estimate = scene::estimate_error(
+        model, kept, std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+  }
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
     const std::exception_ptr lost = fault_of([&] {

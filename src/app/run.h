@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint.h"
 #include "floe/dynamics/simulation.h"
 #include "floe/output/folder.h"
-#include "floe/scene/model.h"
+#include "floe/scene/range.h"
 
 namespace floe::app {
 
@@ -15,6 +16,7 @@ struct Series {
   std::vector<double> t;
   std::vector<std::vector<double>> values;  ///< of each instant
   std::vector<scene::ProbeColumn> columns;
+  std::vector<dynamics::Energy> energy;  ///< of each instant
 };
 
 /// What a run gives back.
@@ -27,13 +29,28 @@ struct RunResult {
   PetscInt steps = 0;
   double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;
+  scene::Estimate estimate;
+  std::vector<scene::OutOfRange> out_of_range;  ///< their texts are among the warnings
+};
+
+/// What keeps a run from being lost, and where it begins and ends.
+struct RunPlan {
+  CheckpointEvery checkpoints;
+  std::optional<output::Checkpoint> from = {};  ///< of the run in the folder, which is taken up again
+  std::optional<double> until = {};             ///< [s]; else the scene's motion.end
+  bool quiet = false;                           ///< shows no progress
+  bool estimate = false;  ///< of the error, of reduced formulations (scene::estimate_error): a tenth of all the rest
 };
 
 /// Builds, moves and writes one scene in one formulation.
-/// @param folder  none: nothing is written
+/// @param folder  none: nothing is written, and no checkpoints
 /// @throws InputError, RunError. What was reached before a failure is written. Collective.
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-              const std::optional<output::ResultFolder>& folder);
+              const std::optional<output::ResultFolder>& folder, const RunPlan& plan = {});
+
+/// The second half of run(): moves a model of the scene, which lives on `comm` or, reduced, on every rank of it alike.
+RunResult move(const scene::Scene& scene, scene::Model& model, double offline_seconds, MPI_Comm comm,
+               const std::optional<output::ResultFolder>& folder, const RunPlan& plan = {});
 
 /// What a body was reduced to, as `12 VMs + 5 MDs + 2 AMs`.
 std::string label_of(const scene::Model& model);

@@ -1,5 +1,7 @@
 #include "floe/body/elasticity.h"
 
+#include "floe/math/matrix_vector.h"
+
 namespace floe::body {
 namespace {
 
@@ -17,8 +19,9 @@ void monomials(const Elasticity& e, const Eigen::VectorXd& q, Eigen::VectorXd& z
 /// y = F z, w = F'y: stresses and their pull-back.
 void stresses(const Elasticity& e, const Eigen::VectorXd& q, ElasticityWork& work) {
   monomials(e, q, work.z);
-  work.y.noalias() = e.F * work.z;
-  work.w.noalias() = e.F.transpose() * work.y;
+  work.y.resize(e.F.rows()), work.w.resize(e.F.cols());
+  math::multiply(e.F, work.z, work.y);
+  math::multiply_transposed(e.F, work.y, work.w);
 }
 
 }  // namespace

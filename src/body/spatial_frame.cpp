@@ -1,5 +1,6 @@
 #include "floe/body/spatial_frame.h"
 
+#include "floe/math/matrix_vector.h"
 #include "floe/math/rotation.h"
 
 namespace floe::body {
@@ -24,7 +25,7 @@ void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x,
   const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size()) - first;
   if (k == 0 || n == 0) return;
   if (products.size() < k * n) products.resize(k * n);
-  products.head(k * n).noalias() = in.forms.rightCols(k * n).transpose() * x;
+  math::multiply_transposed(in.forms.rightCols(k * n), x, products.head(k * n));
   for (Index i = 0; i < n; ++i) {
     const auto product = products.segment(i * k, k);
     const int kind = in.kinds[first + i];
@@ -95,7 +96,7 @@ void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d
       weights[i] = kind < 6 ? squares((axis + 1) % 3, (axis + 2) % 3) : skew[axis];
   }
   sum.resize(k * k);
-  sum.noalias() = Eigen::Map<const Eigen::MatrixXd>(in.forms.data(), k * k, n) * weights;
+  math::multiply(Eigen::Map<const Eigen::MatrixXd>(in.forms.data(), k * k, n), weights, sum);
   tangent.bottomRightCorner(k, k) += Eigen::Map<const Eigen::MatrixXd>(sum.data(), k, k);
 }
 
@@ -113,7 +114,7 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c));
   r.segment<3>(3) += moment;
   work.Medd.resize(k);
-  work.Medd.noalias() = in.M * work.edd;
+  math::multiply(in.M, work.edd, work.Medd);
   for (Index i = 0; i < k; ++i)
     r[6 + i] += work.Medd[i] + in.S.col(i).dot(u) + spin_rate(work.of_e, i).dot(wd) -
                 0.5 * w.dot(moment_rate(work.of_e, i) * w) + 2 * w.dot(spin_rate(work.of_ed, i));

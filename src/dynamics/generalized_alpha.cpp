@@ -2,6 +2,7 @@
 
 #include "floe/petsc/error.h"
 #include "generalized_alpha_data.h"
+#include "simplified_newton.h"
 
 // The scheme of Arnold and Bruels (2007) for F(t, U, V, A) = 0, U = (q, lambda), everything at the end of the step:
 //   F(t_1, U_1, V_1, A_1) = 0
@@ -17,11 +18,12 @@ namespace {
 
 using Data = GeneralizedAlpha;
 
-constexpr Vec Data::*vectors[] = {
-    &Data::U0,      &Data::V0,        &Data::A0,     &Data::a0,     &Data::U1,     &Data::V1,     &Data::A1,
-    &Data::a1,      &Data::jerk,      &Data::normal, &Data::a_used, &Data::base_q, &Data::base_v, &Data::base_A,
-    &Data::dynamic, &Data::stiffness, &Data::mass,   &Data::row,    &Data::scale,  &Data::weight, &Data::origin,
-    &Data::turns,   &Data::work_U,    &Data::work_V, &Data::work_A, &Data::work_F};
+constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,     &Data::A0,        &Data::a0,        &Data::U1,
+                                  &Data::V1,        &Data::A1,     &Data::a1,        &Data::jerk,      &Data::normal,
+                                  &Data::a_used,    &Data::base_q, &Data::base_v,    &Data::base_A,    &Data::dynamic,
+                                  &Data::stiffness, &Data::mass,   &Data::row,       &Data::scale,     &Data::weight,
+                                  &Data::origin,    &Data::turns,  &Data::tangent_U, &Data::tangent_V, &Data::tangent_A,
+                                  &Data::work_U,    &Data::work_V, &Data::work_A,    &Data::work_F};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -179,7 +181,8 @@ PetscErrorCode destroy(TS ts) {
   PetscFunctionReturn(0);
 }
 
-// Newton takes full steps (near round-off a residual-reducing line search would refuse good ones) with a direct solver.
+// Newton takes full steps (near round-off a residual-reducing line search would refuse good ones) with a direct solver;
+// the line search is for -snes_type newtonls.
 PetscErrorCode set_solver_defaults(TS ts) {
   SNES snes;
   SNESLineSearch line_search;
@@ -188,6 +191,7 @@ PetscErrorCode set_solver_defaults(TS ts) {
 
   PetscFunctionBegin;
   PetscCall(TSGetSNES(ts, &snes));
+  PetscCall(SNESSetType(snes, simplified_newton));
   PetscCall(SNESSetConvergenceTest(snes, newton_converged, ts, nullptr));
   PetscCall(SNESSetTolerances(snes, PETSC_DEFAULT, 1e-10, PETSC_DEFAULT, 20, PETSC_DEFAULT));
   PetscCall(SNESGetLineSearch(snes, &line_search));
@@ -227,7 +231,10 @@ PetscErrorCode create(TS ts) {
 
 }  // namespace
 
-void register_generalized_alpha() { petsc::check(TSRegister(generalized_alpha, create)); }
+void register_generalized_alpha() {
+  petsc::check(TSRegister(generalized_alpha, create));
+  register_simplified_newton();
+}
 
 PetscErrorCode TSGeneralizedAlphaSetMultipliers(TS ts, IS multipliers) {
   PetscFunctionBegin;

@@ -46,6 +46,10 @@ struct GeneralizedAlpha {
   Vec origin = nullptr;
   PetscReal reach = 0, reach_tried = 0;
 
+  // Where the Jacobian that SNES has was formed: a motion that is taken up again forms it once more.
+  Vec tangent_U = nullptr, tangent_V = nullptr, tangent_A = nullptr;
+  PetscReal tangent_t = 0, tangent_shift_v = 0, tangent_shift_a = 0;
+
   Vec work_U = nullptr, work_V = nullptr, work_A = nullptr, work_F = nullptr;
 };
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "generalized_alpha_data.h"
+#include "simplified_newton.h"
 
 namespace floe::dynamics {
 namespace {
@@ -103,7 +104,7 @@ PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
 
   PetscFunctionBegin;
   PetscCall(predict(generalized_alpha_data(ts)));
-  PetscCall(SNESSolve(ts->snes, nullptr, generalized_alpha_data(ts)->U1));
+  PetscCall(solve_again(ts->snes, generalized_alpha_data(ts)->U1));
   PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
   PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
   PetscCall(SNESGetConvergedReason(ts->snes, reason));
@@ -248,6 +249,12 @@ PetscErrorCode form_jacobian(SNES, Vec U, Mat J, Mat P, TS ts) {
   PetscCall(TSComputeI2Jacobian(ts, end_time(ts), U, data->V1, data->A1, data->shift_v, data->shift_a, J, P));
   PetscCall(MatDiagonalScale(P, data->scale, nullptr));
   if (J != P) PetscCall(MatDiagonalScale(J, data->scale, nullptr));
+  PetscCall(VecCopy(U, data->tangent_U));
+  PetscCall(VecCopy(data->V1, data->tangent_V));
+  PetscCall(VecCopy(data->A1, data->tangent_A));
+  data->tangent_t = end_time(ts);
+  data->tangent_shift_v = data->shift_v;
+  data->tangent_shift_a = data->shift_a;
   data->new_jacobian = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "open_rows.h"
+
 namespace floe::dynamics {
 namespace {
 
@@ -15,8 +17,8 @@ struct Evaluation {
   Matrix6 hessian = Matrix6::Zero();
 };
 
-const Vector6& at_level(ConstraintLevel level, const Vector6& y, const Vector6& yd, const Vector6& ydd) {
-  return level == ConstraintLevel::position ? y : level == ConstraintLevel::velocity ? yd : ydd;
+Vector6 at_level(ConstraintLevel level, const MarkerPair& pair) {
+  return level == ConstraintLevel::position ? pair.y() : level == ConstraintLevel::velocity ? pair.yd() : pair.ydd();
 }
 
 void coincide(const Vector6& y, Evaluation& e) {
@@ -32,12 +34,12 @@ struct Evaluate {
 
   Evaluation operator()(const Revolute&) const {
     Evaluation e;
-    coincide(at_level(motion.level, pair.y(), pair.yd(), pair.ydd()), e);
+    coincide(at_level(motion.level, pair), e);
     return e;
   }
   Evaluation operator()(const Clamp& clamp) const {
     Evaluation e;
-    const Vector6 y = at_level(motion.level, pair.y(), pair.yd(), pair.ydd());
+    const Vector6 y = at_level(motion.level, pair);
     coincide(y, e);
     e.C[2] = y[5] - y[2] - at_level(motion.level, clamp.angle, motion.t);
     if (motion.level == ConstraintLevel::position) e.C[2] -= clamp.offset;
@@ -46,25 +48,24 @@ struct Evaluate {
   }
   Evaluation operator()(const Prismatic& slide) const {
     Evaluation e;
-    const Vector6 y = pair.y(), yd = pair.yd(), ydd = pair.ydd();
-    const double c = std::cos(y[2]), s = std::sin(y[2]), w = yd[2], wd = ydd[2];
+    const Vector6 y = pair.y(), level = at_level(motion.level, pair);
+    const double c = std::cos(y[2]), s = std::sin(y[2]);
     const Vector2d n(c * slide.normal.x() - s * slide.normal.y(), s * slide.normal.x() + c * slide.normal.y());
     const Vector2d m(-n.y(), n.x());  // dn/dangle
     const Vector2d d = y.segment<2>(3) - y.head<2>();
-    const Vector2d dd = yd.segment<2>(3) - yd.head<2>(), ddd = ydd.segment<2>(3) - ydd.head<2>();
-    const Vector6 level = at_level(motion.level, y, yd, ydd);
+    const Vector2d d_level = level.segment<2>(3) - level.head<2>();
+    e.C[0] = n.dot(d_level);
     e.C[1] = level[5] - level[2];
-    switch (motion.level) {
-      case ConstraintLevel::position:
-        e.C[0] = n.dot(d) - slide.gap;
-        e.C[1] -= slide.offset;
-        break;
-      case ConstraintLevel::velocity:
-        e.C[0] = n.dot(dd) + w * m.dot(d);
-        break;
-      case ConstraintLevel::acceleration:
-        e.C[0] = n.dot(ddd) + 2 * w * m.dot(dd) + wd * m.dot(d) - w * w * n.dot(d);
-        break;
+    if (motion.level == ConstraintLevel::position) {
+      e.C[0] -= slide.gap;
+      e.C[1] -= slide.offset;
+    } else {
+      e.C[0] += level[2] * m.dot(d);
+    }
+    if (motion.level == ConstraintLevel::acceleration) {
+      const Vector6 yd = pair.yd();
+      const Vector2d dd = yd.segment<2>(3) - yd.head<2>();
+      e.C[0] += 2 * yd[2] * m.dot(dd) - yd[2] * yd[2] * n.dot(d);
     }
     e.gradient.block<1, 2>(0, 0) = -n.transpose();
     e.gradient(0, 2) = m.dot(d);
@@ -85,6 +86,11 @@ int rows(const Constraint& constraint) { return std::holds_alternative<Clamp>(co
 
 namespace {
 
+/// Positions need no rates, nor do their derivatives.
+Extent wanted(const Motion& motion) {
+  return motion.level == ConstraintLevel::position ? Extent::place : Extent::motion;
+}
+
 std::vector<int> all_rows(const Constraint& constraint) {
   std::vector<int> all(rows(constraint));
   std::iota(all.begin(), all.end(), 0);
@@ -93,11 +99,14 @@ std::vector<int> all_rows(const Constraint& constraint) {
 
 }  // namespace
 
-Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing)
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
+             std::shared_ptr<Latch> latch, bool captures)
     : pair_(std::move(first), std::move(second)),
       constraint_(std::move(constraint)),
       standing_(std::move(standing)),
-      multiplier_(static_cast<int>(pair_.coordinates.size())) {
+      multiplier_(static_cast<int>(pair_.coordinates.size())),
+      latch_(std::move(latch)),
+      captures_(captures) {
   for (std::size_t i = 0; i < standing_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
 }
 
@@ -111,16 +120,18 @@ Eigen::Vector3d Joint::multipliers(const Motion& motion) const {
 }
 
 void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  if (!holds()) return add_open_rows(motion, multiplier_, static_cast<int>(standing_.size()), r);
   const Eigen::Vector3d lambda = multipliers(motion);
-  pair_.evaluate(motion);
+  pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add(e.gradient.transpose() * lambda, r);
   for (std::size_t i = 0; i < standing_.size(); ++i) r[multiplier_ + i] += e.C[standing_[i]];
 }
 
 void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  if (!holds()) return add_open_tangent(multiplier_, static_cast<int>(standing_.size()), J);
   const Eigen::Vector3d lambda = multipliers(motion);
-  pair_.evaluate(motion);
+  pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add_tangent(e.gradient.transpose() * lambda, e.hessian, Matrix6::Zero(), weights, J);
   for (std::size_t i = 0; i < standing_.size(); ++i) {
@@ -129,6 +140,34 @@ void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) c
     J.row(multiplier_ + i) += row_.transpose();
     J.col(multiplier_ + i) += row_;
   }
+}
+
+void Joint::begin_step(const Motion& motion) {
+  if (!captures_) return;
+  if (!latch_->closed) captured_ = false;
+  if (captured_ || !latch_->closed) return;
+  captured_ = true;
+  pair_.evaluate(motion);
+  const Vector6 y = pair_.y();
+  if (auto* clamp = std::get_if<Clamp>(&constraint_)) *clamp = {y[5] - y[2], {}};
+  if (auto* slide = std::get_if<Prismatic>(&constraint_)) {
+    slide->gap = (Eigen::Rotation2Dd(y[2]) * slide->normal).dot(y.segment<2>(3) - y.head<2>());
+    slide->offset = y[5] - y[2];
+  }
+}
+
+void Joint::save(std::vector<double>& carried) const {
+  if (!latch_) return;
+  const auto* clamp = std::get_if<Clamp>(&constraint_);
+  const auto* slide = std::get_if<Prismatic>(&constraint_);
+  carried.push_back(latch_->closed), carried.push_back(captured_);
+  carried.push_back(slide ? slide->gap : 0), carried.push_back(slide ? slide->offset : clamp ? clamp->offset : 0);
+}
+
+void Joint::load(std::span<const double> carried) {
+  latch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
+  if (auto* clamp = std::get_if<Clamp>(&constraint_)) clamp->offset = carried[3];
+  if (auto* slide = std::get_if<Prismatic>(&constraint_)) slide->gap = carried[2], slide->offset = carried[3];
 }
 
 }  // namespace floe::dynamics

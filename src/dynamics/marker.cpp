@@ -15,60 +15,80 @@ Marker Marker::ground(Eigen::Vector2d point, double angle) {
 
 namespace {
 
-/// Displacement of the place in its own axes, (x + S q, psi q), and its rates; summed in one pass over the columns.
-struct Elastic {
-  Eigen::Vector2d u, ud = Eigen::Vector2d::Zero(), udd = Eigen::Vector2d::Zero();
-  double turn = 0, turn_d = 0, turn_dd = 0;
+using Eigen::Index;
+using Eigen::Vector2d;
+
+/// A displacement and a turning.
+struct Turned {
+  Vector2d u = Vector2d::Zero();
+  double turn = 0;
 };
 
-Elastic elastic(const Marker& marker, Eigen::Index frame, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                const Eigen::VectorXd& a) {
-  Elastic e;
-  e.u = marker.x;
-  for (Eigen::Index j = 0; j < marker.S.cols(); ++j) {
-    const double qj = q[frame + j], vj = v[frame + j], aj = a[frame + j], psi = marker.psi[j];
-    const Eigen::Vector2d column = marker.S.col(j);
-    e.u += qj * column, e.ud += vj * column, e.udd += aj * column;
-    e.turn += qj * psi, e.turn_d += vj * psi, e.turn_dd += aj * psi;
+/// (S x, psi x), x from entry `frame` on.
+Turned elastic(const Marker& marker, Index frame, const Eigen::VectorXd& x) {
+  Turned sum;
+  for (Index j = 0; j < marker.S.cols(); ++j) {
+    sum.u += x[frame + j] * marker.S.col(j);
+    sum.turn += x[frame + j] * marker.psi[j];
   }
-  return e;
+  return sum;
 }
 
-}  // namespace
-
-void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          Pose& out) {
-  const Eigen::Index k = marker.S.cols();
-  const Eigen::Index frame = marker.framed ? 3 : 0;
-  out.P.resize(3, frame + k);
-  out.dyd.resize(3, frame + k);
-  const auto [u, ud, udd, turn, turn_d, turn_dd] = elastic(marker, frame, q, v, a);
+void see_place(const Marker& marker, const Eigen::VectorXd& q, const Turned& e, Pose& out) {
+  const Index k = marker.S.cols();
   if (!marker.framed) {
-    out.arm = u;
-    out.y << u, marker.angle0 + turn;
-    out.yd << ud, turn_d;
-    out.ydd << udd, turn_dd;
+    out.arm = marker.x + e.u;
+    out.y << out.arm, marker.angle0 + e.turn;
+    out.P.resize(3, k);
     out.P.topRows<2>() = marker.S;
     out.P.row(2) = marker.psi;
+    return;
+  }
+  const double c = std::cos(q[2]), s = std::sin(q[2]);
+  const Vector2d u = marker.x + e.u;
+  out.arm = Vector2d(c * u.x() - s * u.y(), s * u.x() + c * u.y());
+  out.y << marker.mass * q.head<2>() + out.arm, marker.angle0 + q[2] + e.turn;
+  out.P.resize(3, 3 + k);
+  out.P.leftCols<3>() << marker.mass, 0, -out.arm.y(), 0, marker.mass, out.arm.x(), 0, 0, 1;
+  const double *S = marker.S.data(), *psi = marker.psi.data();
+  double* P = out.P.data() + 9;
+  for (Index j = 0; j < k; ++j, S += 2, P += 3) {
+    P[0] = c * S[0] - s * S[1];
+    P[1] = s * S[0] + c * S[1];
+    P[2] = psi[j];
+  }
+}
+
+/// After see_place.
+void see_motion(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                Pose& out) {
+  const Index k = marker.S.cols(), frame = marker.framed ? 3 : 0;
+  const auto [ud, turn_d] = elastic(marker, frame, v);
+  const auto [udd, turn_dd] = elastic(marker, frame, a);
+  out.dyd.resize(3, frame + k);
+  if (!marker.framed) {
+    out.yd << ud, turn_d;
+    out.ydd << udd, turn_dd;
     out.dyd.setZero();
     return;
   }
   const double c = std::cos(q[2]), s = std::sin(q[2]), w = v[2], wd = a[2];
   const Eigen::Matrix2d A = (Eigen::Matrix2d() << c, -s, s, c).finished();
   const Eigen::Matrix2d AJ = (Eigen::Matrix2d() << -s, -c, c, -s).finished();
-  out.arm = A * u;
-  const Eigen::Vector2d across = AJ * u, across_d = AJ * ud;
-  out.y << marker.mass * q.head<2>() + out.arm, marker.angle0 + q[2] + turn;
+  const Vector2d across(-out.arm.y(), out.arm.x()), across_d = AJ * ud;
   out.yd << marker.mass * v.head<2>() + across * w + A * ud, w + turn_d;
   out.ydd << marker.mass * a.head<2>() + across * wd + A * udd - w * w * out.arm + 2 * w * across_d, wd + turn_dd;
-  out.P.leftCols<3>() << marker.mass, 0, across.x(), 0, marker.mass, across.y(), 0, 0, 1;
   out.dyd.leftCols<3>().setZero();
   out.dyd.col(2).head<2>() = -w * out.arm + across_d;
-  for (Eigen::Index j = 0; j < k; ++j) {
-    const Eigen::Vector2d turned = A * marker.S.col(j);
-    out.P.col(3 + j) << turned, marker.psi[j];
-    out.dyd.col(3 + j) << -w * turned.y(), w * turned.x(), 0;  // A J S = J A S
-  }
+  for (Index j = 3; j < 3 + k; ++j) out.dyd.col(j) << -w * out.P(1, j), w * out.P(0, j), 0;  // A J S = J A S
+}
+
+}  // namespace
+
+void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
+          Extent extent) {
+  see_place(marker, q, elastic(marker, marker.framed ? 3 : 0, q), out);
+  if (extent == Extent::motion) see_motion(marker, q, v, a, out);
 }
 
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i) {

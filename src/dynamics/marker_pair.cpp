@@ -9,10 +9,11 @@ MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second
   where_second = place_all(second.coordinates, coordinates);
 }
 
-void MarkerPair::evaluate(const Motion& motion) {
+void MarkerPair::evaluate(const Motion& motion, Extent extent) {
   const auto see = [&](const Marker& marker, const std::vector<int>& where, State& state, Pose& out) {
-    pick(where, motion.q, state.q), pick(where, motion.v, state.v), pick(where, motion.a, state.a);
-    pose(marker, state.q, state.v, state.a, out);
+    pick(where, motion.q, state.q);
+    if (extent == Extent::motion) pick(where, motion.v, state.v), pick(where, motion.a, state.a);
+    pose(marker, state.q, state.v, state.a, out, extent);
   };
   see(first, where_first, state_first, pose_first);
   see(second, where_second, state_second, pose_second);
@@ -31,13 +32,13 @@ void MarkerPair::add(const Vector6& wrench, Eigen::VectorXd& r) const {
 void MarkerPair::add_tangent(const Vector6& wrench, const Matrix6& Y, const Matrix6& Yd, Weights weights,
                              Eigen::MatrixXd& J) const {
   const Matrix6 of_y = weights.q * Y + weights.v * Yd, of_yd = weights.q * Yd;
-  const bool depends = !of_y.isZero(0) || !of_yd.isZero(0);
+  const bool damped = !of_yd.isZero(0), depends = damped || !of_y.isZero(0);
   const Pose* poses[2] = {&pose_first, &pose_second};
   const std::vector<int>* where[2] = {&where_first, &where_second};
   for (int j = 0; depends && j < 2; ++j)
     for (std::size_t column = 0; column < where[j]->size(); ++column) {
-      const Vector6 change =
-          of_y.middleCols<3>(3 * j) * poses[j]->P.col(column) + of_yd.middleCols<3>(3 * j) * poses[j]->dyd.col(column);
+      Vector6 change = of_y.middleCols<3>(3 * j) * poses[j]->P.col(column);
+      if (damped) change += of_yd.middleCols<3>(3 * j) * poses[j]->dyd.col(column);
       for (int i = 0; i < 2; ++i)
         for (std::size_t row = 0; row < where[i]->size(); ++row)
           J((*where[i])[row], (*where[j])[column]) += poses[i]->P.col(row).dot(change.segment<3>(3 * i));

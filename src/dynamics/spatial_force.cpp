@@ -16,12 +16,12 @@ Wrench SpatialForce::world(const Motion& motion) const {
 }
 
 void SpatialForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_);
+  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
   r -= pose_.P.transpose().lazyProduct(world(motion));
 }
 
 void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_);
+  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
   const Wrench w = world(motion);
   add_geometric_stiffness(at_, pose_, w, -weights.q, J);
   // the wrench turns by dphi with its axes: dw = -~w dphi
@@ -40,7 +40,7 @@ void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
 
 Energy SpatialForce::energy(const Motion& motion) const {
   if (!conservative) return {};
-  pose(at_, motion.q, motion.v, motion.a, pose_);
+  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
   return {0, 0, -world(motion).head<3>().dot(pose_.p)};
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "floe/error.h"
+#include "open_rows.h"
 #include "spatial_rows.h"
 
 namespace floe::dynamics {
@@ -61,11 +62,33 @@ SpatialConstraint SpatialConstraint::driven_prismatic(TimeFunction position) {
   return {line() + axes() + Rows{Along{2, 0, std::move(position)}}};
 }
 
+SpatialConstraint lock_of(const SpatialConstraint& joint) {
+  bool places[3] = {true, true, true}, turns[3] = {true, true, true};  // free: along and about x, y, z
+  int products = 0;
+  for (const SpatialRow& row : joint.rows) {
+    if (const auto* coincide = std::get_if<Coincide>(&row)) places[coincide->axis] = false;
+    if (const auto* along = std::get_if<Along>(&row)) places[along->axis] = false;
+    if (std::holds_alternative<Product>(row)) ++products;
+    if (std::holds_alternative<Separation>(row)) return {};
+  }
+  if (products == 1) return {};  // universal: what it leaves free turns about axes of both places
+  if (products >= 2) turns[0] = turns[1] = false;
+  if (products == 3) turns[2] = false;
+  SpatialConstraint lock;
+  for (int axis = 0; axis < 3; ++axis)
+    if (places[axis]) lock.rows.push_back(Along{axis});
+  if (turns[2]) lock.rows.push_back(Product{1, 0});
+  if (turns[0]) lock.rows.push_back(Product{2, 1});
+  if (turns[1]) lock.rows.push_back(Product{0, 2});
+  return lock;
+}
+
 int rows(const SpatialConstraint& constraint) { return static_cast<int>(constraint.rows.size()); }
 
 SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint,
-                           int multipliers, const std::vector<int>& standing, double unit)
-    : SpatialJoint(std::move(first), std::move(second), pick_rows(constraint, standing), multipliers) {
+                           int multipliers, const std::vector<int>& standing, double unit, std::shared_ptr<Latch> latch)
+    : SpatialJoint(std::move(first), std::move(second), pick_rows(constraint, standing), multipliers,
+                   std::move(latch)) {
   find_aligned(constraint, aligned_);  // rows that are left out are met by others, on the same branch
   if (standing.empty()) pair_.coordinates.push_back(multipliers);  // by which it is known
   unit_ = unit;
@@ -73,8 +96,11 @@ SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, const Spat
     if (!std::binary_search(standing.begin(), standing.end(), row)) left_out_.push_back(constraint.rows[row]);
 }
 
-SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers)
+SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,
+                           std::shared_ptr<Latch> latch, bool captures)
     : pair_(std::move(first), std::move(second)),
+      latch_(std::move(latch)),
+      captures_(captures),
       constraint_(std::move(constraint)),
       multiplier_(static_cast<int>(pair_.coordinates.size())) {
   for (int i = 0; i < rows(constraint_); ++i) pair_.coordinates.push_back(multipliers + i);
@@ -82,7 +108,8 @@ SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialCon
 }
 
 Standing SpatialJoint::standing(const Motion& motion) const {
-  pair_.evaluate(motion);
+  if (!holds() || (captures_ && !captured_)) return Standing::met;
+  pair_.evaluate(motion, Extent::place);
   const SeenPair seen(pair_, constraint_.angle, motion);
   for (int axis = 0; axis < 3; ++axis)
     if (aligned_[axis] && seen.first.D.col(axis).dot(seen.turned.col(axis)) < 0) return Standing::half_turn;
@@ -95,7 +122,8 @@ Standing SpatialJoint::standing(const Motion& motion) const {
 
 void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   if (constraint_.rows.empty()) return;
-  pair_.evaluate(motion);
+  if (!holds()) return add_open_rows(motion, multiplier_, rows(constraint_), r);
+  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   for (int i = 0; i < rows(constraint_); ++i) {
@@ -108,7 +136,8 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (constraint_.rows.empty()) return;
-  pair_.evaluate(motion);
+  if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);
+  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   Matrix12 Y = Matrix12::Zero();
@@ -125,6 +154,36 @@ void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
     J.row(multiplier_ + i) += row_.transpose();
   }
   pair_.add_tangent(wrench, Y, Matrix12::Zero(), weights, J);
+}
+
+void SpatialJoint::begin_step(const Motion& motion) {
+  if (!captures_) return;
+  if (!latch_->closed) captured_ = false;
+  if (captured_ || !latch_->closed) return;
+  captured_ = true;
+  pair_.evaluate(motion);
+  const SpatialPose &one = pair_.pose[0], &two = pair_.pose[1];
+  pair_.marker[1].D0 *= two.D.transpose() * one.D;
+  for (SpatialRow& row : constraint_.rows)
+    if (auto* along = std::get_if<Along>(&row)) along->offset = one.D.col(along->axis).dot(two.p - one.p);
+}
+
+void SpatialJoint::save(std::vector<double>& carried) const {
+  if (!latch_) return;
+  carried.push_back(latch_->closed), carried.push_back(captured_);
+  if (!captures_) return;
+  for (const double entry : pair_.marker[1].D0.reshaped()) carried.push_back(entry);
+  for (const SpatialRow& row : constraint_.rows)
+    if (const auto* along = std::get_if<Along>(&row)) carried.push_back(along->offset);
+}
+
+void SpatialJoint::load(std::span<const double> carried) {
+  latch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
+  if (!captures_) return;
+  pair_.marker[1].D0 = Eigen::Map<const Eigen::Matrix3d>(carried.data() + 2);
+  std::size_t next = 11;
+  for (SpatialRow& row : constraint_.rows)
+    if (auto* along = std::get_if<Along>(&row)) along->offset = carried[next++];
 }
 
 }  // namespace floe::dynamics

@@ -9,39 +9,19 @@ using Eigen::Vector3d;
 using math::rotation_tangent_derivative;
 using math::skew;
 
-/// Displacement and turning of the place by the elastic coordinates and their rates; one pass over the columns.
+/// Displacement and turning of the place by the elastic coordinates, or rates of both by theirs.
 struct Elastic {
-  Vector3d u, ud = Vector3d::Zero(), udd = Vector3d::Zero();
-  Vector3d turn = Vector3d::Zero(), turn_d = Vector3d::Zero(), turn_dd = Vector3d::Zero();
+  Vector3d u = Vector3d::Zero(), turn = Vector3d::Zero();
 };
 
-Elastic elastic(const SpatialMarker& marker, Index frame, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                const Eigen::VectorXd& a) {
+Elastic elastic(const SpatialMarker& marker, const Eigen::VectorXd& x) {
   Elastic e;
-  e.u = marker.x0;
+  const Index frame = marker.framed() ? 6 : 0;
   for (Index j = 0; j < marker.S.cols(); ++j) {
-    const double qj = q[frame + j], vj = v[frame + j], aj = a[frame + j];
-    const Vector3d shift = marker.S.col(j), turn = marker.psi.col(j);
-    e.u += qj * shift, e.ud += vj * shift, e.udd += aj * shift;
-    e.turn += qj * turn, e.turn_d += vj * turn, e.turn_dd += aj * turn;
+    e.u += x[frame + j] * marker.S.col(j);
+    e.turn += x[frame + j] * marker.psi.col(j);
   }
   return e;
-}
-
-/// The frame's motion: position and rates of its origin; the rest goes into the pose.
-struct Origin {
-  Vector3d R, Rd = Vector3d::Zero(), Rdd = Vector3d::Zero(), alpha = Vector3d::Zero();
-};
-
-Origin place_frame(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                   const Eigen::VectorXd& a, SpatialPose& out) {
-  if (!marker.framed()) {
-    out.A = marker.axes, out.T = Matrix3d::Identity(), out.omega.setZero();
-    return {marker.origin};
-  }
-  const Vector3d x = q.segment<3>(3);
-  out.A = marker.attitude->axes(x), out.T = math::rotation_tangent(x), out.omega = v.segment<3>(3);
-  return {q.head<3>(), v.head<3>(), a.head<3>(), a.segment<3>(3)};
 }
 
 void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
@@ -52,8 +32,43 @@ void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
     out.P.middleCols<3>(3) << -out.A * skew(out.c), out.A;
   }
   const Matrix3d turned = out.A * out.bend.transpose();
-  out.P.topRightCorner(3, k).noalias() = out.A * marker.S;
-  out.P.bottomRightCorner(3, k).noalias() = turned * marker.psi;
+  for (Index j = 0; j < k; ++j) {
+    const Vector3d shift = marker.S.col(j), turn = marker.psi.col(j);
+    out.P.col(frame + j) << out.A * shift, turned * turn;
+  }
+}
+
+void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPose& out) {
+  Vector3d R = marker.origin;
+  if (marker.framed()) {
+    const Vector3d x = q.segment<3>(3);
+    R = q.head<3>(), out.A = marker.attitude->axes(x), out.T = math::rotation_tangent(x);
+  } else {
+    out.A = marker.axes, out.T = Matrix3d::Identity();
+  }
+  const Elastic e = elastic(marker, q);
+  out.c = marker.x0 + e.u, out.beta = e.turn;
+  out.bend = math::rotation_tangent(e.turn);
+  out.p = marker.mass * R + out.A * out.c;
+  out.D = out.A * math::rotation(e.turn) * marker.D0;
+  fill_directions(marker, out);
+}
+
+/// After see_place.
+void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eigen::VectorXd& a, SpatialPose& out) {
+  Vector3d Rd = Vector3d::Zero(), Rdd = Vector3d::Zero(), alpha = Vector3d::Zero(), w = Vector3d::Zero();
+  if (marker.framed()) Rd = v.head<3>(), Rdd = a.head<3>(), w = v.segment<3>(3), alpha = a.segment<3>(3);
+  const Elastic ed = elastic(marker, v), edd = elastic(marker, a);
+  out.omega = w, out.beta_rate = ed.turn;
+  out.c_rate = w.cross(out.c) + ed.u;
+  out.velocity = marker.mass * Rd + out.A * out.c_rate;
+  out.acceleration = marker.mass * Rdd + out.A * (alpha.cross(out.c) + w.cross(out.c_rate) + w.cross(ed.u) + edd.u);
+  const Vector3d bending = out.bend.transpose() * ed.turn;
+  out.turn = w + bending;
+  out.spin = out.A * out.turn;
+  // T' = T(-beta): d(T(-beta) b)/dbeta = -d(T(x) b)/dx at x = -beta
+  out.spin_rate = out.A * (alpha + w.cross(bending) + out.bend.transpose() * edd.turn -
+                           rotation_tangent_derivative(-out.beta, ed.turn) * ed.turn);
 }
 
 }  // namespace
@@ -66,24 +81,9 @@ SpatialMarker SpatialMarker::ground(const Vector3d& point, const Matrix3d& axes)
 }
 
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out) {
-  const Origin at = place_frame(marker, q, v, a, out);
-  const Elastic e = elastic(marker, marker.framed() ? 6 : 0, q, v, a);
-  const Vector3d& w = out.omega;
-  out.c = e.u, out.beta = e.turn, out.beta_rate = e.turn_d;
-  out.bend = math::rotation_tangent(e.turn);
-  out.c_rate = w.cross(e.u) + e.ud;
-  out.p = marker.mass * at.R + out.A * out.c;
-  out.velocity = marker.mass * at.Rd + out.A * out.c_rate;
-  out.acceleration = marker.mass * at.Rdd + out.A * (at.alpha.cross(e.u) + w.cross(out.c_rate) + w.cross(e.ud) + e.udd);
-  const Vector3d bending = out.bend.transpose() * e.turn_d;
-  out.turn = w + bending;
-  out.D = out.A * math::rotation(e.turn) * marker.D0;
-  out.spin = out.A * out.turn;
-  // T' = T(-beta): d(T(-beta) b)/dbeta = -d(T(x) b)/dx at x = -beta
-  out.spin_rate = out.A * (at.alpha + w.cross(bending) + out.bend.transpose() * e.turn_dd -
-                           rotation_tangent_derivative(-e.turn, e.turn_d) * e.turn_d);
-  fill_directions(marker, out);
+          SpatialPose& out, Extent extent) {
+  see_place(marker, q, out);
+  if (extent == Extent::motion) see_motion(marker, v, a, out);
 }
 
 void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd& out) {

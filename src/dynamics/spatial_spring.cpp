@@ -1,15 +1,12 @@
 #include "floe/dynamics/spatial_spring.h"
 
-#include <cmath>
-
-#include "floe/error.h"
+#include "spatial_twist.h"
 
 namespace floe::dynamics {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using math::skew;
 
 /// Line of action: its length, direction and lengthening rate. Coinciding places have no direction.
 struct Line {
@@ -29,22 +26,6 @@ double tension(const SpatialSpringProperties& p, const Line& l) {
 }
 
 bool torsional(const SpatialSpringProperties& p) { return p.torsional_stiffness != 0 || p.torsional_viscosity != 0; }
-
-/// Twist of the second place against the first about z: angle (the one nearest to `nearest`), h, and its rate.
-struct Twist {
-  double angle, rate;
-  Vector3d h, slip;  ///< slip = w_2 - w_1
-};
-
-Twist twist(const SpatialPair& pair, double nearest) {
-  const Matrix3d &one = pair.pose[0].D, &two = pair.pose[1].D;
-  const double aligned = 1 + one.col(2).dot(two.col(2));
-  if (!(aligned > 1e-12)) throw RunError("a torsional spring has the z axes of its places opposite to each other");
-  const double sine = one.col(1).dot(two.col(0)) - one.col(0).dot(two.col(1)),
-               cosine = one.col(0).dot(two.col(0)) + one.col(1).dot(two.col(1));
-  const Vector3d h = (one.col(2) + two.col(2)) / aligned, slip = pair.pose[1].spin - pair.pose[0].spin;
-  return {nearest + std::remainder(std::atan2(sine, cosine) - nearest, 2 * M_PI), h.dot(slip), h, slip};
-}
 
 double moment(const SpatialSpringProperties& p, const Twist& t) {
   return p.torsional_stiffness * (t.angle - p.angle) + p.torsional_viscosity * t.rate;
@@ -79,17 +60,12 @@ void add_line(const SpatialSpringProperties& p, const Line& l, Matrix12& Y, Matr
     }
 }
 
-void add_torsion(const SpatialSpringProperties& p, const SpatialPair& pair, const Twist& t, Matrix12& Y, Matrix12& Yd) {
-  const Vector3d one = pair.pose[0].D.col(2), two = pair.pose[1].D.col(2);
-  const double aligned = 1 + one.dot(two);
-  const Matrix3d shared = t.h * one.cross(two).transpose() / aligned;
-  // dh = H_1 dphi_1 + H_2 dphi_2
-  const Matrix3d H[2] = {-skew(one) / aligned - shared, -skew(two) / aligned + shared};
+void add_torsion(const SpatialSpringProperties& p, const Twist& t, Matrix12& Y, Matrix12& Yd) {
   for (int j = 0; j < 2; ++j) {
     const double sign = j == 0 ? -1 : 1;
     const Eigen::RowVector3d of_moment =
-        sign * p.torsional_stiffness * t.h.transpose() + p.torsional_viscosity * t.slip.transpose() * H[j];
-    const Matrix3d of_place = t.h * of_moment + moment(p, t) * H[j],
+        sign * p.torsional_stiffness * t.h.transpose() + p.torsional_viscosity * t.slip.transpose() * t.by_turn[j];
+    const Matrix3d of_place = t.h * of_moment + moment(p, t) * t.by_turn[j],
                    of_spin = sign * p.torsional_viscosity * t.h * t.h.transpose();
     Y.block<3, 3>(9, 6 * j + 3) += of_place, Y.block<3, 3>(3, 6 * j + 3) -= of_place;
     Yd.block<3, 3>(9, 6 * j + 3) += of_spin, Yd.block<3, 3>(3, 6 * j + 3) -= of_spin;
@@ -110,7 +86,7 @@ void SpatialSpring::tangent(const Motion& motion, Weights weights, Eigen::Matrix
   pair_.evaluate(motion);
   Matrix12 Y = Matrix12::Zero(), Yd = Matrix12::Zero();
   add_line(properties_, line(pair_), Y, Yd);
-  if (torsional(properties_)) add_torsion(properties_, pair_, twist(pair_, nearest_), Y, Yd);
+  if (torsional(properties_)) add_torsion(properties_, twist(pair_, nearest_), Y, Yd);
   pair_.add_tangent(wrench_of(properties_, pair_, nearest_), Y, Yd, weights, J);
 }
 

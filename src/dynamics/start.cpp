@@ -139,7 +139,8 @@ void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
   split(system, x, U, A);
 }
 
-double consistent_velocities(const System& system, double t, Vec U, Vec V) {
+double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec impulses) {
+  if (impulses) check(VecSet(impulses, 0));
   if (system.coordinates().multiplier_count() == 0) return 0;
   const AtBase at_base(system, U);
   const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
@@ -150,7 +151,7 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V) {
   check(VecNorm(F, NORM_INFINITY, &wrong));
   if (wrong <= 1e-12) return 0;  // round-off of a body at rest [m/s, rad/s]
   const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
-  split(system, x, nullptr, A);
+  split(system, x, impulses, A);
   check(VecNorm(V, NORM_2, &size));
   check(VecNorm(A, NORM_2, &change));
   check(VecAXPY(V, 1, A));

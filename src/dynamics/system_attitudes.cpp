@@ -21,6 +21,16 @@ void System::rebase(Vec U) const {
     for (int i = 0; i < 3; ++i) set_owned(coordinates_, owned, first + i, 0);
     local_.q.segment<3>(first).setZero();
   }
+  begin_terms();
+}
+
+void System::settle(Vec U) const {
+  gather(U, local_.q);
+  begin_terms();
+}
+
+/// Every term begins a step at local_.q.
+void System::begin_terms() const {
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
   petsc::agree_if_parallel(comm(), whole_, [&] {
     for (const auto& term : terms_) {
@@ -28,6 +38,31 @@ void System::rebase(Vec U) const {
       term->begin_step({0, w.q, w.v, w.a});
     }
   });
+}
+
+void System::save(std::vector<double>& numbers) const {
+  numbers.clear();
+  for (const auto& [first, attitude] : attitudes_)
+    for (const double part : attitude->base.coeffs()) numbers.push_back(part);
+  for (const auto& term : terms_) term->save(numbers);
+}
+
+void System::load(std::span<const double> numbers) const {
+  const auto take = [&](std::size_t count) {
+    if (numbers.size() < count) throw RunError("what bodies and joints carry from step to step is of another system");
+    const auto taken = numbers.first(count);
+    numbers = numbers.subspan(count);
+    return taken;
+  };
+  std::vector<double> own;
+  for (const auto& [first, attitude] : attitudes_)
+    attitude->base.coeffs() = Eigen::Map<const Eigen::Vector4d>(take(4).data());
+  for (const auto& term : terms_) {
+    own.clear();
+    term->save(own);  // as many as it takes
+    if (!own.empty()) term->load(take(own.size()));
+  }
+  if (!numbers.empty()) throw RunError("what bodies and joints carry from step to step is of another system");
 }
 
 void System::bracket(Vec a, Vec b, Vec W) const {

@@ -6,29 +6,13 @@
 #include <Eigen/Dense>
 #include <numeric>
 
+#include "everywhere.h"
 #include "floe/dynamics/start.h"
 
 namespace floe::dynamics {
 namespace {
 
 using petsc::check;
-
-/// The whole matrix on every rank. Collective.
-Eigen::MatrixXd everywhere(Mat J) {
-  PetscInt n = 0;
-  check(MatGetSize(J, &n, nullptr));
-  petsc::IsHandle all;
-  check(ISCreateStride(PETSC_COMM_SELF, n, 0, 1, all.out()));
-  Mat* part = nullptr;
-  IS rows = all;
-  check(MatCreateSubMatrices(J, 1, &rows, &rows, MAT_INITIAL_MATRIX, &part));
-  Eigen::MatrixXd dense(n, n);
-  std::vector<PetscInt> index(n);
-  std::iota(index.begin(), index.end(), 0);
-  check(MatGetValues(part[0], n, index.data(), n, index.data(), dense.data()));
-  check(MatDestroySubMatrices(1, &part));
-  return dense.transpose();  // values come row by row
-}
 
 /// D_1 J D_2 with rows and columns of greatest entry one. Source: Ruiz 2001, RAL-TR-2001-034.
 Eigen::MatrixXd scaled(Eigen::MatrixXd J) {
@@ -72,7 +56,7 @@ std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::
 Undetermined null_vectors(const System& system, Mat J) {
   const Coordinates& coordinates = system.coordinates();
   if (coordinates.owners().empty() || coordinates.global_size() > 1000) return {};
-  const Eigen::MatrixXd dense = everywhere(J);
+  const Eigen::MatrixXd dense = everywhere(system, J);
   if (!dense.allFinite()) return {};
   const Eigen::MatrixXd J_scaled = scaled(dense);
   const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(J_scaled).matrixQR().diagonal().cwiseAbs();

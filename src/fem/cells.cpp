@@ -98,7 +98,8 @@ bool belongs(CellKind kind, const ShellSection&) {
 }
 bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; }
 
-/// Dofs of the corners from those of the nodes that they follow.
+}  // namespace
+
 Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
   const auto corners = cell.corners(), nodes = cell.nodes();
   const Eigen::Index n = mesh.dimension == 2 ? 3 : 6, size = n * static_cast<Eigen::Index>(nodes.size());
@@ -113,8 +114,6 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
   }
   return T;
 }
-
-}  // namespace
 
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
   ElementMaps own = std::visit(

@@ -26,7 +26,7 @@ bool everywhere(MPI_Comm comm, bool here) {
 }
 
 bool uncoupled_shells(const Structure& structure) {
-  bool yes = structure.dimension() == 3 && structure.mesh.followers.empty();
+  bool yes = structure.dimension() == 3;
   for (const Mesh::Cell& cell : structure.mesh.cells)
     yes = yes && (cell.kind == CellKind::triangle || cell.kind == CellKind::quadrilateral) &&
           uncoupled(structure.sections[cell.part]);

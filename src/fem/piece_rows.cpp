@@ -132,9 +132,10 @@ void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes,
 
 /// The piece on the dofs of the nodes that move its corners.
 void follow(const Structure& structure, const std::array<int, 3>& moved, PieceRows& piece) {
+  const FlatBody* flat = flat_body(structure);
+  const auto& at = flat ? flat->positions : structure.mesh.positions;
   for (int i = 0; i < 3; ++i) {
     if (moved[i] == piece.node[i]) continue;
-    const auto& at = structure.mesh.positions;
     const Eigen::Matrix<double, 6, 6> T = rigid_arm(Eigen::Vector3d(at[piece.node[i]] - at[moved[i]]));
     const auto carry = [&](auto& rows) {
       if (rows.size() > 0) rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();

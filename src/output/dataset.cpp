@@ -84,6 +84,14 @@ std::uint64_t series_bytes(std::uint64_t rows, std::uint64_t columns) {
   return chunks(rows, chunk[0]) * chunks(columns, chunk[1]) * (chunk[0] * chunk[1] * sizeof(double) + 256);
 }
 
+Extent series_extent(hid_t file, const std::string& name) {
+  if (!exists(file, name)) return {};
+  const Hid dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose), space(H5Dget_space(dataset), H5Sclose);
+  Extent extent(std::max(H5Sget_simple_extent_ndims(space), 0));
+  if (!extent.empty()) check_hdf5(H5Sget_simple_extent_dims(space, extent.data(), nullptr));
+  return extent;
+}
+
 void resize_series(hid_t file, const std::string& name, hsize_t rows) {
   Hid dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   const Hid space(H5Dget_space(dataset), H5Sclose);

@@ -29,6 +29,9 @@ Hid create_series(hid_t file, const std::string& name, hsize_t rows, hsize_t col
 /// Bytes that a series of this size takes in the file, at most.
 std::uint64_t series_bytes(std::uint64_t rows, std::uint64_t columns);
 
+/// Rows and columns of a series; empty: there is none.
+Extent series_extent(hid_t file, const std::string& name);
+
 /// Makes a series that many rows long; new ones are NaN.
 void resize_series(hid_t file, const std::string& name, hsize_t rows);
 

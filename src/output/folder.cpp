@@ -18,8 +18,10 @@ namespace {
 
 /// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
 const std::vector<std::vector<std::string>> results = {
-    {"summary.json", "probes.csv", "result.h5", "campbell.csv"},
-    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"}};
+    {"summary.json", "probes.csv", "result.h5", "campbell.csv", "checkpoint.h5", "sweep.h5", "sweep.csv",
+     "sweep.png"},
+    {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"},
+    {"tradeoff.json", "tradeoff.md", "tradeoff.csv", "tradeoff.png"}};
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("output folder '{}': {}", path.string(), why));
@@ -106,6 +108,23 @@ void sync(const fs::path& path, int flags) {
 
 }  // namespace
 
+ResultFolder reopen_folder(MPI_Comm comm, const fs::path& path) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    std::error_code error;
+    if (!fs::is_directory(path, error)) refuse(path, "is not there; expected the results of a run with --checkpoint");
+    try {
+      write_file_atomically(path / "floe.try", "");
+    } catch (const RunError& fault) {
+      refuse(path, fmt::format("is not writable: {}", fault.what()));
+    }
+    fs::remove(path / "floe.try", error);
+  });
+  return {path};
+}
+
 ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
@@ -135,6 +154,8 @@ void discard_if_empty(const ResultFolder& folder) noexcept {
 fs::path draft_of(const fs::path& path) {
   return path.parent_path() / fmt::format(".{}.partial", path.filename().string());
 }
+
+void sync_file(const fs::path& path) { sync(path, O_RDWR); }
 
 void publish_draft(const fs::path& draft, const fs::path& path) {
   sync(draft, O_RDWR);

@@ -34,18 +34,22 @@ Table frequencies(const ReducedBodyFile& file) {
 
 Table columns(const ReducedBodyFile& file) {
   Table table{{{"column", ""}, {"frequency", "Hz", 6}, {"new part", "", 3}, {"kept", ""}}, {}};
+  const bool ranked =
+      std::any_of(file.columns.begin(), file.columns.end(), [](const auto& each) { return each.interaction > 0; });
+  if (ranked) table.columns.push_back({"interaction", "", 3});
   for (const auto& column : file.columns) {
     const bool named = column.label.starts_with(column.kind);
     table.rows.push_back({named ? column.label : column.kind + " " + column.label,
                           known(column.kind == "mode", hertz(column.omega)), column.new_part,
                           column.kept ? "yes" : "no"});
+    if (ranked) table.rows.back().push_back(known(column.interaction > 0, column.interaction));
   }
   return table;
 }
 
 Table places(const ReducedBodyFile& file) {
   Table table{{{"place", ""}}, {}};
-  for (int i = 0; i < file.dimension; ++i) table.columns.push_back({std::string(1, "xyz"[i]), "m", 6});
+  for (int i = 0; i < file.dimension; ++i) table.columns.push_back({fmt::format("{} in frame", "xyz"[i]), "m", 6});
   for (const auto& place : file.places) {
     table.rows.push_back({place.name});
     for (const double each : place.map.x) table.rows.back().emplace_back(each);

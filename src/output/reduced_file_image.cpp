@@ -167,9 +167,22 @@ Hid in_memory() {
 
 }  // namespace
 
-Image image_of(const ReducedBodyFile& file, bool complete) {
+Hid create_image() {
   const Hid access = in_memory(), how = plain_object(H5P_FILE_CREATE);
-  const Hid memory(H5Fcreate("reduced body", H5F_ACC_TRUNC, how, access), H5Fclose);
+  return Hid(H5Fcreate("floe in memory", H5F_ACC_TRUNC, how, access), H5Fclose);
+}
+
+std::vector<char> bytes_of(hid_t memory) {
+  check_hdf5(H5Fflush(memory, H5F_SCOPE_LOCAL));
+  const ssize_t size = H5Fget_file_image(memory, nullptr, 0);
+  check_hdf5(size < 0 ? -1 : 0);
+  std::vector<char> bytes(size);
+  check_hdf5(H5Fget_file_image(memory, bytes.data(), bytes.size()) < 0 ? -1 : 0);
+  return bytes;
+}
+
+Image image_of(const ReducedBodyFile& file, bool complete) {
+  const Hid memory = create_image();
   write_attribute(memory, "format", reduced_format);
   write_flag(memory, "version", reduced_version);
   write_flag(memory, "shapes", file.has_shapes);
@@ -177,18 +190,13 @@ Image image_of(const ReducedBodyFile& file, bool complete) {
   put(writer, file);
   write_flag(memory, "checksum", writer.checksum());
   write_flag(memory, "complete", complete);
-  check_hdf5(H5Fflush(memory, H5F_SCOPE_LOCAL));
-  const ssize_t size = H5Fget_file_image(memory, nullptr, 0);
-  check_hdf5(size < 0 ? -1 : 0);
-  std::vector<char> bytes(size);
-  check_hdf5(H5Fget_file_image(memory, bytes.data(), bytes.size()) < 0 ? -1 : 0);
-  return {std::move(bytes), writer.checksum()};
+  return {bytes_of(memory), writer.checksum()};
 }
 
 Hid open_image(std::vector<char>& bytes) {
   const Hid access = in_memory();
   check_hdf5(H5Pset_file_image(access, bytes.data(), bytes.size()));
-  return Hid(H5Fopen("reduced body", H5F_ACC_RDONLY, access), H5Fclose);
+  return Hid(H5Fopen("floe in memory", H5F_ACC_RDONLY, access), H5Fclose);
 }
 
 }  // namespace floe::output

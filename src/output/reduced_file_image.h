@@ -14,6 +14,10 @@ struct Image {
   std::int64_t checksum;  ///< of all names, numbers and texts; also the file's attribute
 };
 
+/// An HDF5 file in memory, and its bytes. Rank-local: a full disk never meets HDF5.
+Hid create_image();
+std::vector<char> bytes_of(hid_t memory);
+
 /// The bytes of an HDF5 file that holds all but the shapes. Rank-local, in memory: a full disk never meets HDF5, whose
 /// 1.10 cannot close a file that could not be written. HDF5's own structure carries checksums, too.
 ///

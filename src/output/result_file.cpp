@@ -27,6 +27,11 @@ ResultFile::ResultFile(MPI_Comm comm, std::filesystem::path path) : comm_(comm),
   petsc::agree(comm_, [&] { writing(path_, [&] { draft_ = open_file(draft_of(path_), Open::create, comm_); }); });
 }
 
+ResultFile::ResultFile(MPI_Comm comm, std::filesystem::path path, Existing) : comm_(comm), path_(std::move(path)) {
+  MPI_Comm_rank(comm, &rank_);
+  open_draft();
+}
+
 /// Structure is changed by all ranks in the draft, which starts as a copy of the published file.
 void ResultFile::open_draft() {
   if (draft_) return;

@@ -37,6 +37,26 @@ void ResultFile::add_series(const std::string& name, std::int64_t columns, const
   series_.push_back({.name = name, .columns = columns, .capacity = capacity});
 }
 
+void ResultFile::continue_series(const std::string& name, std::int64_t columns, std::int64_t rows,
+                                 std::int64_t expected_rows) {
+  open_draft();
+  const std::int64_t capacity = std::max(rows + 16, expected_rows);
+  reserve_in_draft(series_bytes(capacity, columns));
+  petsc::agree(comm_, [&] {
+    writing(path_, [&] {
+      const Extent found = series_extent(draft_, name);
+      if (found.size() != 2 || found[1] != static_cast<hsize_t>(columns))
+        throw RunError(fmt::format("cannot write {}: {} in it is not that of the run", path_.string(), name));
+      if (found[0] < static_cast<hsize_t>(rows))
+        throw RunError(fmt::format("cannot write {}: {} has {} rows, and the checkpoint comes after {}", path_.string(),
+                                   name, found[0], rows));
+      resize_series(draft_, name, rows);
+      resize_series(draft_, name, capacity);
+    });
+  });
+  series_.push_back({.name = name, .columns = columns, .capacity = capacity, .stored = rows});
+}
+
 ResultFile::Series& ResultFile::series(const std::string& name) {
   if (draft_) throw std::logic_error(name + ": rows before publish()");
   const auto found =
@@ -140,6 +160,19 @@ void ResultFile::write_distributed() {
 void ResultFile::flush() {
   petsc::agree(comm_, [&] { write_replicated(); });
   write_distributed();
+}
+
+void ResultFile::save(bool alone) {
+  const auto sync = [&] {
+    if (rank_ == 0) sync_file(path_);
+  };
+  if (alone) {
+    write_replicated();
+    sync();
+    return;
+  }
+  flush();
+  petsc::agree(comm_, sync);
 }
 
 }  // namespace floe::output

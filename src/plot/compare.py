@@ -233,7 +233,7 @@ def draw(description, path, dpi):
     save(figure, path, dpi)
 
 
-def save(figure, path, dpi):
+def save(figure, path, dpi, colours=64):
     """A PNG has a palette: lines in few colours take a third of the bytes then."""
     if not path.endswith(".png"):
         figure.savefig(path)
@@ -242,7 +242,7 @@ def save(figure, path, dpi):
 
     with io.BytesIO() as drawn:
         figure.savefig(drawn, format="png", dpi=dpi)
-        Image.open(drawn).convert("RGB").quantize(64).save(path, optimize=True, dpi=(dpi, dpi))
+        Image.open(drawn).convert("RGB").quantize(colours).save(path, optimize=True, dpi=(dpi, dpi))
 
 
 def main_probe(description):

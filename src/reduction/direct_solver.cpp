@@ -43,6 +43,7 @@ petsc::KspHandle direct_solver(Mat A, const char* prefix) {
   check(KSPSetOptionsPrefix(ksp, prefix));
   check(KSPSetOperators(ksp, A, A));
   check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));  // of an iteration, by options
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));

@@ -12,6 +12,7 @@
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mode_quality.h"
+#include "multigrid.h"
 
 namespace floe::reduction {
 
@@ -94,6 +95,24 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   iterate(ksp, KSPCG);
 }
 
+KSP solver_of(EPS eps) {
+  ST st = nullptr;
+  KSP ksp = nullptr;
+  check(EPSGetST(eps, &st));
+  check(STGetKSP(st, &ksp));
+  return ksp;
+}
+
+/// Where the user's options iterate: the assembled K - shift M as multigrid takes it, for the preconditioner.
+void precondition(EPS eps, double shift, const fem::Structure& structure, const fem::ReferenceFrame& frame,
+                  const fem::Conditions& held) {
+  ST st = nullptr;
+  const petsc::MatHandle shifted = fem::assemble(structure, held, 1, 1, -shift);
+  check(EPSGetST(eps, &st));
+  check(STSetMatMode(st, ST_MATMODE_SHELL));
+  check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, held)));
+}
+
 petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   petsc::EpsHandle eps;
   ST st = nullptr;
@@ -103,7 +122,7 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, K, M));
   check(EPSSetProblemType(eps, EPS_GHEP));
-  check(EPSSetTolerances(eps, 1e-13, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
   check(EPSSetTarget(eps, shift));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -111,10 +130,21 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   check(STSetType(st, STSINVERT));
   check(STGetKSP(st, &ksp));
   check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPSetTolerances(ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));  // of an iteration, by options
   check(KSPGetPC(ksp, &pc));
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   return eps;
+}
+
+/// How many vectors the Krylov space has: three more than SLEPc's default, each of which makes the last pair's residual
+/// ten times smaller or more, so that no restart is needed (nine solves for a mode more). Other solvers choose
+/// themselves.
+PetscInt subspace_of(EPS eps, PetscInt count, PetscInt available) {
+  const PetscInt vectors = std::max(2 * count, count + 15) + 3;
+  PetscBool krylov = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(eps), EPSKRYLOVSCHUR, &krylov));
+  return krylov && 2 * vectors < available ? vectors : PETSC_DEFAULT;
 }
 
 /// The rigid motions that are left free, under the conditions.
@@ -196,15 +226,25 @@ void ModeSolver::create(int count) {
   eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift);
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
+  if (!user_sets("modes_eps_n") && !user_sets("modes_eps_mpd"))
+    check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
   exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
-  if (shares)
+  if (!factors(solver_of(eps_)))
+    precondition(eps_, shift, structure_, frame_, holding_.held);
+  else if (shares)
     share_factor(eps_, M_, statics_);
   else if (statics_.refines())
     refine(eps_, exact_, M_, shift, structure_, holding_.held);
 }
 
 PetscInt ModeSolver::available() const {
-  return structure_.dofs() - static_cast<PetscInt>(holding_.held.size()) - static_cast<PetscInt>(holding_.left.cols());
+  const petsc::VecHandle masses = fem::field(structure_);
+  check(MatGetDiagonal(fem::mass(structure_, {}), masses));
+  fem::hold(masses, holding_.held);
+  petsc::Values own(masses);
+  PetscInt moving = std::count_if(own.begin(), own.begin() + structure_.owned_dofs(), [](double m) { return m > 0; });
+  MPI_Allreduce(MPI_IN_PLACE, &moving, 1, MPIU_INT, MPI_SUM, structure_.mesh.comm);
+  return moving - static_cast<PetscInt>(holding_.left.cols());
 }
 
 namespace {
@@ -249,7 +289,7 @@ Found complete_pairs(EPS eps, const fem::Structure& structure, const fem::Condit
     const int wanted = std::min(count + more, available);
     check(EPSGetDimensions(eps, &asked, nullptr, nullptr));
     if (asked < wanted || asked > available)
-      check(EPSSetDimensions(eps, wanted, bounded ? subspace : PETSC_DEFAULT, PETSC_DEFAULT));
+      check(EPSSetDimensions(eps, wanted, bounded ? subspace : subspace_of(eps, wanted, available), PETSC_DEFAULT));
     Found found = pairs(eps, structure, held, rigid, statics, count, wanted);
     const int have = static_cast<int>(found.lambda.size()), equal = left_out(found.lambda, count);
     if (count + equal == have && have == wanted && wanted < available && more < 16) continue;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floe/fem/field_rows.h"
+#include "floe/petsc/values.h"
 
 namespace floe::reduction {
 
@@ -114,15 +115,20 @@ std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fie
   return sloped;
 }
 
-/// What is nothing beside the others becomes zero: modes in two planes of bending have no derivative in common.
-/// Collective.
+/// What is nothing beside the others becomes zero, by the displacements of the nodes: modes in two planes of bending
+/// have no derivative in common. Collective.
 void drop_round_off(const fem::Structure& structure, Columns& columns) {
-  const petsc::MatHandle M = fem::mass(structure, {});
-  std::vector<double> norms;
-  for (const auto& column : columns) norms.push_back(mass_norm(M, column));
-  const double greatest = norms.empty() ? 0 : *std::max_element(norms.begin(), norms.end());
+  const int per_node = structure.dofs_per_node;
+  std::vector<double> squares;
+  for (const auto& column : columns) {
+    petsc::Values values(column);
+    const Eigen::Map<const Eigen::MatrixXd> nodes(values.begin(), per_node, structure.mesh.owned_nodes);
+    squares.push_back(nodes.topRows(structure.dimension()).squaredNorm());
+  }
+  MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  const double greatest = squares.empty() ? 0 : *std::max_element(squares.begin(), squares.end());
   for (std::size_t i = 0; i < columns.size(); ++i)
-    if (norms[i] <= 1e-10 * greatest) check(VecSet(columns[i], 0));
+    if (squares[i] <= 1e-20 * greatest) check(VecSet(columns[i], 0));
 }
 
 }  // namespace

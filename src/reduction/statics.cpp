@@ -9,6 +9,7 @@
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
+#include "multigrid.h"
 
 namespace floe::reduction {
 
@@ -24,14 +25,12 @@ namespace {
 /// @throws InputError  the user's options leave a preconditioner alone
 void check_solver(KSP ksp) {
   PC pc = nullptr;
-  PetscBool factors = PETSC_FALSE, direct = PETSC_FALSE;
+  PetscBool direct = PETSC_FALSE;
   PCType preconditioner = nullptr;
   check(KSPGetPC(ksp, &pc));
-  check(
-      PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &factors, PCCHOLESKY, PCLU, PCREDUNDANT, PCSVD, ""));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPPREONLY, &direct));
   check(PCGetType(pc, &preconditioner));
-  if (direct && !factors)
+  if (direct && !factors(ksp))
     throw InputError(
         fmt::format("option -derivatives_pc_type {}: is no solver by itself; expected a factorisation "
                     "(cholesky, lu), or an iteration besides (-derivatives_ksp_type cg)",
@@ -48,6 +47,9 @@ Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& fra
       exact_(fem::stiffness_operator(elements_, holding.statics)),
       ksp_(direct_solver(K_, "derivatives_")) {
   check_solver(ksp_);
+  if (factors(ksp_)) return;
+  K_ = for_multigrid(K_, frame, conditions_);
+  check(KSPSetOperators(ksp_, K_, K_));
 }
 
 double Statics::factor_error() const {

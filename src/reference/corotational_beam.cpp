@@ -50,9 +50,13 @@ CorotationalBeam::CorotationalBeam(std::vector<int> coordinates, Eigen::Vector2d
   refuse_faults(coordinates_, length_, properties_, gravity_);
 }
 
+Eigen::Vector2d CorotationalBeam::gravity(double t) const {
+  return changing_gravity ? Eigen::Vector2d(gravity_ + changing_gravity(t)) : gravity_;
+}
+
 void CorotationalBeam::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
   const Chord chord = chord_at(chord_, motion.q);
-  const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity_);
+  const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity(motion.t));
   const Moments m = moments(length_, properties_);
   const Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, extended_rates(chord, v, a));
   r += on_world(chord, reduced(chord, f));
@@ -60,7 +64,7 @@ void CorotationalBeam::residual(const dynamics::Motion& motion, Eigen::VectorXd&
 
 void CorotationalBeam::tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const {
   const Chord chord = chord_at(chord_, motion.q);
-  const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity_);
+  const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity(motion.t));
   const Moments m = moments(length_, properties_);
   const Rates rates = extended_rates(chord, v, a);
   const Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, rates);

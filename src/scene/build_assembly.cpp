@@ -9,6 +9,7 @@
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
 #include "floe/reference/corotational_beam.h"
+#include "weight.h"
 
 namespace floe::scene {
 
@@ -17,17 +18,6 @@ using petsc::check;
 
 namespace {
 
-MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
-  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
-}
-
-bool last_rank(MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return rank == size - 1;
-}
-
 std::vector<PetscInt> visited_nodes(const Prepared& prepared, int body) {
   std::vector<PetscInt> nodes;
   auto visit = [&](const PreparedPlace& place) {
@@ -35,7 +25,7 @@ std::vector<PetscInt> visited_nodes(const Prepared& prepared, int body) {
   };
   for (const auto& joint : prepared.joints) visit(joint[0]), visit(joint[1]);
   for (std::size_t l = 0; l < prepared.loads.size(); ++l)
-    if (prepared.scene.loads[l].kind != Load::Kind::distributed) visit(prepared.loads[l]);
+    if (!prepared.scene.loads[l].spread()) visit(prepared.loads[l]);
   for (std::size_t p = 0; p < prepared.probes.size(); ++p) {
     visit(prepared.probes[p][0]), visit(prepared.probes[p][1]);
     if (prepared.scene.probes[p].quantity == Probe::Quantity::deflection && prepared.probes[p][0].body == body)
@@ -57,7 +47,8 @@ Assembly::Assembly(const Prepared& prepared, Formulation formulation, const std:
       reduced_(reduced),
       owner_(last_rank(comm_of(prepared, formulation))),
       coordinates_(comm_of(prepared, formulation)),
-      slots_(prepared.bodies.size()) {}
+      slots_(prepared.bodies.size()),
+      latches_(latches_of(prepared.scene)) {}
 
 bool Assembly::compact(int body) const {
   const Body& spec = prepared_.bodies[body].spec;
@@ -84,6 +75,11 @@ void Assembly::add_coordinates() {
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
     joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
+  }
+  for (auto& [joint, latches] : latches_) {
+    if (!latches.lock) continue;
+    latches.rows = 1;  // a hinge leaves an angle, a slide a distance
+    latches.first_row = coordinates_.add_shared(latches.rows, true);
   }
   coordinates_.number();
 }
@@ -116,15 +112,19 @@ void Assembly::add_body_terms(int b) {
   if (damping.mass != 0 || damping.stiffness != 0)
     throw InputError(damping.where.text() + ": formulation cfr has no Rayleigh damping (it would damp rigid motion)");
   const fem::Structure& s = body.structure;
-  const Eigen::Vector2d gravity(prepared_.scene.gravity[0], prepared_.scene.gravity[1]);
+  const Weight weight(prepared_.scene);
+  const Eigen::Vector2d gravity = weight.constant() ? Eigen::Vector2d(weight(0).head<2>()) : Eigen::Vector2d::Zero();
   for (const auto& cell : s.mesh.cells) {
     std::vector<int> coordinates;
     for (int node : cell.nodes())
       for (int d = 0; d < 3; ++d) coordinates.push_back(slot.nodes->of_local_node(node) + d);
     const fem::BeamSection& section = std::get<fem::BeamSection>(s.sections[cell.part]);
-    terms_.push_back(std::make_unique<reference::CorotationalBeam>(
+    auto beam = std::make_unique<reference::CorotationalBeam>(
         coordinates, world(body, s.mesh.positions[cell.corner[0]]), world(body, s.mesh.positions[cell.corner[1]]),
-        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}, gravity));
+        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}, gravity);
+    if (!weight.constant())
+      beam->changing_gravity = [weight](double t) -> Eigen::Vector2d { return weight(t).head<2>(); };
+    terms_.push_back(std::move(beam));
   }
 }
 
@@ -142,8 +142,8 @@ Marker Assembly::density(int b, const body::Inertia& inertia) {
 }
 
 void Assembly::add_gravity(int b) {
-  const Point g = prepared_.scene.gravity;
-  if (g[0] == 0 && g[1] == 0) return;
+  const Weight weight(prepared_.scene);
+  if (weight.none()) return;
   const Slot& slot = slots_[b];
   std::vector<Marker> markers;
   if (compact(b)) {
@@ -154,8 +154,8 @@ void Assembly::add_gravity(int b) {
   }
   for (Marker& marker : markers) {
     auto force = std::make_unique<dynamics::Force>(
-        std::move(marker), [g](double) { return Eigen::Vector3d(g[0], g[1], 0); }, dynamics::Force::Axes::world);
-    force->conservative = true;
+        std::move(marker), [weight](double t) { return weight(t); }, dynamics::Force::Axes::world);
+    force->conservative = weight.constant();
     terms_.push_back(std::move(force));
   }
 }
@@ -213,6 +213,8 @@ Model Assembly::model() {
       report.dofs = prepared_.bodies[b].structure.dofs();
     }
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(prepared_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
@@ -225,8 +227,10 @@ Model Assembly::model() {
     layout.gather(model.U, q);
   }
   add_loads();
-  add_joints(q);
+  add_joints(model, q);
   add_probes(model, q);
+  for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
+  model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));

@@ -27,7 +27,9 @@ class Assembly {
   void add_body_terms(int body);
   void add_gravity(int body);
   void add_loads();
-  void add_joints(const Eigen::VectorXd& q);
+  void add_joints(Model& model, const Eigen::VectorXd& q);
+  void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
+                 std::vector<ModelStop>& stops);
   void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
   void add_probes(Model& model, const Eigen::VectorXd& q);
   void set_start(Model& model);
@@ -45,6 +47,7 @@ class Assembly {
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
 };
 
 }  // namespace floe::scene

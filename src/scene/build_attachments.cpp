@@ -23,20 +23,19 @@ const char* component_name(int dofs_per_node, PetscInt component, bool load) {
   return (load ? loads : motions)[dofs_per_node == 6][component];
 }
 
-std::vector<PetscInt> nodes_of(const PreparedPlace& place) {
-  return place.nodes.empty() ? std::vector<PetscInt>{place.node} : place.nodes;
-}
-
-/// A unit force or moment, shared equally by the nodes of the place.
+/// A unit force or moment on the mean of the place's nodes.
 reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& place, int component,
                                 const std::string& where) {
   const int n = body.structure.dofs_per_node;
   reduction::Attachment attachment{where + "." + component_name(n, component, true), fem::field(body.structure), {}};
   petsc::Values values(attachment.load);
-  const std::vector<PetscInt> nodes = nodes_of(place);
-  for (PetscInt node : nodes) {
-    const PetscInt dof = n * node + component;
-    if (dof >= values.first && dof < values.end) values[dof] = 1.0 / static_cast<double>(nodes.size());
+  for (const Lever& lever : place.moved_by()) {
+    const PetscInt dof = n * lever.node;
+    if (dof < values.first || dof >= values.end) continue;
+    values[dof + component] = lever.share;
+    if (n < 6 || component > 2) continue;
+    const Eigen::Vector3d moment = lever.arm.cross(Eigen::Vector3d::Unit(component));
+    for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }
   return attachment;
 }
@@ -55,7 +54,8 @@ reduction::Attachment rigid_displacement(const PreparedBody& body, const Prepare
   const int n = body.structure.dofs_per_node, d = body.structure.dimension();
   reduction::Attachment attachment{where + "." + component_name(n, component, false), {}, fem::field(body.structure)};
   petsc::Values values(attachment.moved);
-  for (PetscInt node : nodes_of(place)) {
+  for (const Lever& lever : place.moved_by()) {
+    const PetscInt node = lever.node;
     if (n * node < values.first || n * node >= values.end) continue;
     values[n * node + component] = 1;
     if (component < d) continue;
@@ -211,9 +211,9 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
   const PreparedBody& body = prepared.bodies[index];
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
-    const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
+    const PreparedPlace* held_there = held_place(prepared, j);
     const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : prepared.joint_held[j] != 0;
-    if (to_ground && held && !of_frame(body)) continue;
+    if (held_there && held_there->body == index && held && !of_frame(body)) continue;
     const bool moment = carries_moment(joint, body.structure.dimension());
     for (const PreparedPlace& place : prepared.joints[j])
       for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
@@ -242,7 +242,7 @@ Attachments attachments(const Prepared& prepared, int index) {
   if (choice == Choice::joints || choice == Choice::all) add_joints(prepared, index, all);
   for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
     const Load& load = prepared.scene.loads[l];
-    if (prepared.loads[l].body != index || load.kind == Load::Kind::distributed) continue;
+    if (prepared.loads[l].body != index || load.spread()) continue;
     const bool moment = load.kind == Load::Kind::moment;
     const bool of_joint = choice == Choice::joints && moment && at_a_joint(prepared, prepared.loads[l]);
     if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;

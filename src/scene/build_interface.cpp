@@ -5,10 +5,19 @@
 #include <algorithm>
 
 namespace floe::scene {
+
+std::vector<Lever> PreparedPlace::moved_by() const {
+  return levers.empty() ? std::vector<Lever>{{node, 1, Eigen::Vector3d::Zero()}} : levers;
+}
+
+bool PreparedPlace::moved_by(PetscInt other) const {
+  const std::vector<Lever> all = moved_by();
+  return std::any_of(all.begin(), all.end(), [&](const Lever& lever) { return lever.node == other; });
+}
+
 bool share_a_node(const PreparedPlace& one, const PreparedPlace& other) {
-  return std::any_of(one.nodes.begin(), one.nodes.end(), [&](PetscInt node) {
-    return std::find(other.nodes.begin(), other.nodes.end(), node) != other.nodes.end();
-  });
+  const std::vector<Lever> levers = one.moved_by();
+  return std::any_of(levers.begin(), levers.end(), [&](const Lever& lever) { return other.moved_by(lever.node); });
 }
 
 namespace {
@@ -16,10 +25,9 @@ namespace {
 /// The joint to the ground that holds a node of the place; empty if none does.
 std::string joint_that_holds(const Prepared& prepared, int index, const PreparedPlace& place) {
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
-    const auto& [first, second] = prepared.joints[j];
-    if (first.ground() == second.ground() || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
-    const PreparedPlace& held = first.ground() ? second : first;
-    if (held.body == index && share_a_node(held, place)) return prepared.scene.joints[j].name;
+    const PreparedPlace* held = held_place(prepared, j);
+    if (!held || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
+    if (held->body == index && share_a_node(*held, place)) return prepared.scene.joints[j].name;
   }
   return "";
 }
@@ -30,8 +38,8 @@ fem::Conditions held_by_modes(const PreparedBody& body) {
   fem::Conditions held = body.held;
   const int n = body.structure.dofs_per_node;
   for (const PreparedPlace& place : body.interface)
-    for (PetscInt node : place.nodes)
-      for (int d = 0; d < n; ++d) held.push_back(n * node + d);
+    for (const Lever& lever : place.moved_by())
+      for (int d = 0; d < n; ++d) held.push_back(n * lever.node + d);
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   return held;

@@ -3,15 +3,22 @@
 #include "build_assembly.h"
 #include "build_space.h"
 #include "floe/dynamics/simulation.h"
+#include "floe/scene/variation.h"
+#include "offline.h"
 
 namespace floe::scene {
+
+Model assemble(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced) {
+  return prepared.scene.dimension == 3 ? SpaceAssembly(prepared, formulation, reduced).model()
+                                       : Assembly(prepared, formulation, reduced).model();
+}
+
 namespace {
 
 /// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
 /// fields.
 std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::vector<ReducedBody>& linear) {
-  Model model = prepared.scene.dimension == 3 ? SpaceAssembly(prepared, Formulation::vm, linear).model()
-                                              : Assembly(prepared, Formulation::vm, linear).model();
+  Model model = assemble(prepared, Formulation::vm, linear);
   std::vector<Eigen::MatrixXd> sums;
   for (const ReducedBody& body : linear)
     sums.push_back(Eigen::MatrixXd::Zero(body.body.coordinates(), body.body.coordinates()));
@@ -46,27 +53,63 @@ void refuse_meshless(const Scene& scene, Formulation formulation) {
 
 }  // namespace
 
-Model build(const Scene& whole, Formulation formulation, MPI_Comm comm) {
-  const Scene scene = formulation == Formulation::cfr ? whole : split_frames(whole);
-  refuse_meshless(scene, formulation);
-  const Prepared prepared = prepare(scene, comm);
+struct ReducedBodies {
+  Formulation formulation;
+  MPI_Comm comm;
+  std::vector<ReducedBody> bodies;
   std::vector<std::string> warnings;
-  std::vector<ReducedBody> reduced(prepared.bodies.size());
+};
+
+namespace {
+
+Scene in_parts(const Scene& whole, Formulation formulation) {
+  return formulation == Formulation::cfr ? whole : split_frames(whole);
+}
+
+ReducedBodies reduced_bodies(const Prepared& prepared, Formulation formulation, bool keep_offline = false) {
+  ReducedBodies all{formulation, prepared.comm, std::vector<ReducedBody>(prepared.bodies.size()), {}};
   if (is_reduced(formulation)) {
-    reduced = reduce_bodies(
+    all.bodies = reduce_bodies(
         prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
-        warnings);
-  } else {
-    for (std::size_t b = 0; b < reduced.size(); ++b)
-      if (prepared.bodies[b].spec.rigid)
-        reduced[b] = rigid(prepared.bodies[b]);
-      else if (prepared.bodies[b].spec.reduced)
-        reduced[b] = from_file(prepared.bodies[b], formulation);
+        all.warnings, keep_offline);
+    return all;
   }
-  Model model = scene.dimension == 3 ? SpaceAssembly(prepared, formulation, reduced).model()
-                                     : Assembly(prepared, formulation, reduced).model();
-  model.warnings.insert(model.warnings.end(), warnings.begin(), warnings.end());
+  for (std::size_t b = 0; b < all.bodies.size(); ++b)
+    if (prepared.bodies[b].spec.rigid)
+      all.bodies[b] = rigid(prepared.bodies[b]);
+    else if (prepared.bodies[b].spec.reduced)
+      all.bodies[b] = from_file(prepared.bodies[b], formulation);
+  return all;
+}
+
+Model assembled(const Prepared& prepared, const ReducedBodies& reduced) {
+  Model model = assemble(prepared, reduced.formulation, reduced.bodies);
+  model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
   return model;
+}
+
+}  // namespace
+
+Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
+  refuse_meshless(whole, formulation);
+  const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
+  ReducedBodies reduced = reduced_bodies(offline->prepared, formulation, keep_offline);
+  Model model = assembled(offline->prepared, reduced);
+  if (!keep_offline || !is_reduced(formulation)) return model;
+  offline->reduced = std::move(reduced.bodies);
+  model.offline = offline;
+  return model;
+}
+
+std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation formulation, MPI_Comm comm) {
+  const Scene scene = in_parts(whole, formulation);
+  refuse_meshless(scene, formulation);
+  return std::make_shared<const ReducedBodies>(reduced_bodies(prepare(scene, comm), formulation));
+}
+
+Model build_on(const ReducedBodies& bodies, const Scene& whole) {
+  const Scene scene = in_parts(whole, bodies.formulation);
+  return assembled(prepare(scene, bodies.comm), bodies);
 }
 
 }  // namespace floe::scene

@@ -12,6 +12,14 @@
 
 namespace floe::scene {
 
+const PreparedPlace* held_place(const Prepared& prepared, std::size_t joint) {
+  const auto& [first, second] = prepared.joints[joint];
+  if (first.ground() != second.ground()) return first.ground() ? &second : &first;
+  for (const PreparedPlace* place : {&first, &second})
+    if (place->body >= 0 && prepared.bodies[place->body].host_joint == static_cast<int>(joint)) return place;
+  return nullptr;
+}
+
 std::string name_of(fem::ReferenceFrame::Kind kind) {
   switch (kind) {
     case fem::ReferenceFrame::Kind::pinned:
@@ -21,6 +29,17 @@ std::string name_of(fem::ReferenceFrame::Kind kind) {
     default:
       return "mean-axis";
   }
+}
+
+MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
+  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
+}
+
+bool last_rank(MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  return rank == size - 1;
 }
 
 Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
@@ -180,7 +199,7 @@ Prepared prepare(const Scene& scene, MPI_Comm comm) {
   }
   for (const Load& load : scene.loads) {
     PreparedPlace place;
-    if (load.kind == Load::Kind::distributed)
+    if (load.spread())
       place.body = body_index(scene, load.body);
     else
       place = find(prepared.bodies, load.at);

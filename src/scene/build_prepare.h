@@ -18,6 +18,10 @@ struct Prepared {
   std::vector<char> joint_held = {};
 };
 
+/// The place that the joint holds in the frame of its body: by the ground, or by a rigid body whose frame it has; null
+/// when the joint is between two frames.
+const PreparedPlace* held_place(const Prepared& prepared, std::size_t joint);
+
 /// `pinned`, `clamped`, `mean-axis`.
 std::string name_of(fem::ReferenceFrame::Kind kind);
 
@@ -25,6 +29,11 @@ std::string name_of(fem::ReferenceFrame::Kind kind);
 Prepared prepare(const Scene& scene, MPI_Comm comm);
 
 Eigen::Matrix2d turn(double angle);
+
+/// Where the system of a formulation lives: on every rank by itself, or on all together.
+MPI_Comm comm_of(const Prepared& prepared, Formulation formulation);
+/// Whether this rank holds what the ranks of a system share.
+bool last_rank(MPI_Comm comm);
 
 /// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
 struct ReducedBody;

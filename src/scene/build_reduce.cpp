@@ -138,9 +138,8 @@ bool held_lengthwise(const Prepared& prepared, int index) {
   if (body.structure.dimension() == 2) return body.held.size() > 3;
   std::vector<const PreparedPlace*> places;
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
-    const auto& [first, second] = prepared.joints[j];
-    if (first.ground() == second.ground() || prepared.scene.joints[j].kind == Joint::Kind::spring) continue;
-    if (const PreparedPlace& held = first.ground() ? second : first; held.body == index) places.push_back(&held);
+    const PreparedPlace* held = held_place(prepared, j);
+    if (held && held->body == index && prepared.scene.joints[j].kind != Joint::Kind::spring) places.push_back(held);
   }
   return std::any_of(places.begin(), places.end(),
                      [&](const PreparedPlace* place) { return !share_a_node(*place, *places.front()); });
@@ -153,23 +152,24 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
       spec.attachment == ReductionSpec::Attachment::none || spec.attachment == ReductionSpec::Attachment::loads;
   const auto of_interface = [&](const PreparedPlace& joint) {
     return std::any_of(body.interface.begin(), body.interface.end(), [&](const PreparedPlace& place) {
-      return std::find(place.nodes.begin(), place.nodes.end(), joint.node) != place.nodes.end();
+      return place.moved_by(joint.node);
     });
   };
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];
     const bool touches = prepared.joints[j][0].body == index || prepared.joints[j][1].body == index;
-    const bool to_ground = prepared.joints[j][0].ground() || prepared.joints[j][1].ground();
+    const PreparedPlace* held = held_place(prepared, j);
+    const bool held_here = held && held->body == index;
     const bool moment = joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven;
     if (!touches || !moment || !no_columns) continue;
-    if (body.spec.frame.kind == FrameSpec::Kind::clamped && to_ground) continue;
-    if (to_ground && !of_frame(body)) continue;
+    if (body.frame.kind == fem::ReferenceFrame::Kind::clamped && held_here) continue;
+    if (held_here && !of_frame(body)) continue;
     const auto& [first, second] = prepared.joints[j];
     if (of_interface(first.body == index ? first : second)) continue;  // its columns carry all
     warnings.push_back(fmt::format(
         "body {}: its modes cannot carry the moment of joint {} (they have none there), and converge slowly. Choose "
         "{}attachment: joints",
-        body.spec.name, joint.name, to_ground ? "modes: {of: joints}, or " : ""));
+        body.spec.name, joint.name, held_here ? "modes: {of: joints}, or " : ""));
   }
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (held_lengthwise(prepared, index) && formulation != Formulation::vm)
@@ -325,7 +325,8 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
 }
 
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
-                                       const InteractionRun& linear_run, std::vector<std::string>& warnings) {
+                                       const InteractionRun& linear_run, std::vector<std::string>& warnings,
+                                       bool keep_statics) {
   const int count = static_cast<int>(prepared.bodies.size());
   const bool alone = formulation == Formulation::vm;
   std::vector<Stage> stages(count);
@@ -368,6 +369,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     end(body, stages[b], std::move(derivatives), all[b]);
     warn_of_loads(prepared, b, stages[b], all[b], warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
+    if (keep_statics) all[b].statics = std::move(stages[b].statics);
     stages[b] = Stage();
   }
   return all;

@@ -10,16 +10,22 @@ struct ReducedBody {
   Eigen::MatrixXd damping;
   Eigen::MatrixXd of_fields;  ///< coordinates of the generating fields from those of V; ranking's linear run only
   BodyReport report;
+  std::shared_ptr<const reduction::Statics> statics = {};  ///< if they were to be kept
 };
+
+/// The prepared scene on its bodies in a formulation. @param reduced  as Assembly, SpaceAssembly. Collective.
+Model assemble(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced);
 
 /// Runs linear and reads off int |eta_i eta_j| dt of each body's generators, eta = of_fields q: needed for derivatives
 /// chosen by count.
 using InteractionRun = std::function<std::vector<Eigen::MatrixXd>(const std::vector<ReducedBody>&)>;
 
 /// Offline stage of every body. Collective.
-/// @param warnings  receives what the user should know of the choice of columns
+/// @param warnings      receives what the user should know of the choice of columns
+/// @param keep_statics  with the factor of each body; `prepared` must stay where it is
 std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation formulation,
-                                       const InteractionRun& linear_run, std::vector<std::string>& warnings);
+                                       const InteractionRun& linear_run, std::vector<std::string>& warnings,
+                                       bool keep_statics = false);
 
 /// Modes, static columns and derivatives of a body, before they become a basis; in the frame, modes M-normalised.
 struct BodyFields {

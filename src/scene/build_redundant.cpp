@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floe/dynamics/marker.h"
+#include "independent_rows.h"
 
 namespace floe::scene {
 namespace {
@@ -73,22 +74,6 @@ HeldBody held_body(const Prepared& prepared, const ReducedBody& reduced, int b, 
   return held;
 }
 
-/// Rows in order, each if it is independent of those kept before it.
-std::vector<Eigen::Index> independent(const Eigen::MatrixXd& G) {
-  std::vector<Eigen::Index> kept;
-  Eigen::MatrixXd basis(G.cols(), 0);
-  for (Eigen::Index i = 0; i < G.rows(); ++i) {
-    VectorXd row = G.row(i).transpose();
-    const double size = row.norm();
-    for (int twice = 0; twice < 2; ++twice) row -= basis * (basis.transpose() * row).eval();
-    if (!(row.norm() > 1e-8 * size)) continue;
-    kept.push_back(i);
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols<1>() = row.normalized();
-  }
-  return kept;
-}
-
 /// The joint of a row.
 const HeldBody::Hold& hold_of(const HeldBody& held, Eigen::Index row) {
   std::size_t h = 0;
@@ -145,7 +130,7 @@ void check_left_out(const Prepared& prepared, const HeldBody& held, int b, const
 void leave_out(const Prepared& prepared, const HeldBody& held, int b, std::vector<std::vector<int>>& standing) {
   Eigen::MatrixXd gradient;
   held.rows(held.start, &gradient);
-  const std::vector<Eigen::Index> kept = independent(gradient);
+  const std::vector<Eigen::Index> kept = independent_rows(gradient);
   if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
   check_left_out(prepared, held, b, kept);
   Eigen::Index first = 0;

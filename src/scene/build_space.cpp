@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "build_space_rows.h"
 #include "floe/dynamics/held_body.h"
@@ -17,17 +18,6 @@ using dynamics::SpatialMarker;
 using petsc::check;
 
 namespace {
-
-MPI_Comm comm_of(const Prepared& prepared, Formulation formulation) {
-  return is_reduced(formulation) ? PETSC_COMM_SELF : prepared.comm;
-}
-
-bool last_rank(MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  return rank == size - 1;
-}
 
 /// Whether a place of a body from a file has no motion in the body's frame.
 bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
@@ -43,11 +33,13 @@ int clamp_of(const Prepared& prepared, int b) {
   if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const auto& [first, second] = prepared.joints[j];
-    if (prepared.scene.joints[j].kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    const Joint& joint = prepared.scene.joints[j];
+    if (joint.kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    if (is_unlocked(prepared.scene, joint.name)) continue;
     const PreparedPlace& place = first.ground() ? second : first;
     if (place.body != b) continue;
     if (place.map ? at_rest(body, *place.map)
-                  : std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0)
+                  : place.moved_by(body.frame.conditions.front() / 6))
       return static_cast<int>(j);
   }
   return -1;
@@ -59,8 +51,14 @@ SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, 
       reduced_(reduced),
       owner_(last_rank(comm_of(prepared, formulation))),
       coordinates_(comm_of(prepared, formulation)),
-      slots_(prepared.bodies.size()) {
-  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, static_cast<int>(b)) >= 0;
+      slots_(prepared.bodies.size()),
+      latches_(latches_of(prepared.scene)) {
+  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, owner_of_frame(b)) >= 0;
+}
+
+int SpaceAssembly::owner_of_frame(std::size_t body) const {
+  const int host = prepared_.bodies[body].host;
+  return host >= 0 ? host : static_cast<int>(body);
 }
 
 bool SpaceAssembly::compact(int body) const {
@@ -69,8 +67,10 @@ bool SpaceAssembly::compact(int body) const {
 }
 
 bool SpaceAssembly::stands(int j) const {
-  for (std::size_t b = 0; b < slots_.size(); ++b)
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    if (prepared_.bodies[b].host_joint == j) return true;
     if (slots_[b].still && clamp_of(prepared_, static_cast<int>(b)) == j) return true;
+  }
   return false;
 }
 
@@ -83,10 +83,9 @@ void SpaceAssembly::refuse() const {
   if (formulation_ == Formulation::cfr)
     faults.push_back(prepared_.scene.file + ": formulation cfr is known for planar beams only");
   for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
-    const auto& [first, second] = prepared_.joints[j];
     const Joint& joint = prepared_.scene.joints[j];
     if (is_reduced(formulation_) || !prepared_.joint_held[j]) continue;
-    const PreparedPlace& place = first.ground() ? second : first;
+    const PreparedPlace& place = *held_place(prepared_, j);
     if (compact(place.body) || place.nodes.size() < 2 || slots_[place.body].still) continue;
     const fem::Conditions& held = prepared_.bodies[place.body].clamp;
     if (std::all_of(place.nodes.begin(), place.nodes.end(),
@@ -102,7 +101,7 @@ void SpaceAssembly::refuse() const {
     if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
       faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
                                    body.spec.damping.where.text(), name_of(formulation_)));
-    if (slots_[b].still && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+    if (slots_[b].still && body.host < 0 && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
   }
@@ -112,13 +111,24 @@ void SpaceAssembly::refuse() const {
 std::vector<PetscInt> SpaceAssembly::visited(int body) const {
   std::vector<PetscInt> nodes;
   const auto visit = [&](const PreparedPlace& place) {
-    if (place.body == body) nodes.insert(nodes.end(), place.nodes.begin(), place.nodes.end());
+    for (const Lever& lever : place.levers)
+      if (place.body == body) nodes.push_back(lever.node);
   };
   for (const auto& joint : prepared_.joints) visit(joint[0]), visit(joint[1]);
   for (std::size_t l = 0; l < prepared_.loads.size(); ++l)
-    if (prepared_.scene.loads[l].kind != Load::Kind::distributed) visit(prepared_.loads[l]);
+    if (!prepared_.scene.loads[l].spread()) visit(prepared_.loads[l]);
   for (const auto& probe : prepared_.probes) visit(probe[0]), visit(probe[1]);
   return nodes;
+}
+
+void SpaceAssembly::add_frame(int b) {
+  Slot& slot = slots_[b];
+  if (slot.still || slot.attitude) return;
+  const PreparedBody& body = prepared_.bodies[b];
+  coordinates_.belongs_to("body " + body.spec.name);
+  slot.frame = coordinates_.add_shared(6);
+  slot.attitude = std::make_shared<dynamics::Attitude>();
+  slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
 }
 
 void SpaceAssembly::add_coordinates() {
@@ -126,12 +136,9 @@ void SpaceAssembly::add_coordinates() {
     const PreparedBody& body = prepared_.bodies[b];
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
+    add_frame(owner_of_frame(b));
+    slot.frame = slots_[owner_of_frame(b)].frame, slot.attitude = slots_[owner_of_frame(b)].attitude;
     coordinates_.belongs_to("body " + body.spec.name);
-    if (!slot.still) {
-      slot.frame = coordinates_.add_shared(6);
-      slot.attitude = std::make_shared<dynamics::Attitude>();
-      slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
-    }
     if (compact(index)) {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
       continue;
@@ -144,6 +151,10 @@ void SpaceAssembly::add_coordinates() {
     coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
     const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind);
     multipliers_.push_back(coordinates_.add_shared(rows, true));
+    const auto latches = latches_.find(prepared_.scene.joints[j].name);
+    if (latches == latches_.end() || !latches->second.lock) continue;
+    latches->second.rows = 6 - rows;
+    latches->second.first_row = coordinates_.add_shared(6 - rows, true);
   }
   coordinates_.number();
 }
@@ -217,7 +228,7 @@ void SpaceAssembly::set_start(Model& model) {
   model.V = layout.create_vector();
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PreparedBody& body = prepared_.bodies[b];
-    if (slots_[b].still) continue;
+    if (slots_[b].still || body.host >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       const PetscInt row = coordinates_.global()[slots_[b].frame + i],
                      turn = coordinates_.global()[slots_[b].frame + 3 + i];
@@ -252,6 +263,8 @@ Model SpaceAssembly::model() {
       report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
     report.dimension = 3;
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(prepared_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.attitude = slots_[b].attitude;
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
@@ -263,8 +276,15 @@ Model SpaceAssembly::model() {
   add_joints(model);
   add_probes(model);
   dynamics::Attitudes attitudes;
-  for (const Slot& slot : slots_)
-    if (slot.attitude) attitudes.emplace_back(slot.frame + 3, slot.attitude);
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    if (slots_[b].attitude && prepared_.bodies[b].host < 0)
+      attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
+  for (std::size_t j = 0; j < multipliers_.size(); ++j) {
+    std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind));
+    std::iota(rows.begin(), rows.end(), 0);
+    model.joints.push_back({multipliers_[j], std::move(rows)});
+  }
+  model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));

@@ -37,10 +37,12 @@ class SpaceAssembly {
   bool compact(int body) const;  // described by a ReducedBody
   bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
   const fem::Conditions& held(int body) const;
+  int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
   reference::SpatialFrame frame_of(int body) const;
 
+  void add_frame(int body);
   void add_coordinates();
   void add_body(int body);
   void add_still_cells(int body);
@@ -48,9 +50,11 @@ class SpaceAssembly {
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative);
   void add_loads();
+  void add_pressure(const Load& load, int body);
   void add_joints(Model& model);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
   void add_spring(int joint, const PlacedJoint& placed);
+  void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
   void add_probes(Model& model);
   void set_start(Model& model);
 
@@ -69,6 +73,7 @@ class SpaceAssembly {
   std::vector<int> multipliers_;  // of each joint, the first
   Eigen::VectorXd start_;         // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
 };
 
 /// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.

@@ -5,6 +5,8 @@
 
 #include "build_space.h"
 #include "build_space_rows.h"
+#include "build_stops.h"
+#include "drive.h"
 #include "floe/dynamics/spatial_spring.h"
 #include "floe/petsc/values.h"
 
@@ -39,20 +41,8 @@ int spatial_rows(Kind kind) {
 
 namespace {
 
-dynamics::TimeFunction function_of(const math::Formula& formula) {
-  return {[formula](double t) { return formula(t); }, [formula](double t) { return formula.derivative(t); },
-          [formula](double t) { return formula.second_derivative(t); }};
-}
-
-void check_zero_at_start(const Joint& joint, const math::Formula& formula, const char* what) {
-  if (std::abs(formula(0)) > 1e-9)
-    throw InputError(
-        fmt::format("{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
-                    joint.where.text(), what, formula(0)));
-}
-
 /// @param apart  from the first place to the second at the start, world axes
-SpatialConstraint constraint_of(const Joint& joint, const Eigen::Vector3d& apart) {
+SpatialConstraint constraint_of(const Joint& joint, const Motion& motion, const Eigen::Vector3d& apart) {
   switch (joint.kind) {
     case Kind::fixed:
       return SpatialConstraint::fixed();
@@ -73,11 +63,9 @@ SpatialConstraint constraint_of(const Joint& joint, const Eigen::Vector3d& apart
         throw InputError(joint.where.text() + ": its places coincide; expected a distance, or type spherical");
       return SpatialConstraint::distance(apart.norm());
     case Kind::driven:
-      check_zero_at_start(joint, joint.angle, "angle");
-      return SpatialConstraint::driven_revolute(function_of(joint.angle));
+      return SpatialConstraint::driven_revolute(drive_of(joint, motion));
     case Kind::driven_slide:
-      check_zero_at_start(joint, joint.position, "position");
-      return SpatialConstraint::driven_prismatic(function_of(joint.position));
+      return SpatialConstraint::driven_prismatic(drive_of(joint, motion));
     default:
       return {};
   }
@@ -108,7 +96,7 @@ SpaceAssembly::PlacedJoint SpaceAssembly::place(int j) {
         fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at {} and {}; expected "
                     "the same point",
                     joint.where.text(), joint.name, (to - from).norm(), point(from), point(to)));
-  placed.constraint = constraint_of(joint, to - from);
+  placed.constraint = constraint_of(joint, prepared_.scene.motion, to - from);
   for (dynamics::SpatialRow& row : placed.constraint.rows)
     if (auto* along = std::get_if<dynamics::Along>(&row)) along->offset = W.col(along->axis).dot(to - from);
   return placed;
@@ -141,23 +129,51 @@ void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
 }
 
 void SpaceAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
+  const auto found = latches_.find(prepared_.scene.joints[j].name);
+  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
   terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                            multipliers_[j], standing, prepared_.extent));
+                                                            multipliers_[j], standing, prepared_.extent,
+                                                            latches.joint));
+  if (latches.lock)
+    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
+                                                              dynamics::lock_of(placed.constraint), latches.first_row,
+                                                              latches.lock, true));
   for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
     terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
+}
+
+void SpaceAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
+  using Of = dynamics::SpatialStop::Of;
+  const Joint& joint = prepared_.scene.joints[j];
+  const auto add = [&](const LimitsSpec& limits, Of of) {
+    const dynamics::Stop* term = nullptr;
+    if (owner_) {
+      const Eigen::Vector3d apart = start_of(placed.places[1]).p - start_of(placed.places[0]).p;
+      const double start = of == Of::slide ? prepared_.joint_axes[j].col(2).dot(apart) : 0;
+      auto stop = std::make_unique<dynamics::SpatialStop>(placed.places[0], placed.places[1], of, start,
+                                                          law_of(limits, of == Of::turn, prepared_.extent));
+      term = stop.get();
+      terms_.push_back(std::move(stop));
+    }
+    note_stops(joint, limits, term, stops);
+  };
+  if (joint.limits) add(*joint.limits, joint.kind == Kind::revolute ? Of::turn : Of::slide);
+  if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
 }
 
 void SpaceAssembly::add_joints(Model& model) {
   std::vector<std::pair<int, PlacedJoint>> all;  // finding places is collective, what follows is rank-local
   std::string notes;
   const auto find = [&] {
-    for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
-      PlacedJoint placed = place(static_cast<int>(j));  // one that stands has to meet, too
-      if (!stands(static_cast<int>(j))) all.emplace_back(static_cast<int>(j), std::move(placed));
-    }
+    for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
+      if (PlacedJoint placed = place(static_cast<int>(j)); !stands(static_cast<int>(j)))
+        all.emplace_back(static_cast<int>(j), std::move(placed));
   };
   const auto add = [&] {
-    if (!owner_) return;
+    if (!owner_) {
+      for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
+      return;
+    }
     SpatialRows rows(prepared_, start_);
     for (const auto& [j, placed] : all)
       if (!placed.constraint.rows.empty()) rows.add(j, placed.places, placed.constraint);
@@ -168,6 +184,7 @@ void SpaceAssembly::add_joints(Model& model) {
         add_spring(j, placed);
       else
         add_joint(j, placed, standing[next++]);
+    for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
   };
   if (is_reduced(formulation_)) {
     find();

@@ -1,6 +1,7 @@
 #include "build_space.h"
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/spatial_force.h"
+#include "weight.h"
 
 namespace floe::scene {
 
@@ -39,14 +40,16 @@ SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
     return at;
   }
   if (!owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
-  const Eigen::Index n = static_cast<Eigen::Index>(place.nodes.size());
+  const Eigen::Index n = static_cast<Eigen::Index>(place.levers.size());
   for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
   at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (int d = 0; d < 6; ++d) {
-      at.coordinates.push_back(slot.nodes->of_node(place.nodes[i]) + d);
-      if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * place.nodes[i] + d)) continue;
-      (d < 3 ? at.S : at.psi)(d % 3, 6 * i + d) = 1.0 / static_cast<double>(n);
+      const Lever& lever = place.levers[i];
+      at.coordinates.push_back(slot.nodes->of_node(lever.node) + d);
+      if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * lever.node + d)) continue;
+      (d < 3 ? at.S : at.psi)(d % 3, 6 * i + d) = lever.share;
+      if (d >= 3) at.S.col(6 * i + d) = Eigen::Vector3d::Unit(d % 3).cross(lever.arm);
     }
   return at;
 }
@@ -119,11 +122,13 @@ void SpaceAssembly::add_density(int b, Density density, const std::function<Eige
 }
 
 void SpaceAssembly::add_gravity(int b) {
-  const Point& p = prepared_.scene.gravity;
-  const Eigen::Vector3d g(p[0], p[1], p[2]);
-  if (!g.isZero(0))
-    add_density(
-        b, Density::mass, [g](double) { return g; }, false, true);
+  const Weight weight(prepared_.scene);
+  if (weight.none()) return;
+  const auto fixed = [g = weight(0)](double) { return g; };
+  if (weight.constant())
+    add_density(b, Density::mass, fixed, false, true);
+  else
+    add_density(b, Density::mass, weight, false, false);
 }
 
 void SpaceAssembly::add_loads() {
@@ -134,6 +139,10 @@ void SpaceAssembly::add_loads() {
     const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
       return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
     };
+    if (load.kind == Load::Kind::pressure) {
+      add_pressure(load, place.body);
+      continue;
+    }
     if (load.kind == Load::Kind::distributed) {
       add_density(place.body, Density::line, value, of_body, false);
       continue;

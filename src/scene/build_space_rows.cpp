@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+
+#include "independent_rows.h"
 
 #include "floe/math/rotation.h"
 
@@ -13,26 +14,6 @@ namespace floe::scene {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
-
-/// Rows in order, each if it is independent of those kept before it; rows of round-off are not.
-std::vector<Index> independent(const MatrixXd& G) {
-  std::vector<Index> kept;
-  MatrixXd basis(G.cols(), 0);
-  for (Index i = 0; i < G.rows(); ++i) {
-    VectorXd row = G.row(i).transpose();
-    const double size = std::max(row.norm(), 1e-3);
-    for (int twice = 0; twice < 2; ++twice) row -= basis * (basis.transpose() * row).eval();
-    if (!(row.norm() > 1e-8 * size)) continue;
-    kept.push_back(i);
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols<1>() = row.normalized();
-  }
-  return kept;
-}
-
-}  // namespace
 
 int SpatialRows::seen(int coordinate) {
   const auto [found, fresh] = number_.emplace(coordinate, static_cast<int>(number_.size()));
@@ -196,7 +177,7 @@ std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
   if (entries_.empty()) return all;
   MatrixXd gradient;
   values(VectorXd::Map(start_.data(), static_cast<Index>(start_.size())), 0, &gradient);
-  const std::vector<Index> kept = independent(gradient);
+  const std::vector<Index> kept = independent_rows(gradient, 1e-3);
   if (static_cast<Index>(kept.size()) < gradient.rows()) check_left_out(kept);
   Index first = 0;
   for (const Entry& entry : entries_) {

@@ -59,7 +59,7 @@ Scene split_frames(const Scene& scene) {
   Scene split = scene;
   for (Joint& joint : split.joints) redirect(scene, joint.first), redirect(scene, joint.second);
   for (Load& load : split.loads)
-    if (load.kind != Load::Kind::distributed) redirect(scene, load.at);
+    if (!load.spread()) redirect(scene, load.at);
   for (Probe& probe : split.probes) {
     redirect(scene, probe.at);
     if (probe.relative_to) redirect(scene, *probe.relative_to);
@@ -86,7 +86,7 @@ Scene split_frames(const Scene& scene) {
   for (const Load& load : split.loads) {
     int parts = 1;
     for (const Body& body : scene.bodies)
-      if (load.kind == Load::Kind::distributed && body.name == load.body) parts = body.frames;
+      if (load.spread() && body.name == load.body) parts = body.frames;
     for (int i = 0; i < parts; ++i) {
       loads.push_back(load);
       if (parts > 1) loads.back().body = part_name(load.body, i);

@@ -9,7 +9,7 @@ constexpr int samples = 16;  // of the time of the motion; the rest is told when
 
 void check(Document& document, const math::Formula& formula, double end, Where where, const std::string& key) {
   if (formula.constant()) return;  // checked when read
-  where.key += "." + key;
+  where.key += (where.key.empty() ? "" : ".") + key;
   try {
     for (int i = 0; i <= samples; ++i) formula(end * i / samples);
   } catch (const math::FormulaError& error) {
@@ -23,15 +23,21 @@ std::string component(const std::string& key, int i) { return key + "[" + std::t
 
 void check_formulas(Document& document, const Scene& scene) {
   const double end = std::isfinite(scene.motion.end) ? scene.motion.end : 0;
+  for (int i = 0; i < 3; ++i) {
+    check(document, scene.gravity[i], end, {scene.file, 0, 0, ""}, component("gravity", i));
+    check(document, scene.ground_acceleration[i], end, {scene.file, 0, 0, ""}, component("ground.acceleration", i));
+  }
   for (const Joint& joint : scene.joints) {
     check(document, joint.angle, end, joint.where, "angle");
     check(document, joint.position, end, joint.where, "position");
+    if (joint.speed) check(document, *joint.speed, end, joint.where, "speed");
   }
   for (const Load& load : scene.loads) {
     if (scene.dimension == 2) check(document, load.moment[2], end, load.where, "moment");
     for (int i = 0; scene.dimension == 3 && i < 3; ++i)
       check(document, load.moment[i], end, load.where, component("moment", i));
     for (int i = 0; i < 3; ++i) check(document, load.force[i], end, load.where, component("force", i));
+    check(document, load.pressure, end, load.where, "pressure");
   }
 }
 

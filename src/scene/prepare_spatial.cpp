@@ -8,6 +8,7 @@
 
 #include "floe/math/rotation.h"
 #include "prepare_reduced.h"
+#include "shared_frames.h"
 
 namespace floe::scene {
 namespace {
@@ -22,6 +23,15 @@ bool clamps(const Joint& joint) {
   return joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven ||
          joint.kind == Joint::Kind::driven_slide;
 }
+
+}  // namespace
+
+bool holds_a_piece(const Joint& joint) {
+  const bool to_ground = joint.first.ground() || joint.second.ground();
+  return joint.edges == Joint::Edges::rigid && !(clamps(joint) && to_ground);
+}
+
+namespace {
 
 /// The place of the body where the ground clamps it, moved or not, if any.
 const Place* clamp_of(const Scene& scene, const Body& body) {
@@ -86,13 +96,27 @@ bool has_mass(const fem::Section& section) {
   return true;
 }
 
-PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm) {
-  SpatialMesh mesh = spatial_mesh(spec, comm);
+/// The frame of a guest: clamped at its joint's place, with the origin and the axes of the host's.
+FrameChoice frame_of_host(const Scene& scene, const Body& body, const SpatialMesh& mesh, const SharedFrame& shared,
+                          const PreparedBody& host) {
+  const Joint& joint = scene.joints[shared.joint];
+  const Place& at = joint.first.body == body.name ? joint.first : joint.second;
+  const auto vector = [](const Point& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
+  const Eigen::Matrix3d turned = math::rotation(vector(body.initial.rotation)).transpose();
+  const PetscInt node = body.rigid ? 0 : spatial_place(body, mesh.structure, mesh.places, at).node;
+  return {fem::ReferenceFrame::Kind::clamped, node, node, turned * (host.place - vector(body.initial.position)),
+          turned * host.attitude};
+}
+
+/// @param host  of a guest
+PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
+                          const PreparedBody* host) {
+  SpatialMesh mesh = spatial_mesh(scene, spec, comm);
   if (const auto& sections = mesh.structure.sections;
       !spec.rigid && std::none_of(sections.begin(), sections.end(), has_mass))
     throw InputError(
         fmt::format("{}: no part of body {} has mass; expected a material with rho > 0", spec.where.text(), spec.name));
-  const FrameChoice choice = choose_frame(scene, spec, mesh);
+  const FrameChoice choice = host ? frame_of_host(scene, spec, mesh, shared, *host) : choose_frame(scene, spec, mesh);
   fem::express_in_frame(mesh.structure.mesh, choice.origin, choice.axes);
   for (fem::Section& section : mesh.structure.sections) section = fem::turned(section, choice.axes);
   fem::ReferenceFrame frame;
@@ -107,6 +131,7 @@ PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm) {
   body.notices = std::move(mesh.notices);
   body.origin = choice.origin;
   body.axes = choice.axes;
+  if (host) body.host = shared.host, body.host_joint = shared.joint;
   for (const Place& place : spec.reduction.interface)
     body.interface.push_back(spatial_place(spec, body.structure, body.places, place, {choice.origin, choice.axes}));
   return body;
@@ -202,17 +227,24 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedB
                    fem::Conditions& held) {
   using Kind = Joint::Kind;
   const auto hold = [&](std::initializer_list<int> dofs) {
-    for (PetscInt node : place.nodes)
-      for (int dof : dofs) held.push_back(6 * node + dof);
+    for (const Lever& lever : place.levers)
+      for (int dof : dofs) held.push_back(6 * lever.node + dof);
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const Eigen::Vector3d axis = body.attitude.transpose() * W.col(2);
+  const bool carried = place.levers.size() < place.nodes.size() || !place.levers.front().arm.isZero(0);
   if (place.nodes.size() > 1) {
     const auto line = line_of(body, place);
-    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9) return false;
+    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
+      return false;
+    if (carried)
+      throw InputError(joint.where.text() +
+                       ": its edge has nodes of a rigid piece that a link or another joint makes; expected places "
+                       "without a node in common");
     return hold({0, 1, 2}), true;
   }
+  if (carried) return false;
   if (joint.kind == Kind::spherical || joint.kind == Kind::universal)
     return hold({0, 1, 2}), joint.kind == Kind::spherical;
   Eigen::Index along = 0;
@@ -244,6 +276,23 @@ void start_body(PreparedBody& body) {
   body.spin = body.attitude.transpose() * spin;
 }
 
+/// Hosts first, for their guests' meshes are expressed in their frames.
+std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
+  const std::vector<SharedFrame> shared = shared_frames(scene);
+  std::vector<std::optional<PreparedBody>> found(scene.bodies.size());
+  for (const bool guests : {false, true})
+    for (std::size_t b = 0; b < found.size(); ++b) {
+      const Body& spec = scene.bodies[b];
+      if (shared[b].shared() != guests) continue;
+      found[b] = spec.reduced ? prepare_reduced(spec, comm)
+                              : prepare_body(scene, spec, comm, shared[b], guests ? &*found[shared[b].host] : nullptr);
+      start_body(*found[b]);
+    }
+  std::vector<PreparedBody> bodies;
+  for (std::optional<PreparedBody>& body : found) bodies.push_back(std::move(*body));
+  return bodies;
+}
+
 double extent_of_mesh(const fem::Mesh& mesh) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
   for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
@@ -256,18 +305,18 @@ double extent_of_mesh(const fem::Mesh& mesh) {
 void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const Place&)>& place) {
   for (const Joint& joint : prepared.scene.joints) {
     prepared.joints.push_back({place(joint.first), place(joint.second)});
-    const auto& [first, second] = prepared.joints.back();
     prepared.joint_axes.push_back(joint_axes(prepared, joint, prepared.joints.back()));
     prepared.joint_held.push_back(0);
-    if (first.ground() == second.ground()) continue;
-    const PreparedPlace& at = first.ground() ? second : first;
-    if (at.map || at.body < 0) continue;
+    const PreparedPlace* held = held_place(prepared, prepared.joints.size() - 1);
+    if (!held || held->map || held->body < 0) continue;
+    const PreparedPlace& at = *held;
     PreparedBody& body = prepared.bodies[at.body];
     const std::size_t before = body.held.size();
     prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
-    const bool here = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
-                      std::count(at.nodes.begin(), at.nodes.end(), body.frame.conditions.front() / 6);
-    if (clamps(joint) && here) body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
+    const bool here =
+        body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
+    if (clamps(joint) && here && !is_unlocked(prepared.scene, joint.name))
+      body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
   }
 }
 
@@ -275,14 +324,11 @@ void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const 
 
 Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   Prepared prepared{scene, comm, {}, {}, {}, {}, 0};
-  for (const Body& body : scene.bodies)
-    prepared.bodies.push_back(body.reduced ? prepare_reduced(body, comm) : prepare_body(scene, body, comm));
+  prepared.bodies = prepare_bodies(scene, comm);
   const auto place = [&](const Place& p) { return find(scene, prepared.bodies, p); };
-  for (PreparedBody& body : prepared.bodies) {
-    start_body(body);
+  for (PreparedBody& body : prepared.bodies)
     prepared.extent = std::max(
         prepared.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
-  }
   prepare_joints(prepared, place);
   check_pairs(prepared);
   for (PreparedBody& body : prepared.bodies) {
@@ -297,9 +343,9 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   }
   for (const Load& load : scene.loads) {
     PreparedPlace where;
-    if (load.kind != Load::Kind::distributed) where = place(load.at);
+    if (!load.spread()) where = place(load.at);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (load.kind == Load::Kind::distributed && scene.bodies[b].name == load.body) where.body = static_cast<int>(b);
+      if (load.spread() && scene.bodies[b].name == load.body) where.body = static_cast<int>(b);
     prepared.loads.push_back(where);
   }
   for (const Probe& probe : scene.probes) {

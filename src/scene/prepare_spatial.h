@@ -10,8 +10,13 @@ struct SpatialMesh {
   std::vector<std::string> parts;                       ///< names
   std::vector<std::string> notices;
 };
+/// @param scene  its joints make rigid pieces of the places that they hold (holds_a_piece)
 /// @throws InputError  the same on all ranks. Collective.
-SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm);
+SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm);
+
+/// Whether the joint makes one rigid piece of a place of many nodes (`edges`), and does not clamp it to the ground, where
+/// every node is held.
+bool holds_a_piece(const Joint& joint);
 
 /// Where a structure's axes lie in those of its mesh: x_mesh = origin + axes x.
 struct MeshAxes {
@@ -25,7 +30,7 @@ void check_pairs(const Prepared& prepared);
 
 /// Nodes of a place of the body, with their mean position in the structure's axes.
 /// @param place  a point is in mesh axes
-/// @throws InputError  no such set, no node there, nodes that follow a rigid link. Collective.
+/// @throws InputError  no such set, no node there. Collective.
 PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
                             const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
                             const MeshAxes& mesh = {});

@@ -72,9 +72,49 @@ void check_axes(Document& document, const Reading& reading, const Joint& joint) 
   }
 }
 
+/// A formula of the coordinate, or of its rate.
+void read_drive(Document& document, Reading& reading, const char* key, math::Formula& value,
+                std::optional<math::Formula>& speed) {
+  if (reading.given(key) == reading.given("speed"))
+    document.fault(reading.where(reading.given("speed") ? "speed" : key),
+                   reading.given("speed") ? fmt::format("stands beside {}", key) : "is missing, and so is speed",
+                   fmt::format("either {} or speed", key));
+  else if (reading.given(key))
+    value = reading.formula(key);
+  else
+    speed = reading.formula("speed");
+}
+
+std::optional<LimitsSpec> read_limits(Document& document, Reading& joint, const char* key) {
+  const auto value = joint.value(key);
+  if (!value) return {};
+  Reading reading(document, *value, "limits");
+  LimitsSpec limits;
+  limits.where = value->where;
+  limits.lower = reading.optional_number("lower").value_or(limits.lower);
+  limits.upper = reading.optional_number("upper").value_or(limits.upper);
+  limits.stiffness = reading.number("stiffness");
+  limits.damping = reading.number("damping");
+  limits.width = reading.optional_number("width");
+  if (!reading.given("lower") && !reading.given("upper"))
+    document.fault(value->where, "has no limit", "lower, upper or both");
+  else if (!(limits.lower < limits.upper))
+    document.fault(value->where, fmt::format("go from {:.6g} to {:.6g}", limits.lower, limits.upper),
+                   "a lower limit below the upper one");
+  return limits;
+}
+
 void read_properties(Document& document, Reading& reading, Joint& joint) {
-  if (joint.kind == Kind::driven) joint.angle = reading.formula("angle");
-  if (joint.kind == Kind::driven_slide) joint.position = reading.formula("position");
+  if (joint.kind == Kind::driven) read_drive(document, reading, "angle", joint.angle, joint.speed);
+  if (joint.kind == Kind::driven_slide) read_drive(document, reading, "position", joint.position, joint.speed);
+  joint.limits = read_limits(document, reading, "limits");
+  if (document.dimension == 3) joint.turn_limits = read_limits(document, reading, "turn_limits");
+  using Edges = Joint::Edges;
+  const bool holds_rotations = joint.kind == Kind::fixed || joint.kind == Kind::prismatic ||
+                               joint.kind == Kind::driven || joint.kind == Kind::driven_slide;
+  joint.edges = holds_rotations ? Edges::rigid : Edges::mean;
+  if (reading.given("edges"))
+    joint.edges = reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}});
   joint.stiffness = reading.number("stiffness");
   joint.viscosity = reading.number("viscosity");
   joint.length = reading.optional_number("length");

@@ -11,9 +11,23 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   if (!value.node.IsMap()) return load;
   const std::size_t before = document.fault_count();
   load.kind = reading.choice<Kind>(
-      "type", {{"force", Kind::force}, {"moment", Kind::moment}, {"distributed", Kind::distributed}});
+      "type", {{"force", Kind::force},
+                                            {"moment", Kind::moment},
+                                            {"distributed", Kind::distributed},
+                                            {"pressure", Kind::pressure}});
   if (document.fault_count() != before) return load;  // which keys it needs is unknown
+  if (load.kind == Kind::pressure && document.dimension == 2) {
+    document.fault(reading.where("type"), "is pressure", "force, moment or distributed in a scene in the plane");
+    return load;
+  }
   reading.set_kind(reading.text("type"));
+  if (load.kind == Kind::pressure) {
+    load.body = reading.text("body");
+    load.part = reading.text("part");
+    load.pressure = reading.formula("pressure");
+    load.follower = reading.flag("follower");
+    return load;
+  }
   if (load.kind == Kind::distributed) {
     load.body = reading.text("body");
   } else if (const auto at = reading.value("at")) {

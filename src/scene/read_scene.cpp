@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "readers.h"
+#include "variation.h"
 
 namespace floe::scene {
 namespace {
@@ -64,10 +65,13 @@ bool in_space(Document& document, const YAML::Node& root) {
 
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& name) {
+Scene parse_scene(const std::string& text, const std::string& name) { return parse_scene(text, name, {}); }
+
+Scene parse_scene(const std::string& text, const std::string& name, const std::vector<Variation>& variations) {
   Document document;
   document.file = name;
   const Value root = parse_yaml(text, name);
+  vary(root.node, name, variations);
   Scene scene;
   scene.file = name;
   scene.text = text;
@@ -76,18 +80,23 @@ Scene parse_scene(const std::string& text, const std::string& name) {
   scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   scene.title = reading.text("title");
-  if (reading.given("gravity")) scene.gravity = reading.point("gravity");
+  scene.gravity = reading.force("gravity");
+  if (const auto ground = reading.value("ground"))
+    scene.ground_acceleration = Reading(document, *ground, "ground").force("acceleration");
+  if (reading.given("share_frames")) scene.share_frames = reading.flag("share_frames");
   scene.bodies = read_named<Body>(document, reading, "bodies", read_body);
   scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
   scene.loads = read_named<Load>(document, reading, "loads", read_load);
   if (const auto motion = reading.value("motion")) scene.motion = read_motion(document, *motion);
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
+  scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {
     document.fault(reading.where("bodies"), "is empty", "at least one body");
   }
   check_places(document, scene);
   check_joints(document, scene);
   check_formulas(document, scene);
+  check_events(document, scene);
   document.throw_faults();
   scene.parameters = document.parameters;
   return scene;

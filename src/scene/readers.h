@@ -23,6 +23,7 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
 Joint read_joint(Document& document, const std::string& name, const Value& value);
 Load read_load(Document& document, const std::string& name, const Value& value);
 Motion read_motion(Document& document, const Value& value);
+Event read_event(Document& document, const std::string& name, const Value& value);
 Probe read_probe(Document& document, const std::string& name, const Value& value);
 void read_parameters(Document& document, const Value& value);
 
@@ -39,6 +40,8 @@ void check_body(Document& document, const Body& body);
 /// All places and bodies that joints, loads and probes name; joints against each other.
 void check_places(Document& document, const Scene& scene);
 void check_joints(Document& document, const Scene& scene);
+/// Joints and probes that events name.
+void check_events(Document& document, const Scene& scene);
 /// Formulas of time are finite from the start to the end of the motion.
 void check_formulas(Document& document, const Scene& scene);
 

@@ -33,11 +33,6 @@ int index_of(const Scene& scene, const std::string& name) {
   if (body.rigid) throw InputError(fmt::format("{}: is rigid; expected a body with modes", body.where.text()));
   if (body.reduced)
     throw InputError(fmt::format("{}: is reduced already; expected a body with a mesh", body.reduced->where.text()));
-  const DerivativesSpec& derivatives = body.reduction.derivatives;
-  if (derivatives.choice == DerivativesSpec::Choice::count)
-    throw InputError(
-        fmt::format("{}: are chosen by count, from a motion of the whole scene; expected all, none or pairs",
-                    derivatives.where.text()));
   return static_cast<int>(found - names.begin());
 }
 
@@ -53,12 +48,22 @@ Scene alone(const Scene& scene, int index) {
     for (Place* place : {&joint.first, &joint.second})
       if (!stays(*place)) *place = Place{}, place->where = joint.where;
   std::erase_if(part.loads, [&](const Load& load) {
-    return load.kind == Load::Kind::distributed ? load.body != name : load.at.body != name;
+    return load.spread() ? load.body != name : load.at.body != name;
   });
   std::erase_if(part.probes, [&](const Probe& probe) {
     return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
   });
   return part;
+}
+
+/// |eta_i eta_j| of fields that loads move alike: eta_i = 1 / phi_i' K phi_i, the static answer to a unit generalised
+/// force, 1 / omega_i^2 of a mode. No motion is known that could tell more.
+Eigen::MatrixXd interaction_at_unit_force(const ReducedBody& linear) {
+  const Eigen::MatrixXd fields = linear.of_fields.inverse();  // in the coordinates of the basis
+  const Eigen::VectorXd stiffness =
+      (fields.transpose() * linear.body.elasticity.linear_stiffness() * fields).diagonal();
+  const Eigen::VectorXd eta = (stiffness.array() > 0).select(stiffness.array().inverse(), 0);
+  return eta * eta.transpose();
 }
 
 output::ReducedFrame frame_of(const PreparedBody& body) {
@@ -81,7 +86,7 @@ std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const Prep
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     add(scene.joints[j].first, prepared.joints[j][0]), add(scene.joints[j].second, prepared.joints[j][1]);
   for (std::size_t l = 0; l < scene.loads.size(); ++l)
-    if (scene.loads[l].kind != Load::Kind::distributed) add(scene.loads[l].at, prepared.loads[l]);
+    if (!scene.loads[l].spread()) add(scene.loads[l].at, prepared.loads[l]);
   for (std::size_t p = 0; p < scene.probes.size(); ++p) add(scene.probes[p].at, prepared.probes[p][0]);
   if (body.structure.dimension() == 2) {
     for (const std::string& name : place_names(body.spec.mesh)) {
@@ -146,8 +151,8 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   warnings = body.notices;
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
-      prepared, Formulation::vm_md, [](const std::vector<ReducedBody>&) { return std::vector<Eigen::MatrixXd>(); },
-      warnings);
+      prepared, Formulation::vm_md,
+      [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; }, warnings);
   const BodyReport& report = reduced[0].report;
   output::ReducedBodyFile file;
   file.name = body.spec.name;

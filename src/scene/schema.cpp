@@ -32,18 +32,46 @@ const SchemaSection scene_section{
     "The file: one mapping with these keys.",
     "title: Cantilever\nparameters: {L: 100, F: 2500}\ngravity: [0, -9.81]\nbodies: {...}\njoints: {...}\nloads: "
     "{...}\n"
-    "motion: {...}\nprobes: {...}",
+    "motion: {...}\nprobes: {...}\nevents: {...}",
     {
         {"title", Type::text, "", "", "what the scene shows"},
         {"parameters", Type::parameters, "", "",
          "numbers by name, for use in every number and formula below; each may use those above it"},
-        {"gravity", Type::point, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
+        {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
+        part("ground", Type::section, "", "how the ground moves; absent: it stands", "ground"),
+        {"share_frames", Type::flag, "", "true",
+         "in space: a body that a fixed joint makes one with a rigid body has its frame, without coordinates and "
+         "multipliers of its own; false: never"},
         part("bodies", Type::named_sections, required, "the bodies by name", "body"),
         part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "the loads by name", "load"),
         part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
              "motion"),
         part("probes", Type::named_sections, "", "what to record, by name", "probe"),
+        part("events", Type::named_sections, "", "what happens once in the motion, by name", "event"),
+    }};
+
+const SchemaSection ground_section{
+    "ground",
+    "A ground that shakes without turning. The world's axes go with it: positions and velocities are those that one sees "
+    "who stands on it, and all that has mass feels the opposite acceleration.",
+    "acceleration: [0, \"3*sin(20*t)\"]",
+    {
+        {"acceleration", Type::formulas, "m/s2", "", "of the ground, along the world's axes; absent: none"},
+    }};
+
+const SchemaSection limits_section{
+    "limits",
+    "Stops: beyond a limit a spring pushes back. Its force sets in like a parabola over the width and is linear behind; "
+    "the damping sets in likewise.",
+    "lower: -pi/4\nupper: pi/4\nstiffness: 1e4",
+    {
+        {"lower", Type::number, "rad; m", "", "since the start; absent: none"},
+        {"upper", Type::number, "rad; m", "", "since the start; absent: none"},
+        {"stiffness", Type::number, "N m/rad; N/m", required, "behind the width", positive},
+        {"damping", Type::number, "N m s/rad; N s/m", "0", "behind the width", nonnegative},
+        {"width", Type::number, "rad; m", "",
+         "over which the force sets in; absent: a thousandth of a radian, or of the scene's extent", positive},
     }};
 
 const SchemaSection body_section{
@@ -231,10 +259,22 @@ const SchemaSection joint_section{
                 "distance", "driven_slide", "bushing"}),
         {"between", Type::places, "", required,
          "`ground` alone is the point of the ground that meets the other place at the start"},
-        only({"driven"}, {"angle", Type::formula, "rad", required,
+        only({"fixed", "revolute", "prismatic", "driven", "cylindrical", "spherical", "universal", "planar",
+              "driven_slide"},
+             in_space(choice("edges", "",
+                             "rigid: a place of many nodes moves as one rigid piece; mean: the mean of its nodes is "
+                             "held. Absent: rigid where the joint holds all rotations, else mean. To the ground, fixed "
+                             "and driven joints hold every node, and a hinge along an edge its displacements",
+                             {"rigid", "mean"}))),
+        only({"driven"}, {"angle", Type::formula, "rad", "",
                           "turn of the second place against the first since the start; 0 at t = 0"}),
-        only({"driven_slide"}, {"position", Type::formula, "m", required,
+        only({"driven_slide"}, {"position", Type::formula, "m", "",
                                 "of the second place from the first along axis since the start; 0 at t = 0"}),
+        only({"driven", "driven_slide"},
+             {"speed", Type::formula, "rad/s; m/s", "", "in place of angle or position: its rate, of any formula"}),
+        only({"revolute", "prismatic", "cylindrical"},
+             part("limits", Type::section, "", "stops, of the slide where there is one, else of the turn", "limits")),
+        only({"cylindrical"}, in_space(part("turn_limits", Type::section, "", "stops of the turn", "limits"))),
         only({"prismatic", "revolute", "driven", "cylindrical", "universal", "planar", "driven_slide", "spring"},
              {"axis", Type::point, "", "",
               "at the start, world axes; turns with the first place. Absent: of prismatic x, of a hinge in space the "
@@ -263,10 +303,15 @@ const SchemaSection load_section{
     "A force or moment that depends on time, named by its key.",
     "type: force\nat: beam.end\nforce: [0, \"F*sin(9.5*t)\"]",
     {
-        choice("type", required, "at a place, or distributed along all segments of a body",
-               {"force", "moment", "distributed"}),
+        choice("type", required, "at a place, distributed along all segments of a body, or pressure on its shells",
+               {"force", "moment", "distributed", "pressure"}),
         only({"force", "moment"}, {"at", Type::place, "", required, "where it acts"}),
-        only({"distributed"}, {"body", Type::body, "", required, "on which it acts"}),
+        only({"distributed", "pressure"}, {"body", Type::body, "", required, "on which it acts"}),
+        only({"pressure"}, in_space({"part", Type::text, "", "", "of the mesh, on which it acts; absent: all shells"})),
+        only({"pressure"}, in_space({"pressure", Type::formula, "N/m2", required, "positive along the shells' normals"})),
+        only({"pressure"}, in_space({"follower", Type::flag, "", "true",
+                                     "whether it stays normal to the shells as they bend and move, or keeps the "
+                                     "direction that it has at the start"})),
         only({"force", "distributed"},
              {"force", Type::formulas, "N; N/m", required, "components, per length if distributed"}),
         only({"moment"}, {"moment", Type::moment, "N m", required, "anticlockwise; in space about x, y, z"}),
@@ -307,6 +352,22 @@ const SchemaSection probe_section{
          "measured from this place, in axes that turn with its section; absent: world"},
     }};
 
+const SchemaSection event_section{
+    "event",
+    "Exactly one of unlock, lock, stop, and exactly one of at, when, probe.",
+    "unlock: clamp\nat: 1.5",
+    {
+        {"unlock", Type::text, "", "", "a joint that lets go; of one that an event locks: the lock alone"},
+        {"lock", Type::text, "", "",
+         "a joint whose places are held as they are then; velocities go to the nearest ones that fit, in kinetic "
+         "energy (a plastic impact), and its impulses are reported"},
+        {"stop", Type::flag, "", "false", "the motion ends"},
+        {"at", Type::number, "s", "", "when it happens", nonnegative},
+        {"when", Type::formula, "", "", "it happens where this formula of t first changes sign"},
+        {"probe", Type::text, "", "", "it happens where this column of probes.csv, as tip.y, passes `crosses`"},
+        {"crosses", Type::number, "", "0", "in the unit of the probe"},
+    }};
+
 const SchemaSection place_section{
     "place",
     "A node: `beam.end` (body.name; names under line, polyline and segments), `ground`, or this mapping.",
@@ -322,9 +383,10 @@ const SchemaSection place_section{
 const std::vector<SchemaSection>& schema() {
   static const std::vector<SchemaSection> all = [] {
     std::vector<SchemaSection> sections{
-        scene_section,   body_section,     mesh_section,  line_section,      polyline_section, segments_section,
-        section_section, material_section, frame_section, reduction_section, modes_section,    damping_section,
-        initial_section, joint_section,    load_section,  place_section,     motion_section,   probe_section};
+        scene_section,     ground_section,  body_section,     mesh_section,  line_section,      polyline_section,
+        segments_section,  section_section, material_section, frame_section, reduction_section, modes_section,
+        damping_section,   initial_section, joint_section,    limits_section, load_section,     place_section,
+        motion_section,    probe_section,   event_section};
     for (const SchemaSection& section : spatial_sections()) sections.push_back(section);
     return sections;
   }();

@@ -7,11 +7,13 @@
 
 #include "deck_sections.h"
 #include "floe/math/nearest.h"
+#include "floe/mesh/exchange.h"
 #include "floe/mesh/generate.h"
 #include "floe/mesh/gmsh.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
 #include "floe/mesh/partition.h"
+#include "floe/mesh/pieces.h"
 #include "floe/scene/places.h"
 #include "prepare_spatial.h"
 
@@ -162,6 +164,19 @@ std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine)
   return all;
 }
 
+/// Places of the body that its joints hold as one rigid piece each.
+std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body,
+                                                const std::map<std::string, std::vector<PetscInt>>& places) {
+  std::vector<std::vector<PetscInt>> pieces;
+  for (const Joint& joint : scene.joints)
+    for (const Place* place : {&joint.first, &joint.second}) {
+      if (body.rigid || place->body != body.name || !holds_a_piece(joint)) continue;
+      const auto found = places.find(place->name);
+      if (found != places.end() && found->second.size() > 1) pieces.push_back(found->second);
+    }
+  return pieces;
+}
+
 /// The place `middle` of what is one line from start to end. Collective.
 void add_middle(const Body& body, SpatialMesh& found) {
   if (!unbranched(body.mesh)) return;
@@ -172,10 +187,14 @@ void add_middle(const Body& body, SpatialMesh& found) {
 
 }  // namespace
 
-SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
+SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   Source source = raw_mesh(body, comm);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
+  for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
+    places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
+  source.followers = mesh::with_pieces(source.followers, rigid_pieces(scene, body, places));
   std::vector<std::array<PetscInt, 2>> linked;
   for (const mesh::Follower& f : source.followers)
     if (rank == 0) linked.push_back({f.node, f.leader});
@@ -187,9 +206,7 @@ SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
   const std::vector<int> ranks =
       size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
   fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
-  std::map<std::string, std::vector<PetscInt>> places;
-  for (std::size_t p = 0; p < source.mesh.places.size(); ++p)  // originals: the order of the file, on every rank
-    places[source.mesh.places[p]] = fem::global_nodes(mesh, gathered(comm, source.mesh.place_nodes[p]));
+  for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
   const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
   for (fem::Section& section : sections)
     if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) beam->strain.membrane = strain;
@@ -207,31 +224,39 @@ SpatialMesh spatial_mesh(const Body& body, MPI_Comm comm) {
 
 namespace {
 
-/// What acts on a rigid piece acts on the node that moves it.
-void refuse_followers(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, const Place& place,
-                      const MeshAxes& axes) {
-  struct Found {
-    int count = 0;
-    double leader[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  } found;
-  for (const fem::Mesh::Follower& f : mesh.followers) {
-    if (std::find(nodes.begin(), nodes.end(), mesh.global_node(f.node)) == nodes.end()) continue;
-    if (found.count++ == 0)
-      Eigen::Map<Eigen::Vector3d>(found.leader) = axes.origin + axes.axes * mesh.positions[f.leader];
+/// What moves the mean of the nodes. Collective.
+std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
+  std::vector<PetscInt> sorted = nodes;
+  std::sort(sorted.begin(), sorted.end());
+  struct Carried {
+    PetscInt node, leader;
+    double arm[3];
+  };
+  std::vector<Carried> mine, copies;
+  for (const fem::Mesh::Follower& f : mesh.followers)
+    if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
+      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader];
+      mine.push_back({mesh.global_node(f.node), mesh.global_node(f.leader), {arm.x(), arm.y(), arm.z()}});
+    }
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  std::map<PetscInt, Carried> carried;
+  for (const Carried& c :
+       mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values)
+    carried.emplace(c.node, c);
+  const double share = 1 / static_cast<double>(nodes.size());
+  std::vector<Lever> all;
+  std::map<PetscInt, std::size_t> place;
+  for (PetscInt node : nodes) {
+    const auto c = carried.find(node);
+    const PetscInt moves = c == carried.end() ? node : c->second.leader;
+    const auto [at, fresh] = place.emplace(moves, all.size());
+    if (fresh) all.push_back({moves, 0, Eigen::Vector3d::Zero()});
+    all[at->second].share += share;
+    if (c != carried.end()) all[at->second].arm += share * Eigen::Map<const Eigen::Vector3d>(c->second.arm);
   }
-  struct {
-    int count, rank;
-  } most{found.count, 0};
-  MPI_Comm_rank(mesh.comm, &most.rank);
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_2INT, MPI_MAXLOC, mesh.comm);
-  if (most.count == 0) return;
-  MPI_Allreduce(MPI_IN_PLACE, &found.count, 1, MPI_INT, MPI_SUM, mesh.comm);
-  MPI_Bcast(found.leader, 3, MPI_DOUBLE, most.rank, mesh.comm);
-  throw InputError(fmt::format(
-      "{}: {} of the nodes of {} follow a rigid link; expected the reference node that moves them, at ({:.6g}, {:.6g}, "
-      "{:.6g})",
-      place.where.text(), found.count, place.point ? "this place" : place.name, found.leader[0], found.leader[1],
-      found.leader[2]));
+  return all;
 }
 
 }  // namespace
@@ -242,7 +267,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
   PreparedPlace found;
   if (place.point && body.rigid) {
     found.x = axes.axes.transpose() * (vector(*place.point) - axes.origin);
-    found.nodes = {0};  // of no account
+    found.nodes = {0}, found.levers = {{0, 1, Eigen::Vector3d::Zero()}};  // of no account
     return found;
   }
   if (place.point) {
@@ -274,9 +299,9 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
           fmt::format("{}: the place \"{}\" of {} has no node", place.where.text(), place.name, body.name));
     found.nodes = set->second;
   }
-  found.node = found.nodes.front();
   const fem::Mesh& m = structure.mesh;
-  refuse_followers(m, found.nodes, place, axes);
+  found.levers = levers(m, found.nodes);
+  found.node = found.levers.front().node;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (PetscInt node : found.nodes)
     if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) sum += m.positions[local];

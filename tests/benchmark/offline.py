@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Times the offline stage, from mesh to reduced body, against what its matrix costs bare, on growing plates.
+"""Times the offline stage, from mesh to reduced body, against what its matrix costs bare, on growing plates; against
+CalculiX; on one and two ranks; and projects what it would cost on many.
 
 Every ratio is of two numbers of one run. Processor seconds of the slowest rank on one rank, so that a busy machine does
 not spoil them; wall seconds on several. Written: offline.md (tables) and offline.png. Nothing passes or fails on a clock.
+What takes longer than --limit is ended and said to be missing. --small leaves 1.2 million dofs and CalculiX' largest out.
 """
 import argparse
 import datetime
@@ -10,20 +12,36 @@ import json
 import os
 import platform
 import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+import calculix  # noqa: E402
+import offline_projection  # noqa: E402
 
 NOTES = "offline_notes.md"
 CELLS = [44, 140, 316, 632]  # 6 thousand, 60 thousand, 300 thousand and 1.2 million dofs
+COMPARED = [44, 140, 316]    # with CalculiX
+DOUBLED = {44: 62, 140: 198, 316: 446}  # cells along of a plate with twice as many dofs, for two ranks
 PHASES = ["mesh", "partition", "structure", "assembly", "factorisation", "modes", "derivatives", "basis", "projection", "file"]
 BARE = ["bare factorisation", "bare single solves", "bare block solve"]
 COLOURS = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442", "#999999", "#000000", "#888888"]
 
 
-def run(stage, cells, ranks, options):
+def run(stage, cells, ranks, options, limit):
+    """The line of JSON that the program writes, or None where it takes too long. On one rank waiting ranks do not yield the
+    processor: MUMPS asks for messages all the time, and each yield on a busy machine costs what others take."""
     command = ["mpirun", "-n", str(ranks), stage, "-cells", str(cells), *options]
-    done = subprocess.run(command, capture_output=True, text=True)
+    environment = dict(os.environ, OMPI_MCA_mpi_yield_when_idle="0" if ranks == 1 else "1")
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=limit)
+    except subprocess.TimeoutExpired:
+        print(f"{cells} cells on {ranks} ranks: ended after {limit} s", flush=True)
+        return None
     if done.returncode:
         raise SystemExit(f"{' '.join(command)}\n{done.stdout}{done.stderr}")
-    return json.loads(done.stdout.strip().splitlines()[-1])
+    row = json.loads(done.stdout.strip().splitlines()[-1])
+    row["cells"] = cells
+    return row
 
 
 def seconds(row, names):
@@ -55,6 +73,7 @@ def growth_of(rows):
 
 
 def speedups_of(rows):
+    """Rows of two ranks over those of one rank with the same dofs."""
     lines = ["| dofs | factorisation + modes | blocked solves, bare |", "|---:|---:|---:|"]
     for row in rows:
         single = [r for r in rows if r["ranks"] == 1 and r["dofs"] == row["dofs"]]
@@ -63,6 +82,22 @@ def speedups_of(rows):
         ratios = [sum(single[0][n][0] for n in names) / sum(row[n][0] for n in names)
                   for names in (["factorisation", "modes"], ["bare block solve"])]
         lines.append(f"| {row['dofs']} | {ratios[0]:.2f} | {ratios[1]:.2f} |")
+    return "\n".join(lines)
+
+
+def weak_of(rows):
+    """One rank, and two with twice as many dofs: wall seconds."""
+    groups = {"factorisation": ["factorisation"], "modes": ["modes"], "derivatives": ["derivatives"],
+              "basis and projection": ["basis", "projection"], "total": PHASES}
+    lines = ["| dofs | ranks | " + " | ".join(groups) + " | time / that of one rank |", "|" + "---:|" * (len(groups) + 3)]
+    for cells, double in DOUBLED.items():
+        pair = [next((r for r in rows if r["cells"] == c and r["ranks"] == n), None) for c, n in ((cells, 1), (double, 2))]
+        if None in pair:
+            continue
+        sums = [{name: sum(row[n][0] for n in names) for name, names in groups.items()} for row in pair]
+        for row, wall in zip(pair, sums):
+            parts = " | ".join(f"{wall[name]:.2f}" for name in groups)
+            lines.append(f"| {row['dofs']} | {row['ranks']} | {parts} | {wall['total'] / sums[0]['total']:.2f} |")
     return "\n".join(lines)
 
 
@@ -98,30 +133,56 @@ def processor():
     return names[0] if names else platform.machine()
 
 
+def measured(args, options):
+    """Rows of the stage, and of the comparison with CalculiX."""
+    rows, compared = [], []
+
+    def add(cells, ranks):
+        row = run(args.stage, cells, ranks, options, args.limit)
+        if row:
+            rows.append(row)
+            print(table_of([row]).splitlines()[-1], flush=True)
+
+    for cells in args.cells:
+        for ranks in args.ranks:
+            if ranks == 1 or cells <= args.most_for_ranks:
+                add(cells, ranks)
+                if ranks == 2 and cells in DOUBLED:
+                    add(DOUBLED[cells], 2)
+    for cells in args.compared if args.floe else []:
+        row = calculix.compare(args.floe, cells, limit=args.limit)
+        if row:
+            compared.append(row)
+            print(calculix.table_of([row]).splitlines()[-1], flush=True)
+    return rows, compared
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stage", required=True, help="the program offline_stage")
+    parser.add_argument("--floe", help="the program floe, to be compared with CalculiX")
     parser.add_argument("--out", required=True, help="folder to write to")
-    parser.add_argument("--cells", type=int, nargs="+", default=CELLS, help="cells along the plate")
+    parser.add_argument("--cells", type=int, nargs="*", default=CELLS, help="cells along the plate")
+    parser.add_argument("--compared", type=int, nargs="*", default=COMPARED, help="the same, for CalculiX")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--most-for-ranks", type=int, default=140, help="most cells along for more ranks than one")
+    parser.add_argument("--most-for-ranks", type=int, default=316, help="most cells along for more ranks than one")
+    parser.add_argument("--limit", type=float, default=300, help="seconds for each run")
+    parser.add_argument("--small", action="store_true", help="up to 60 thousand dofs")
     args, options = parser.parse_known_args()
-    rows = []
-    for cells in args.cells:
-        for ranks in args.ranks:
-            if ranks > 1 and cells > args.most_for_ranks:
-                continue
-            rows.append(run(args.stage, cells, ranks, options))
-            print(table_of(rows[-1:]).splitlines()[-1], flush=True)
+    if args.small:
+        args.cells, args.compared = [c for c in args.cells if c <= 140], [c for c in args.compared if c <= 140]
+    rows, compared = measured(args, options)
     os.makedirs(args.out, exist_ok=True)
     draw(rows, os.path.join(args.out, "offline.png"))
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     with open(os.path.join(os.path.dirname(__file__), NOTES)) as notes:
         text = notes.read()
+    table = table_of([row for row in rows if row["cells"] in args.cells])
     with open(os.path.join(args.out, "offline.md"), "w") as out:
         out.write(text.format(date=datetime.date.today(), commit=commit, machine=processor(), packages=packages(),
-                              cores=os.cpu_count(), load=f"{os.getloadavg()[2]:.1f}", table=table_of(rows),
-                              growth=growth_of(rows), speedups=speedups_of(rows)))
+                              cores=os.cpu_count(), load=f"{os.getloadavg()[2]:.1f}", table=table,
+                              growth=growth_of(rows), speedups=speedups_of(rows), weak=weak_of(rows),
+                              calculix=calculix.table_of(compared), projection=offline_projection.section(rows)))
 
 
 if __name__ == "__main__":

@@ -87,6 +87,37 @@ fem::Conditions left_edge(const mesh::RawMesh& raw, const fem::Structure& struct
   return all;
 }
 
+/// What MUMPS says of its factor: operations, entries, order of the greatest front. Zero if another has factored.
+void note_factor(KSP ksp, Report& report) {
+  PC pc = nullptr;
+  Mat factor = nullptr;
+  PetscBool mumps = PETSC_FALSE;
+  MatSolverType type = nullptr;
+  PetscReal operations = 0;
+  PetscInt entries = 0, front = 0;
+  check(KSPGetPC(ksp, &pc));
+  check(PCFactorGetMatSolverType(pc, &type));
+  check(PetscStrcmp(type, MATSOLVERMUMPS, &mumps));
+  if (mumps) {
+    check(PCFactorGetMatrix(pc, &factor));
+    check(MatMumpsGetRinfog(factor, 3, &operations));
+    check(MatMumpsGetInfog(factor, 29, &entries));  // millions, if negative
+    check(MatMumpsGetInfog(factor, 11, &front));
+  }
+  const double count = entries < 0 ? -1e6 * double(entries) : double(entries);
+  report.note("factor", fmt::format("{{\"operations\": {:.6g}, \"entries\": {:.6g}, \"front\": {}}}", operations, count,
+                                    static_cast<long>(front)));
+}
+
+/// What PETSc has sent so far in messages between two ranks, and reductions: counts and bytes of the busiest rank.
+/// MUMPS' own messages are not among them.
+void note_messages(Report& report) {
+  double mine[3] = {petsc_isend_ct + petsc_send_ct, petsc_isend_len + petsc_send_len, petsc_allreduce_ct};
+  MPI_Allreduce(MPI_IN_PLACE, mine, 3, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  report.note("messages", fmt::format("{{\"count\": {:.0f}, \"bytes\": {:.0f}, \"reductions\": {:.0f}}}", mine[0], mine[1],
+                                      mine[2]));
+}
+
 /// Analysis, factorisation, single and blocked solves with K alone.
 void bare(Mat K, int single, int block, Report& report) {
   const petsc::KspHandle ksp = reduction::direct_solver(K, "derivatives_");
@@ -107,6 +138,7 @@ void bare(Mat K, int single, int block, Report& report) {
   check(MatAssemblyBegin(X, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(X, MAT_FINAL_ASSEMBLY));
   report.time("bare block solve", [&] { check(KSPMatSolve(ksp, B, X)); });
+  note_factor(ksp, report);
 }
 
 /// The reduced body's file, without the basis at every node.
@@ -177,6 +209,7 @@ void run() {
               fmt::format("[{:.12g}, {:.12g}]", generators.modes.omega.front(), generators.modes.omega.back()));
   report.note("residual", fmt::format("{:.3g}", generators.modes.residual.back()));
   report.note("energy", fmt::format("{:.14g}", energy(body)));
+  note_messages(report);
   if (option("-bare", 1)) bare(statics->stiffness(), 26, block, report);
   report.print();
 }

@@ -1,15 +1,18 @@
 """The table of the failure tests."""
 import dataclasses
 import os
+import pathlib
 import signal
 from typing import Callable, Optional, Union
 
 import reduced
+import runtime
 import space
 from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
+BLADE = pathlib.Path(__file__).resolve().parents[2] / "examples/blade/options"
 
 
 @dataclasses.dataclass
@@ -49,7 +52,7 @@ def case(name, *, formulations=("vm+md",), options=(), changes=None, **rest):
 
 COMMANDS = [
     Case("help", ["--help"], shows=("Usage: floe", "run", "compare", "schema"), lines=0),
-    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "static", "campbell", "modes", "check")),
+    *(Case(f"help of {c}", [c, "--help"], shows=("SCENE",)) for c in ("run", "compare", "tradeoff", "sweep", "static", "campbell", "modes", "check")),
     Case("help of PETSc", ["-help"], shows=("compare", "-log_view")),
     Case("help of the solvers", run("vm+md", "-help"), shows=("-modes_eps_nev", "-motion_ts_dt")),
     Case("version", ["--version"], shows=("floe 0",), lines=0),
@@ -69,6 +72,10 @@ COMMANDS = [
          ('"vm+mb" is not one of', 'did you mean "vm+md"?'), lines=1, check=nothing),
     Case("formulation named twice", ["compare", "scene.yaml", "--formulations", "vm,lffr,vm", "-o", "out"], 2,
          ('"vm" is named twice',), lines=1, check=nothing),
+    Case("trade-off against a reduced model", ["tradeoff", "scene.yaml", "--reference", "vm", "-o", "out"], 2,
+         ("--reference: is vm; expected nlffr or cfr",), lines=1, check=nothing),
+    Case("trade-off for no accuracy", ["tradeoff", "scene.yaml", "--accuracy", "0", "-o", "out"], 2, ("accuracy",),
+         check=nothing),
     Case("unknown formulation of several", ["compare", "scene.yaml", "--formulations", "cfr,nlfr", "-o", "out"], 2,
          ('"nlfr" is not one of', 'did you mean "nlffr"?'), lines=1, check=nothing),
 ]
@@ -117,6 +124,34 @@ OWN = '{"provenance": {"floe": {"version": "0.1"}}}'
 PLATE_MOTION = PLATE.replace("[60, 30]", "[4, 2]") + """loads: {tip: {type: force, at: plate.right, force: [0, 0, t]}}
 motion: {end: 0.001, step: 0.001}
 """
+
+HUB = """
+bodies:
+  hub: {rigid: true, mesh: {line: {from: [-1, 0.5, 0], to: [0, 0.5, 0], elements: 1}},
+        section: {shape: circle, radius: 0.1, orientation: [0, 1, 0]}, material: {E: 1, nu: 0.3, rho: 1000}}
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 2]}}
+    section: {thickness: 0.002}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 2}
+joints:
+  root: {type: fixed, between: [hub.end, plate.left]}
+"""
+IN_SPACE = [
+    *(Case(f"pressure on {name}, {formulation}", run(formulation), 2, (says,), scene=HUB + load + "motion: {end: 0.002, step: 0.001}\n",
+           lines=1, check=no_results)
+      for name, load, says in (
+          ("beams", "loads: {p: {type: pressure, body: hub, pressure: 1}}\n", "the mesh of body hub has no shells"),
+          ("a part that is not there", "loads: {p: {type: pressure, body: plate, part: skin, pressure: 1}}\n",
+           'loads.p.part: plate has no part "skin"'))
+      for formulation in ("vm+md", "nlffr")),
+    Case("a hinge along an edge at a rigid piece", run(), 2, ("joints.hinge: its edge has nodes of a rigid piece",), lines=1,
+         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom]}\n"
+         "motion: {end: 0.002, step: 0.001}\n"),
+    Case("an edge of a piece that a clamp holds besides", run(), scene=HUB
+         + "  clamp: {type: fixed, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
+         check=files("finished", 3)),
+]
 
 FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
@@ -337,6 +372,13 @@ UNUSUAL = [
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
          ("option -derivatives_pc_type jacobi: is no solver by itself",), never=("finer",), lines=1, scene=PLATE),
+    *(Case(f"modes by {name}", ["modes", "scene.yaml", "-options_file", str(BLADE / name)], 0, shows=("rad/s",), lines=0,
+           scene=text)
+      for name, text in (("iterative.opts", PLATE_MOTION), ("out_of_core.opts", PLATE_MOTION),
+                         ("iterative_free.opts", PLATE_MOTION[:PLATE_MOTION.index("joints:")]))),
+    Case("full derivatives by multigrid", run("vm+md", "-options_file", str(BLADE / "iterative.opts")), 2,
+         ("derivatives with inertia", "expected a factorisation"), lines=1,
+         scene=PLATE_MOTION.replace("modes: ", "derivative_type: full, modes: ")),
     Case("factor on disk", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_22", "1"], 0, shows=("rad/s",), lines=0,
          scene=PLATE),
     Case("one formulation of several stops", ["compare", "scene.yaml", "--formulations", "nlffr,vm", "-o", "out",
@@ -457,4 +499,4 @@ SPACE = [
                           probes="{end: {at: a.end, quantity: deflection, relative_to: a.start}}")),
 ]
 
-CASES = SPACE + REDUCED + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+CASES = SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

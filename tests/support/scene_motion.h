@@ -38,6 +38,7 @@ struct History {
   std::map<std::string, std::vector<double>> columns;  ///< `tip.x`
   std::vector<dynamics::Energy> energy;                ///< of every step
   dynamics::IntegrationReport report;
+  std::vector<dynamics::EventReport> events = {};
 
   const std::vector<double>& operator[](const std::string& column) const { return columns.at(column); }
   /// Between stored times: on the straight line.
@@ -72,10 +73,13 @@ inline History history_of(const std::string& text, Formulation formulation) {
 /// Reads, builds and moves a scene as `floe run` does. U, V of the model hold the end.
 inline History move(const std::string& text, Formulation formulation) {
   History history = history_of(text, formulation);
-  const scene::Motion motion = scene::parse_scene(text, "scene").motion;
-  history.report = dynamics::simulate(
-      *history.model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance}, history.model.U,
-      history.model.V, [&](const dynamics::Instant& at) { store(history, at.t, at.U, at.V); });
+  const scene::Scene scene = scene::parse_scene(text, "scene");
+  const scene::Motion& motion = scene.motion;
+  dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
+  how.events = scene::events_of(scene, history.model, motion.end);
+  how.on_event = [&](const dynamics::EventReport& event) { history.events.push_back(event); };
+  history.report = dynamics::simulate(*history.model.system, how, history.model.U, history.model.V,
+                                      [&](const dynamics::Instant& at) { store(history, at.t, at.U, at.V); });
   return history;
 }
 

@@ -160,7 +160,7 @@ TEST_CASE("a deck's point mass, and two on one node") {
   CHECK(omega[0] == Approx(1.2479174 * 1.2479174 * std::sqrt(2e11 * 0.05 * 8e-6 / 12 / 7.8)).epsilon(1e-3));
 }
 
-TEST_CASE("a load on a rigid tip block: full order, reduced, and refused where the block only follows") {
+TEST_CASE("a load on a rigid tip block: full order, reduced, and at nodes that only follow") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();
   write_text(folder + "/plate.inp", linked_deck());
@@ -181,10 +181,23 @@ TEST_CASE("a load on a rigid tip block: full order, reduced, and refused where t
   REQUIRE(at[Formulation::nlffr].size() == 3);
   CHECK(std::abs(at[Formulation::nlffr][2]) > 0.005);
   for (int i : {0, 2}) CHECK(at[Formulation::vm_md][i] == Approx(at[Formulation::nlffr][i]).epsilon(1e-2));
-  CHECK_THROWS_WITH(built(on_hub(hub, loaded("node: [2, 0.5, 0]")), Formulation::vm_md),
-                    Catch::Contains("1 of the nodes of this place follow a rigid link; expected the reference node "
-                                    "that moves them, at (2.2, 0.5, 0.05)"));
-  CHECK_THROWS_WITH(built(on_hub("node: [0, 0, 0]", ""), Formulation::vm_md), Catch::Contains("at (-0.3, 0.4, 0.1)"));
+  // A place of the edge that the block moves: its displacement is that of the block's node with the arm between them.
+  const std::string both = "loads: {f: {type: force, at: {body: plate, " + block + "}, force: [0, 0, 0.5*t]}}\n" +
+                           "probes: {block: {at: {body: plate, " + block + "}}, edge: {at: {body: plate, node: [2, 0.5, 0]}}, " +
+                           "turn: {at: {body: plate, " + block + "}, quantity: rotation}}\n";
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const scene::Model model = built(on_hub(hub, both), formulation);
+    dynamics::equilibrium(*model.system, 1, model.U, model.V);
+    const std::vector<double> found = scene::probe_values(model, 1, model.U, model.V);
+    const Eigen::Vector3d u(found[0], found[1], found[2]), edge(found[3], found[4], found[5]),
+        turn(found[6], found[7], found[8]), arm(2 - 2.2, 0, -0.05);
+    CHECK((edge - u - turn.cross(arm)).norm() < 1e-9);
+    CHECK(turn.norm() > 1e-3);
+  }
+  // The hub of the deck may be named by a node of the edge that it moves.
+  const scene::Model by_edge = built(on_hub("node: [0, 0, 0]", loaded(block)), Formulation::vm_md);
+  dynamics::equilibrium(*by_edge.system, 1, by_edge.U, by_edge.V);
+  CHECK(scene::probe_values(by_edge, 1, by_edge.U, by_edge.V)[2] == Approx(at[Formulation::vm_md][2]).epsilon(1e-6));
 }
 
 TEST_CASE("a part of the scene goes before the deck's section of the same name") {

@@ -3,6 +3,7 @@
 #include <string>
 #include <variant>
 
+#include "floe/dynamics/event.h"
 #include "floe/dynamics/marker_pair.h"
 #include "floe/dynamics/time_function.h"
 
@@ -33,19 +34,28 @@ class Joint final : public Term {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
-  Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing);
+  /// @param latch        if given, whether the rows hold
+  /// @param captures     the constraint is that of the places as they are when the latch closes (angle(t) is not used)
+  Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
+        std::shared_ptr<Latch> latch = {}, bool captures = false);
   /// All rows stand.
   Joint(Marker first, Marker second, Constraint constraint, int multipliers);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override;
+  void load(std::span<const double> carried) override;
 
  private:
   Eigen::Vector3d multipliers(const Motion& motion) const;
+  bool holds() const { return !latch_ || latch_->closed; }
   mutable MarkerPair pair_;
   Constraint constraint_;
   std::vector<int> standing_;
   int multiplier_;  // position among coordinates
+  std::shared_ptr<Latch> latch_;
+  bool captures_, captured_ = false;
   mutable Eigen::VectorXd row_;
 };
 

@@ -6,6 +6,9 @@
 
 namespace floe::dynamics {
 
+/// What of a pose is wanted: where a place is and its directions, or its rates (and theirs) too.
+enum class Extent { place, motion };
+
 /// A place that joints and loads act on: its pose (x, y, angle) as a function of a body's coordinates.
 ///
 ///   p = mass * R + A(theta) (x + S q),   angle = angle0 + theta + psi q
@@ -35,8 +38,9 @@ struct Pose {
 };
 
 /// @param q, v, a  the marker's coordinates and rates
+/// @param extent   place: y, P and arm alone are filled
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          Pose& out);
+          Pose& out, Extent extent = Extent::motion);
 
 /// Entry i of d(P' w)/dq, w = (f, m) fixed, in the row and the column of the frame's angle; all others are zero.
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i);

@@ -3,7 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "floe/dynamics/system.h"
+#include "floe/dynamics/event.h"
+#include "floe/dynamics/motion_state.h"
 
 namespace floe::dynamics {
 
@@ -14,6 +15,9 @@ struct Integration {
   double radius = 0.8;              ///< spectral radius at infinite frequency
   std::optional<double> tolerance;  ///< relative local error: adaptive steps
   std::string prefix = "motion_";
+  std::vector<Event> events = {};                         ///< each happens once, in the order of their times
+  std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
+  const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };
 
 /// One instant of the motion, borrowed until `observe` returns.
@@ -23,12 +27,15 @@ struct Instant {
   Vec U, V;
   Vec A;  ///< null at step 0 (the first step finds it) and with other types of TS than generalized-alpha
   bool last;
+  /// All that the motion goes on from here with; null with other types of TS than generalized-alpha. Rank-local.
+  const std::function<MotionState()>* state = nullptr;
 };
 
 struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
   double end = 0;      ///< reached [s]
   double seconds = 0;  ///< wall clock
+  double processor_seconds = 0;  ///< of this rank
   std::string type;    ///< of the TS
 };
 
@@ -46,7 +53,10 @@ class MotionStopped : public RunError {
 /// accelerations and multipliers at the start. U, V hold the state reached at return. Bases of attitudes are taken
 /// over at the beginning of every step: at each instant, and at return, A = base exp(x) of the U that belongs to it.
 ///
-/// @param observe  called at the start and after every step; what it throws ends the motion
+/// A motion that is taken up again (`from`) begins at the state's time, which `observe` sees once more; U, V are
+/// overwritten. Events at one time happen in their order; a motion without a step before one has it at its start.
+///
+/// @param observe  called at the start and after every step (at an event before it); what it throws ends the motion
 /// @throws InputError     an option has a value that it cannot have, or the TS type is for first-order systems, or is
 /// not
 ///                        generalized-alpha and there are attitudes

@@ -1,6 +1,7 @@
 #pragma once
 #include <variant>
 
+#include "floe/dynamics/event.h"
 #include "floe/dynamics/spatial_pair.h"
 #include "floe/dynamics/time_function.h"
 
@@ -54,6 +55,10 @@ struct SpatialConstraint {
 
 int rows(const SpatialConstraint& constraint);
 
+/// The rows that a joint leaves free, which hold its places as they are when its latch closes; none: the joint holds
+/// all, or cannot be locked (distance, universal).
+SpatialConstraint lock_of(const SpatialConstraint& joint);
+
 /// Constraint rows in space at a level with multipliers: r += P' C_y' lambda, r_lambda = C (or its time derivatives).
 ///
 /// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
@@ -64,18 +69,27 @@ class SpatialJoint final : public Term {
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
   /// @param unit         of lengths in rows that are left out [m]
   SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint, int multipliers,
-               const std::vector<int>& standing, double unit = 1);
+               const std::vector<int>& standing, double unit = 1, std::shared_ptr<Latch> latch = {});
   /// All rows stand.
-  SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers);
+  /// @param latch     if given, whether the rows hold
+  /// @param captures  the places as they are when the latch closes are the undisplaced state: D1 = D2, offsets as found
+  SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,
+               std::shared_ptr<Latch> latch = {}, bool captures = false);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   /// Axes that Products keep parallel have to point the same way, and rows that are left out to vanish: up to 1e-3 of
   /// a radian and of the length unit.
   Standing standing(const Motion& motion) const override;
+  void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override;
+  void load(std::span<const double> carried) override;
 
  private:
+  bool holds() const { return !latch_ || latch_->closed; }
   mutable SpatialPair pair_;
+  std::shared_ptr<Latch> latch_;
+  bool captures_, captured_ = false;
   SpatialConstraint constraint_;  // the rows that stand
   std::vector<SpatialRow> left_out_;
   double unit_ = 1;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "floe/dynamics/attitude.h"
+#include "floe/dynamics/marker.h"
 
 namespace floe::dynamics {
 
@@ -40,9 +41,9 @@ struct SpatialMarker {
 /// rotation dtheta = T(x) dx in body axes of the frame. Columns "without T(x)" multiply dtheta (or the angular
 /// velocity), and directions of forces are such; derivatives by x have those columns times T(x).
 struct SpatialPose {
-  Eigen::Vector3d p, velocity, acceleration;
+  Eigen::Vector3d p, velocity = Eigen::Vector3d::Zero(), acceleration = Eigen::Vector3d::Zero();
   Eigen::Matrix3d D;
-  Eigen::Vector3d spin, spin_rate;  ///< of D, in world axes
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero(), spin_rate = Eigen::Vector3d::Zero();  ///< of D, in world axes
   Matrix6Xd P;                      ///< (dp, dphi) of each coordinate, 6 x n, without T(x)
   Eigen::Matrix3d A, T;             ///< of the frame; T(x), or I when it stands still
   Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e, and its velocity omega x c + S e.
@@ -52,9 +53,10 @@ struct SpatialPose {
 };
 
 /// @param q, v, a  the marker's coordinates and rates
+/// @param extent   place: velocities, spins and their rates are left as they are
 /// Allocates only where `out` grows.
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out);
+          SpatialPose& out, Extent extent = Extent::motion);
 
 /// d(velocity, spin)/dq at fixed v, 6 x n, without T(x).
 void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd& out);

@@ -21,7 +21,7 @@ struct SpatialPair {
 
   SpatialPair(SpatialMarker first, SpatialMarker second);
   /// Evaluates both poses.
-  void evaluate(const Motion& motion);
+  void evaluate(const Motion& motion, Extent extent = Extent::motion);
   /// r += P' wrench: the rows of a wrench.
   void add(const Vector12& wrench, Eigen::VectorXd& r);
   /// r += the derivative by the coordinates of a number whose derivative by the virtual motions is `gradient`: as the

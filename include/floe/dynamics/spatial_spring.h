@@ -32,6 +32,8 @@ class SpatialSpring final : public Term {
   /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
   /// a step, between evaluations. Within a step phi may change by less than half a turn.
   void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
+  void load(std::span<const double> carried) override { nearest_ = carried.front(); }
 
  private:
   mutable SpatialPair pair_;
@@ -60,6 +62,10 @@ class SpatialBushing final : public Term {
   Energy energy(const Motion& motion) const override;
   /// Takes rho over. @throws RunError  it is more than 0.8 of a turn, and carries a moment
   void begin_step(const Motion& motion) override;
+  void save(std::vector<double>& carried) const override {
+    carried.insert(carried.end(), nearest_.data(), nearest_.data() + 3);
+  }
+  void load(std::span<const double> carried) override { nearest_ = Eigen::Map<const Eigen::Vector3d>(carried.data()); }
 
  private:
   mutable SpatialPair pair_;

@@ -23,8 +23,9 @@ bool is_singular(PetscErrorCode code);
 void consistent_start(const System& system, double t, Vec U, Vec V, Vec A);
 
 /// Takes the velocities to the nearest ones (in kinetic energy) that the joints allow, and returns the relative change.
+/// @param impulses  if given, its multipliers become the impulses that change the velocities [N s], [N m s]
 /// Collective. One factorisation.
-double consistent_velocities(const System& system, double t, Vec U, Vec V);
+double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec impulses = nullptr);
 
 /// |C(q, t)|, or of its rate, greatest over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);

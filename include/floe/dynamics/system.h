@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,13 @@ class System {
   /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration, at which every
   /// term begins a step (Term::begin_step). Without attitudes nothing happens. Collective.
   void rebase(Vec U) const;
+  /// Every term takes over the configuration U, as at the beginning of a step (Term::begin_step): after an event, so
+  /// that what it closed holds what it finds. Collective.
+  void settle(Vec U) const;
+  /// What bases and terms carry from step to step beside the unknowns, this rank's, into `numbers`; and back.
+  /// @throws RunError  (load) so many numbers are those of another system. Rank-local.
+  void save(std::vector<double>& numbers) const;
+  void load(std::span<const double> numbers) const;
   /// W = a x b in the three rows of every attitude, zero in all others. Collective.
   void bracket(Vec a, Vec b, Vec W) const;
 
@@ -76,6 +84,7 @@ class System {
   };
   TermWork& pick(const Term& term) const;
   void set_up_scatter();
+  void begin_terms() const;
   enum class Which { all, constraining };
   /// Rows of local_'s motion into sum_. Collective.
   void add_rows(double t, ConstraintLevel level, Which which) const;

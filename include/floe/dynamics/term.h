@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Dense>
+#include <span>
 #include <vector>
 
 namespace floe::dynamics {
@@ -60,6 +61,10 @@ class Term {
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
+  /// What the term carries from step to step beside the system's unknowns (begin_step, latches), as numbers: `save`
+  /// appends them, `load` takes as many back, in the same order.
+  virtual void save(std::vector<double>&) const {}
+  virtual void load(std::span<const double>) {}
 };
 
 }  // namespace floe::dynamics

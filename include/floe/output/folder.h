@@ -15,6 +15,9 @@ struct ResultFolder {
   std::filesystem::path summary() const { return path / "summary.json"; }
   std::filesystem::path probes() const { return path / "probes.csv"; }
   std::filesystem::path result() const { return path / "result.h5"; }
+  std::filesystem::path sweep() const { return path / "sweep.h5"; }
+  std::filesystem::path sweep_table() const { return path / "sweep.csv"; }
+  std::filesystem::path checkpoint() const { return path / "checkpoint.h5"; }
 };
 
 /// Makes `path` (and its parents) ready to take results; tries it by writing a file.
@@ -25,6 +28,10 @@ struct ResultFolder {
 /// not floe's: one line, the same on every rank
 /// Collective; rank 0 alone touches the file system.
 ResultFolder prepare_folder(MPI_Comm comm, const std::filesystem::path& path, bool overwrite);
+
+/// The folder of a run that is taken up again: nothing in it is replaced.
+/// @throws InputError  not there, not writable: the same on every rank. Collective.
+ResultFolder reopen_folder(MPI_Comm comm, const std::filesystem::path& path);
 
 /// Removes the results that new ones replace: to be called when these begin.
 /// @throws RunError  one cannot be removed. Collective; rank 0 alone touches the file system.
@@ -44,6 +51,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view t
 
 /// `.NAME.partial` beside `path`: the draft that is renamed to it once it is whole.
 std::filesystem::path draft_of(const std::filesystem::path& path);
+
+/// Brings the file that stands at `path` to disk. @throws RunError. Rank-local.
+void sync_file(const std::filesystem::path& path);
 
 /// The second half of write_file_atomically: brings `draft` to disk and gives it the name `path`.
 ///

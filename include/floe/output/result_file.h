@@ -26,12 +26,17 @@ struct Label {
 /// while the run goes on. finish() cuts every series to its rows; in the file of a killed run the rows behind the last
 /// batch are NaN.
 ///
+/// A file of a run that is taken up again is continued: continue_series... ; publish() ; append...
+///
 /// Order of use: write_..., add_series... ; publish() ; append... ; then again, or finish().
 class ResultFile {
  public:
   /// Begins the draft of a new file; an old file stays until publish(). Collective.
   /// @throws RunError  here and in all members: path and reason; on every rank, but for append()
   ResultFile(MPI_Comm comm, std::filesystem::path path);
+  /// Begins with a draft of the file that is there. Collective. @throws RunError  it is not there or no HDF5
+  enum class Existing { keep };
+  ResultFile(MPI_Comm comm, std::filesystem::path path, Existing);
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
   /// Saves what rank 0 still holds, as far as it can, and drops an unpublished draft; call finish() first. Collective.
@@ -54,6 +59,11 @@ class ResultFile {
   void add_series(const std::string& name, std::int64_t columns, const Label& label = {},
                   std::int64_t expected_rows = 0);
 
+  /// A series that is there, after its first `rows`; what is behind them is lost.
+  /// @throws RunError  it is not there, has other columns, fewer rows. Collective.
+  void continue_series(const std::string& name, std::int64_t columns, std::int64_t rows,
+                       std::int64_t expected_rows = 0);
+
   /// Brings the draft to disk and makes it the file. Collective.
   void publish();
 
@@ -65,6 +75,8 @@ class ResultFile {
 
   /// Writes the rows that wait, now. Collective.
   void flush();
+  /// flush(), and on to disk; `alone`: where no series is distributed, by rank 0 itself and rank-local.
+  void save(bool alone);
   /// Writes all rows, cuts the series to their rows, publishes. Collective.
   void finish();
 

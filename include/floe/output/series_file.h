@@ -25,6 +25,11 @@ class SeriesFile {
   /// @throws RunError  on every rank
   SeriesFile(MPI_Comm comm, const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
              const std::string& time_unit = "s");
+  /// Continues the file of a run that is taken up again after its first rows; what is behind them is cut off.
+  /// @param rows  receives these rows, the time first; on all ranks
+  /// @throws RunError  the file is not there, has another header, fewer rows: on every rank. Collective.
+  SeriesFile(MPI_Comm comm, const std::filesystem::path& path, const std::vector<SeriesColumn>& columns,
+             std::size_t keep, std::vector<std::vector<double>>& rows, const std::string& time_unit = "s");
   SeriesFile(const SeriesFile&) = delete;
   SeriesFile& operator=(const SeriesFile&) = delete;
   /// Writes what is left; a failure here is lost, so call finish() first.
@@ -33,6 +38,8 @@ class SeriesFile {
   /// Adds a line. Rank 0 only (elsewhere nothing happens): where ranks run in step, call it within petsc::agree.
   /// @throws RunError  path and reason
   void row(double t, std::span<const double> values);
+  /// Brings all rows to disk. Rank-local, as row(). @throws RunError
+  void save();
   /// Writes what is left and closes; rows after it are lost. Collective.
   /// @throws RunError  on every rank
   void finish();

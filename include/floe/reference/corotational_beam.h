@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "floe/dynamics/term.h"
@@ -43,8 +44,11 @@ class CorotationalBeam : public dynamics::Term {
   void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
   dynamics::Energy energy(const dynamics::Motion& motion) const override;
+  /// Gravity that changes with time, added to the other one; it has no potential. Empty: none.
+  std::function<Eigen::Vector2d(double)> changing_gravity;
 
  private:
+  Eigen::Vector2d gravity(double t) const;
   std::vector<int> coordinates_;
   Eigen::Vector2d X1_, chord_;  // undeformed
   double length_;               // undeformed

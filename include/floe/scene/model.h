@@ -1,12 +1,15 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "floe/dynamics/event.h"
 #include "floe/dynamics/joints.h"
 #include "floe/dynamics/spatial_marker.h"
+#include "floe/dynamics/stop.h"
 #include "floe/dynamics/system.h"
 #include "floe/reduction/reduce.h"
 #include "floe/scene/scene.h"
@@ -22,16 +25,29 @@ Formulation formulation_of(const std::string& name);
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
+/// How a node moves a place in space: u += share u_node + theta_node x arm, theta += share theta_node.
+struct Lever {
+  PetscInt node;  ///< global
+  double share;
+  Eigen::Vector3d arm;
+};
+
 /// A node that something acts on.
 struct PreparedPlace {
   int body = -1;  ///< index of prepared bodies; -1: ground; elsewhere: a body that is not here
   PetscInt node = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
-  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes, `node` the first of it
+  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes
+  /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
+  /// is the first of them.
+  std::vector<Lever> levers = {};
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
   bool ground() const { return body == -1; }
+  /// Nodes whose dofs move the place; in the plane its one node.
+  std::vector<Lever> moved_by() const;
+  bool moved_by(PetscInt other) const;
 };
 
 /// A body's finite elements in its frame, and where both stand. Made once for every formulation.
@@ -59,6 +75,8 @@ struct PreparedBody {
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
   /// and the ground clamps the body, followers.
   fem::Conditions clamp = {};
+  int host = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
+  int host_joint = -1;  ///< the joint that makes it so
 };
 
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
@@ -67,7 +85,7 @@ struct BodyReport {
   std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
-  std::string frame = {};  ///< pinned, clamped, mean-axis; set by body_sizes
+  std::string frame = {};  ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
@@ -78,6 +96,7 @@ struct BodyReport {
   int first_elastic = 0;                                    ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
   PetscInt first_node = 0;        ///< of this rank
+  int first_dof = -1;             ///< full order: local index of the first of this rank's own dofs
   std::vector<double> positions;  ///< of this rank's own nodes, x y (z), in the frame
 };
 
@@ -100,6 +119,29 @@ struct ModelProbe {
   std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
 };
 
+/// One side of a joint's limits.
+struct ModelStop {
+  std::string joint;
+  bool upper = false;
+  const dynamics::Stop* term = nullptr;  ///< of the system; on its last rank
+};
+
+/// The multipliers of a joint: local index of the first, and which rows of its constraint they belong to.
+struct JointMultipliers {
+  int first = 0;
+  std::vector<int> rows;
+};
+
+/// What a reduced model was made from: its meshes, bases and factors.
+struct Offline;
+
+/// What events change of a joint.
+struct JointLatches {
+  std::shared_ptr<dynamics::Latch> joint = {};  ///< its own rows; none: no event unlocks it
+  std::shared_ptr<dynamics::Latch> lock = {};   ///< the rows that it leaves free; none: no event locks it
+  int first_row = 0, rows = 0;                  ///< local indices of the multipliers of the lock
+};
+
 /// A scene in one formulation, ready to move.
 struct Model {
   Formulation formulation;
@@ -107,14 +149,26 @@ struct Model {
   petsc::VecHandle U, V;  ///< at the start, consistent with the joints
   std::vector<ModelProbe> probes;
   std::vector<BodyReport> bodies;
+  std::vector<ModelStop> stops;
   std::vector<std::string> warnings;
+  std::map<std::string, JointLatches> latches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
+  std::vector<JointMultipliers> joints;
+  std::shared_ptr<Offline> offline = {};        ///< if it was to be kept
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank
 /// by itself. @throws InputError (also where a full-order formulation meets a body without mesh), RunError. Collective.
-Model build(const Scene& scene, Formulation formulation, MPI_Comm comm);
+/// @param keep_offline  of reduced models: with the factors of K, for the estimate of their error (estimate.h)
+Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool keep_offline = false);
+
+/// The scene's events for a motion of the model until `end`; the model must outlive them. Those whose formula of t does
+/// not change sign until then never happen. @throws InputError  a probe that the model does not have
+std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end);
+/// No latch, one, or two for each joint that events name; and whether an event unlocks it.
+std::map<std::string, JointLatches> latches_of(const Scene& scene);
+bool is_unlocked(const Scene& scene, const std::string& joint);
 
 /// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
 std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
@@ -136,6 +190,8 @@ struct ProbeColumn {
   std::string name, unit;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
+/// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
+std::vector<double> stop_gaps(const Model& model, Vec U);
 /// How many bodies have a frame that moves in space.
 int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -150,6 +151,14 @@ struct Body {
   Where where;
 };
 
+/// Stops of a free coordinate of a joint: penalty springs beyond two values of it.
+struct LimitsSpec {
+  double lower = -INFINITY, upper = INFINITY;  ///< since the start [rad], [m]
+  double stiffness = 0, damping = 0;           ///< [N m/rad], [N/m]; [N m s/rad], [N s/m]
+  std::optional<double> width;                 ///< over which the force sets in [rad], [m]
+  Where where;
+};
+
 struct Joint {
   /// In the plane: fixed to spring.
   enum class Kind {
@@ -170,9 +179,13 @@ struct Joint {
   Place first, second;
   math::Formula angle;     ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
   math::Formula position;  ///< driven_slide: likewise along the axis [m]
+  std::optional<math::Formula> speed;            ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
+  std::optional<LimitsSpec> limits, turn_limits;  ///< of the slide, or of the turn where there is none; of a turn besides
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
+  /// How the joint holds a place of many nodes: as one rigid piece where it holds all rotations, or by their mean.
+  enum class Edges { rigid, mean } edges = Edges::rigid;
   Point second_axis{};                                      ///< universal: carried by the second place
   double stiffness = 0;                                     ///< spring [N/m]
   double viscosity = 0;                                     ///< spring [N s/m]
@@ -184,15 +197,19 @@ struct Joint {
 };
 
 struct Load {
-  enum class Kind { force, moment, distributed } kind = Kind::force;
+  enum class Kind { force, moment, distributed, pressure } kind = Kind::force;
   std::string name;
   Place at;                                            ///< force, moment
-  std::string body;                                    ///< distributed: uniform along all its segments
+  std::string body;                                    ///< distributed: uniform along all its segments; pressure
+  std::string part;                                    ///< pressure: on this part of its mesh; empty: on all shells
+  math::Formula pressure;                              ///< of t, along the normal [N/m2]
+  bool follower = true;                                ///< pressure: stays normal to the shells
   std::array<math::Formula, 3> force{0.0, 0.0, 0.0};   ///< of t [N], distributed [N/m], [N/m2]
   std::array<math::Formula, 3> moment{0.0, 0.0, 0.0};  ///< of t [N m]; in the plane about z
   /// body: they follow the frame; place: they turn with the place (in space).
   enum class Axes { world, body, place } axes = Axes::world;
   Where where;
+  bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
 };
 
 struct Motion {
@@ -212,6 +229,18 @@ struct Probe {
   Where where;
 };
 
+/// Something that happens once: a joint lets go or is locked where it is, or the motion ends.
+struct Event {
+  enum class Kind { unlock, lock, stop } kind = Kind::stop;
+  std::string name;
+  std::string joint;                  ///< of unlock, lock
+  std::optional<double> at;           ///< [s]
+  std::optional<math::Formula> when;  ///< instead: where this formula of t first changes sign
+  std::string probe;                  ///< instead: where this column (`tip.y`) passes `crosses`
+  double crosses = 0;                 ///< in the unit of the column
+  Where where;
+};
+
 /// A scene: plain data, checked, all numbers finite. Nothing is built yet.
 struct Scene {
   std::string file;
@@ -222,9 +251,12 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Load> loads;
-  Point gravity{};
+  std::array<math::Formula, 3> gravity{0.0, 0.0, 0.0};              ///< of t [m/s2]
+  std::array<math::Formula, 3> ground_acceleration{0.0, 0.0, 0.0};  ///< of t [m/s2]: axes of the world go with the ground
+  bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
   std::vector<Probe> probes;
+  std::vector<Event> events;
 };
 
 /// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected,

@@ -162,3 +162,30 @@ TEST_CASE("another body of the scene does not hold the one that is reduced") {
   CHECK(first(beam + "joints: {j: {type: revolute, between: [b.end, ground]}, k: {type: revolute, between: [b.start, "
                      "ground]}}\n") == Approx(pi_over_length_squared).epsilon(0.01));
 }
+
+// Hinged at both ends, immovable: u_ij' = -v_i' v_j' + its mean, v_i = sin(i pi x / L), omega_i ~ i^2. With s_n =
+// sin(n pi x / L) and c = pi / L, theta_11 = -c s_2 / 4, theta_12 = -c (s_1 + s_3 / 3), theta_13 = -3/2 c (s_2 / 2 + s_4 /
+// 4), theta_23 = -3 c (s_1 + s_5 / 5); of theta_13 only s_4 is new, theta_22 = -c s_4 / 2 adds nothing after it.
+TEST_CASE("derivatives that are chosen by count are those with the greatest interaction under equal forces") {
+  const testing::Folder folder;
+  std::vector<std::string> warnings;
+  const std::string text =
+      "bodies: {b: {mesh: {line: {from: [0, 0], to: [2, 0], elements: 32}}, section: {EA: 1e6, EI: 1, rhoA: 1}, "
+      "reduction: {modes: 3, derivatives: 4}}}\n"
+      "joints: {j: {type: revolute, between: [b.end, ground]}, k: {type: revolute, between: [b.start, ground]}}\n";
+  const output::ReducedBodyFile file = scene::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD,
+                                                          folder.path / "b.h5", true, warnings);
+  std::vector<std::string> chosen;
+  std::vector<double> interaction;
+  for (const output::ReducedColumn& column : file.columns)
+    if (column.kind == "derivative") chosen.push_back(column.label), interaction.push_back(column.interaction);
+  CHECK(chosen == std::vector<std::string>{"derivative 1,1", "derivative 1,2", "derivative 1,3", "derivative 2,3"});
+  const double first = 0.5 * 0.25, second = std::sqrt(1 + 1. / 9) / 16, third = 1.5 / 4 / 81,
+               fourth = 3 * std::sqrt(0.1 * 0.1 + 0.3 * 0.3 + 0.2 * 0.2) / (16 * 81);
+  REQUIRE(interaction.size() == 4);
+  CHECK(interaction[0] == 1);
+  CHECK(interaction[1] == Approx(second / first).epsilon(0.03));
+  CHECK(interaction[2] == Approx(third / first).epsilon(0.03));
+  CHECK(interaction[3] == Approx(fourth / first).epsilon(0.03));
+  CHECK(output::describe(file).find("interaction") != std::string::npos);
+}

@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+namespace floe::math {
+
+/// t -> int_0^t f, to round-off of f's scale: a function of t alone, whatever was asked before.
+///
+/// Time is divided into panels of one width; their integrals are kept as they are needed, each by adaptive
+/// Gauss-Kronrod quadrature, which also takes the rest of the last panel. Copies share what is kept. Not thread-safe.
+class Integral {
+ public:
+  /// @param panel  > 0: about the time in which f varies
+  Integral(std::function<double(double)> f, double panel);
+  /// @throws what f throws
+  double operator()(double t) const;
+
+ private:
+  struct Kept;
+  std::shared_ptr<Kept> kept_;
+};
+
+}  // namespace floe::math

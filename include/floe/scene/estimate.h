@@ -1,0 +1,59 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "floe/dynamics/deviation.h"
+#include "floe/dynamics/simulation.h"
+#include "floe/scene/model.h"
+
+namespace floe::scene {
+
+/// States of a reduced motion, each so many steps apart that there are at most `most`: what its estimate needs.
+class KeptMotion {
+ public:
+  explicit KeptMotion(const Model& model, std::size_t most = 4000) : model_(model), most_(most) {}
+  /// Called at the start and after each step; the start has no accelerations yet and only gives the time.
+  void keep(const dynamics::Instant& instant);
+  double begin() const { return begin_; }
+  const std::vector<dynamics::State>& states() const { return states_; }
+
+ private:
+  const Model& model_;
+  std::size_t most_;
+  double begin_ = 0;
+  PetscInt stride_ = 1;
+  std::vector<dynamics::State> states_;
+};
+
+/// How far a reduced motion is from that of its full-order model (same mesh, exact in time), without moving the latter.
+struct Estimate {
+  std::string none = "it was not asked for";  ///< why there is none, else empty
+  /// Relative, of each probe as a vector (probe_columns): root mean square over the instants against that of the probe.
+  std::vector<double> probes;
+  /// The same of the displacements in the frames, mass-weighted over all bodies with a mesh.
+  double deformation = 0;
+  std::vector<double> t;                    ///< instants [s]
+  std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, full order less reduced
+  std::vector<double> relative;  ///< of each: error of the deformations, of the greatest root mean square so far
+  int samples = 0;               ///< full-order residuals
+  int columns = 0;               ///< that the bodies got for the estimate
+  double unbalanced = 0;         ///< greatest |V'r| of what |V'f| is: round-off, or something is missing in r
+  double seconds = 0, allowed = 0;
+  std::vector<std::string> notes;  ///< what was left out, and why
+};
+
+/// The full-order equations of every body are evaluated at lifted states (U = V eta) of some instants, r; the columns
+/// W = K^-1 P' r, by energy, join V; and the equations of the bodies on [V W] are solved for what the motion lacks,
+/// d(t) (dynamics::deviation). Loads, joints, frames and inertia act on d as they do on the motion; joint forces in r
+/// are the multipliers of the motion.
+///
+///   r = M(q) q'' - Q_v + dU/dq - Q_e + C_q' lambda     on the free dofs of each body,  V'r = 0
+///
+/// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
+///
+/// @param model    reduced, with its offline stage kept (build)
+/// @param seconds  that it may take, about; it thins its samples, columns and instants and says so
+/// Collective on the communicator of the offline stage.
+Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds);
+
+}  // namespace floe::scene

@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "floe/scene/estimate.h"
+
+namespace floe::scene {
+
+/// A model that has left the range in which it is good: one line with the number, the limit and what to do.
+struct OutOfRange {
+  std::string what;  ///< `slope`, `spin`, `shortening`, `membrane`, `load`, `step`
+  std::string of;    ///< of a body or a load
+  double value = 0, limit = 0;
+  std::string text;
+};
+
+/// What the states of a motion say about the model that made them.
+///
+///   slope       of a body's line or surface in its frame, against von Karman's moderate rotations. A beam bent by end
+///               moments errs, at the greatest slope s, by 0.008 s^4 in a frame through its ends and by 0.04 s^3 in a
+///               tangent frame; limit 0.5 %
+///   shortening  s^2/2, which a linear elastic force neglects (lffr); limit 1 %
+///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
+///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
+///   membrane    energy over that of bending, without derivatives to relieve it; limit 2 %
+///   load        rms rate over rms value of a load against the highest kept frequency; limit 0.5
+///   step        times the fastest rate of what moves (rms rate of the deformations over their rms, loads); limit 0.25,
+///               25 steps a period: generalised-alpha then lengthens periods by half a per cent
+///
+/// Collective on the communicator of the scene.
+std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, const KeptMotion& motion, MPI_Comm comm);
+
+}  // namespace floe::scene

@@ -1,0 +1,24 @@
+#include "refined.h"
+
+namespace floe::app {
+
+scene::Scene refined(const scene::Scene& scene) {
+  scene::Scene fine = scene;
+  for (scene::Body& body : fine.bodies) {
+    for (int& elements : body.mesh.elements) elements *= 2;
+    if (body.mesh.plate)
+      for (int& elements : body.mesh.plate->elements) elements *= 2;
+  }
+  fine.motion.step /= 2;
+  fine.motion.every *= 2;
+  if (fine.motion.tolerance) *fine.motion.tolerance /= 4;
+  return fine;
+}
+
+std::string refined_words(const scene::Scene& scene) {
+  for (const scene::Body& body : scene.bodies)
+    if (body.mesh.file) return "step halved";  // a file has one mesh
+  return "mesh and step halved";
+}
+
+}  // namespace floe::app

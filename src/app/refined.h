@@ -1,0 +1,11 @@
+#pragma once
+#include "floe/scene/scene.h"
+
+namespace floe::app {
+
+/// The scene with meshes (but for those from files) and step halved, which shows a reference's own error.
+scene::Scene refined(const scene::Scene& scene);
+/// What that was: `mesh and step halved`.
+std::string refined_words(const scene::Scene& scene);
+
+}  // namespace floe::app

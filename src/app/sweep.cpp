@@ -1,0 +1,293 @@
+#include "sweep.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "drawing.h"
+#include "floe/output/provenance.h"
+#include "floe/petsc/error.h"
+#include "interruption.h"
+#include "run.h"
+#include "sweep_file.h"
+
+namespace floe::app {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+/// The scene's text, and what of it changes from member to member.
+struct Plan {
+  std::string file, text;
+  scene::Formulation formulation;
+  std::vector<std::vector<scene::Variation>> members;
+};
+
+/// Keeps the last bodies that were reduced: members that differ in what acts on them share these.
+class Offline {
+ public:
+  const scene::ReducedBodies& bodies(const Plan& plan, std::size_t member, const scene::Scene& scene) {
+    std::string inputs = scene::offline_inputs(plan.text, plan.file, plan.members[member]);
+    if (!bodies_ || inputs != inputs_) {
+      bodies_.reset();
+      bodies_ = scene::reduce_once(scene, plan.formulation, PETSC_COMM_SELF);
+      inputs_ = std::move(inputs);
+      ++reductions;
+    }
+    return *bodies_;
+  }
+  std::int64_t reductions = 0;
+
+ private:
+  std::string inputs_;
+  std::shared_ptr<const scene::ReducedBodies> bodies_;
+};
+
+/// Greatest absolute value, root of the mean square over time (trapezoidal rule) and last value of each probe.
+void measure(Member& member, std::size_t columns) {
+  member.greatest.assign(columns, 0), member.rms.assign(columns, 0), member.last.assign(columns, 0);
+  const double duration = member.rows.back()[0] - member.rows.front()[0];
+  for (std::size_t c = 0; c < columns; ++c) {
+    double integral = 0;
+    for (std::size_t i = 0; i < member.rows.size(); ++i) {
+      const double value = member.rows[i][c + 1];
+      member.greatest[c] = std::max(member.greatest[c], std::abs(value));
+      if (i == 0) continue;
+      const double before = member.rows[i - 1][c + 1];
+      integral += 0.5 * (member.rows[i][0] - member.rows[i - 1][0]) * (value * value + before * before);
+    }
+    member.rms[c] = duration > 0 ? std::sqrt(integral / duration) : 0;
+    member.last[c] = member.rows.back()[c + 1];
+  }
+}
+
+Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
+  Member member;
+  try {
+    const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[number]);
+    scene::Model model = scene::build_on(offline.bodies(plan, number, scene), scene);
+    RunPlan quiet;
+    quiet.quiet = true;
+    const RunResult result = move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
+    member.steps = result.steps;
+    member.end = result.end;
+    for (std::size_t i = 0; i < result.series.t.size(); ++i) {
+      auto& row = member.rows.emplace_back(1, result.series.t[i]);
+      row.insert(row.end(), result.series.values[i].begin(), result.series.values[i].end());
+    }
+    measure(member, result.series.columns.size());
+  } catch (const RunError& error) {
+    member = {.fault = error.what()};
+  } catch (const InputError& error) {
+    member = {.fault = error.what()};
+  }
+  return member;
+}
+
+/// A member as numbers, the text of its fault last.
+std::vector<double> packed(std::size_t number, const Member& member) {
+  const std::size_t columns = member.rows.empty() ? 0 : member.rows.front().size();
+  std::vector<double> numbers{static_cast<double>(number), static_cast<double>(member.steps), member.end,
+                              static_cast<double>(member.rows.size()), static_cast<double>(columns)};
+  for (const auto& row : member.rows) numbers.insert(numbers.end(), row.begin(), row.end());
+  for (const char c : member.fault) numbers.push_back(static_cast<unsigned char>(c));
+  return numbers;
+}
+
+Member unpacked(const std::vector<double>& numbers, std::size_t& number) {
+  number = static_cast<std::size_t>(numbers[0]);
+  Member member;
+  member.steps = static_cast<PetscInt>(numbers[1]), member.end = numbers[2];
+  const auto rows = static_cast<std::size_t>(numbers[3]), columns = static_cast<std::size_t>(numbers[4]);
+  auto next = numbers.begin() + 5;
+  for (std::size_t i = 0; i < rows; ++i, next += static_cast<std::ptrdiff_t>(columns))
+    member.rows.emplace_back(next, next + static_cast<std::ptrdiff_t>(columns));
+  for (; next != numbers.end(); ++next) member.fault += static_cast<char>(static_cast<unsigned char>(*next));
+  if (rows > 0) measure(member, columns - 1);
+  return member;
+}
+
+/// What other ranks send to rank 0, and it puts into its file in the order of the members.
+class Collection {
+ public:
+  Collection(const Plan& plan, MPI_Comm comm, SweepFile* file) : plan_(plan), comm_(comm), file_(file) {}
+  /// On rank 0.
+  void put(std::size_t number, Member member) {
+    waiting_.emplace(number, std::move(member));
+    for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_; ++next_) {
+      keep([&] { file_->add(plan_.members[next_], first->second); });
+      if (!first->second.fault.empty())
+        std::fprintf(stderr, "floe: member %zu failed: %s\n", next_ + 1, first->second.fault.c_str());
+      first = waiting_.erase(first);
+    }
+  }
+  /// On rank 0: takes what has come in; `all`: waits for every member.
+  void take(bool all) {
+    while (next_ < plan_.members.size()) {
+      MPI_Status status;
+      int there = 1, count = 0;
+      if (all)
+        MPI_Probe(MPI_ANY_SOURCE, tag, comm_, &status);
+      else
+        MPI_Iprobe(MPI_ANY_SOURCE, tag, comm_, &there, &status);
+      if (!there) return;
+      MPI_Get_count(&status, MPI_DOUBLE, &count);
+      std::vector<double> numbers(count);
+      MPI_Recv(numbers.data(), count, MPI_DOUBLE, status.MPI_SOURCE, tag, comm_, MPI_STATUS_IGNORE);
+      std::size_t number = 0;
+      Member member = unpacked(numbers, number);
+      put(number, std::move(member));
+    }
+  }
+  /// On rank 0: writes as long as that is possible; after a failure what comes in is received, and lost.
+  template <class Work>
+  void keep(Work&& work) {
+    if (lost_) return;
+    try {
+      work();
+    } catch (const RunError&) {
+      lost_ = std::current_exception();
+    }
+  }
+  /// @throws RunError  what could not be written
+  void check() const {
+    if (lost_) std::rethrow_exception(lost_);
+  }
+  /// On other ranks.
+  void send(std::size_t number, const Member& member) {
+    sent_.push_back(packed(number, member));
+    MPI_Isend(sent_.back().data(), static_cast<int>(sent_.back().size()), MPI_DOUBLE, 0, tag, comm_,
+              &requests_.emplace_back());
+  }
+  void wait() { MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE); }
+
+ private:
+  static constexpr int tag = 77;
+  const Plan& plan_;
+  MPI_Comm comm_;
+  SweepFile* file_;
+  std::map<std::size_t, Member> waiting_;
+  std::size_t next_ = 0;
+  std::exception_ptr lost_;
+  std::vector<std::vector<double>> sent_;
+  std::vector<MPI_Request> requests_;
+};
+
+Plan plan_of(const std::string& file, scene::Formulation formulation, const std::vector<Varied>& varied,
+             bool together) {
+  if (!scene::is_reduced(formulation))
+    throw InputError(fmt::format("--formulation {}: a sweep moves reduced models; expected vm+md or vm",
+                                 scene::name_of(formulation)));
+  Plan plan{file, scene::read_scene(file).text, formulation, members_of(varied, together)};
+  const scene::Scene first = scene::parse_scene(plan.text, file, plan.members.front());  // are the paths there
+  if (first.motion.end <= 0)
+    throw InputError(file +
+                     ": motion: is missing; expected how long and how finely, as `motion: {end: 3, step: 1e-3}`");
+  if (first.probes.empty()) throw InputError(file + ": probes: is missing; expected what the sweep is to show");
+  return plan;
+}
+
+/// Columns of the probes, as the scene has them. Those of a first model, which is built for nothing else, are the
+/// members'.
+std::vector<scene::ProbeColumn> columns_of(const Plan& plan, Offline& offline) {
+  for (std::size_t m = 0; m < plan.members.size(); ++m) {
+    try {
+      const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[m]);
+      return scene::probe_columns(scene::build_on(offline.bodies(plan, m, scene), scene));
+    } catch (const RunError&) {
+      if (m + 1 == plan.members.size()) throw;
+    } catch (const InputError&) {
+      if (m + 1 == plan.members.size()) throw;
+    }
+  }
+  return {};
+}
+
+ordered_json summary_of(const Plan& plan, const std::vector<Varied>& varied, MPI_Comm comm) {
+  ordered_json j{{"status", "running"},
+                 {"scene", {{"file", plan.file}}},
+                 {"formulation", scene::name_of(plan.formulation)},
+                 {"provenance", output::provenance(comm)}};
+  for (const Varied& each : varied) j["varied"].push_back({{"path", each.path}, {"values", each.values}});
+  j["members"] = plan.members.size();
+  j["failures"] = ordered_json::array();
+  return j;
+}
+
+}  // namespace
+
+namespace {
+
+void sweep_into(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
+                bool together, MPI_Comm comm, const output::ResultFolder& folder) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &ranks);
+  Plan plan;
+  petsc::agree(comm, [&] { plan = plan_of(scene_file, formulation, varied, together); });
+  Offline offline;
+  std::unique_ptr<SweepFile> file;
+  output::remove_replaced(comm, folder);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    std::vector<std::string> paths;
+    for (const Varied& each : varied) paths.push_back(each.path);
+    file = std::make_unique<SweepFile>(folder, plan.text, summary_of(plan, varied, comm), paths,
+                                       columns_of(plan, offline));
+  });
+  Collection collection(plan, comm, file.get());
+  const Interruption interruption;
+  const double begin = MPI_Wtime();
+  double saved = begin;
+  bool stopped = false;
+  for (std::size_t m = rank; m < plan.members.size(); m += ranks) {
+    Member member = stopped ? Member{.fault = "not moved: the sweep was interrupted"} : move_member(plan, m, offline);
+    stopped = stopped || Interruption::happened(PETSC_COMM_SELF);
+    if (rank != 0) {
+      collection.send(m, member);
+      continue;
+    }
+    collection.put(m, std::move(member));
+    collection.take(false);
+    if (MPI_Wtime() - saved < 1) continue;
+    collection.keep([&] { file->save("running"); });
+    saved = MPI_Wtime();
+  }
+  if (rank == 0) collection.take(true);
+  collection.wait();
+  const bool ended = Interruption::happened(comm);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    collection.check();
+    file->finish(ended || file->failed() > 0 ? "failed" : "finished");
+  });
+  std::int64_t numbers[2] = {file ? file->failed() : 0, 0};
+  MPI_Bcast(numbers, 1, MPI_INT64_T, 0, comm);
+  MPI_Allreduce(&offline.reductions, &numbers[1], 1, MPI_INT64_T, MPI_SUM, comm);
+  const double seconds = MPI_Wtime() - begin;
+  if (rank == 0)
+    fmt::print("{} members ({} failed) in {:.3g} s; bodies were reduced {} times\nResults: {}\nPicture: {}\n",
+               plan.members.size(), numbers[0], seconds, numbers[1], folder.path.string(),
+               draw("sweep", folder.path.string()));
+  interruption.check(comm);
+  if (numbers[0] > 0) throw RunError(fmt::format("{} of {} members failed", numbers[0], plan.members.size()));
+}
+
+}  // namespace
+
+void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
+           bool together, MPI_Comm comm, const output::ResultFolder& folder) {
+  try {
+    sweep_into(scene_file, formulation, varied, together, comm, folder);
+  } catch (const std::exception&) {
+    output::discard_if_empty(folder);
+    throw;
+  }
+}
+
+}  // namespace floe::app

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "floe/output/folder.h"
+#include "floe/scene/variation.h"
+
+namespace floe::app {
+
+/// One of a sweep's parameters and its values.
+struct Varied {
+  std::string path;
+  std::vector<double> values;
+};
+/// `PATH=FROM:TO:STEP` or `PATH=A,B,C`. @throws InputError  anything else, or more than 100000 values
+Varied parse_varied(const std::string& text);
+
+/// The members: every combination, the last parameter fastest; `together`: the i-th value of all, equally many of each.
+/// @throws InputError  one path twice, more than a million members, unequal numbers of values
+std::vector<std::vector<scene::Variation>> members_of(const std::vector<Varied>& varied, bool together);
+
+/// What came of one member.
+struct Member {
+  std::string fault = {};  ///< empty: it was finished
+  PetscInt steps = 0;
+  double end = 0;                                          ///< reached [s]
+  std::vector<std::vector<double>> rows = {};              ///< time and probes
+  std::vector<double> greatest = {}, rms = {}, last = {};  ///< of each probe: greatest absolute value, over time; end
+};
+
+/// `floe sweep`: moves a reduced scene with some of its numbers varied.
+///
+/// Each rank prepares and moves members of its own: member i on rank i mod N, so that neighbours, which cost alike, go
+/// to different ranks, and nothing depends on who is faster. Bodies are reduced anew only where what they are made of
+/// changes (scene::offline_inputs). A member that fails is told of and spares the others. Rank 0 writes members in
+/// their order into sweep.h5 and sweep.csv, as they come in: a sweep that is killed leaves whole files.
+/// @throws InputError  before anything is moved: a path that the scene does not have, a folder in use
+/// @throws RunError    members failed, how many and the first reason; it was interrupted. Collective.
+void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
+           bool together, MPI_Comm comm, const output::ResultFolder& folder);
+
+}  // namespace floe::app

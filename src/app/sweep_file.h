@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+
+#include "floe/output/result_file.h"
+#include "sweep.h"
+
+namespace floe::app {
+
+/// Where rank 0 keeps a sweep: sweep.h5, sweep.csv and summary.json, all whole at every moment.
+class SweepFile {
+ public:
+  /// @param paths    of what is varied
+  /// @param columns  of the probes, with units
+  SweepFile(const output::ResultFolder& folder, const std::string& scene_text, nlohmann::ordered_json summary,
+            const std::vector<std::string>& paths, const std::vector<scene::ProbeColumn>& columns);
+  /// The next member. @throws RunError
+  void add(const std::vector<scene::Variation>& variations, const Member& member);
+  /// Brings sweep.csv and summary.json up to date. @throws RunError
+  void save(const std::string& status);
+  /// The last of it.
+  void finish(const std::string& status);
+  std::int64_t failed() const { return failed_; }
+
+ private:
+  output::ResultFolder folder_;
+  nlohmann::ordered_json summary_;
+  std::vector<scene::ProbeColumn> columns_;
+  std::unique_ptr<output::ResultFile> file_;
+  std::string table_;  // of sweep.csv
+  std::int64_t members_ = 0, failed_ = 0;
+};
+
+}  // namespace floe::app

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tradeoff.h"
+
+namespace floe::app {
+
+using scene::Body;
+using scene::Formulation;
+using scene::Scene;
+using Choice = scene::DerivativesSpec::Choice;
+
+namespace {
+
+constexpr int most_columns = 60;  // of a body with all derivatives
+
+bool meshed(const Body& body) { return !body.rigid && !body.reduced; }
+
+/// The scene with something else about its flexible bodies.
+template <class Change>
+Scene changed(Scene scene, Change&& change) {
+  for (Body& body : scene.bodies)
+    if (meshed(body)) change(body);
+  return scene;
+}
+
+/// The greatest number of modes that any body asks for.
+int greatest_modes(const Scene& scene) {
+  int most = 0;
+  for (const Body& body : scene.bodies)
+    if (meshed(body)) most = std::max({most, body.reduction.modes.count, body.reduction.modes.alone});
+  return most;
+}
+
+std::set<int> counts(int most) {
+  std::set<int> all = {most};
+  for (const int m : {1, 2, 3, 5, 8, 12})
+    if (m < most) all.insert(m);
+  return all;
+}
+
+Scene with_modes(const Scene& scene, int m, Choice derivatives, int count = 0) {
+  return changed(scene, [&](Body& body) {
+    body.reduction.modes.count = m;
+    body.reduction.modes.alone = m;
+    body.reduction.modes.given = true;
+    body.reduction.derivatives.choice = derivatives;
+    body.reduction.derivatives.count = count;
+    body.reduction.derivatives.pairs.clear();
+  });
+}
+
+std::string modes_word(int m) { return fmt::format("{} mode{}", m, m == 1 ? "" : "s"); }
+
+void add_models(const Scene& scene, std::vector<Member>& members) {
+  const int most = greatest_modes(scene);
+  if (most == 0) return;
+  for (const int m : counts(most))
+    members.push_back({"modes", modes_word(m), with_modes(scene, m, Choice::none), Formulation::vm});
+  for (const int m : counts(std::min(most, 8)))
+    if (m + m * (m + 1) / 2 <= most_columns)
+      members.push_back({"modes and derivatives", modes_word(m) + " + all MDs", with_modes(scene, m, Choice::all),
+                         Formulation::vm_md});
+  const int m = std::min(most, 6);
+  for (const int s : {2, 4, 8, 12})
+    if (s < m * (m + 1) / 2)
+      members.push_back({"modes and derivatives", fmt::format("{} + {} MDs", modes_word(m), s),
+                         with_modes(scene, m, Choice::count, s), Formulation::vm_md});
+}
+
+void add_attachments(const Scene& scene, std::vector<Member>& members) {
+  using Attachment = scene::ReductionSpec::Attachment;
+  const struct {
+    Attachment choice;
+    const char* name;
+  } all[] = {{Attachment::none, "no static columns"},
+             {Attachment::joints, "static columns at joints"},
+             {Attachment::all, "static columns at joints and loads"}};
+  for (const auto& [kind, name] : all) {
+    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [kind = kind](const Body& body) {
+          return meshed(body) && body.reduction.attachment != kind;
+        }))
+      continue;
+    members.push_back({"static columns", name,
+                       changed(scene, [kind = kind](Body& body) { body.reduction.attachment = kind; }),
+                       Formulation::vm_md});
+  }
+}
+
+void add_steps(const Scene& scene, std::vector<Member>& members) {
+  if (!scene.motion.tolerance)
+    for (const int times : {2, 4, 8}) {
+      Scene longer = scene;
+      longer.motion.step *= times;
+      longer.motion.every = std::max(1, longer.motion.every / times);
+      members.push_back({"step", fmt::format("step {}x", times), longer, Formulation::vm_md});
+    }
+  for (const double tolerance : {1e-3, 1e-5}) {
+    Scene adaptive = scene;
+    adaptive.motion.tolerance = tolerance;
+    members.push_back({"step", fmt::format("adaptive, {:.0e}", tolerance), adaptive, Formulation::vm_md});
+  }
+  for (const double radius : {0.0, 0.9}) {
+    Scene other = scene;
+    other.motion.spectral_radius = radius;
+    members.push_back({"integrator", fmt::format("spectral radius {}", radius), other, Formulation::vm_md});
+  }
+}
+
+}  // namespace
+
+std::vector<Member> ladder(const Scene& scene) {
+  std::vector<Member> members;
+  const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.rigid; });
+  members.push_back({"scene", "as the scene says", scene, Formulation::vm_md});
+  if (!flexible) return members;
+  members.push_back({"linear", "LFFR", scene, Formulation::lffr});
+  members.push_back({"rigid", "rigid bodies", changed(scene, [](Body& body) { body.rigid = true; }), Formulation::vm});
+  add_models(scene, members);
+  add_attachments(scene, members);
+  add_steps(scene, members);
+  return members;
+}
+
+}  // namespace floe::app

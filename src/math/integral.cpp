@@ -1,0 +1,58 @@
+#include "floe/math/integral.h"
+
+#include <array>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <vector>
+
+namespace floe::math {
+
+namespace {
+
+using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+
+/// Integral, estimate of its error and integral of |f|, from <= to.
+struct Estimate {
+  double value, error, size;
+  Estimate(const std::function<double(double)>& f, double from, double to) {
+    value = Rule::integrate(f, from, to, 0, 0, &error, &size);
+    error *= (to - from) / 2;  // Boost gives it for an interval of length 2
+  }
+};
+
+/// Halves until each part is known to `error`, or as short as a jump can be told from; the tolerance does not shrink with
+/// the parts, because only those at corners and jumps are halved often.
+double adaptive(const std::function<double(double)>& f, double from, double to, double error, int halvings) {
+  const Estimate whole(f, from, to);
+  if (whole.error <= error || halvings == 0) return whole.value;
+  const double middle = (from + to) / 2;
+  return adaptive(f, from, middle, error, halvings - 1) + adaptive(f, middle, to, error, halvings - 1);
+}
+
+}  // namespace
+
+struct Integral::Kept {
+  std::function<double(double)> f;
+  double panel;
+  std::array<std::vector<double>, 2> until;  // int_0^(k panel), forwards and backwards in time
+
+  double over(double from, double to) const {
+    if (from == to) return 0;
+    if (to < from) return -over(to, from);
+    return adaptive(f, from, to, 1e-14 * Estimate(f, from, to).size, 46);
+  }
+};
+
+Integral::Integral(std::function<double(double)> f, double panel)
+    : kept_(std::make_shared<Kept>(Kept{std::move(f), panel, {std::vector<double>{0}, std::vector<double>{0}}})) {}
+
+double Integral::operator()(double t) const {
+  const double side = t < 0 ? -1 : 1;
+  std::vector<double>& until = kept_->until[t < 0 ? 1 : 0];
+  const std::size_t whole = static_cast<std::size_t>(std::floor(std::abs(t) / kept_->panel));
+  const auto at = [&](std::size_t k) { return side * static_cast<double>(k) * kept_->panel; };
+  while (until.size() <= whole) until.push_back(until.back() + kept_->over(at(until.size() - 1), at(until.size())));
+  return until[whole] + kept_->over(at(whole), t);
+}
+
+}  // namespace floe::math

@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Draws a sweep: the greatest absolute value of each probe against the first varied number, a line for each of the others.
+
+DIR/sweep.csv has a row for each member; members that failed are marked at the bottom.
+"""
+import csv
+import json
+import os
+import sys
+
+COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
+MARKS = ["o", "s", "^", "D", "v", "P", "X"]
+PANEL_HEIGHT, WIDTH, MOST_LINES = 2.1, 7.6, 12  # inches
+
+
+def load(folder):
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+        paths = [varied["path"] for varied in json.load(file)["varied"]]
+    with open(os.path.join(folder, "sweep.csv"), newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return paths, rows
+
+
+def label(row, paths):
+    return ", ".join(f"{path} = {float(row[path]):.4g}" for path in paths)
+
+
+def draw(folder):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as pyplot
+
+    paths, rows = load(folder)
+    columns = [name for name in rows[0] if name and name.startswith("greatest ")] if rows else []
+    if not columns:
+        raise SystemExit(f"{folder}: no members")
+    figure, panels = pyplot.subplots(len(columns), 1, sharex=True, squeeze=False, layout="constrained",
+                                     figsize=(WIDTH, 0.7 + PANEL_HEIGHT * len(columns)))
+    lines = {}
+    for row in rows:
+        lines.setdefault(label(row, paths[1:]), []).append(row)
+    for panel, column in zip(panels[:, 0], columns):
+        for i, (name, members) in enumerate(lines.items()):
+            points = sorted((float(m[paths[0]]), float(m[column])) for m in members if m[column])
+            panel.plot([p[0] for p in points], [p[1] for p in points], color=COLOURS[i % len(COLOURS)],
+                       marker=MARKS[i // len(COLOURS) % len(MARKS)], markersize=4 if len(points) < 60 else 0,
+                       linewidth=1.4, label=name if i < MOST_LINES else None)
+        failed = [float(row[paths[0]]) for row in rows if row["failed"] == "1"]
+        if failed:
+            panel.plot(failed, [0.02] * len(failed), "kx", transform=panel.get_xaxis_transform(), label="failed")
+        quantity, unit = column[len("greatest "):].rsplit(" [", 1)
+        panel.set_ylabel(f"greatest |{quantity}| [{unit}")
+        panel.grid(color="0.9", linewidth=0.6)
+        panel.set_axisbelow(True)
+        for side in ("top", "right"):
+            panel.spines[side].set_visible(False)
+    panels[-1, 0].set_xlabel(paths[0])
+    if len(lines) > 1 or failed:
+        panels[0, 0].legend(fontsize="small", frameon=False, ncols=2)
+    figure.savefig(os.path.join(folder, "sweep.png"), dpi=150)
+
+
+if __name__ == "__main__":
+    draw(sys.argv[1])

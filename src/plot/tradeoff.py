@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Draws error against time for the models of one scene: the Pareto front, and the choice for an accuracy.
+
+DIR/tradeoff.json is what floe tradeoff wrote. Time is that of the motion; the error is the greatest of all probes'.
+"""
+import argparse
+import math
+import os
+import sys
+
+sys.dont_write_bytecode = True
+from compare import COLOURS, Fault, read_json, save  # noqa: E402
+
+MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
+WIDTH, HEIGHT = 7.6, 4.4  # inches, of the diagram; the key of the front comes below
+LINE = 0.19
+
+
+def worst(rung):
+    """Greatest error of the probes; None where the model stopped or has no number."""
+    errors = rung["rms"]
+    if rung["stopped"] or not errors or any(error is None for error in errors):
+        return None
+    return max(errors)
+
+
+def load(folder):
+    path = os.path.join(folder, "tradeoff.json")
+    description = read_json(path)
+    try:
+        for rung in description["rungs"]:
+            rung["error"] = worst(rung)
+        description["front"] = [description["rungs"][i] for i in description["pareto_front"]]
+        description["chosen"] = description["rungs"][description["choice"]] if "choice" in description else None
+        shown = [rung for rung in description["rungs"] if rung["error"] and rung["motion"] > 0]
+    except (KeyError, TypeError, IndexError) as error:
+        raise Fault(f"{path}: lacks {error}") from error
+    if not shown:
+        raise Fault(f"{path}: no model came to the end of its motion")
+    return description, shown
+
+
+def seconds(value):
+    for limit, factor, unit in ((1e-3, 1e6, "µs"), (1, 1e3, "ms")):
+        if value < limit:
+            return f"{factor * value:.3g} {unit}"
+    return f"{value:.3g} s"
+
+
+def per_cent(value):
+    return f"{100 * value:.2g} %"
+
+
+def key_lines(description):
+    lines = []
+    for number, rung in enumerate(description["front"], start=1):
+        words = f"{number}  {rung['name']} ({rung['formulation']}): {per_cent(rung['error'])}, {seconds(rung['motion'])}"
+        if rung is description["chosen"]:
+            words += f"   ← choice for {per_cent(description['accuracy'])}"
+        lines.append(words)
+    stopped = [rung for rung in description["rungs"] if rung["error"] is None]
+    lines += [f"–  {rung['name']} ({rung['formulation']}): {rung['stopped'] or 'no number'}"[:118] for rung in stopped]
+    return lines
+
+
+def copy_of_size(line, size):
+    from matplotlib.lines import Line2D
+    copy = Line2D([], [])
+    copy.update_from(line)
+    copy.set_markersize(size)
+    return copy
+
+
+def draw(description, shown, path, dpi):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
+                                "axes.spines.top": False, "axes.spines.right": False})
+    lines = key_lines(description)
+    below = LINE * (len(lines) + 1.4)
+    figure = plt.figure(figsize=(WIDTH, HEIGHT + below))
+    whole = HEIGHT + below
+    axes = figure.add_axes([0.09, (below + 0.5) / whole, 0.64, (HEIGHT - 0.95) / whole])
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    front = description["front"]
+    axes.plot([r["motion"] for r in front], [100 * r["error"] for r in front], color="black", linewidth=1.2, zorder=2,
+              label="Pareto front")
+    for i, family in enumerate(dict.fromkeys(rung["family"] for rung in shown)):
+        members = [rung for rung in shown if rung["family"] == family]
+        axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none",
+                  marker=MARKERS[i % len(MARKERS)], markersize=7, color=COLOURS[i % len(COLOURS)],
+                  markeredgecolor="white", markeredgewidth=0.6, zorder=3, label=family)
+    chosen = description["chosen"]
+    if chosen:
+        axes.plot(chosen["motion"], 100 * chosen["error"], linestyle="none", marker="o", markersize=15,
+                  markerfacecolor="none", markeredgecolor="black", markeredgewidth=1.4, zorder=4, label="choice")
+    reference = description["reference"]
+    axes.axvline(reference["motion"], color="0.35", linestyle=(0, (6, 2)), linewidth=1.1,
+                 label=f"{reference['name']}: {seconds(reference['motion'])}")
+    own = worst(description["reference_itself"]) if "reference_itself" in description else None
+    if own:
+        axes.axhline(100 * own, color="0.35", linestyle=(0, (1, 1.5)), linewidth=1.2,
+                     label=f"its own error: {per_cent(own)}")
+    for number, rung in enumerate(front, start=1):  # below and left of the front there is nothing else
+        axes.annotate(str(number), (rung["motion"], 100 * rung["error"]), xytext=(-6, -6), textcoords="offset points",
+                      ha="right", va="top", fontsize=8, fontweight="bold")
+    axes.margins(0.1)
+    axes.set_xlabel("time of the motion [s]")
+    axes.set_ylabel("greatest relative error of the probes [%]")
+    handles, labels = axes.get_legend_handles_labels()
+    handles = [copy_of_size(handle, 9) if label == "choice" else handle for handle, label in zip(handles, labels)]
+    figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.745, (below + HEIGHT - 0.42) / whole),
+                  frameon=False, fontsize=8, handlelength=2.2)
+    figure.text(0.5, 1 - 0.1 / whole, description.get("title", ""), ha="center", va="top", fontsize=11)
+    for i, words in enumerate(lines):
+        figure.text(0.03, (below - 0.1 - LINE * (i + 1)) / whole, words, fontsize=8, va="bottom",
+                    fontweight="bold" if chosen and "← choice" in words else "normal")
+    save(figure, path, dpi, 256)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", help="what floe tradeoff wrote")
+    parser.add_argument("-o", "--output", help="picture (default: tradeoff.png in the folder)")
+    parser.add_argument("--dpi", type=int, default=150)
+    arguments = parser.parse_args()
+    path = arguments.output or os.path.join(arguments.folder, "tradeoff.png")
+    try:
+        if arguments.dpi < 1:
+            raise Fault(f"--dpi {arguments.dpi}: must be positive")
+        draw(*load(arguments.folder), path, arguments.dpi)
+    except Fault as fault:
+        print(f"tradeoff.py: {fault}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"tradeoff.py: {error} (package python3-matplotlib)", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"tradeoff.py: {path}: {error.strerror}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,28 @@
+#include "drive.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "floe/math/integral.h"
+
+namespace floe::scene {
+
+dynamics::TimeFunction drive_of(const Joint& joint, const Motion& motion) {
+  if (joint.speed) {
+    const math::Formula speed = *joint.speed;
+    const math::Integral travelled([speed](double t) { return speed(t); }, motion.step > 0 ? 16 * motion.step : 1);
+    return {[travelled](double t) { return travelled(t); }, [speed](double t) { return speed(t); },
+            [speed](double t) { return speed.derivative(t); }};
+  }
+  const bool turns = joint.kind == Joint::Kind::driven;
+  const math::Formula f = turns ? joint.angle : joint.position;
+  if (std::abs(f(0)) > 1e-9)
+    throw InputError(fmt::format(
+        "{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
+        joint.where.text(), turns ? "angle" : "position", f(0)));
+  return {[f](double t) { return f(t); }, [f](double t) { return f.derivative(t); },
+          [f](double t) { return f.second_derivative(t); }};
+}
+
+}  // namespace floe::scene

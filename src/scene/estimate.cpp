@@ -1,0 +1,317 @@
+#include "floe/scene/estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate_columns.h"
+#include "estimate_lift.h"
+#include "floe/petsc/values.h"
+
+namespace floe::scene {
+
+using dynamics::State;
+using Eigen::VectorXd;
+using petsc::check;
+
+void KeptMotion::keep(const dynamics::Instant& instant) {
+  if (instant.step == 0) begin_ = instant.t;
+  if (!instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
+  states_.push_back(dynamics::state_of(*model_.system, instant.t, instant.U, instant.V, instant.A));
+  if (states_.size() < most_) return;
+  for (std::size_t i = 0; 2 * i + 1 < states_.size(); ++i) std::swap(states_[i], states_[2 * i + 1]);
+  states_.resize(states_.size() / 2);
+  stride_ *= 2;
+}
+
+namespace {
+
+constexpr int most_samples = 32;  // of the full-order residual
+constexpr int most_columns = 8;   // for each body
+
+/// Time that is left, as rank 0 sees it: all ranks decide alike.
+class Allowance {
+ public:
+  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(MPI_Wtime()), allowed_(seconds) {}
+  double spent() const { return of_first(MPI_Wtime() - begin_); }
+  double left() const { return std::max(0.0, allowed_ - spent()); }
+  double of_first(double value) const {
+    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm_);
+    return value;
+  }
+
+ private:
+  MPI_Comm comm_;
+  double begin_, allowed_;
+};
+
+bool has_structure(const PreparedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
+
+/// Of full order; modal damping, which it does not know, is taken out of the residual by those who know V.
+Model full_order(Offline& offline) {
+  std::vector<ReducedBody> compact(offline.reduced.size());
+  std::vector<std::vector<double>> modal;
+  for (std::size_t b = 0; b < compact.size(); ++b) {
+    PreparedBody& body = offline.prepared.bodies[b];
+    if (!has_structure(body)) compact[b] = offline.reduced[b];
+    modal.push_back(std::exchange(body.spec.damping.modal, {}));
+  }
+  const auto restore = [&] {
+    for (std::size_t b = 0; b < modal.size(); ++b) offline.prepared.bodies[b].spec.damping.modal = modal[b];
+  };
+  try {
+    Model model = assemble(offline.prepared, Formulation::nlffr, compact);
+    restore();
+    return model;
+  } catch (...) {
+    restore();
+    throw;
+  }
+}
+
+/// V'r by plain products.
+VectorXd products(const reduction::Basis& basis, Vec r) {
+  VectorXd all(basis.columns);
+  for (int i = 0; i < basis.columns; ++i) {
+    Vec column = nullptr;
+    check(BVGetColumn(basis.V, i, &column));
+    check(VecDot(column, r, &all[i]));
+    check(BVRestoreColumn(basis.V, i, &column));
+  }
+  return all;
+}
+
+/// Residuals of full order at lifted states, body by body.
+class Residuals {
+ public:
+  Residuals(const Model& reduced, Offline& offline, Model full)
+      : reduced_(reduced),
+        offline_(offline),
+        full_(std::move(full)),
+        U_(full_.system->create_vector()),
+        V_(full_.system->create_vector()),
+        A_(full_.system->create_vector()),
+        F_(full_.system->create_vector()),
+        loads_(reduced.bodies.size()) {}
+
+  /// Collective.
+  void add(const State& state) {
+    lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
+    full_.system->rebase(U_);
+    full_.system->residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, F_);
+    for (std::size_t b = 0; b < loads_.size(); ++b)
+      if (has_structure(offline_.prepared.bodies[b])) take(static_cast<int>(b), state);
+    ++samples;
+  }
+  const reduction::Columns& loads(std::size_t body) const { return loads_[body]; }
+  /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
+  double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
+  int samples = 0;
+
+ private:
+  void take(int b, const State& state) {
+    const PreparedBody& body = offline_.prepared.bodies[b];
+    const ReducedBody& reduced = offline_.reduced[b];
+    petsc::VecHandle load = fem::field(body.structure);
+    {
+      petsc::Values all(F_), own(load);
+      const PetscInt first = full_.system->coordinates().global()[full_.bodies[b].first_dof];
+      for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[first + i];
+    }
+    VectorXd along = products(*reduced.basis, load);
+    if (!body.spec.damping.modal.empty()) {
+      const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
+      check(BVMultVec(reduced.basis->V, 1, 0, field, along.data()));
+      check(MatMult(fem::mass(body.structure, {}), field, force));
+      check(VecAXPY(load, -1, force));
+      along.setZero();
+    }
+    const BodyReport& report = reduced_.bodies[b];
+    const VectorXd eta = state.q.segment(report.first_elastic, report.columns);
+    unbalanced_ = std::max(unbalanced_, along.norm());
+    forces_ = std::max(forces_, (reduced.body.elasticity.linear_stiffness() * eta).norm());
+    loads_[b].push_back(std::move(load));
+  }
+
+  const Model& reduced_;
+  Offline& offline_;
+  Model full_;
+  petsc::VecHandle U_, V_, A_, F_;
+  std::vector<reduction::Columns> loads_;
+  double unbalanced_ = 0, forces_ = 0;
+};
+
+/// Every so many of them, `count` in all, the last one among them.
+template <class Value>
+std::vector<Value> spread(const std::vector<Value>& all, std::size_t count) {
+  if (count >= all.size()) return all;
+  std::vector<Value> some;
+  for (std::size_t i = 1; i <= count; ++i) some.push_back(all[i * all.size() / count - 1]);
+  return some;
+}
+
+void sample(const KeptMotion& motion, const Allowance& time, Residuals& residuals, Estimate& estimate) {
+  const std::vector<State> states = spread(motion.states(), most_samples);
+  const double before = time.spent();
+  residuals.add(states.back());
+  const double each = time.spent() - before;
+  const auto count = std::min<std::size_t>(
+      states.size(), static_cast<std::size_t>(std::max(4.0, 0.3 * time.left() / std::max(each, 1e-9))));
+  for (const State& state : spread(states, count))
+    if (state.t < states.back().t) residuals.add(state);
+  estimate.samples = residuals.samples, estimate.unbalanced = residuals.unbalanced();
+  if (count < states.size())
+    estimate.notes.push_back(fmt::format("{} residuals instead of {}, to save time", count, states.size()));
+}
+
+/// Columns that the time allows: projecting k + s of them costs about ((k + s)/k)^4 of what it cost for k.
+int columns_in(double seconds, const ReducedBody& reduced) {
+  const double k = std::max(1, reduced.body.coordinates());
+  const double factor = std::pow(seconds / std::max(reduced.report.seconds_projection, 1e-6), 0.25);
+  return std::clamp(static_cast<int>(k * (factor - 1)), 1, most_columns);
+}
+
+std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const Allowance& time,
+                                  Estimate& estimate) {
+  std::vector<ReducedBody> bodies;
+  const double all = static_cast<double>(offline.reduced.size());
+  for (std::size_t b = 0; b < offline.reduced.size(); ++b) {
+    const PreparedBody& body = offline.prepared.bodies[b];
+    const ReducedBody& reduced = offline.reduced[b];
+    bodies.push_back(reduced);
+    if (body.spec.reduced)
+      estimate.notes.push_back(
+          fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
+    if (!has_structure(body)) continue;
+    const int most = static_cast<int>(
+        time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
+    if (most < most_columns)
+      estimate.notes.push_back(
+          fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
+    const reduction::Columns W = response_columns(*reduced.statics, residuals.loads(b), most);
+    if (W.empty()) continue;
+    bodies.back() = with_columns(body, reduced, W);
+    estimate.columns += bodies.back().body.coordinates() - reduced.body.coordinates();
+  }
+  return bodies;
+}
+
+std::vector<int> sizes_of_probes(const Model& model) {
+  std::vector<int> sizes;
+  for (const ModelProbe& probe : model.probes)
+    sizes.push_back(probe.spatial ? 3 : probe.quantity == Probe::Quantity::rotation ? 1 : 2);
+  return sizes;
+}
+
+/// Sums squares over the instants, for the relative errors.
+class Sums {
+ public:
+  explicit Sums(const Model& model) : sizes_(sizes_of_probes(model)), error_(sizes_.size()), size_(sizes_.size()) {}
+  void add(const std::vector<double>& error, const std::vector<double>& value) {
+    std::size_t column = 0;
+    for (std::size_t p = 0; p < sizes_.size(); ++p)
+      for (int i = 0; i < sizes_[p]; ++i, ++column)
+        error_[p] += error[column] * error[column], size_[p] += value[column] * value[column];
+  }
+  std::vector<double> relative() const {
+    std::vector<double> all;
+    for (std::size_t p = 0; p < sizes_.size(); ++p) all.push_back(size_[p] > 0 ? std::sqrt(error_[p] / size_[p]) : 0);
+    return all;
+  }
+
+ private:
+  std::vector<int> sizes_;
+  std::vector<double> error_, size_;
+};
+
+VectorXd deformations(const Model& model, const VectorXd& q) {
+  std::vector<double> all;
+  for (const BodyReport& body : model.bodies)
+    all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
+  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/// Follows the deviation, on every rank alike.
+void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,
+            Estimate& estimate) {
+  const dynamics::System& system = *more.system;
+  std::vector<State> states;
+  for (const State& state : motion.states()) states.push_back(lifted_to_more_columns(state, reduced, more));
+  const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
+  const auto values = [&](const State& state) {
+    dynamics::set_state(system, state, U, V, A);
+    return probe_values(more, state.t, U, V);
+  };
+  const double before = time.spent();  // of some steps, to know how many there may be
+  const std::vector<State> first(states.begin(), states.begin() + std::min<std::ptrdiff_t>(8, std::ssize(states)));
+  dynamics::deviation(system, motion.begin(), first, [&](const State& state, const VectorXd&, const VectorXd&) {
+    values(state), values(state);
+  });
+  const double each = (time.spent() - before) / static_cast<double>(first.size());
+  const auto count = static_cast<std::size_t>(
+      time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
+  if (count < states.size()) {
+    estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
+    states = spread(states, count);
+  }
+  Sums sums(more);
+  double error = 0, size = 0;
+  const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate) {
+    const std::vector<double> was = values(state);
+    std::vector<double> gap =
+        values(dynamics::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
+    sums.add(gap, was);
+    const double e = deformations(more, d).squaredNorm();
+    error += e, size += deformations(more, state.q).squaredNorm();
+    estimate.t.push_back(state.t);
+    estimate.errors.push_back(std::move(gap));
+    estimate.relative.push_back(std::sqrt(e));
+  };
+  const dynamics::DeviationReport report = dynamics::deviation(system, motion.begin(), states, observe);
+  if (report.steps < std::ssize(states))
+    estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
+  const double whole = std::sqrt(size / std::max<double>(1, report.steps));
+  for (double& e : estimate.relative) e = whole > 0 ? e / whole : 0;
+  estimate.probes = sums.relative();
+  estimate.deformation = size > 0 ? std::sqrt(error / size) : 0;
+}
+
+void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {
+  Offline& offline = *model.offline;
+  Residuals residuals(model, offline, full_order(offline));
+  sample(motion, time, residuals, estimate);
+  const std::vector<ReducedBody> bodies = enriched(offline, residuals, time, estimate);
+  const Model more = assemble(offline.prepared, Formulation::vm_md, bodies);
+  follow(model, more, motion, time, estimate);
+}
+
+}  // namespace
+
+Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds) {
+  Estimate estimate;
+  estimate.none.clear();
+  if (!model.offline) {
+    estimate.none = "it belongs to reduced models (vm, vm+md)";
+    return estimate;
+  }
+  const Offline& offline = *model.offline;
+  const Allowance time(offline.prepared.comm, seconds);
+  if (std::none_of(offline.prepared.bodies.begin(), offline.prepared.bodies.end(), has_structure))
+    estimate.none = "no body has a mesh: those from files, or rigid, have no structure to compare with";
+  else if (motion.states().empty())
+    estimate.none = "the integrator gives no accelerations";
+  if (!estimate.none.empty()) return estimate;
+  try {
+    make(model, motion, time, estimate);
+  } catch (const RunError& error) {  // the motion stands without it
+    estimate.none = error.what();
+  } catch (const InputError& error) {  // what is not known at full order
+    estimate.none = error.what();
+  }
+  estimate.seconds = time.spent(), estimate.allowed = seconds;
+  return estimate;
+}
+
+}  // namespace floe::scene

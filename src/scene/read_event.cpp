@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "readers.h"
+
+namespace floe::scene {
+namespace {
+
+using JointKind = Joint::Kind;
+
+/// Notes where not exactly one of the keys is given. @return  it, or empty
+std::string one_of(Document& document, const Reading& event, const std::vector<std::string>& keys) {
+  std::vector<std::string> given;
+  for (const std::string& key : keys)
+    if (event.given(key)) given.push_back(key);
+  if (given.size() == 1) return given.front();
+  document.fault(event.where(),
+                 given.empty() ? fmt::format("has none of {}", fmt::join(keys, ", "))
+                               : fmt::format("has {} together", fmt::join(given, " and ")),
+                 "exactly one of " + fmt::format("{}", fmt::join(keys, ", ")));
+  return "";
+}
+
+/// Whether a lock has rows to hold: in the plane hinges and slides, in space all that leave something free and whose
+/// free motions are those of one place's axes.
+bool lockable(JointKind kind, int dimension) {
+  if (kind == JointKind::revolute || kind == JointKind::prismatic) return true;
+  return dimension == 3 &&
+         (kind == JointKind::cylindrical || kind == JointKind::spherical || kind == JointKind::planar);
+}
+
+void check_joint(Document& document, const Scene& scene, const Event& event) {
+  Where where = event.where;
+  where.key += event.kind == Event::Kind::lock ? ".lock" : ".unlock";
+  std::vector<std::string> names;
+  for (const Joint& joint : scene.joints) names.push_back(joint.name);
+  const auto found = std::find(names.begin(), names.end(), event.joint);
+  if (found == names.end()) {
+    document.fault(where, "is \"" + event.joint + "\"", "the name of a joint", event.joint, names);
+    return;
+  }
+  const JointKind kind = scene.joints[found - names.begin()].kind;
+  if (kind == JointKind::spring || kind == JointKind::bushing)
+    document.fault(where, "is \"" + event.joint + "\", a spring", "a joint that holds something");
+  else if (event.kind == Event::Kind::lock && !lockable(kind, scene.dimension))
+    document.fault(where, "is \"" + event.joint + "\", which leaves nothing free that could be locked",
+                   scene.dimension == 3 ? "a revolute, prismatic, cylindrical, spherical or planar joint"
+                                        : "a revolute or prismatic joint");
+}
+
+}  // namespace
+
+Event read_event(Document& document, const std::string& name, const Value& value) {
+  Event event;
+  event.name = name;
+  event.where = value.where;
+  Reading reading(document, value, "event");
+  if (!value.node.IsMap()) return event;
+  const std::string what = one_of(document, reading, {"unlock", "lock", "stop"});
+  const std::string when = one_of(document, reading, {"at", "when", "probe"});
+  if (what == "unlock") event.kind = Event::Kind::unlock;
+  if (what == "lock") event.kind = Event::Kind::lock;
+  if (what == "unlock" || what == "lock") event.joint = reading.text(what);
+  if (what == "stop" && !reading.flag("stop"))
+    document.fault(reading.where("stop"), "is false", "true (or no such event)");
+  if (when == "at") event.at = reading.number("at");
+  if (when == "when") event.when = reading.formula("when");
+  if (when == "probe") event.probe = reading.text("probe"), event.crosses = reading.number("crosses");
+  if (when != "probe" && reading.given("crosses"))
+    document.fault(reading.where("crosses"), "stands without probe", "probe: NAME.COMPONENT, as tip.y");
+  return event;
+}
+
+void check_events(Document& document, const Scene& scene) {
+  if (document.fault_count() > 0) return;
+  std::vector<std::string> probes;
+  for (const Probe& probe : scene.probes) probes.push_back(probe.name);
+  for (const Event& event : scene.events) {
+    if (event.kind != Event::Kind::stop) check_joint(document, scene, event);
+    Where where = event.where;
+    if (event.at && scene.motion.end > 0 && *event.at > scene.motion.end) {
+      where.key += ".at";
+      document.fault(where, fmt::format("is {}", *event.at), fmt::format("at most motion.end, {}", scene.motion.end));
+    }
+    if (event.probe.empty()) continue;
+    where.key += ".probe";
+    const std::string name = event.probe.substr(0, event.probe.find('.'));
+    if (std::find(probes.begin(), probes.end(), name) == probes.end())
+      document.fault(where, "is \"" + event.probe + "\"", "a probe and its component, as tip.y", name, probes);
+  }
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "floe/scene/scene.h"
+
+namespace floe::scene {
+
+/// By which joint a body takes part in the frame of another one; -1: it has its own.
+struct SharedFrame {
+  int host = -1;   ///< index of the body whose frame it is, which has its own
+  int joint = -1;  ///< index of the joint by which the body is fixed to that one, or to another of its guests
+  bool shared() const { return host >= 0; }
+};
+
+/// Bodies in space that joint `fixed` makes one with a rigid body: their frames move as one.
+///
+/// A flexible body is the guest of a rigid one when its frame is clamped at the place of the joint (as it is when
+/// nothing is said); of two rigid bodies the later one is the guest. Guests of guests have the first one's frame. A
+/// body that the ground holds in a joint of its own, whose start does not fit the rigid one's velocity, or that comes
+/// from a file or is fixed to one that does, keeps its frame and the joint its rows. None with share_frames: false.
+std::vector<SharedFrame> shared_frames(const Scene& scene);
+
+}  // namespace floe::scene

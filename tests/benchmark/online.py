@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Times one step of reduced models in motion, and full order beside them.
+
+Processor time of the integration on one rank (all of TS, SNES, KSP and the equations; nothing recorded in between), the
+least of several runs that take turns: on a shared machine the least is what the program needs. Full order and reduced
+model of one scene run the same steps; errors are those of the reduced model's probes. Written: online.md and
+online.png. Nothing passes or fails on a clock.
+"""
+import argparse
+import csv
+import datetime
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+NOTES = "online_notes.md"
+
+BEAM = """
+title: Beam on a hinge, in the plane
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 40}}
+    section: {A: 1.8e-4, I: 1.215e-9}
+    material: {E: 1e9, rho: 7800}
+    frame: {type: pinned, from: start, to: end}
+    reduction: {modes: {count: 3}, derivatives: all}
+joints:
+  hinge: {type: revolute, between: [ground, beam.start]}
+gravity: [0, -9.81]
+motion: {end: 20, step: 1e-3, every: 1000000}
+probes:
+  tip: {at: beam.end, quantity: position}
+"""
+
+PANEL = """
+title: Panel on a hinge, in space
+bodies:
+  panel:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [20, 10]}}
+    section: {thickness: 4e-3}
+    material: {E: 3e9, nu: 0.3, rho: 1200}
+    reduction: {modes: {count: MODES}, derivatives: all}
+joints:
+  hinge: {type: revolute, between: [ground, panel.left]}
+gravity: [0, 0, -9.81]
+motion: {end: END, step: 1e-3, every: 1000000}
+probes:
+  tip: {at: panel.right, quantity: position}
+"""
+
+# f_1 = 1.0 Hz; the drive bends the fin by a third of its length.
+FLAPPING = """
+title: Fin that a driven hinge flaps
+bodies:
+  panel:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.1, 0], elements: CELLS}}
+    section: {thickness: 4e-3}
+    material: {E: 3e9, nu: 0.3, rho: 1200}
+    reduction: {modes: {count: 6}, derivatives: all}
+joints:
+  root: {type: driven, between: [ground, panel.left], axis: [0, 1, 0], angle: "0.5*(1 - cos(pi*t))"}
+motion: {end: END, step: 5e-3}
+probes:
+  tip: {at: panel.right, quantity: position}
+  bend: {at: panel.right, quantity: deflection}
+"""
+
+STEPS = [  # name, scene, microseconds that were wanted
+    ("plane, 3 modes + 6 derivatives, hinge", BEAM, 8),
+    ("space, 5 modes + 15 derivatives, hinge", PANEL.replace("MODES", "5").replace("END", "5"), 20),
+    ("space, 10 modes + 55 derivatives, hinge", PANEL.replace("MODES", "10").replace("END", "2"), 300),
+]
+FULL = [  # cells, end of the motion [s]
+    ([100, 10], 1.0),
+    ([320, 32], 0.5),
+]
+
+
+def run(floe, text, formulation, folder):
+    scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, formulation)
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(text)
+    shutil.rmtree(out, ignore_errors=True)
+    done = subprocess.run([floe, "run", scene, "--formulation", formulation, "-o", out], capture_output=True, text=True,
+                          check=False)
+    if done.returncode:
+        raise SystemExit(f"{formulation}:\n{done.stdout}{done.stderr}")
+    with open(os.path.join(out, "summary.json"), encoding="utf-8") as file:
+        summary = json.load(file)
+    with open(os.path.join(out, "probes.csv"), encoding="utf-8") as file:
+        rows = [line for line in csv.reader(file) if line and not line[0].startswith("#")]
+    return summary, rows[0], [[float(x) for x in row] for row in rows[1:]]
+
+
+def per_step(summary):
+    """Microseconds of processor time."""
+    return 1e6 * summary["seconds"]["motion_and_recording_processor"] / summary["integration"]["steps"]
+
+
+def iterations(summary):
+    return summary["integration"]["newton_iterations"] / summary["integration"]["steps"]
+
+
+def relative_rms(values, reference, columns):
+    """Of a vector probe, over the times that both have."""
+    square = sum((values[i][c] - reference[i][c]) ** 2 for i in range(len(reference)) for c in columns)
+    return math.sqrt(square / sum(reference[i][c] ** 2 for i in range(len(reference)) for c in columns))
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows] + [""]
+
+
+def measure_steps(arguments, folder):
+    found = {}
+    for repetition in range(arguments.repeat):
+        for name, scene, _ in STEPS:
+            print(f"{repetition + 1}/{arguments.repeat} {name}", file=sys.stderr)
+            found.setdefault(name, []).append(run(arguments.floe, scene, "vm+md", folder)[0])
+    return found
+
+
+def measure_full(arguments, folder):
+    found = []
+    for cells, end in FULL[:arguments.full]:
+        text = FLAPPING.replace("CELLS", str(cells)).replace("END", str(end))
+        print(f"full order, {cells[0]} by {cells[1]} cells", file=sys.stderr)
+        full = run(arguments.floe, text, "nlffr", folder)
+        kinds = {"vm+md": [run(arguments.floe, text, "vm+md", folder) for _ in range(arguments.repeat)],
+                 "lffr": [run(arguments.floe, text, "lffr", folder)] if cells == FULL[0][0] else []}
+        found.append((full, kinds))
+    return found
+
+
+def step_rows(found):
+    rows = []
+    for name, _, wanted in STEPS:
+        best = min(found[name], key=per_step)
+        rows.append([name, str(best["bodies"][0]["reduced_coordinates"]), str(best["coordinates"]),
+                     f"{iterations(best):.2f}", f"{per_step(best):.1f}", f"{max(map(per_step, found[name])):.1f}",
+                     str(wanted)])
+    return rows
+
+
+def full_rows(found):
+    rows = []
+    for (summary, names, values), kinds in found:
+        times = sorted(per_step(one[0]) for one in kinds["vm+md"])
+        error = {probe: relative_rms(kinds["vm+md"][0][2], values,
+                                     [c for c, name in enumerate(names) if name.startswith(probe + ".")])
+                 for probe in ("tip", "bend")}
+        rows.append([str(summary["bodies"][0]["dofs"]), str(kinds["vm+md"][0][0]["coordinates"]),
+                     str(summary["integration"]["steps"]), f"{per_step(summary):.3g}", f"{times[0]:.3g}",
+                     f"{per_step(summary) / times[0]:.0f}", f"{100 * error['tip']:.2g}", f"{100 * error['bend']:.2g}",
+                     f"{kinds['vm+md'][0][0]['seconds']['offline']:.2g}"])
+    return rows
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
+
+
+def document(steps, full, arguments):
+    origin = next(iter(steps.values()))[0]["provenance"]
+    lines = ["# Time per step", "",
+             f"{datetime.date.today()}, {processor()}, {os.cpu_count()} cores, load average {os.getloadavg()[0]:.1f}; "
+             f"floe {origin['floe']['version']} ({origin['floe']['commit']}). `make bench-online` writes this page.", "",
+             f"Processor time of a step, microseconds, one rank, least and greatest of {arguments.repeat} runs.", ""]
+    lines += table(["model", "k", "coordinates", "Newton iterations a step", "least [us]", "greatest [us]",
+                    "wanted [us]"], step_rows(steps))
+    lines += ["A fin of shells that a driven hinge flaps: its tip bends by a third of its length. Full order (NLFFR) "
+              "and 6 modes with their 21 derivatives take the same steps of 5 ms.", ""]
+    lines += table(["dofs", "coordinates", "steps", "NLFFR [us]", "reduced [us]", "ratio", "error of the tip [%]",
+                    "error of its deflection [%]", "offline [s]"], full_rows(full))
+    here = os.path.dirname(os.path.abspath(__file__))
+    with open(os.path.join(here, NOTES), encoding="utf-8") as file:
+        lines += [file.read()]
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--floe", required=True)
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--full", type=int, default=len(FULL), help="how many of the full-order sizes")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        steps, full = measure_steps(arguments, folder), measure_full(arguments, folder)
+    os.makedirs(arguments.out, exist_ok=True)
+    with open(os.path.join(arguments.out, "online.md"), "w", encoding="utf-8") as file:
+        file.write(document(steps, full, arguments))
+    print(document(steps, full, arguments))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""make tradeoff: floe tradeoff for every example that moves, and docs/tradeoff.md with tables and pictures from it."""
+import argparse
+import datetime
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+# In the order of the document. The blade's mesh has 21,390 dofs: its full order is not moved here.
+EXAMPLES = ["cantilever", "robot_arm", "pendulum", "slider_crank", "spin_up", "shaken_plate", "satellite"]
+NOTES = "tradeoff_notes.md"
+
+
+def measure(floe, example, folder, limit):
+    """None, or why there are no results."""
+    command = [floe, "tradeoff", f"examples/{example}/scene.yaml", "-o", folder, "--force"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+    except subprocess.TimeoutExpired:
+        return f"not within {limit} s"
+    return None if done.returncode == 0 else done.stderr.strip().splitlines()[-1]
+
+
+def effectivity(rungs):
+    """Of every probe whose error is below 30 % and above a millionth: estimate over error."""
+    return [estimate / error for rung in rungs if not rung["stopped"] and rung["family"] not in ("step", "integrator")
+            for error, estimate in zip(rung["rms"], rung["estimate"])
+            if error is not None and estimate is not None and 1e-6 < error < 0.3]
+
+
+def processor():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown processor")
+
+
+def section(example, folder, out):
+    with open(os.path.join(folder, "tradeoff.json"), encoding="utf-8") as file:
+        found = json.load(file)
+    with open(os.path.join(folder, "tradeoff.md"), encoding="utf-8") as file:
+        table = file.read().strip()
+    lines = [f"## {found['title']}", ""]
+    picture = os.path.join(folder, "tradeoff.png")
+    if os.path.exists(picture):
+        shutil.copyfile(picture, os.path.join(out, f"tradeoff_{example}.png"))
+        lines += [f"![Error against time, {found['title']}](tradeoff_{example}.png)", ""]
+    lines += [table, ""]
+    ratios = sorted(effectivity(found["rungs"]))
+    if ratios:
+        inside = sum(0.3 <= ratio <= 3 for ratio in ratios)
+        lines += [f"Estimate over error (errors from 1e-4 % to 30 %): {ratios[0]:.2g} to {ratios[-1]:.2g}, median "
+                  f"{ratios[len(ratios) // 2]:.2g}; {inside} of {len(ratios)} between 0.3 and 3.", ""]
+    return lines, found["provenance"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--floe", required=True)
+    parser.add_argument("--out", default="docs")
+    parser.add_argument("--work", default="results/tradeoff")
+    parser.add_argument("--limit", type=int, default=900, help="seconds for an example (default: 900)")
+    parser.add_argument("examples", nargs="*", default=EXAMPLES)
+    arguments = parser.parse_args()
+    sections, origin, failed = [], None, []
+    for example in arguments.examples:
+        folder = os.path.join(arguments.work, example)
+        why = measure(os.path.abspath(arguments.floe), example, folder, arguments.limit)
+        print(f"{example}: {why or 'done'}", flush=True)
+        if why:
+            failed.append(example)
+            sections += [f"## {example}", "", f"No result: {why}.", ""]
+            continue
+        lines, origin = section(example, folder, arguments.out)
+        sections += lines
+    if origin:
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), NOTES), encoding="utf-8") as file:
+            notes = file.read().strip()
+        date = datetime.date.today().isoformat()
+        head = ["# How much accuracy for how much speed", "", notes, "",
+                f"Written by `make tradeoff` on {date}, floe {origin['floe']['version']} ({origin['floe']['commit']}), "
+                f"{processor()}.", ""]
+        with open(os.path.join(arguments.out, "tradeoff.md"), "w", encoding="utf-8") as file:
+            file.write("\n".join(head + sections).rstrip() + "\n")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

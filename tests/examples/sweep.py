@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""floe sweep on one rank and on two: the same members to the last bit, what single runs give, and a member that fails."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy
+
+SCENE = """
+parameters: {F: 1, L: 1}
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [L, 0], elements: 4}}
+    section: {EA: 500, EI: 0.5, rhoA: 1, rhoI: 1e-4}
+    reduction: {modes: 2, derivatives: all}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "F*sin(7*t)"]}}
+motion: {end: 0.3, step: 1e-2, spectral_radius: 0.8}
+probes: {tip: {at: beam.end}}
+"""
+
+
+def run(floe, ranks, folder, *words):
+    command = (["mpirun", "-n", str(ranks)] if ranks > 1 else []) + [str(floe), *words]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=200)
+
+
+def table(folder):
+    with open(folder / "sweep.csv") as file:
+        return list(csv.reader(file))
+
+
+def main():
+    floe = pathlib.Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "scene.yaml").write_text(SCENE)
+        # every other member has a spectral radius of 1, which is refused
+        words = ["sweep", "scene.yaml", "--vary", "F=0.5:1.5:0.5", "--vary", "motion.spectral_radius=0.8,1"]
+        for ranks in (1, 2):
+            done = run(floe, ranks, folder, *words, "-o", f"out{ranks}")
+            assert done.returncode == 1, done.stderr
+            assert done.stderr.count("failed: ") == 3 and "3 of 6 members failed" in done.stderr, done.stderr
+            assert "bodies were reduced" in done.stdout
+        one, two = table(folder / "out1"), table(folder / "out2")
+        assert one == two and len(one) == 7, "sweep.csv differs between ranks"
+        with h5py.File(folder / "out1/sweep.h5") as a, h5py.File(folder / "out2/sweep.h5") as b:
+            members, probes = a["members"][:], a["probes"][:]
+            assert numpy.array_equal(members, b["members"][:], equal_nan=True)
+            assert numpy.array_equal(probes, b["probes"][:])
+            columns = json.loads(a["columns"][()])
+            assert len(columns["members"]) == members.shape[1] and len(columns["probes"]) == probes.shape[1]
+        failed = columns["members"].index("failed")
+        assert list(members[:, failed]) == [0, 1, 0, 1, 0, 1]
+        summary = json.loads((folder / "out1/summary.json").read_text())
+        assert summary["status"] == "failed" and [f["member"] for f in summary["failures"]] == [2, 4, 6]
+        # the third row is the scene itself, as floe run moves it
+        assert run(floe, 1, folder, "run", "scene.yaml", "-o", "single").returncode == 0
+        single = numpy.loadtxt(folder / "single/probes.csv", delimiter=",", skiprows=1)
+        assert numpy.array_equal(probes[probes[:, 0] == 3][:, 1:], single)
+        greatest = columns["members"].index("greatest tip.y [m]")
+        assert members[2, greatest] == numpy.abs(single[:, 2]).max()
+        # a length that changes the body, and a load that does not
+        done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "-o", "lengths")
+        assert done.returncode == 0 and "bodies were reduced 2 times" in done.stdout, done.stdout + done.stderr
+        done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "--together", "-o", "pairs")
+        assert done.returncode == 0 and len(table(folder / "pairs")) == 3, done.stdout + done.stderr
+    print("sweeps agree")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""A run that is killed (SIGKILL) at random points and taken up again is the run that nothing interrupted, bit for bit.
+
+restart.py FLOE RANKS [NAME...]: each scene runs once without checkpoints; then with them, killed some checkpoints on
+after a random wait, taken up again, killed again, and taken up to its end. probes.csv must have the same bytes, and the
+datasets of result.h5 the same numbers.
+"""
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import h5py
+import numpy
+
+TIME_LIMIT = 300  # s
+
+BEAM = """
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 6}}
+    section: {EA: 500, EI: 0.5, rhoA: 1, rhoI: 1e-4}
+    reduction: {modes: 3, derivatives: all}
+    damping: {stiffness: 1e-3}
+joints: {hinge: {type: revolute, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "3*sin(7*t)"]}}
+gravity: [0, -9.81]
+probes: {tip: {at: beam.end}}
+"""
+EVENTS = """
+events:
+  hold: {lock: hinge, at: 0.41}
+  free: {unlock: hinge, when: "0.8003 - t"}
+"""
+SPACE = """
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [0.3, 0, 0], elements: 2}}
+    section: {A: 0.02, Iy: 1e-4, Iz: 1e-4, J: 2e-4, orientation: [0, 0, 1]}
+    material: {E: 1e9, nu: 0.3, rho: 500}
+    initial: {angular_velocity: [0, 0, 9]}
+  arm:
+    mesh: {line: {from: [0.3, 0, 0], to: [1.3, 0, 0], elements: 6}}
+    section: {A: 0.002, Iy: 1e-6, Iz: 2e-6, J: 3e-6, orientation: [0, 0, 1]}
+    material: {E: 1e8, nu: 0.3, rho: 1000}
+    damping: {stiffness: 1e-3}
+    reduction: {modes: 3, derivatives: all}
+    initial: {angular_velocity: [0, 0, 9]}
+joints:
+  pivot: {type: revolute, between: [ground, hub.start], axis: [0, 0, 1]}
+  wind: {type: spring, between: [ground, hub.start], axis: [0, 0, 1], torsional_stiffness: 0.1}
+  knee: {type: revolute, between: [hub.end, arm.start], axis: [0, 1, 0]}
+events:
+  hold: {lock: knee, at: 0.3}
+  free: {unlock: knee, at: 0.6}
+gravity: [0, 0, -9.81]
+probes: {tip: {at: arm.end}}
+"""
+FIXED, ADAPTIVE = "motion: {end: 1.2, step: 1e-3}", "motion: {end: 1.2, step: 1e-3, tolerance: 1e-5}"
+CASES = {
+    "plane, reduced": (BEAM + EVENTS + FIXED, "vm+md"),
+    "plane, reduced, adaptive": (BEAM + EVENTS + ADAPTIVE, "vm+md"),
+    "plane, full order": (BEAM + EVENTS + FIXED, "nlffr"),
+    "space, reduced": (SPACE + FIXED, "vm+md"),
+    "space, reduced, adaptive": (SPACE + ADAPTIVE, "vm+md"),
+    "space, full order": (SPACE + "motion: {end: 0.4, step: 1e-3}", "nlffr"),
+}
+
+
+def start(floe, ranks, folder, words):
+    command = (["mpirun", "-n", str(ranks)] if ranks > 1 else []) + [str(floe), "run", *words]
+    log = open(folder / "log", "ab")
+    return subprocess.Popen(command, cwd=folder, stdout=log, stderr=log)
+
+
+def end(process, folder):
+    code = process.wait(TIME_LIMIT)
+    assert code == 0, f"exit code {code}\n" + (folder / "log").read_text()[-2000:]
+
+
+def kill(process, ranks, folder, checkpoints, chance):
+    """SIGKILL to one rank, so many checkpoints on and a little later. Returns whether the run was still there."""
+    file, seen, changes, until = folder / "out/checkpoint.h5", None, 0, time.monotonic() + TIME_LIMIT
+    seen = file.stat().st_ino if file.exists() else None
+    while changes < checkpoints and process.poll() is None:
+        assert time.monotonic() < until, "no checkpoint comes"
+        number = file.stat().st_ino if file.exists() else None
+        changes += number != seen
+        seen = number
+        time.sleep(1e-3)
+    time.sleep(chance.uniform(0, 0.1))
+    if process.poll() is not None:
+        return False
+    target = process.pid
+    if ranks > 1:
+        children = pathlib.Path(f"/proc/{target}/task/{target}/children").read_text().split()
+        if not children:
+            return False
+        target = int(chance.choice(children))
+    try:
+        os.kill(target, signal.SIGKILL)
+    except ProcessLookupError:
+        return False
+    process.wait(TIME_LIMIT)
+    return True
+
+
+def compare(whole, pieces):
+    assert (whole / "probes.csv").read_bytes() == (pieces / "probes.csv").read_bytes(), "probes.csv differs"
+    with h5py.File(whole / "result.h5") as a, h5py.File(pieces / "result.h5") as b:
+        names = []
+        a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
+        for name in names:
+            if name == "summary":
+                continue
+            x, y = a[name][()], b[name][()]
+            if isinstance(x, bytes):
+                assert x == y, f"{name} differs"
+                continue
+            assert x.shape == y.shape, f"{name} has shape {y.shape}, not {x.shape}"
+            assert numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
+    assert not list(pieces.glob(".*")), "drafts are left"
+
+
+def attempt(floe, ranks, text, formulation, chance, folder):
+    (folder / "scene.yaml").write_text(text)
+    end(start(floe, ranks, folder, ["scene.yaml", "--formulation", formulation, "-o", "whole"]), folder)
+    words = ["scene.yaml", "--formulation", formulation, "-o", "out", "--checkpoint", "20"]
+    kills = 0
+    for _ in range(2):
+        kills += kill(start(floe, ranks, folder, words), ranks, folder, chance.randint(1, 12), chance)
+        if (folder / "out/checkpoint.h5").exists():
+            words = ["--restart", "out"]
+    end(start(floe, ranks, folder, words if "--restart" in words else words + ["--force"]), folder)
+    compare(folder / "whole", folder / "out")
+    return kills
+
+
+def refuse(floe, ranks, folder, words, code, phrase, prefix=()):
+    """A run that must end with this code and say so, and leave the checkpoint as it is."""
+    before = (folder / "out/checkpoint.h5").read_bytes()
+    command = [*prefix, *(["mpirun", "-n", str(ranks)] if ranks > 1 else []), str(floe), "run", *words]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=TIME_LIMIT)
+    assert done.returncode == code, f"exit code {done.returncode}, not {code}: {done.stderr}"
+    assert phrase in done.stderr, f"stderr lacks {phrase!r}: {done.stderr}"
+    assert (folder / "out/checkpoint.h5").read_bytes() == before, "the checkpoint was changed"
+
+
+def refusals(floe, ranks, chance, folder):
+    """Another scene, formulation, options, ranks; a full disk: told, and nothing is lost."""
+    text = BEAM + EVENTS + FIXED
+    (folder / "scene.yaml").write_text(text)
+    end(start(floe, ranks, folder, ["scene.yaml", "-o", "whole"]), folder)
+    words = ["scene.yaml", "-o", "out", "--checkpoint", "20"]
+    if not kill(start(floe, ranks, folder, words), ranks, folder, 3, chance):
+        return
+    again = ["--restart", "out"]
+    refuse(floe, ranks, folder, [*again, "--formulation", "vm"], 2, "the run's formulation was vm+md")
+    refuse(floe, ranks, folder, [*again, "-motion_snes_rtol", "1e-9"], 2, "expected the same, not")
+    refuse(floe, 3 - ranks, folder, again, 2, f"the run was one of {ranks} ranks")
+    refuse(floe, ranks, folder, [*again, "--until", "1e-9"], 2, "expected a later time")
+    (folder / "scene.yaml").write_text(text + " # changed")
+    refuse(floe, ranks, folder, again, 2, "scene.yaml has changed since")
+    (folder / "scene.yaml").write_text(text)
+    full = ("bash", "-c", "trap '' XFSZ; ulimit -f 16; exec \"$@\"", "bash")  # no file grows beyond 16 KiB
+    refuse(floe, ranks, folder, again, 1, "File too large", full)
+    end(start(floe, ranks, folder, again), folder)
+    compare(folder / "whole", folder / "out")
+
+
+def main():
+    floe, ranks, wanted = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), sys.argv[3:]
+    seed = int(os.environ.get("FLOE_SEED", time.time_ns() % 1000000))
+    chance, failed, kills = random.Random(seed), 0, 0
+    chosen = {name: case for name, case in CASES.items() if not wanted or any(w in name for w in wanted)}
+    for name, (text, formulation) in chosen.items():
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+            try:
+                kills += attempt(floe, ranks, text, formulation, chance, pathlib.Path(folder))
+            except (AssertionError, subprocess.TimeoutExpired) as fault:
+                failed += 1
+                print(f"FAIL {name}: {fault}", flush=True)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        try:
+            if not wanted or "refusals" in wanted:
+                refusals(floe, ranks, chance, pathlib.Path(folder))
+        except (AssertionError, subprocess.TimeoutExpired) as fault:
+            failed += 1
+            print(f"FAIL refusals: {fault}", flush=True)
+    print(f"{len(chosen)} scenes on {ranks} ranks, killed {kills} times, {failed} failed (FLOE_SEED={seed})")
+    return 1 if failed or (chosen and not kills) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

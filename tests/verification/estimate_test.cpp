@@ -1,0 +1,151 @@
+#include <catch2/catch.hpp>
+
+#include "estimated.h"
+#include "paper_cantilever.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// Estimate against true error of every probe: a factor of three either way, wherever the error is below 30 %; errors
+/// below `floor` are those of Newton's method and of the probes' digits.
+void check_effectivity(const std::string& name, const std::string& text, const std::vector<Formulation>& formulations,
+                       double floor = 1e-6) {
+  const History full = move(text, Formulation::nlffr);
+  for (const Formulation formulation : formulations) {
+    const Estimated reduced = move_and_estimate(text, formulation);
+    REQUIRE(reduced.estimate.none == "");
+    CHECK(reduced.estimate.unbalanced < 1e-3);
+    REQUIRE(reduced.estimate.probes.size() == reduced.history.model.probes.size());
+    for (std::size_t p = 0; p < reduced.estimate.probes.size(); ++p) {
+      const std::string& probe = reduced.history.model.probes[p].name;
+      const double error = vector_error(reduced.history, full, probe), estimate = reduced.estimate.probes[p];
+      INFO(fmt::format("{} {} {}: error {:.3g}, estimate {:.3g}, effectivity {:.2f}", name,
+                       scene::name_of(formulation), probe, error, estimate, estimate / error));
+      if (error > 0.3 || error < floor) continue;
+      CHECK(estimate > 0.3 * error);
+      CHECK(estimate < 3 * error);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("estimate: cantilever of the paper") {
+  const std::string pairs = "[[1, 1], [1, 2], [2, 2], [1, 4], [2, 4]]";
+  for (const std::string modes : {"{count: 4, of: joints, alone: 8}", "{count: 12, of: joints, alone: 17}"})
+    check_effectivity("cantilever " + modes,
+                      text_of({.end = "3", .reduction = "{modes: " + modes + ", derivatives: " + pairs + "}"}),
+                      {Formulation::vm, Formulation::vm_md});
+}
+
+TEST_CASE("estimate: pendulum, arm, slider-crank") {
+  check_effectivity("pendulum", R"yaml(
+gravity: [0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}
+    section: {EA: 1.2e4, EI: 1, rhoA: 1}
+    frame: pinned
+    reduction: {modes: {count: 3, alone: 6}, derivatives: all}
+joints: {hinge: {type: revolute, between: [ground, rod.start]}}
+motion: {end: 1, step: 1e-3}
+probes: {tip: {at: rod.end, quantity: position}, middle: {at: rod.middle, quantity: deflection}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+  check_effectivity("arm", R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [10, 0], elements: 10}}
+    section: {EA: 4.8e4, EI: 1e3, rhoA: 1, rhoI: 1/48}
+    frame: pinned
+    reduction: {modes: {count: 3, of: frame, alone: 9}, derivatives: all, attachment: none}
+joints: {hinge: {type: revolute, between: [ground, arm.start]}}
+loads: {drive: {type: moment, at: arm.start, moment: "80*triangle(t, 2.5, 2.5)"}}
+motion: {end: 10, step: 5e-3}
+probes: {tip: {at: arm.end, quantity: position}, bending: {at: arm.middle, quantity: deflection}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+  check_effectivity("slider-crank", R"yaml(
+bodies:
+  crank:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [0.15, 0], elements: 1}}
+    section: {A: pi*0.006^2/4, I: pi*0.006^4/64}
+    material: {E: 2e11, rho: 7870}
+    initial: {angular_velocity: 150}
+  rod:
+    mesh: {line: {from: [0, 0], to: [0.3, 0], elements: 10}}
+    section: {A: pi*0.006^2/4, I: pi*0.006^4/64}
+    material: {E: 2e11, rho: 7870}
+    frame: pinned
+    reduction: {modes: {count: 2, alone: 2}, derivatives: all}
+    initial: {position: [0.15, 0], velocity: [0, 22.5], angular_velocity: -75}
+  slider:
+    rigid: true
+    mesh: {line: {from: [-0.02, 0], to: [0.02, 0], elements: 2}}
+    section: {rhoA: 0.033378/0.04}
+    initial: {position: [0.45, 0]}
+joints:
+  motor: {type: driven, between: [ground, crank.start], angle: 150*t}
+  crank-pin: {type: revolute, between: [crank.end, rod.start]}
+  slider-pin: {type: revolute, between: [rod.end, slider.middle]}
+  guide: {type: prismatic, between: [ground, slider.middle], axis: [1, 0]}
+motion: {end: 0.03, step: 4e-5}
+probes: {middle: {at: rod.middle, quantity: deflection}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+}
+
+TEST_CASE("estimate: spin-up") {
+  check_effectivity("spin-up", R"yaml(
+parameters: {Om: 6, Ts: 15}
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [8, 0], elements: 12}}
+    section: {A: 7.3e-5, I: 8.218e-9}
+    material: {E: 6.895e10, rho: 2766.67}
+    frame: {type: clamped, at: start}
+    reduction: {modes: {count: 3, alone: 6}, derivatives: all}
+joints:
+  hub: {type: driven, between: [ground, beam.start],
+        angle: "t < Ts ? Om/Ts*(t^2/2 + (Ts/(2*pi))^2*(cos(2*pi*t/Ts) - 1)) : Om*(t - Ts/2)"}
+motion: {end: 20, step: 1e-2}
+probes: {tip: {at: beam.end, quantity: deflection}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+}
+
+TEST_CASE("estimate: shells on the ground, and beams on a hub in space") {
+  check_effectivity("plate", R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [8, 4]}}
+    section: {thickness: 0.02}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: {count: 3, alone: 8}}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads: {corner: {type: force, at: plate.p3, force: [0, 0, "600*sin(24*t)"]}}
+motion: {end: 0.3, step: 2e-3}
+probes: {tip: {at: plate.p3}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+  check_effectivity("hub", R"yaml(
+gravity: [0, 0, -9.81]
+parameters: {Om: 9, Ts: 0.6}
+bodies:
+  l:
+    mesh: {polyline: {points: [[0, 0, 0], [1, 0, 0], [1.1, 0.2, 0.5]], elements: [6, 4]}}
+    section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0.3]}
+    material: {E: 1.5e9, nu: 0.3, rho: 1000}
+    frame: {type: clamped, at: start}
+    reduction: {modes: {count: 3, alone: 6}, derivatives: all}
+joints:
+  hub: {type: driven, between: [ground, l.start], axis: [0, 0, 1],
+        angle: "t < Ts ? Om/Ts*(t^2/2 + (Ts/(2*pi))^2*(cos(2*pi*t/Ts) - 1)) : Om*(t - Ts/2)"}
+motion: {end: 0.8, step: 4e-3}
+probes: {tip: {at: l.end, quantity: deflection}}
+)yaml",
+                    {Formulation::vm, Formulation::vm_md});
+}

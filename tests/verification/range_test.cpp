@@ -1,0 +1,100 @@
+#include <catch2/catch.hpp>
+
+#include "estimated.h"
+#include "floe/scene/range.h"
+#include "paper_cantilever.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+std::vector<scene::OutOfRange> judged(const std::string& text, Formulation formulation) {
+  const scene::Scene scene = scene::parse_scene(text, "scene");
+  const scene::Model model = scene::build(scene, formulation, PETSC_COMM_WORLD, true);
+  scene::KeptMotion kept(model, 100);
+  dynamics::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
+                     model.V, [&](const dynamics::Instant& at) { kept.keep(at); });
+  return scene::out_of_range(scene, model, kept, PETSC_COMM_WORLD);
+}
+
+/// What the lines are about, with their number.
+std::map<std::string, double> said(const std::vector<scene::OutOfRange>& lines) {
+  std::map<std::string, double> all;
+  for (const auto& line : lines) {
+    CHECK(line.value > line.limit);
+    CHECK(line.text.find(line.of) != std::string::npos);
+    all[line.what] = line.value;
+  }
+  return all;
+}
+
+/// A beam on a hub that turns at constant speed; its first frequency is 3.516 rad/s.
+std::string turning(const std::string& speed, const std::string& reduction) {
+  return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    frame: {type: clamped, at: start}
+    reduction: $reduction
+    initial: {angular_velocity: $speed}
+joints: {hub: {type: driven, between: [ground, beam.start], angle: $speed*t}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: beam.end, quantity: deflection}}
+)yaml",
+              {{"speed", speed}, {"reduction", reduction}});
+}
+
+/// A cantilever whose tip force grows to bend it by slopes of about F/2.
+std::string bent(const std::string& frame, const std::string& force, const std::string& step = "2e-2") {
+  return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 10}}
+    section: {EA: 1e5, EI: 1, rhoA: 1e-2}
+    frame: $frame
+    reduction: {modes: 5}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "$force*(1 - cos(pi*t/2))/2"]}}
+motion: {end: 2, step: $step}
+probes: {tip: {at: beam.end}}
+)yaml",
+              {{"frame", frame}, {"force", force}, {"step", step}});
+}
+
+}  // namespace
+
+TEST_CASE("range: spin against the first frequency, where nothing stiffens the body") {
+  const auto vm = said(judged(turning("1.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm));
+  REQUIRE(vm.count("spin"));
+  CHECK(vm.at("spin") == Approx(1.5 / 3.516).epsilon(1e-2));
+  CHECK(said(judged(turning("1.5", "{modes: 2}"), Formulation::lffr)).count("spin"));
+  CHECK_FALSE(said(judged(turning("1.5", "{modes: 2}"), Formulation::vm_md)).count("spin"));
+  CHECK_FALSE(said(judged(turning("0.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm)).count("spin"));
+}
+
+TEST_CASE("range: slopes against the frame that they are measured in") {
+  const std::string tangent = "{type: clamped, at: start}";
+  const auto lines = said(judged(bent(tangent, "1.6"), Formulation::vm_md));
+  REQUIRE(lines.count("slope"));
+  CHECK(lines.at("slope") == Approx(0.8).epsilon(0.1));  // F L^2 / 2 EI, with a little vibration
+  CHECK_FALSE(said(judged(bent("pinned", "1.6"), Formulation::vm_md)).count("slope"));  // half of it in the chord's frame
+  CHECK_FALSE(said(judged(bent(tangent, "0.5"), Formulation::vm_md)).count("slope"));
+}
+
+TEST_CASE("range: a linear elastic force does not shorten the body, and modes alone stretch it") {
+  const auto linear = said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::lffr));
+  REQUIRE(linear.count("shortening"));
+  CHECK(linear.at("shortening") == Approx(0.32).epsilon(0.2));
+  CHECK(said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::vm)).count("membrane"));
+  CHECK_FALSE(said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::vm_md)).count("membrane"));
+}
+
+TEST_CASE("range: loads against kept frequencies, and the step against what moves") {
+  const auto fast = said(judged(text_of({.end = "0.5", .reduction = "{modes: 2, derivatives: all}"}), Formulation::vm_md));
+  REQUIRE(fast.count("load"));  // cos(9.5 t) under modes to 9.0 rad/s
+  CHECK(fast.at("load") == Approx(9.5 / 9.0).epsilon(0.15));
+  CHECK_FALSE(fast.count("step"));
+  CHECK(said(judged(text_of({.end = "1.5", .step = "5e-2"}), Formulation::vm_md)).count("step"));
+}

@@ -1,0 +1,126 @@
+#include <catch2/catch.hpp>
+
+#include "space_twin.h"
+
+using namespace floe;
+using namespace floe::test;
+
+// A rigid body of inertia 1 that turns or slides with speed v against a stop: a mass on a spring of stiffness k that
+// sets in like a parabola over the width w. Undamped it leaves with -v, after
+//   2 int_0^w dd / sqrt(v^2 - k d^3 / (3 w)) + (pi/2 + asin(w/2 / a)) ... of the linear part about w/2,
+// where a^2 = (w/2)^2 + v_w^2 / k and v_w is the speed at d = w.
+
+namespace {
+
+constexpr double k = 400, width = 0.01;
+
+double duration(double v) {
+  double inner = 0;
+  constexpr int n = 2000;  // midpoints
+  for (int i = 0; i < n; ++i) {
+    const double d = width * (i + 0.5) / n;
+    inner += width / n / std::sqrt(v * v - k * d * d * d / (3 * width));
+  }
+  const double at_width = std::sqrt(v * v - k * width * width / 3), w = std::sqrt(k);
+  const double outer = (M_PI - 2 * std::atan2(width / 2 * w, at_width)) / w;  // from d - w/2 = w/2 and back
+  return 2 * inner + outer;
+}
+
+/// A rod of length 1 and mass 3 about its end: I = 1.
+const std::string planar = R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}
+    section: {EA: 1, EI: 1, rhoA: 3}
+    initial: {angular_velocity: $v}
+joints: {hinge: {type: revolute, between: [ground, rod.start], limits: {lower: -1, upper: 0.5, stiffness: 400, damping: $c, width: 0.01}}}
+motion: {end: $end, step: 1e-3}
+probes: {rod: {at: rod.start, quantity: rotation}}
+)yaml";
+
+std::string fill_planar(double v, double c, double end) {
+  return fill(planar, {{"v", number(v)}, {"c", number(c)}, {"end", number(end)}});
+}
+
+struct Contact {
+  double duration, rebound;
+};
+
+/// @param x  a column  @param limit  that it passes upwards and downwards
+Contact contact(const History& at, const std::vector<double>& x, double limit) {
+  std::vector<double> times;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if ((x[i - 1] - limit) * (x[i] - limit) < 0)
+      times.push_back(at.t[i - 1] + (at.t[i] - at.t[i - 1]) * (limit - x[i - 1]) / (x[i] - x[i - 1]));
+  REQUIRE(times.size() == 2);
+  const std::size_t n = x.size();
+  return {times[1] - times[0], (x[n - 1] - x[n - 2]) / (at.t[n - 1] - at.t[n - 2])};
+}
+
+}  // namespace
+
+TEST_CASE("stops: contact time and rebound of a rod are those of the penalty oscillator") {
+  const History at = move(fill_planar(1, 0, 1), Formulation::vm_md);
+  const Contact found = contact(at, at["rod.angle"], 0.5);
+  CHECK(found.duration == Approx(duration(1)).epsilon(1e-3));
+  CHECK(found.rebound == Approx(-1).epsilon(1e-3));
+  CHECK(drift(at) < 1e-3);
+  const std::vector<double> gaps = scene::stop_gaps(at.model, at.model.U);
+  REQUIRE(gaps.size() == 2);
+  CHECK(!at.model.stops[0].upper);
+  CHECK(gaps[0] == Approx(at["rod.angle"].back() + 1));
+  CHECK(gaps[1] == Approx(0.5 - at["rod.angle"].back()));
+}
+
+// A linear damped contact with the damping ratio z leaves with exp(-z pi / sqrt(1 - z^2)) of the speed when d = 0 again;
+// a width small against the depth changes that little.
+TEST_CASE("stops: damping takes away the speed that it should") {
+  const double z = 0.1;
+  const History at = move(fill(fill_planar(4, 2 * z * std::sqrt(k), 0.5), {}), Formulation::vm_md);
+  const Contact found = contact(at, at["rod.angle"], 0.5);
+  CHECK(found.rebound == Approx(-4 * std::exp(-z * M_PI / std::sqrt(1 - z * z))).epsilon(0.02));
+}
+
+// In space, more than a turn away: turns are counted.
+TEST_CASE("stops in space: a hinge after more than a turn, and a slide on both sides") {
+  const Turned turn;
+  const std::string rod = R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 2}}
+    section: {A: 1, Iy: 1e-9, Iz: 1e-9, J: 2e-9, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 3}
+    initial: {rotation: $turn, velocity: $u, angular_velocity: $w}
+joints: {guide: {type: $type, between: [ground, rod.start], axis: $axis, limits: {$limits, stiffness: $k, width: 0.01}}}
+motion: {end: $end, step: 1e-3}
+probes: {rod: {at: rod.end, quantity: $quantity}}
+)yaml";
+  const History hinge = move(fill(rod, {{"turn", turn.rotation()}, {"u", "[0, 0, 0]"}, {"w", turn(0, 0, 10)},
+                                        {"type", "revolute"}, {"axis", turn(0, 0, 1)}, {"limits", "upper: 7"},
+                                        {"k", "400"}, {"end", "1.2"}, {"quantity", "velocity"}}),
+                             Formulation::vm_md);
+  const auto speed = [&](std::size_t i) { return vector_at(hinge, "rod", i).norm(); };
+  CHECK(speed(0) == Approx(10));
+  CHECK(speed(hinge.t.size() - 1) == Approx(10).epsilon(2e-3));
+  double longest = 0;  // slower than the hinge before and after: in contact
+  for (std::size_t i = 0; i < hinge.t.size(); ++i)
+    if (speed(i) < 10 * (1 - 1e-4)) longest += 1e-3;
+  CHECK(longest == Approx(duration(10)).epsilon(0.05));
+  CHECK(drift(hinge) < 2e-3);
+
+  const History slide = move(fill(rod, {{"turn", turn.rotation()}, {"u", turn(2, 0)}, {"w", "[0, 0, 0]"},
+                                        {"type", "prismatic"}, {"axis", turn(1, 0)},
+                                        {"limits", "lower: -0.3, upper: 0.2"}, {"k", "1200"}, {"end", "0.75"},
+                                        {"quantity", "displacement"}}),
+                             Formulation::vm_md);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < slide.t.size(); ++i)
+    x.push_back((turn.Q.transpose() * vector_at(slide, "rod", i)).x());
+  // 0.1 s there, contact, 0.25 s back, contact, and on with 2 m/s: k/m as above
+  const double back = 0.1 + duration(2) + 0.25 + duration(2);
+  CHECK(*std::max_element(x.begin(), x.end()) > 0.29);
+  CHECK(*std::min_element(x.begin(), x.end()) < -0.39);
+  CHECK(x.back() == Approx(-0.3 + 2 * (0.75 - back)).margin(2e-3));
+}
