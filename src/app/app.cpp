@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
   add_scene(compare_command, choices);
   compare_command
       ->add_option("--formulations", choices.formulations,
-                   "which, separated by commas (bodies from files: lffr,vm,vm+md)")
+                   "which, separated by commas (bodies from files: lffr,vm,vm+md; in space without cfr)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,
@@ -154,7 +154,10 @@ int main(int argc, char** argv) {
       const scene::Scene scene = read_moving(choices.scene);
       const bool files = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                      [](const scene::Body& body) { return body.reduced.has_value(); });
-      if (files && given->count() == 0) choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
+      if (files && given->count() == 0)
+        choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
+      else if (scene.dimension == 3 && given->count() == 0)
+        choices.formulations = {"nlffr", "lffr", "vm", "vm+md"};
       std::vector<scene::Formulation> formulations;
       for (const std::string& name : choices.formulations) {
         const scene::Formulation one = scene::formulation_of(name);

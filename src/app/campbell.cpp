@@ -78,6 +78,9 @@ dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const Campbe
   }
   for (const scene::Joint& joint : scene.joints)
     if (turns(joint) && joint.kind == Kind::driven) rotating.drives.push_back("joint " + joint.name);
+  for (const scene::Joint& joint : scene.joints)
+    if ((joint.kind == Kind::spring || joint.kind == Kind::bushing) && joint.first.ground() != joint.second.ground())
+      rotating.springs.push_back((joint.kind == Kind::spring ? "spring " : "bushing ") + joint.name);
   return rotating;
 }
 

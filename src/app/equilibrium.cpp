@@ -37,12 +37,14 @@ void warn_of_instability(const scene::Model& model, double t, RunResult& result)
       t, directions, directions == 1 ? "direction" : "directions"));
 }
 
-/// From the state at `t` to the equilibrium at `next`, in halved steps where a whole one finds none. Counts iterations.
+/// From the state at `t` to the equilibrium at `next`, in halved steps where a whole one finds none, as where a drive
+/// turns by more than Newton can follow. Attitudes begin each step at their bases. Counts iterations.
 void advance(const scene::Model& model, double t, double next, double least, PetscInt& iterations) {
   const petsc::VecHandle before = model.system->create_vector();
   check(VecCopy(model.U, before));
   try {
     iterations += dynamics::equilibrium(*model.system, next, model.U, model.V);
+    model.system->rebase(model.U);
   } catch (const RunError&) {
     check(VecCopy(before, model.U));
     if (next - t < 2 * least) throw;

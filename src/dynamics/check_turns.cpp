@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -73,6 +74,26 @@ Trial trial(const RotatingSystem& rotating, Vec U) {
   return out;
 }
 
+/// That K is the same at both configurations: bearings that are stiffer one way than the other make it periodic in
+/// rotating axes. Entries count as the forces that turns by one radian and what they move make.
+void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std::vector<char>& is_multiplier,
+                     const VectorXd& reach, const std::vector<std::string>& names) {
+  const VectorXd size = reach.asDiagonal() * at.here.K.cwiseAbs() * reach;  // of each row
+  const double greatest = size.size() > 0 ? size.maxCoeff() : 0;
+  for (Index i = 0; i < size.size(); ++i)
+    for (Index j = 0; j < size.size() && !is_multiplier[i]; ++j) {
+      if (is_multiplier[j]) continue;
+      const double change = reach[i] * std::abs(at.there.K(i, j) - at.here.K(i, j)) * reach[j];
+      if (!(change > 1e-6 * std::sqrt(size[i] * size[j]) + 1e-11 * greatest)) continue;
+      refuse(
+          fmt::format(
+              "the stiffness of what acts on {}{}", names[i].empty() ? "the bodies" : names[i],
+              rotating.springs.empty() ? "" : fmt::format(" (to the ground: {})", fmt::join(rotating.springs, ", "))),
+          "springs and bushings to the ground that are on the axis and as stiff in all directions across it, or "
+          "whose first place turns along");
+    }
+}
+
 }  // namespace
 
 void check_turns(const RotatingSystem& rotating, Vec U) {
@@ -106,6 +127,7 @@ void check_turns(const RotatingSystem& rotating, Vec U) {
         std::abs(change[i]) > 1e-7 * std::max(std::abs(at.here.F[i]), std::abs(at.there.F[i])) + 1e-10 * stiff[i])
       refuse("what acts on " + (names[i].empty() ? "the bodies" : names[i]),
              "gravity along the axis or none, loads in axes of the body, springs to the ground on the axis");
+  check_stiffness(rotating, at, is_multiplier, reach, names);
 }
 
 }  // namespace floe::dynamics

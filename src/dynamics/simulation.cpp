@@ -22,6 +22,7 @@ struct Context {
   const std::function<void(const Instant&)>& observe;
   const std::vector<Event>& events;
   double end = 0;  ///< [s]
+  bool adaptive = false;
   petsc::Guard guard = {};
   TS ts = nullptr;
   std::vector<double> carried_of_tangent = {};  ///< as it was when the last tangent was formed
@@ -57,6 +58,21 @@ PetscErrorCode rebase(TS, Vec U, void* context) {
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] { c.system.bracket(a, b, W); });
+}
+
+/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that turn too far are tried
+/// again, smaller.
+PetscErrorCode well_met(TS ts, PetscReal t, Vec U, PetscBool* accept) {
+  Context* c = nullptr;
+  const PetscErrorCode code = TSGetApplicationContext(ts, &c);
+  if (code) return code;
+  return c->guard.run([&] {
+    const System::Astray astray = c->system.astray(t, U);
+    *accept = astray.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
+    if (astray.joint.empty() || (c->adaptive && astray.standing == Standing::half_turn)) return;
+    throw RunError(fmt::format("at t = {:.6g} {}{}", t, astray.text(),
+                               astray.standing == Standing::half_turn ? "; expected a smaller motion.step" : ""));
+  });
 }
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
@@ -144,6 +160,8 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
   const TSGeneralizedAlphaRotations rotations{rebase, bracket, &context};
   if (!system.attitudes().empty()) check(TSGeneralizedAlphaSetRotations(ts, &rotations));
+  check(TSSetApplicationContext(ts, &context));
+  check(TSSetFunctionDomainError(ts, well_met));
   check(TSSetTimeStep(ts, how.step));
   check(TSSetMaxTime(ts, how.end));
   check(TSSetMaxSteps(ts, PETSC_MAX_INT));
@@ -153,7 +171,6 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   check(TSAdaptSetType(adapt, how.tolerance ? TSADAPTBASIC : TSADAPTNONE));
   if (how.tolerance) check(TSSetTolerances(ts, 0, nullptr, *how.tolerance, nullptr));
   check(TSMonitorSet(ts, monitor, &context, nullptr));
-  check(TSSetApplicationContext(ts, &context));
   check(TSGetSNES(ts, &snes));
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
@@ -256,7 +273,7 @@ bool go(TS ts, const Integration& how, Context& context, double nominal) {
 
 IntegrationReport simulate(const System& system, const Integration& how, Vec U, Vec V,
                            const std::function<void(const Instant&)>& observe) {
-  Context context{system, observe, how.events, how.end};
+  Context context{system, observe, how.events, how.end, how.tolerance.has_value()};
   const petsc::VecHandle F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   petsc::TsHandle ts;

@@ -1,4 +1,9 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "floe/dynamics/spatial_spring.h"
+#include "floe/error.h"
 
 namespace floe::dynamics {
 namespace {
@@ -17,15 +22,23 @@ struct Strain {
   Vector3d u, u_rate, rho, rho_rate;
 };
 
-Strain strain(const SpatialPair& pair) {
+/// Of the rotation vectors that differ by whole turns about their line, the one nearest to another.
+Vector3d nearest_vector(const Vector3d& rho, const Vector3d& nearest) {
+  const double angle = rho.norm();
+  if (angle < 1e-6) return rho;
+  const Vector3d other = rho * (1 - 2 * M_PI / angle);
+  return (rho - nearest).squaredNorm() <= (other - nearest).squaredNorm() ? rho : other;
+}
+
+Strain strain(const SpatialPair& pair, const BushingProperties& properties, const Vector3d& nearest) {
   const SpatialPose &one = pair.pose[0], &two = pair.pose[1];
   Strain s;
   s.D = one.D, s.w = one.spin, s.dw = two.spin - one.spin;
   s.d = two.p - one.p;
   s.g = two.velocity - one.velocity - s.w.cross(s.d);
-  s.rho = math::rotation_vector(Eigen::Quaterniond(Matrix3d(one.D.transpose() * two.D)));
+  s.rho = nearest_vector(math::rotation_vector(Eigen::Quaterniond(Matrix3d(one.D.transpose() * two.D))), nearest);
   s.T_inverse = math::rotation_tangent(s.rho).inverse();
-  s.u = s.D.transpose() * s.d, s.u_rate = s.D.transpose() * s.g;
+  s.u = s.D.transpose() * s.d - properties.rest, s.u_rate = s.D.transpose() * s.g;
   s.rho_rate = s.T_inverse.transpose() * s.D.transpose() * s.dw;  // exp(rho) T = T': in axes of the first place
   return s;
 }
@@ -86,26 +99,38 @@ Matrix12 of_rates(const BushingProperties& p, const Strain& s) {
 }  // namespace
 
 SpatialBushing::SpatialBushing(SpatialMarker first, SpatialMarker second, BushingProperties properties)
-    : pair_(std::move(first), std::move(second)), properties_(properties) {}
+    : pair_(std::move(first), std::move(second)), properties_(std::move(properties)) {}
 
 void SpatialBushing::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.evaluate(motion);
-  const Strain s = strain(pair_);
+  const Strain s = strain(pair_, properties_, nearest_);
   pair_.add(wrench_of(s, inner(properties_, s)), r);
 }
 
 void SpatialBushing::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   pair_.evaluate(motion);
-  const Strain s = strain(pair_);
+  const Strain s = strain(pair_, properties_, nearest_);
   const Wrench in = inner(properties_, s);
   pair_.add_tangent(wrench_of(s, in), of_places(properties_, s, in), of_rates(properties_, s), weights, J);
 }
 
 Energy SpatialBushing::energy(const Motion& motion) const {
   pair_.evaluate(motion);
-  const Strain s = strain(pair_);
+  const Strain s = strain(pair_, properties_, nearest_);
   const Wrench strains = (Wrench() << s.u, s.rho).finished();
   return {0, 0.5 * properties_.stiffness.cwiseProduct(strains).dot(strains), 0};
+}
+
+void SpatialBushing::begin_step(const Motion& motion) {
+  if (properties_.stiffness.tail<3>().isZero(0) && properties_.viscosity.tail<3>().isZero(0)) return;
+  pair_.evaluate(motion);
+  nearest_ = strain(pair_, properties_, nearest_).rho;
+  if (nearest_.norm() < 0.8 * 2 * M_PI) return;
+  throw RunError(
+      fmt::format("bushing {} is turned by {:.4g} rad; expected less than a turn. A spring's torsional_stiffness about "
+                  "`axis` counts "
+                  "turns",
+                  properties_.name, nearest_.norm()));
 }
 
 }  // namespace floe::dynamics

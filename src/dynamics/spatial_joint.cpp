@@ -1,5 +1,7 @@
 #include "floe/dynamics/spatial_joint.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "floe/error.h"
@@ -20,6 +22,14 @@ Rows axis_z() { return {Product{2, 0}, Product{2, 1}}; }
 Rows operator+(Rows rows, const Rows& more) {
   rows.insert(rows.end(), more.begin(), more.end());
   return rows;
+}
+
+/// Which axes of both places Products keep parallel: all by three of them, z by two, none by one.
+void find_aligned(const SpatialConstraint& constraint, bool (&aligned)[3]) {
+  const auto products = std::count_if(constraint.rows.begin(), constraint.rows.end(),
+                                      [](const SpatialRow& row) { return std::holds_alternative<Product>(row); });
+  aligned[0] = aligned[1] = products >= 3;
+  aligned[2] = products >= 2;
 }
 
 SpatialConstraint pick_rows(const SpatialConstraint& constraint, const std::vector<int>& standing) {
@@ -76,9 +86,15 @@ SpatialConstraint lock_of(const SpatialConstraint& joint) {
 int rows(const SpatialConstraint& constraint) { return static_cast<int>(constraint.rows.size()); }
 
 SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint,
-                           int multipliers, const std::vector<int>& standing, std::shared_ptr<Latch> latch)
+                           int multipliers, const std::vector<int>& standing, double unit, std::shared_ptr<Latch> latch)
     : SpatialJoint(std::move(first), std::move(second), pick_rows(constraint, standing), multipliers,
-                   std::move(latch)) {}
+                   std::move(latch)) {
+  find_aligned(constraint, aligned_);  // rows that are left out are met by others, on the same branch
+  if (standing.empty()) pair_.coordinates.push_back(multipliers);  // by which it is known
+  unit_ = unit;
+  for (int row = 0; row < rows(constraint); ++row)
+    if (!std::binary_search(standing.begin(), standing.end(), row)) left_out_.push_back(constraint.rows[row]);
+}
 
 SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,
                            std::shared_ptr<Latch> latch, bool captures)
@@ -88,9 +104,24 @@ SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialCon
       constraint_(std::move(constraint)),
       multiplier_(static_cast<int>(pair_.coordinates.size())) {
   for (int i = 0; i < rows(constraint_); ++i) pair_.coordinates.push_back(multipliers + i);
+  find_aligned(constraint_, aligned_);
+}
+
+Standing SpatialJoint::standing(const Motion& motion) const {
+  if (!holds() || (captures_ && !captured_)) return Standing::met;
+  pair_.evaluate(motion, Extent::place);
+  const SeenPair seen(pair_, constraint_.angle, motion);
+  for (int axis = 0; axis < 3; ++axis)
+    if (aligned_[axis] && seen.first.D.col(axis).dot(seen.turned.col(axis)) < 0) return Standing::half_turn;
+  for (const SpatialRow& row : left_out_) {
+    const double unit = std::holds_alternative<Product>(row) ? 1 : unit_;
+    if (!(std::abs(evaluate(row, seen).C) <= 1e-3 * unit)) return Standing::open;
+  }
+  return Standing::met;
 }
 
 void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
+  if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_rows(motion, multiplier_, rows(constraint_), r);
   pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
@@ -104,6 +135,7 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 }
 
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);
   pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);

@@ -49,6 +49,8 @@ void add_line(const SpatialSpringProperties& p, const Line& l, Matrix12& Y, Matr
     const Matrix3d across = (Matrix3d::Identity() - along) / l.length;
     const Vector3d slip = across * l.gap_rate;  // dn/dt
     K += tension(p, l) * across + p.viscosity * l.n * slip.transpose();
+  } else if (p.length == 0) {
+    K = p.stiffness * Matrix3d::Identity();  // f = stiffness (p_2 - p_1)
   }
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {

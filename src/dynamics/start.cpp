@@ -181,6 +181,17 @@ PetscErrorCode equilibrium_tangent(SNES, Vec U, Mat J, Mat, void* context) {
   return c.guard.run([&] { c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J); });
 }
 
+/// Greatest turn of an attitude from one configuration to another with the same bases, as Newton's steps added up.
+/// [rad]
+double greatest_turn(const System& system, Vec from, Vec to) {
+  Eigen::VectorXd before, after;
+  system.gather(from, before), system.gather(to, after);
+  double greatest = 0;
+  for (const auto& attitude : system.attitudes())
+    greatest = std::max(greatest, (after - before).segment<3>(attitude.first).norm());
+  return greatest;
+}
+
 /// Null vectors of the static tangent.
 Undetermined open_directions(const System& system, double t, Vec U, Vec V) {
   const petsc::VecHandle A = system.create_vector();
@@ -262,6 +273,8 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
 }  // namespace
 
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle before = system.create_vector();
+  check(VecCopy(U, before));
   const PetscInt relaxed = prepare_search(system, t, U, V);
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
@@ -294,7 +307,14 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   PetscInt iterations = 0;
   check(SNESGetConvergedReason(snes, &reason));
   check(SNESGetIterationNumber(snes, &iterations));
-  if (why.empty() && reason >= 0) return relaxed + iterations;
+  if (why.empty() && reason >= 0) {
+    const System::Astray astray = system.astray(t, U);
+    if (!astray.joint.empty()) throw RunError(fmt::format("no equilibrium at t = {:.6g}: {}", t, astray.text()));
+    const double turn = greatest_turn(system, before, U);
+    if (turn < 1.2 * M_PI) return relaxed + iterations;
+    throw RunError(fmt::format(
+        "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
+  }
   if (why.empty()) why = SNESConvergedReasons[reason];
   throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
                              iterations));

@@ -191,6 +191,32 @@ double System::constraint_violation(double t, Vec U, Vec V, ConstraintLevel leve
   return greatest;
 }
 
+System::Astray System::astray(double t, Vec U) const {
+  gather(U, local_.q);
+  local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
+  const auto& is_multiplier = coordinates_.multiplier();
+  int code = -1;  // of owner, whose number all ranks know, and standing
+  for (std::size_t term = 0; term < terms_.size() && code < 0; ++term) {
+    if (!constrains_[term]) continue;
+    const TermWork& w = pick(*terms_[term]);
+    const Standing standing = terms_[term]->standing({t, w.q, w.v, w.a});
+    if (standing == Standing::met) continue;
+    const auto& indices = terms_[term]->coordinates();
+    const int first = *std::find_if(indices.begin(), indices.end(), [&](int index) { return is_multiplier[index]; });
+    code = 3 * coordinates_.owner_of_local()[first] + static_cast<int>(standing);
+  }
+  if (!whole_) MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, comm());
+  if (code < 0) return {};
+  return {coordinates_.owners()[code / 3], static_cast<Standing>(code % 3)};
+}
+
+std::string System::Astray::text() const {
+  if (standing == Standing::half_turn) return joint + " is met half a turn away from where it is meant to be";
+  return joint +
+         " comes apart: some of its constraints were left out, because other joints held the same, and these "
+         "hold it no longer";
+}
+
 void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const {
   using petsc::check;
   gather(U, local_.q), gather(V, local_.v), gather(A, local_.a);

@@ -70,9 +70,17 @@ ReferenceFrame reference_frame(const Structure& structure, ReferenceFrame::Kind 
   Eigen::MatrixXd values(r, r);
   for (int i = 0; i < r; ++i)
     for (int j = 0; j < r; ++j) check(VecDot(frame.functionals[i], frame.rigid[j], &values(i, j)));
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(values);
+  // lengths and angles stand beside one another: judged without their units
+  const auto scale_of = [](const auto& line) {
+    return line.cwiseAbs().maxCoeff() > 0 ? 1 / line.cwiseAbs().maxCoeff() : 1;
+  };
+  Eigen::VectorXd rows(r), columns(r);
+  for (int j = 0; j < r; ++j) columns[j] = scale_of(values.col(j));
+  const Eigen::MatrixXd by_columns = values * columns.asDiagonal();
+  for (int i = 0; i < r; ++i) rows[i] = scale_of(by_columns.row(i));
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(rows.asDiagonal() * by_columns);
   if (!lu.isInvertible()) throw InputError("the reference conditions leave a rigid motion of the body free");
-  frame.inverse = lu.inverse();
+  frame.inverse = columns.asDiagonal() * lu.inverse() * rows.asDiagonal();
   return frame;
 }
 

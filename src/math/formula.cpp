@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "floe/math/ridders.h"
+#include "expression.h"
 
 namespace floe::math {
 namespace {
@@ -33,10 +33,6 @@ void define_names(mu::Parser& parser) {
 
 bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool in_number(char c) { return std::isdigit(static_cast<unsigned char>(c)) || c == '.'; }
-
-// Above the time scale of most formulas, and no simple fraction of a round period: a step of whole periods sees a
-// constant.
-double first_step(double argument) { return 0.0073908513 * std::max(1.0, 1e-4 * std::abs(argument)); }
 
 struct Name {
   std::string text;
@@ -73,7 +69,8 @@ struct Formula::Parser {
   bool constant = true;
   std::vector<std::string> variables;
   std::array<double, 2> arguments{};
-  std::unique_ptr<mu::Parser> parser;  // none for a number: it is large
+  std::unique_ptr<mu::Parser> parser;      // none for a number: it is large
+  std::shared_ptr<const Expression> tree;  // for derivatives
 
   void refuse_unknown_names(const std::map<std::string, double>& constants) {
     for (const auto& [name, position] : names_in(text)) {
@@ -126,6 +123,17 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
   }
   parser_->value = parser_->evaluate();  // compiles, and throws when the text is no formula
   if (constant()) (*this)();
+  parser_->tree = Expression::read(text, variables, constants);
+}
+
+double Formula::finite(double value, const char* what, double first, double second) const {
+  if (std::isfinite(value)) return value;
+  const auto& variables = parser_->variables;
+  std::string where;
+  if (!parser_->constant) where = fmt::format(" at {} = {}", variables[0], first);
+  if (!parser_->constant && variables.size() > 1) where += fmt::format(", {} = {}", variables[1], second);
+  throw FormulaError(
+      fmt::format("{}\"{}\" is {}{}", what, text(), std::isnan(value) ? "not a number" : "infinite", where));
 }
 
 double Formula::operator()(double first, double second) const {
@@ -134,27 +142,22 @@ double Formula::operator()(double first, double second) const {
     parser_->arguments = {first, second};
     value = parser_->evaluate();
   }
-  if (std::isfinite(value)) return value;
-  const auto& variables = parser_->variables;
-  std::string where;
-  if (!parser_->constant) where = fmt::format(" at {} = {}", variables[0], first);
-  if (!parser_->constant && variables.size() > 1) where += fmt::format(", {} = {}", variables[1], second);
-  throw FormulaError(fmt::format("\"{}\" is {}{}", text(), std::isnan(value) ? "not a number" : "infinite", where));
+  return finite(value, "", first, second);
 }
 
 double Formula::derivative(double first, double second) const {
   if (constant()) return 0;
-  const auto difference = [&](double h) { return ((*this)(first + h, second) - (*this)(first - h, second)) / (2 * h); };
-  return ridders_limit(difference, first_step(first));
+  return finite(tree()({first, second}).first, "the derivative of ", first, second);
 }
 
 double Formula::second_derivative(double first, double second) const {
   if (constant()) return 0;
-  const double middle = (*this)(first, second);
-  const auto difference = [&](double h) {
-    return ((*this)(first + h, second) - 2 * middle + (*this)(first - h, second)) / (h * h);
-  };
-  return ridders_limit(difference, 4 * first_step(first));
+  return finite(tree()({first, second}).second, "the second derivative of ", first, second);
+}
+
+const Expression& Formula::tree() const {
+  if (!parser_->tree) throw FormulaError(fmt::format("\"{}\" is written in a way that has no derivative", text()));
+  return *parser_->tree;
 }
 
 bool Formula::constant() const { return parser_->constant; }

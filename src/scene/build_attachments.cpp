@@ -4,9 +4,12 @@
 
 #include <algorithm>
 
+#include "build_space.h"
 #include "floe/petsc/values.h"
 
 namespace floe::scene {
+
+using petsc::check;
 
 bool of_frame(const PreparedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
 
@@ -126,6 +129,64 @@ void add_constraint_modes(const Prepared& prepared, int index, Attachments& all)
   }
 }
 
+/// What a joint to the ground holds of a body in space, as one rigid piece.
+struct Support {
+  int joint;
+  const PreparedPlace* place;
+  std::vector<int> components;  // of its nodes that are held
+  bool at_frame;                // the frame is clamped there
+};
+
+std::vector<Support> supports_of(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  std::vector<Support> all;
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const auto& [first, second] = prepared.joints[j];
+    const Joint::Kind kind = prepared.scene.joints[j].kind;
+    if (first.ground() == second.ground() || kind == Joint::Kind::spring || kind == Joint::Kind::bushing) continue;
+    const PreparedPlace& place = first.ground() ? second : first;
+    if (place.body != index || place.nodes.empty()) continue;
+    Support support{static_cast<int>(j), &place, {}, false};
+    for (int c = 0; c < 6; ++c)
+      if (std::binary_search(body.held.begin(), body.held.end(), 6 * place.nodes.front() + c))
+        support.components.push_back(c);
+    // nodes whose displacements are held also hold the turns of their piece: about a line all but one
+    if (place.nodes.size() > 1 && support.components == std::vector<int>{0, 1, 2}) support.components = {0, 1, 2, 3, 4};
+    support.at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
+                       std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0;
+    if (!support.components.empty()) all.push_back(std::move(support));
+  }
+  return all;
+}
+
+/// Without what is not held: constraint modes displace held dofs alone.
+void keep_held(const PreparedBody& body, Vec moved) {
+  petsc::Values values(moved);
+  for (PetscInt dof = values.first; dof < values.end; ++dof)
+    if (!std::binary_search(body.held.begin(), body.held.end(), dof)) values[dof] = 0;
+}
+
+void add_spatial_constraint_modes(const Prepared& prepared, int index, Attachments& all) {
+  const PreparedBody& body = prepared.bodies[index];
+  const bool still = clamp_of(prepared, index) >= 0;
+  const std::vector<Support> supports = supports_of(prepared, index);
+  std::size_t held = 0;
+  for (const Support& support : supports) held += support.components.size();
+  const int holds = 6 - rigid_motions_left(body, body.held);
+  for (const Support& support : supports) {
+    const Joint& joint = prepared.scene.joints[support.joint];
+    const bool driven = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
+    if (support.at_frame || (still ? !driven : static_cast<int>(held) <= holds)) continue;
+    const bool turns = support.place->nodes.size() > 1;
+    for (int c = 0; c < 6; ++c) {
+      const bool holds_it = std::count(support.components.begin(), support.components.end(), c) > 0;
+      if (!holds_it && !(turns && c >= 3)) continue;
+      all.push_back(rigid_displacement(body, *support.place, c, joint.name));
+      keep_held(body, all.back().moved);
+    }
+  }
+}
+
 bool carries_moment(const Joint& joint, int dimension) {
   using Kind = Joint::Kind;
   switch (joint.kind) {
@@ -159,7 +220,10 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
            ++c)
         all.push_back(unit_load(body, place, c, joint.name));
   }
-  if (body.structure.dimension() == 2) add_constraint_modes(prepared, index, all);
+  if (body.structure.dimension() == 2)
+    add_constraint_modes(prepared, index, all);
+  else if (!of_frame(body))
+    add_spatial_constraint_modes(prepared, index, all);
 }
 
 }  // namespace
@@ -185,6 +249,27 @@ Attachments attachments(const Prepared& prepared, int index) {
     const int d = body.structure.dimension();
     for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
       all.push_back(unit_load(body, prepared.loads[l], c, load.name));
+  }
+  return all;
+}
+
+std::vector<reduction::Attachment> loads_on(const Prepared& prepared, int index) {
+  const PreparedBody& body = prepared.bodies[index];
+  Attachments all;
+  for (std::size_t l = 0; l < prepared.loads.size(); ++l) {
+    const Load& load = prepared.scene.loads[l];
+    const PreparedPlace& place = prepared.loads[l];
+    if (place.body != index || load.kind == Load::Kind::distributed) continue;
+    const bool moment = load.kind == Load::Kind::moment;
+    const Eigen::Matrix3d to_frame = load.axes == Load::Axes::world ? body.attitude.transpose() : body.axes.transpose();
+    for (int c = 0; c < 3; ++c) {
+      const math::Formula& value = (moment ? load.moment : load.force)[c];
+      if (value.constant() && value() == 0) continue;
+      reduction::Attachment along{load.name, fem::field(body.structure), {}};
+      for (int i = 0; i < 3; ++i)
+        check(VecAXPY(along.load, to_frame(i, c), unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
+      all.push_back(std::move(along));
+    }
   }
   return all;
 }

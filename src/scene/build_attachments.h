@@ -22,6 +22,16 @@ bool of_frame(const PreparedBody& body);
 ///   - of a driven rotation, if the rest holds the body already;
 ///   - of a displacement that the other held dofs determine, if the pinned frame turns as the body deforms: a guided
 ///     end at the distance L keeps L = cos(theta) (L + u), u = 0 to first order only.
+///
+/// In space every joint to the ground is one rigid piece that gets a column for each motion held, where
+///
+///   - the frame moves, and joints together hold more than the rigid motions: what they keep apart or at an angle
+///     changes at second order as the body bends;
+///   - the body stands still, and the joint drives it.
 std::vector<reduction::Attachment> attachments(const Prepared& prepared, int index);
+
+/// In space: of every load at a place of the body, the directions in which it acts, by one unit, in the frame's axes at
+/// the start. Collective.
+std::vector<reduction::Attachment> loads_on(const Prepared& prepared, int index);
 
 }  // namespace floe::scene

@@ -180,6 +180,47 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
                       body.spec.name));
 }
 
+/// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static
+/// response, the basis holds (V'f)' K_r^-1 (V'f). Says so below one half. Collective.
+void warn_of_loads(const Prepared& prepared, int index, const Stage& stage, const ReducedBody& reduced,
+                   std::vector<std::string>& warnings) {
+  const PreparedBody& body = prepared.bodies[index];
+  if (body.structure.dimension() == 2) return;
+  const std::vector<reduction::Attachment> loads = loads_on(prepared, index);
+  if (loads.empty()) return;
+  reduction::Columns copies;
+  for (const reduction::Attachment& load : loads) {
+    petsc::VecHandle one = fem::field(body.structure);
+    check(VecCopy(load.load, one));
+    copies.push_back(std::move(one));
+  }
+  const reduction::Columns responses = stage.statics->solve(copies);
+  const int k = reduced.body.coordinates();
+  const Eigen::LDLT<Eigen::MatrixXd> stiffness(reduced.body.elasticity.linear_stiffness());
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    double whole = 0, size = 0, length = 0;
+    check(VecDot(loads[l].load, responses[l], &whole));
+    check(VecNorm(loads[l].load, NORM_2, &size));
+    check(VecNorm(responses[l], NORM_2, &length));
+    if (!(whole > 1e-9 * size * length)) continue;  // where the joints hold it
+    Eigen::VectorXd image(k);
+    for (int i = 0; i < k; ++i) {
+      Vec column = nullptr;
+      check(BVGetColumn(reduced.basis->V, i, &column));
+      check(VecDot(loads[l].load, column, &image[i]));
+      check(BVRestoreColumn(reduced.basis->V, i, &column));
+    }
+    const double part = k > 0 ? image.dot(stiffness.solve(image)) / whole : 0;
+    if (part >= 0.5) continue;
+    const std::string text = fmt::format(
+        "body {}: its columns hold {:.2g} % of the work of load {} on its static response, and follow it as little. "
+        "Choose attachment: {}",
+        body.spec.name, 100 * std::max(part, 0.0), loads[l].label,
+        body.spec.reduction.attachment == ReductionSpec::Attachment::joints ? "all" : "loads");
+    if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+  }
+}
+
 /// Without derivatives the basis holds the fields in order: fields = V T, T = V'M fields, eta = T^-1 q.
 Eigen::MatrixXd coordinates_of_fields(const Stage& stage, const ReducedBody& reduced) {
   const int k = reduced.body.coordinates();
@@ -326,6 +367,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
       all[b].report.seconds_derivatives = MPI_Wtime() - start;
     }
     end(body, stages[b], std::move(derivatives), all[b]);
+    warn_of_loads(prepared, b, stages[b], all[b], warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
     if (keep_statics) all[b].statics = std::move(stages[b].statics);
     stages[b] = Stage();

@@ -26,7 +26,8 @@ bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
   return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
 }
 
-/// The joint by which the ground clamps the body in its clamped frame; -1: the frame moves.
+}  // namespace
+
 int clamp_of(const Prepared& prepared, int b) {
   const PreparedBody& body = prepared.bodies[b];
   if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
@@ -43,8 +44,6 @@ int clamp_of(const Prepared& prepared, int b) {
   }
   return -1;
 }
-
-}  // namespace
 
 SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced)
     : prepared_(prepared),

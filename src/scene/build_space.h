@@ -76,6 +76,9 @@ class SpaceAssembly {
   std::map<std::string, JointLatches> latches_;
 };
 
+/// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.
+int clamp_of(const Prepared& prepared, int body);
+
 /// Rows that the kind of joint holds in space; none: a spring or bushing.
 int spatial_rows(Joint::Kind kind);
 

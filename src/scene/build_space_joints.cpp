@@ -14,6 +14,7 @@ namespace floe::scene {
 
 using dynamics::SpatialConstraint;
 using dynamics::SpatialMarker;
+using dynamics::SpatialPose;
 using Kind = Joint::Kind;
 
 int spatial_rows(Kind kind) {
@@ -109,10 +110,18 @@ void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
       bushing.stiffness[i] = joint.translation[i], bushing.stiffness[3 + i] = joint.rotation[i];
       bushing.viscosity[i] = joint.translation_viscosity[i], bushing.viscosity[3 + i] = joint.rotation_viscosity[i];
     }
+    const SpatialPose from = start_of(placed.places[0]), to = start_of(placed.places[1]);
+    bushing.rest = from.D.transpose() * (to.p - from.p);
+    bushing.name = joint.name;
     terms_.push_back(std::make_unique<dynamics::SpatialBushing>(placed.places[0], placed.places[1], bushing));
     return;
   }
   const double apart = (start_of(placed.places[1]).p - start_of(placed.places[0]).p).norm();
+  if (joint.stiffness != 0 && joint.length.value_or(0) > 0 && apart <= 1e-12 * prepared_.extent)
+    throw InputError(
+        fmt::format("{}: the places of spring {} coincide at the start, and no direction is that of its "
+                    "force; expected length: 0, or places apart",
+                    joint.where.text(), joint.name));
   terms_.push_back(std::make_unique<dynamics::SpatialSpring>(
       placed.places[0], placed.places[1],
       dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
@@ -122,9 +131,9 @@ void SpaceAssembly::add_spring(int j, const PlacedJoint& placed) {
 void SpaceAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
   const auto found = latches_.find(prepared_.scene.joints[j].name);
   const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
-  if (!standing.empty())
-    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                              multipliers_[j], standing, latches.joint));
+  terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
+                                                            multipliers_[j], standing, prepared_.extent,
+                                                            latches.joint));
   if (latches.lock)
     terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
                                                               dynamics::lock_of(placed.constraint), latches.first_row,

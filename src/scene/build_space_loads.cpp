@@ -151,6 +151,7 @@ void SpaceAssembly::add_loads() {
     if (!owner_ || at.coordinates.empty()) continue;
     const PreparedBody& body = prepared_.bodies[place.body];
     const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+    at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
     const int first = load.kind == Load::Kind::moment ? 3 : 0;
     terms_.push_back(std::make_unique<SpatialForce>(
         std::move(at),

@@ -7,6 +7,8 @@
 
 #include "independent_rows.h"
 
+#include "floe/math/rotation.h"
+
 namespace floe::scene {
 
 using Eigen::Index;
@@ -26,6 +28,12 @@ void SpatialRows::add(int joint, const std::array<dynamics::SpatialMarker, 2>& p
   for (std::size_t i = 0; i + rows < entry.term->coordinates().size(); ++i)
     entry.coordinates.push_back(seen(entry.term->coordinates()[i]));
   for (const dynamics::SpatialMarker& place : places) {
+    if (place.framed() && !frames_.contains(place.coordinates[0])) {
+      Frame frame;
+      for (std::size_t i = 0; i < 6; ++i) frame.at[i] = seen(place.coordinates[i]);
+      frame.about = place.attitude->axes(Eigen::Vector3d::Zero()) * math::skew(place.x0);
+      frames_.emplace(place.coordinates[0], frame);
+    }
     for (std::size_t i = 0; i < place.coordinates.size(); ++i) {
       const int at = seen(place.coordinates[i]);
       if (place.framed() && i < 6) {
@@ -50,10 +58,18 @@ VectorXd SpatialRows::scales() const {
   return scales;
 }
 
+MatrixXd SpatialRows::directions() const {
+  const VectorXd scale = scales();
+  MatrixXd D = scale.asDiagonal();
+  for (const auto& [local, frame] : frames_)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) D(frame.at[i], frame.at[3 + j]) = frame.about(i, j) * scale[frame.at[3 + j]];
+  return D;
+}
+
 VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) const {
   const Index count = static_cast<Index>(unit_.size());
   VectorXd C(count);
-  const VectorXd scale = scales();
   if (gradient) *gradient = MatrixXd::Zero(count, q.size());
   Index first = 0;
   for (const Entry& entry : entries_) {
@@ -67,11 +83,11 @@ VectorXd SpatialRows::values(const VectorXd& q, double t, MatrixXd* gradient) co
       MatrixXd J = MatrixXd::Zero(n + entry.rows, n + entry.rows);
       entry.term->tangent(motion, {0, 0, 0}, J);
       for (Index i = 0; i < n; ++i)
-        gradient->block(first, entry.coordinates[i], entry.rows, 1) +=
-            scale[entry.coordinates[i]] * J.block(n, i, entry.rows, 1);
+        gradient->block(first, entry.coordinates[i], entry.rows, 1) += J.block(n, i, entry.rows, 1);
     }
     first += entry.rows;
   }
+  if (gradient) *gradient = *gradient * directions();
   for (Index i = 0; i < count; ++i) {
     C[i] /= unit_[i];
     if (gradient) gradient->row(i) /= unit_[i];
@@ -93,7 +109,7 @@ VectorXd SpatialRows::allowed(const VectorXd& q, double t, const std::vector<Ind
     const VectorXd off = values(x, t, &gradient)(kept);
     if (off.size() == 0 || off.cwiseAbs().maxCoeff() < 1e-13) return x;
     const Eigen::CompleteOrthogonalDecomposition<MatrixXd> least_squares(gradient(kept, Eigen::all));
-    x -= least_squares.solve(off).cwiseProduct(scales());
+    x -= directions() * least_squares.solve(off);
   }
   if (values(x, t, nullptr)(kept).cwiseAbs().maxCoeff() < 1e-11) return x;
   return VectorXd::Constant(q.size(), std::nan(""));
@@ -123,6 +139,37 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
     if (values(moved, t, nullptr).cwiseAbs().maxCoeff(&row) > 1e-8)
       complain(row, sample == 0 ? "once bodies move or deform" : fmt::format("at t = {:.6g}", t));
   }
+  follow_drives(q, end, kept, complain);
+}
+
+/// Drives may begin late: through the whole motion, from one configuration that the kept rows allow to the next, as far
+/// as they can be followed. What nobody can foresee the motion finds (SpatialJoint::standing).
+void SpatialRows::follow_drives(const VectorXd& start, double end, const std::vector<Index>& kept,
+                                const std::function<void(Index, const std::string&)>& complain) const {
+  const auto driven = [&](const Entry& entry) {
+    const Joint& joint = prepared_.scene.joints[entry.joint];
+    return !joint.angle.constant() || !joint.position.constant();
+  };
+  if (!std::any_of(entries_.begin(), entries_.end(), driven)) return;
+  constexpr int samples = 256;
+  VectorXd x = start;
+  for (int sample = 1; sample <= samples; ++sample) {
+    const double t = end * sample / samples;
+    x = allowed(x, t, kept);
+    if (!x.allFinite() || !on_branch(x, t)) return;
+    Index row = 0;
+    if (values(x, t, nullptr).cwiseAbs().maxCoeff(&row) > 1e-6) complain(row, fmt::format("at t = {:.6g}", t));
+  }
+}
+
+bool SpatialRows::on_branch(const VectorXd& q, double t) const {
+  return std::all_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    const Index n = static_cast<Index>(entry.coordinates.size());
+    VectorXd own = VectorXd::Zero(n + entry.rows);
+    const VectorXd none = own;
+    for (Index i = 0; i < n; ++i) own[i] = q[entry.coordinates[i]];
+    return entry.term->standing({t, own, none, none}) == dynamics::Standing::met;
+  });
 }
 
 std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <functional>
 #include <map>
 
 #include "build_prepare.h"
@@ -28,14 +30,25 @@ class SpatialRows {
     std::vector<int> coordinates;  // without multipliers, among those that any joint sees
     int rows;
   };
+  /// A frame's six coordinates among those seen; directions of change turn it about the first place that joints have on
+  /// it, so that places far away from the frame have gradients of a common size: dR = about dx.
+  struct Frame {
+    std::array<Eigen::Index, 6> at;
+    Eigen::Matrix3d about;
+  };
   /// C and its gradient with scaled coordinates; rotations count in radians, lengths in parts of the extent.
   int seen(int coordinate);
   /// Of each coordinate: for frames the extent and a radian; else what moves a place by a hundredth of these; 0 where
   /// columns move places by round-off alone.
   Eigen::VectorXd scales() const;
+  /// Changes of the coordinates of which gradients count the amounts, as columns.
+  Eigen::MatrixXd directions() const;
   Eigen::VectorXd values(const Eigen::VectorXd& q, double t, Eigen::MatrixXd* gradient) const;
   Eigen::VectorXd allowed(const Eigen::VectorXd& q, double t, const std::vector<Eigen::Index>& kept) const;
   void check_left_out(const std::vector<Eigen::Index>& kept) const;
+  void follow_drives(const Eigen::VectorXd& start, double end, const std::vector<Eigen::Index>& kept,
+                     const std::function<void(Eigen::Index, const std::string&)>& complain) const;
+  bool on_branch(const Eigen::VectorXd& q, double t) const;
   const Entry& entry_of(Eigen::Index row) const;
 
   const Prepared& prepared_;
@@ -47,6 +60,7 @@ class SpatialRows {
   std::vector<char> moves_;            // of a frame; others are elastic
   std::vector<double> unit_;           // of each row
   std::vector<Entry> entries_;
+  std::map<int, Frame> frames_;  // by the local index of R
 };
 
 }  // namespace floe::scene

@@ -90,6 +90,12 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
   return choice;
 }
 
+bool has_mass(const fem::Section& section) {
+  if (const auto* beam = std::get_if<fem::SpatialBeam>(&section)) return beam->section.rhoA > 0;
+  if (const auto* shell = std::get_if<fem::ShellSection>(&section)) return shell->mass > 0;
+  return true;
+}
+
 /// The frame of a guest: clamped at its joint's place, with the origin and the axes of the host's.
 FrameChoice frame_of_host(const Scene& scene, const Body& body, const SpatialMesh& mesh, const SharedFrame& shared,
                           const PreparedBody& host) {
@@ -106,6 +112,10 @@ FrameChoice frame_of_host(const Scene& scene, const Body& body, const SpatialMes
 PreparedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
                           const PreparedBody* host) {
   SpatialMesh mesh = spatial_mesh(scene, spec, comm);
+  if (const auto& sections = mesh.structure.sections;
+      !spec.rigid && std::none_of(sections.begin(), sections.end(), has_mass))
+    throw InputError(
+        fmt::format("{}: no part of body {} has mass; expected a material with rho > 0", spec.where.text(), spec.name));
   const FrameChoice choice = host ? frame_of_host(scene, spec, mesh, shared, *host) : choose_frame(scene, spec, mesh);
   fem::express_in_frame(mesh.structure.mesh, choice.origin, choice.axes);
   for (fem::Section& section : mesh.structure.sections) section = fem::turned(section, choice.axes);
@@ -274,9 +284,8 @@ std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
     for (std::size_t b = 0; b < found.size(); ++b) {
       const Body& spec = scene.bodies[b];
       if (shared[b].shared() != guests) continue;
-      found[b] = spec.reduced
-                     ? prepare_reduced(spec, comm)
-                     : prepare_body(scene, spec, comm, shared[b], guests ? &*found[shared[b].host] : nullptr);
+      found[b] = spec.reduced ? prepare_reduced(spec, comm)
+                              : prepare_body(scene, spec, comm, shared[b], guests ? &*found[shared[b].host] : nullptr);
       start_body(*found[b]);
     }
   std::vector<PreparedBody> bodies;
@@ -304,8 +313,8 @@ void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const 
     PreparedBody& body = prepared.bodies[at.body];
     const std::size_t before = body.held.size();
     prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
-    const bool here = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
-                      at.moved_by(body.frame.conditions.front() / 6);
+    const bool here =
+        body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
     if (clamps(joint) && here && !is_unlocked(prepared.scene, joint.name))
       body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
   }
@@ -321,6 +330,7 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
     prepared.extent = std::max(
         prepared.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
   prepare_joints(prepared, place);
+  check_pairs(prepared);
   for (PreparedBody& body : prepared.bodies) {
     if (body.spec.reduced) continue;
     const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);

@@ -24,6 +24,10 @@ struct MeshAxes {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
+/// Of places that are sets of nodes, which reading a scene does not know.
+/// @throws InputError  a joint between a place and itself, or two joints for one pair of places
+void check_pairs(const Prepared& prepared);
+
 /// Nodes of a place of the body, with their mean position in the structure's axes.
 /// @param place  a point is in mesh axes
 /// @throws InputError  no such set, no node there. Collective.

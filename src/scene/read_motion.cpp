@@ -40,6 +40,10 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
                                                          {"deflection", Quantity::deflection},
                                                          {"velocity", Quantity::velocity},
                                                          {"rotation", Quantity::rotation}});
+  if (probe.relative_to && probe.quantity == Quantity::deflection)
+    document.fault(reading.where("relative_to"),
+                   "does not apply to a deflection, which is measured in the body's frame",
+                   "another quantity, or none");
   return probe;
 }
 

@@ -289,10 +289,10 @@ const SchemaSection joint_section{
              {"torsional_stiffness", Type::number, "N m/rad", "0", "against turning from the start", nonnegative}),
         only({"spring"}, {"torsional_viscosity", Type::number, "N m s/rad", "0", "against turning", nonnegative}),
         only({"bushing"}, {"translation", Type::numbers, "N/m", "[0, 0, 0]",
-                           "along x, y, z; axes as at the start in the "
+                           "along x, y, z, unstretched at the start; axes as at the start in the "
                            "world, carried by the first place",
                            nonnegative}),
-        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
+        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z, by less than a turn", nonnegative}),
         only({"bushing"}, {"translation_viscosity", Type::numbers, "N s/m", "[0, 0, 0]", "along x, y, z", nonnegative}),
         only({"bushing"},
              {"rotation_viscosity", Type::numbers, "N m s/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
@@ -346,7 +346,7 @@ const SchemaSection probe_section{
         {"at", Type::place, "", required, "where"},
         choice("quantity", "displacement",
                "position, displacement since the start, velocity: world axes; deflection: in "
-               "the floating frame; rotation of the section",
+               "the floating frame; rotation of the section (in space a rotation vector, of half a turn at most)",
                {"position", "displacement", "deflection", "velocity", "rotation"}),
         {"relative_to", Type::place, "", "",
          "measured from this place, in axes that turn with its section; absent: world"},

@@ -7,6 +7,7 @@ from typing import Callable, Optional, Union
 
 import reduced
 import runtime
+import space
 from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
@@ -420,4 +421,83 @@ REDUCED = [
          scene=reduced.from_file({"probes.tip.at": "beam.ende"}), prepare=reduced.made(), check=no_results),
 ]
 
-CASES = runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+SPACE = [
+    *(Case(f"space: static drive by {angle}", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0, lines=0,
+           scene=space.body(space.RIGID % "", space.hinge(f"{angle}*t"), motion=""), check=space.turned(angle))
+      for angle in (2, 3.141592653589793, 20)),
+    Case("space: half a turn in a step", run(), 1, ("joint d is met half a turn away", "expected a smaller motion.step"),
+         lines=1, scene=space.body(space.RIGID % "", space.hinge("3.1*ramp(t, 0.5, 1)"), motion="{end: 2, step: 0.5}")),
+    Case("space: a late drive that is left out", run(), 2, ("joint d holds what other joints hold already", "at t = "), lines=1,
+         scene=space.body(space.BEAM % ", reduction: {attachment: none}", space.CLAMP,
+                          space.MOVED.replace('"0.01*t"', space.LATE), motion="{end: 1, step: 1e-2}"), check=nothing),
+    Case("space: a late drive", run(), 0, lines=0, check=space.near("end.z", 0.01 * 0.9**3, 1e-9),
+         scene=space.body(space.BEAM % "", space.CLAMP, space.MOVED.replace('"0.01*t"', space.LATE),
+                          motion="{end: 1, step: 1e-2}")),
+    Case("space: a late weld", run(), 2, ("holds what other joints hold already", "at t = 0.1"), lines=1,
+         scene=space.TWO_ARMS, check=nothing),
+    *(Case(f"space: bearings, {name}", ["campbell", "scene.yaml", "--speeds", "10", "--about", "0,0,1", "--through", "0,0,0",
+                                        "-o", "out"], code, says, lines=len(says[:1]), scene=space.bearings(*stiffness))
+      for name, code, says, stiffness in (
+          ("stiffer one way", 2, ("the stiffness of what acts on body a (to the ground: bushing l, bushing r)",), (1000, 3000)),
+          ("as stiff all around", 0, (), (1000, 1000)))),
+    Case("space: a load in axes of its place", run(), 0, lines=0, check=space.near("end.y", 0, 1e-12),
+         scene=space.body(space.TILTED % ", frame: pinned, reduction: {modes: 3, derivatives: none, attachment: none}",
+                          more="loads: {f: {type: force, at: a.middle, force: [0.1, 0, 0], axes: place}}\n",
+                          probes="{end: {at: a.middle}}")),
+    Case("space: a clamp far away", run(), 2, ("the two places of joint c are", "expected the same point"), lines=1,
+         scene=space.body(space.PLATE, "c: {type: fixed, between: [{body: ground, node: [0, 0, 50]}, a.left]}", probes=""),
+         check=nothing),
+    Case("space: joints of the same places", run(), 2,
+         ("joins a place with itself", "holds the same two places as joint c (line 2)"), lines=2,
+         scene=space.body(space.PLATE, "c: {type: fixed, between: [ground, a.left]}",
+                          "d: {type: revolute, between: [ground, a.left]}", "e: {type: fixed, between: [a.right, a.right]}",
+                          probes=""), check=nothing),
+    Case("space: a fast drive", run(), 0, lines=0, check=space.near("end.y", -0.01 * 0.5365729180004349, 1e-5),
+         scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 1e4]}", space.hinge("0.01*sin(1e6*t)"),
+                          motion="{end: 1.2e-5, step: 6e-8}")),
+    Case("space: a drive by a power", run(), 0, lines=0, check=space.turned(1),
+         scene=space.body(space.RIGID % "", space.hinge("t^2.5"), motion="{end: 1, step: 1e-2}")),
+    Case("space: a spring of length zero", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0, lines=0,
+         scene=space.body(space.RIGID % "", "s: {type: spring, between: [ground, a.start], stiffness: 100, length: 0}",
+                          "t: {type: spring, between: [ground, a.end], stiffness: 100, length: 0}",
+                          "u: {type: bushing, between: [ground, a.start], rotation: [1, 0, 0]}",
+                          more='loads: {f: {type: force, at: a.middle, force: [0, 0, "2*t"]}}\n', motion=""),
+         check=space.near("end.z", 0.01, 1e-9)),
+    Case("space: a spring with a length where its places coincide", run(), 2,
+         ("the places of spring s coincide at the start", "expected length: 0"), lines=1,
+         scene=space.body(space.RIGID % "", "s: {type: spring, between: [ground, a.start], stiffness: 100, length: 0.1}")),
+    Case("space: a bushing turned round", run(), 1, ("bushing s is turned by ", "expected less than a turn"), lines=1,
+         scene=space.body(space.RIGID % ", initial: {angular_velocity: [0, 0, 10]}",
+                          "h: {type: revolute, between: [ground, a.start], axis: [0, 0, 1]}",
+                          "s: {type: bushing, between: [ground, a.start], rotation: [0, 0, 1]}", motion="{end: 6, step: 5e-3}")),
+    *(Case(f"space: a torque, attachment {attachment}", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0,
+           lines=0, check=check,
+           scene=space.body(space.BEAM % f", reduction: {{attachment: {attachment}}}", space.CLAMP, motion="",
+                            more='loads: {m: {type: moment, at: a.end, moment: ["5*t", 0, 0]}}\n'))
+      for attachment, check in (("joints", space.warns("of the work of load m")), ("all", space.silent))),
+    *(Case(f"space: two supports, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1", "--at", "1", "-o", "out"],
+           0, lines=0, scene=space.SAGGING, check=space.near("end.z", -1.478073e-4, 3e-7)) for f in ("vm+md", "nlffr")),
+    Case("space: motion on two supports", run(), 0, lines=0, scene=space.SAGGING + "motion: {end: 4e-3, step: 2e-4}\n",
+         check=files("finished", 21)),
+    Case("space: a support that moves", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0, lines=0,
+         check=space.near("end.z", 0.01, 1e-12), scene=space.body(space.BEAM % "", space.CLAMP, space.MOVED, motion="")),
+    Case("space: a bushing between distant places", run(), 0, lines=0, check=space.near("end.z", 0, 1e-12),
+         scene=space.body(space.RIGID % "", "s: {type: bushing, between: [{body: ground, node: [0, 0, 1]}, a.middle], "
+                                            "translation: [10, 10, 10]}")),
+    Case("space: a joint at an arm of a hundred million lengths", run(), 0, lines=0, check=space.near("end.x", 1, 1e-6),
+         scene=space.body(space.RIGID % "", "h: {type: revolute, between: [ground, {body: a, node: [1.0e+8, 0, 0]}], "
+                                            "axis: [0, 0, 1]}")),
+    Case("space: compare", ["compare", "scene.yaml", "-o", "out", "--no-reference-error"], 0, lines=0, shows=("nlffr", "vm+md"),
+         never=("cfr",), scene=space.body(space.BEAM % "", "c: {type: revolute, between: [ground, a.start], axis: [0, 1, 0]}",
+                                          motion="{end: 2e-3, step: 1e-3}")),
+    Case("space: without mass", run(), 2, ("no part of body a has mass",), lines=1, check=nothing,
+         scene=space.body((space.BEAM % "").replace("rho: 2700", "rho: 0"), space.CLAMP)),
+    Case("space: a body of a micrometre", run(), 0, lines=0, check=space.near("end.x", 1e-6, 1e-15),
+         scene=space.body((space.RIGID % "").replace("[1, 0, 0]", "[1e-6, 0, 0]").replace("0.05", "5e-8"))),
+    Case("space: a deflection relative to a place", run(), 2, ("probes.end.relative_to", "does not apply to a deflection"),
+         lines=1, check=nothing,
+         scene=space.body(space.BEAM % "", space.CLAMP,
+                          probes="{end: {at: a.end, quantity: deflection, relative_to: a.start}}")),
+]
+
+CASES = SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

@@ -33,7 +33,7 @@ using SpatialRow = std::variant<Coincide, Along, Product, Separation>;
 ///
 /// Multipliers of Coincide, Along and Separation are forces, those of Product moments: where the constraint is met,
 /// Q_21, Q_32, Q_13 of fixed places go with moments about z, x, y; Q_31 and Q_32 with moments about -y and x of the
-/// second place. Products also vanish at turns by 180 degrees: the motion stays on the branch that it begins on.
+/// second place. Products also vanish at turns by 180 degrees: SpatialJoint::standing tells.
 struct SpatialConstraint {
   std::vector<SpatialRow> rows;
   TimeFunction angle = {};  ///< of E, of any size; empty: 0
@@ -67,8 +67,9 @@ class SpatialJoint final : public Term {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
+  /// @param unit         of lengths in rows that are left out [m]
   SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint, int multipliers,
-               const std::vector<int>& standing, std::shared_ptr<Latch> latch = {});
+               const std::vector<int>& standing, double unit = 1, std::shared_ptr<Latch> latch = {});
   /// All rows stand.
   /// @param latch     if given, whether the rows hold
   /// @param captures  the places as they are when the latch closes are the undisplaced state: D1 = D2, offsets as found
@@ -77,6 +78,9 @@ class SpatialJoint final : public Term {
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  /// Axes that Products keep parallel have to point the same way, and rows that are left out to vanish: up to 1e-3 of
+  /// a radian and of the length unit.
+  Standing standing(const Motion& motion) const override;
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override;
   void load(std::span<const double> carried) override;
@@ -87,7 +91,10 @@ class SpatialJoint final : public Term {
   std::shared_ptr<Latch> latch_;
   bool captures_, captured_ = false;
   SpatialConstraint constraint_;  // the rows that stand
-  int multiplier_;                // position among coordinates
+  std::vector<SpatialRow> left_out_;
+  double unit_ = 1;
+  bool aligned_[3] = {};  // axes of both places that all rows together keep parallel
+  int multiplier_;        // position among coordinates
   mutable Eigen::VectorXd row_;
 };
 

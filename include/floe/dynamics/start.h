@@ -41,8 +41,8 @@ class NothingHolds : public RunError {
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
 /// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
 /// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
-/// @throws RunError  not converged, or constraints repeat; NothingHolds; U is then whatever it was last.
-/// Collective.
+/// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
+/// NothingHolds; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
 
 /// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for

@@ -29,13 +29,15 @@ struct RotatingSystem {
   /// Owners (Coordinates::belongs_to) of the joints that drive the system from the ground: where their angle is held,
   /// the ground is thought to turn along.
   std::vector<std::string> drives;
+  /// Springs and bushings to the ground, for messages: `bushing left`.
+  std::vector<std::string> springs = {};
 };
 
 /// Unknowns beyond which nothing below is tried: its matrices are dense.
 inline constexpr PetscInt largest_rotating_system = 1500;
 
 /// That the equations are the same for a scene that has turned about the axis: constraints stay met, allow the same
-/// motions, and forces turn along. Tried by turning U by a finite angle.
+/// motions, and forces and their stiffness turn along. Tried by turning U by a finite angle.
 ///
 /// @param U  a configuration that meets the constraints; as before afterwards
 /// @throws InputError  too many unknowns, or what does not turn: a joint (by name), or loads and gravity. Collective.

@@ -42,6 +42,15 @@ class System {
   /// Greatest |C(q, t)| of all constraint rows, or of a rate of them: only the terms that constrain are evaluated.
   /// Collective.
   double constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const;
+  /// A joint whose constraints are not met as they are meant to be (Term::standing), by name; empty: there is none.
+  struct Astray {
+    std::string joint;
+    Standing standing = Standing::met;
+    /// What happened, for messages.
+    std::string text() const;
+  };
+  /// Collective.
+  Astray astray(double t, Vec U) const;
   /// w.q dF/dU + w.v dF/dV + w.a dF/dA, assembled. Collective.
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
   /// Collective.

@@ -27,6 +27,10 @@ struct Weights {
   double q = 1, v = 0, a = 0;
 };
 
+/// How the constraints of a term stand, when their rows vanish: as they are meant to; half a turn away, where rows of
+/// axes vanish, too; or open: what was left out, because other joints held it, they hold no longer.
+enum class Standing { met, half_turn, open };
+
 /// What a term holds and spends. [J]
 struct Energy {
   double kinetic = 0;
@@ -52,6 +56,8 @@ class Term {
   /// J (square, zero at entry) receives the weighted derivatives of residual at level position.
   virtual void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const = 0;
   virtual Energy energy(const Motion&) const { return {}; }
+  /// Whether constraints are met as they are meant to be. Of the motion t and q count.
+  virtual Standing standing(const Motion&) const { return Standing::met; }
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}

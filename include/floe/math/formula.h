@@ -7,6 +7,8 @@
 
 namespace floe::math {
 
+class Expression;
+
 /// A formula does not parse, names something unknown, or yields NaN or infinity. what() says which and where in the
 /// text.
 class FormulaError : public std::runtime_error {
@@ -37,10 +39,11 @@ class Formula {
 
   /// @throws FormulaError when the value is not finite (its text names the formula and the arguments)
   double operator()(double first = 0, double second = 0) const;
-  /// d/dfirst by Richardson-extrapolated central differences (Ridders 1982): about 1e-11 of the formula's scale.
-  /// @throws FormulaError as operator(), also for arguments beside `first`
+  /// d/dfirst, exact up to round-off (forward-mode differentiation of the text); at a kink or a jump that of the branch
+  /// taken, as after the corner of a ramp.
+  /// @throws FormulaError as operator()
   double derivative(double first, double second = 0) const;
-  /// d2/dfirst2 likewise: about 1e-8 of the formula's scale.
+  /// d2/dfirst2 likewise.
   double second_derivative(double first, double second = 0) const;
 
   /// Mentions none of its variables.
@@ -48,6 +51,8 @@ class Formula {
   const std::string& text() const;
 
  private:
+  double finite(double value, const char* what, double first, double second) const;
+  const Expression& tree() const;
   struct Parser;
   std::shared_ptr<Parser> parser_;
 };

@@ -259,3 +259,44 @@ TEST_CASE("in the plane spatial joints are the planar ones") {
       slid.q[2] + one.angle0 - other.angle0 + one.psi.dot(slid.q.segment<2>(3)) - other.psi.dot(slid.q.segment<2>(8));
   compare(dynamics::Prismatic{{0, 1}, 0.2, 0}, {{dynamics::Along{1, 0.2}, dynamics::Product{1, 0}}}, {0, 1}, slid);
 }
+
+TEST_CASE("a spatial joint knows when its axes point the other way") {
+  const auto turned = [](const Vector3d& axis, double angle) {
+    return SpatialMarker::ground(Vector3d::Zero(), Eigen::AngleAxisd(angle, axis).toRotationMatrix());
+  };
+  const dynamics::TimeFunction to_pi{[](double t) { return t * M_PI; }, [](double) { return M_PI; },
+                                     [](double) { return 0.0; }};
+  const auto right = [&](const SpatialConstraint& constraint, const Vector3d& axis, double angle, double t) {
+    const SpatialJoint joint(turned(axis, 0), turned(axis, angle), constraint, first_multiplier);
+    const VectorXd q = VectorXd::Zero(dynamics::rows(constraint)), none = q;
+    VectorXd r = q;
+    joint.residual({t, q, none, none}, r);
+    CHECK(r.norm() < 1e-12);  // the rows do not tell
+    return joint.standing({t, q, none, none}) == dynamics::Standing::met;
+  };
+  using C = SpatialConstraint;
+  const Vector3d x = Vector3d::UnitX(), z = Vector3d::UnitZ();
+  CHECK(right(C::fixed(), z, 0, 0));
+  CHECK_FALSE(right(C::fixed(), z, M_PI, 0));
+  CHECK(right(C::revolute(), z, 2, 0));
+  CHECK_FALSE(right(C::revolute(), x, M_PI, 0));
+  CHECK(right(C::driven_revolute(to_pi), z, M_PI, 1));
+  CHECK_FALSE(right(C::driven_revolute(to_pi), z, 0, 1));
+  CHECK(right(C::spherical(), x, M_PI, 0));
+}
+
+TEST_CASE("a spatial joint looks after the rows that are left out") {
+  const std::vector<int> standing{0, 1, 2};
+  const VectorXd q = VectorXd::Zero(3), none = q;
+  const auto stands = [&](const Vector3d& point, double angle, double unit) {
+    const Matrix3d axes = Eigen::AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
+    return SpatialJoint(SpatialMarker::ground(Vector3d::Zero()), SpatialMarker::ground(point, axes),
+                        SpatialConstraint::driven_prismatic({}), first_multiplier, standing, unit)
+        .standing({0, q, none, none});
+  };
+  using dynamics::Standing;
+  CHECK(stands({0, 0, 0}, 0, 1) == Standing::met);
+  CHECK(stands({0, 0, 0.01}, 0, 1) == Standing::open);
+  CHECK(stands({0, 0, 0.01}, 0, 20) == Standing::met);
+  CHECK(stands({0, 0, 0}, 0.01, 20) == Standing::open);
+}

@@ -143,6 +143,42 @@ TEST_CASE("places in space that coincide have no line of action: torsion alone, 
   CHECK(testing::tangent_of(spring, s, {1, 1, 1}).allFinite());
 }
 
+TEST_CASE("a spring of length zero is linear in space, also where its places coincide") {
+  const SpatialSpring spring(SpatialMarker::ground({0, 0, 0}), rigid(), {3, 0, 0, 0, 0, 0});
+  for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(0.1, -0.2, 0.3)}) {
+    State s = at_rest();
+    s.q.head<3>() = p;
+    CHECK((testing::rows_of(spring, s).head<3>() - 3 * p).norm() < 1e-15);
+    CHECK((testing::tangent_of(spring, s, {1, 0, 0}).topLeftCorner<3, 3>() - 3 * Matrix3d::Identity()).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("a bushing counts its angle beyond half a turn, and refuses a turn") {
+  dynamics::BushingProperties p;
+  p.stiffness[5] = 2, p.name = "b";
+  SpatialBushing term(SpatialMarker::ground({0, 0, 0}), rigid(), p);
+  State s = at_rest();
+  for (const double angle : {1.0, 3.0, 4.0, 5.0}) {
+    s.q[5] = angle;
+    CHECK(testing::rows_of(term, s)[5] == Approx(2 * angle));
+    term.begin_step({0, s.q, s.v, s.a});
+  }
+  s.q[5] = 5.5;
+  CHECK(testing::rows_of(term, s)[5] == Approx(11));
+  CHECK_THROWS_WITH(term.begin_step({0, s.q, s.v, s.a}), Catch::Contains("bushing b is turned by 5.5 rad"));
+}
+
+TEST_CASE("a bushing carries nothing at its rest") {
+  auto p = bushing(false);
+  p.rest << 1, 2, 3;
+  const SpatialBushing term(SpatialMarker::ground({0, 0, 0}), rigid(), p);
+  State s = at_rest();
+  s.q.head<3>() << 1, 2, 3;
+  CHECK(testing::rows_of(term, s).norm() < 1e-14);
+  s.q[0] += 0.1;
+  CHECK(testing::rows_of(term, s)[0] == Approx(0.1 * p.stiffness[0]));
+}
+
 TEST_CASE("a bushing at rest is six springs in the axes of its first place") {
   const Matrix3d axes = math::rotation({0.3, 0.8, -0.5});
   const SpatialBushing term(SpatialMarker::ground({1, 2, 3}, axes), rigid(axes), bushing(true));
