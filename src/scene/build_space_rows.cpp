@@ -147,8 +147,8 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
 void SpatialRows::follow_drives(const VectorXd& start, double end, const std::vector<Index>& kept,
                                 const std::function<void(Index, const std::string&)>& complain) const {
   const auto driven = [&](const Entry& entry) {
-    const Joint& joint = prepared_.scene.joints[entry.joint];
-    return !joint.angle.constant() || !joint.position.constant();
+    const Joint::Kind kind = prepared_.scene.joints[entry.joint].kind;
+    return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide;
   };
   if (!std::any_of(entries_.begin(), entries_.end(), driven)) return;
   constexpr int samples = 256;
