@@ -155,7 +155,8 @@ void register_simplified_newton() { petsc::check(SNESRegister(simplified_newton,
 
 PetscErrorCode solve_again(SNES snes, Vec U) {
   PetscFunctionBegin;
-  if (snes->ops->solve != solve || !snes->setupcalled || snes->vec_sol != U || !data_of(snes)->quiet) {
+  if (snes->ops->solve != solve || !snes->setupcalled || !snes->vec_sol_update || snes->vec_sol != U ||
+      !data_of(snes)->quiet) {
     PetscCall(SNESSolve(snes, nullptr, U));
     PetscFunctionReturn(0);
   }

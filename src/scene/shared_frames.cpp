@@ -55,12 +55,13 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
   };
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
-    if (joint.kind != Joint::Kind::fixed || is_unlocked(scene, joint.name)) continue;
+    if (joint.kind != Joint::Kind::fixed || joint.edges == Joint::Edges::mean ||
+        is_unlocked(scene, joint.name)) continue;
     int a = index_of(scene, joint.first), b = index_of(scene, joint.second);
     if (a < 0 || b < 0 || a == b) continue;
     const auto attempt = [&](int guest, const Place& at, int host) {
-      if (next[guest] >= 0 || first_of(host) == guest || !may_be_guest(scene, scene.bodies[guest], at, scene.bodies[host]))
-        return false;
+      if (next[guest] >= 0 || first_of(host) == guest) return false;
+      if (!may_be_guest(scene, scene.bodies[guest], at, scene.bodies[host])) return false;
       next[guest] = host;
       shared[guest].joint = static_cast<int>(j);
       return true;

@@ -89,7 +89,9 @@ TEST_CASE("pressure: a clamped plate at rest, dead as the load per area, followi
   const double full = deflection(follower, Formulation::nlffr);
   CHECK(std::abs(full / loaded - 1) < 2e-3);  // slopes of 0.03, squared
   CHECK(std::abs(full / loaded - 1) > 1e-8);
-  CHECK(deflection(follower, Formulation::vm_md) == Approx(full).epsilon(5e-3));
+  const double reduced = deflection(follower, Formulation::vm_md);
+  CHECK(reduced == Approx(full).epsilon(0.02));  // 16 modes; of the dead load, too
+  CHECK(reduced / deflection(dead, Formulation::vm_md) - 1 == Approx(full / loaded - 1).epsilon(0.05));
 }
 
 // Six modes are too few for a swing of a tenth of the length; ten follow it.

@@ -60,7 +60,7 @@ TEST_CASE("a spatial joint's coordinates are those of both places, each once, th
   const auto pairs = testing::spatial_pairs();
   const SpatialJoint one_body(pairs[1].first, pairs[1].second, SpatialConstraint::revolute(), 100);
   CHECK(one_body.coordinates() == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 100, 101, 102, 103, 104});
-  const SpatialJoint part(pairs[3].first, pairs[3].second, SpatialConstraint::fixed(), 100, {0, 4});
+  const SpatialJoint part(pairs[3].first, pairs[3].second, SpatialConstraint::fixed(), 100, std::vector<int>{0, 4});
   CHECK(part.coordinates() == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 100, 101});
 }
 
