@@ -36,7 +36,7 @@ Eigen::Index size(const dynamics::Term& term) { return static_cast<Eigen::Index>
 TEST_CASE("the force of a stop is the derivative of its energy, and continuous with its slopes") {
   for (const double x : {-2., -0.5, -0.0201, 0., 0.0101, 0.5, 2.}) {
     const auto at = damped.at(x, 0);
-    CHECK(at.force == Approx(testing::derivative([&](double y) { return damped.at(y, 0).energy; }, x, 1e-3)));
+    CHECK(at.force == Approx(testing::derivative([&](double y) { return damped.at(y, 0).energy; }, x, 1e-5)));
     const auto moving = damped.at(x, 0.4);
     CHECK(moving.by_x == Approx(testing::derivative([&](double y) { return damped.at(y, 0.4).force; }, x, 1e-5)));
     CHECK(moving.by_rate == Approx((damped.at(x, 0.5).force - damped.at(x, 0.3).force) / 0.2).margin(1e-14));
