@@ -68,7 +68,7 @@ CASES = {
     "plane, full order": (BEAM + EVENTS + FIXED, "nlffr"),
     "space, reduced": (SPACE + FIXED, "vm+md"),
     "space, reduced, adaptive": (SPACE + ADAPTIVE, "vm+md"),
-    "space, full order": (SPACE + "motion: {end: 0.4, step: 1e-3}", "nlffr"),
+    "space, full order": (SPACE.replace("0.6", "0.35") + "motion: {end: 0.4, step: 1e-3}", "nlffr"),
 }
 
 
@@ -110,8 +110,17 @@ def kill(process, ranks, folder, checkpoints, chance):
     return True
 
 
-def compare(whole, pieces):
-    assert (whole / "probes.csv").read_bytes() == (pieces / "probes.csv").read_bytes(), "probes.csv differs"
+def rows_of(folder):
+    return numpy.loadtxt(folder / "probes.csv", delimiter=",", skiprows=1)
+
+
+def compare(whole, pieces, repeats):
+    """repeats: whether the run gives the same bits whenever it is run."""
+    if repeats:
+        assert (whole / "probes.csv").read_bytes() == (pieces / "probes.csv").read_bytes(), "probes.csv differs"
+    else:
+        a, b = rows_of(whole), rows_of(pieces)
+        assert a.shape == b.shape and numpy.abs(a - b).max() <= 1e-11 * numpy.abs(a).max(), "probes.csv differs"
     with h5py.File(whole / "result.h5") as a, h5py.File(pieces / "result.h5") as b:
         names = []
         a.visititems(lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None)
@@ -123,7 +132,8 @@ def compare(whole, pieces):
                 assert x == y, f"{name} differs"
                 continue
             assert x.shape == y.shape, f"{name} has shape {y.shape}, not {x.shape}"
-            assert numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
+            near = x.dtype.kind == "f" and not repeats and numpy.abs(x - y).max() <= 1e-11 * numpy.abs(x).max()
+            assert near or numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
     assert not list(pieces.glob(".*")), "drafts are left"
 
 
@@ -137,7 +147,8 @@ def attempt(floe, ranks, text, formulation, chance, folder):
         if (folder / "out/checkpoint.h5").exists():
             words = ["--restart", "out"]
     end(start(floe, ranks, folder, words if "--restart" in words else words + ["--force"]), folder)
-    compare(folder / "whole", folder / "out")
+    # MUMPS does not repeat itself to the last bit on several ranks: two whole runs differ by some 1e-15, too
+    compare(folder / "whole", folder / "out", ranks == 1 or formulation != "nlffr")
     return kills
 
 
@@ -167,8 +178,10 @@ def refusals(floe, ranks, chance, folder):
     (folder / "scene.yaml").write_text(text + " # changed")
     refuse(floe, ranks, folder, again, 2, "scene.yaml has changed since")
     (folder / "scene.yaml").write_text(text)
-    full = ("bash", "-c", "trap '' XFSZ; ulimit -f 16; exec \"$@\"", "bash")  # no file grows beyond 16 KiB
-    refuse(floe, ranks, folder, again, 1, "File too large", full)
+    if ranks > 1:
+        return  # Open MPI's own files would meet the limit, too
+    full = ("env", "PMIX_MCA_gds=hash", "bash", "-c", "trap '' XFSZ; ulimit -f 16; exec \"$@\"", "bash")  # 16 KiB a file
+    refuse(floe, ranks, folder, again, 1, "cannot write out/", full)
     end(start(floe, ranks, folder, again), folder)
     compare(folder / "whole", folder / "out")
 
