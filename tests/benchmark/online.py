@@ -3,8 +3,8 @@
 
 Processor time of the integration on one rank (all of TS, SNES, KSP and the equations; nothing recorded in between), the
 least of several runs that take turns: on a shared machine the least is what the program needs. Full order and reduced
-model of one scene run the same steps; errors are those of the reduced model's probes. Written: online.md and
-online.png. Nothing passes or fails on a clock.
+model of one scene run the same steps; errors are those of the reduced model's probes. Written: online.md. Nothing
+passes or fails on a clock.
 """
 import argparse
 import csv
@@ -141,7 +141,7 @@ def step_rows(found):
     rows = []
     for name, _, wanted in STEPS:
         best = min(found[name], key=per_step)
-        rows.append([name, str(best["bodies"][0]["reduced_coordinates"]), str(best["coordinates"]),
+        rows.append([name, str(best["bodies"][0]["reduced_coordinates"]), str(best["unknowns"]["coordinates"]),
                      f"{iterations(best):.2f}", f"{per_step(best):.1f}", f"{max(map(per_step, found[name])):.1f}",
                      str(wanted)])
     return rows
@@ -154,7 +154,7 @@ def full_rows(found):
         error = {probe: relative_rms(kinds["vm+md"][0][2], values,
                                      [c for c, name in enumerate(names) if name.startswith(probe + ".")])
                  for probe in ("tip", "bend")}
-        rows.append([str(summary["bodies"][0]["dofs"]), str(kinds["vm+md"][0][0]["coordinates"]),
+        rows.append([str(summary["bodies"][0]["dofs"]), str(kinds["vm+md"][0][0]["unknowns"]["coordinates"]),
                      str(summary["integration"]["steps"]), f"{per_step(summary):.3g}", f"{times[0]:.3g}",
                      f"{per_step(summary) / times[0]:.0f}", f"{100 * error['tip']:.2g}", f"{100 * error['bend']:.2g}",
                      f"{kinds['vm+md'][0][0]['seconds']['offline']:.2g}"])
@@ -193,10 +193,11 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         steps, full = measure_steps(arguments, folder), measure_full(arguments, folder)
+    text = document(steps, full, arguments)
     os.makedirs(arguments.out, exist_ok=True)
     with open(os.path.join(arguments.out, "online.md"), "w", encoding="utf-8") as file:
-        file.write(document(steps, full, arguments))
-    print(document(steps, full, arguments))
+        file.write(text)
+    print(text)
 
 
 if __name__ == "__main__":
