@@ -298,7 +298,8 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check "
+          "or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

@@ -22,8 +22,7 @@ using Words = std::vector<std::string>;
 /// Of floe's solvers: EPS of the modes; KSP of the static solutions; TS of the motion (and, below it, start_: the KSP
 /// of the first accelerations); SNES of the start in equilibrium; TS of the motion that ranks derivatives;
 /// MatPartitioning of a mesh; PEP of vibrations about a rotation; KSP of the estimate of the error.
-const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_", "mesh_", "campbell_",
-                       "estimate_"};
+const Words solvers = {"modes_", "derivatives_", "motion_", "static_", "ranking_", "mesh_", "campbell_", "estimate_"};
 const std::string partitioning = "mesh_mat_partitioning_";
 /// Of PETSc's objects that have no prefix of their own, and of its viewers.
 const Words objects = {"mat_", "vec_", "bv_", "is_", "sf_", "vecscatter_", "viewer_", "draw_"};

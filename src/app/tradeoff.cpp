@@ -144,10 +144,9 @@ void tradeoff(const scene::Scene& scene, MPI_Comm comm, const TradeoffRequest& r
     const output::Table whole = tradeoff_table(names, reference, finer, rungs, chosen, true);
     output::write_file_atomically(folder.path / "tradeoff.json", j.dump(2));
     output::write_file_atomically(folder.path / "tradeoff.csv", output::to_csv(whole));
-    output::write_file_atomically(
-        folder.path / "tradeoff.md",
-        output::to_markdown(tradeoff_table(names, reference, finer, rungs, chosen, false)) + "\n" +
-            words(request, finer, size) + "\n");
+    output::write_file_atomically(folder.path / "tradeoff.md",
+                                  output::to_markdown(tradeoff_table(names, reference, finer, rungs, chosen, false)) +
+                                      "\n" + words(request, finer, size) + "\n");
     fmt::print("{}\n{}\n", output::to_text(tradeoff_table(names, reference, finer, rungs, chosen, false)),
                words(request, finer, size));
     if (chosen)

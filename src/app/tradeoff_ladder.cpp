@@ -79,9 +79,8 @@ void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
              {Attachment::joints, "static columns at joints"},
              {Attachment::all, "static columns at joints and loads"}};
   for (const auto& [kind, name] : all) {
-    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), [kind = kind](const Body& body) {
-          return meshed(body) && body.reduction.attachment != kind;
-        }))
+    if (std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                     [kind = kind](const Body& body) { return meshed(body) && body.reduction.attachment != kind; }))
       continue;
     members.push_back({"static columns", name,
                        changed(scene, [kind = kind](Body& body) { body.reduction.attachment = kind; }),

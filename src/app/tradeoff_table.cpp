@@ -111,18 +111,33 @@ std::vector<double> numbers_of(const ordered_json& j) {
 }  // namespace
 
 ordered_json to_json(const Rung& rung) {
-  return {{"family", rung.family},           {"name", rung.name},
-          {"formulation", rung.formulation}, {"stopped", rung.stopped},
-          {"unknowns", rung.coordinates},    {"offline", rung.offline},
-          {"motion", rung.motion},           {"steps", rung.steps},
-          {"rms", numbers(rung.rms)},        {"peak", numbers(rung.peak)},
-          {"energy", numbers({rung.energy})}, {"estimate", numbers(rung.estimate)}};
+  return {{"family", rung.family},
+          {"name", rung.name},
+          {"formulation", rung.formulation},
+          {"stopped", rung.stopped},
+          {"unknowns", rung.coordinates},
+          {"offline", rung.offline},
+          {"motion", rung.motion},
+          {"steps", rung.steps},
+          {"rms", numbers(rung.rms)},
+          {"peak", numbers(rung.peak)},
+          {"energy", numbers({rung.energy})},
+          {"estimate", numbers(rung.estimate)}};
 }
 
 Rung rung_of(const ordered_json& j) {
-  return {j["family"],  j["name"],  j["formulation"],      j["stopped"],
-          j["unknowns"], j["offline"], j["motion"],          j["steps"],
-          numbers_of(j["rms"]), numbers_of(j["peak"]), numbers_of(j["energy"]).at(0), numbers_of(j["estimate"])};
+  return {j["family"],
+          j["name"],
+          j["formulation"],
+          j["stopped"],
+          j["unknowns"],
+          j["offline"],
+          j["motion"],
+          j["steps"],
+          numbers_of(j["rms"]),
+          numbers_of(j["peak"]),
+          numbers_of(j["energy"]).at(0),
+          numbers_of(j["estimate"])};
 }
 
 }  // namespace floe::app

@@ -119,11 +119,12 @@ class Follower {
     return -x;
   }
 
-  /// A factor is made for a new step size, and where corrections do not fall to a fifth. What counts is the error beside
-  /// the distance from the extrapolation, h^2 d'': a part of d itself would be differenced twice.
+  /// A factor is made for a new step size, and where corrections do not fall to a fifth. What counts is the error
+  /// beside the distance from the extrapolation, h^2 d'': a part of d itself would be differenced twice.
   bool newton(const State& known, const Difference& by, VectorXd& d) {
     bool stale = std::abs(factored_for_ - by.now) > 0.05 * by.now;
-    const double round_off = 1e-9 * (without_multipliers(known.q).norm() + without_multipliers(known.v).norm() / by.now);
+    const double round_off =
+        1e-9 * (without_multipliers(known.q).norm() + without_multipliers(known.v).norm() / by.now);
     const VectorXd predicted = d;
     double before = 0;
     for (int i = 0; i < 12; ++i) {

@@ -28,10 +28,10 @@ PetscErrorCode set_up(SNES snes) {
 PetscErrorCode set_from_options(SNES snes, PetscOptionItems*) {
   PetscFunctionBegin;
   data_of(snes)->quiet = PETSC_TRUE;
-  for (const char* name : {"-snes_converged_reason", "-snes_view", "-snes_view_solution", "-snes_view_pre",
-                           "-snes_test_local_min", "-snes_grid_sequence", "-snes_test_jacobian", "-snes_compare_explicit",
-                           "-snes_compare_explicit_draw", "-snes_compare_explicit_contour", "-snes_compare_coloring",
-                           "-snes_compare_operator"}) {
+  for (const char* name :
+       {"-snes_converged_reason", "-snes_view", "-snes_view_solution", "-snes_view_pre", "-snes_test_local_min",
+        "-snes_grid_sequence", "-snes_test_jacobian", "-snes_compare_explicit", "-snes_compare_explicit_draw",
+        "-snes_compare_explicit_contour", "-snes_compare_coloring", "-snes_compare_operator"}) {
     PetscBool set = PETSC_FALSE;
     PetscCall(PetscOptionsHasName(((PetscObject)snes)->options, ((PetscObject)snes)->prefix, name, &set));
     if (set) data_of(snes)->quiet = PETSC_FALSE;
@@ -106,8 +106,7 @@ PetscErrorCode solve(SNES snes) {
   snes->reason = SNES_CONVERGED_ITERATING;
   snes->iter = 0;
   PetscCall(evaluate(snes));
-  if (!snes->reason)
-    PetscUseTypeMethod(snes, converged, 0, 0.0, 0.0, snes->norm, &snes->reason, snes->cnvP);
+  if (!snes->reason) PetscUseTypeMethod(snes, converged, 0, 0.0, 0.0, snes->norm, &snes->reason, snes->cnvP);
   while (!snes->reason) {
     if (snes->iter == snes->max_its) {
       snes->reason = SNES_DIVERGED_MAX_IT;

@@ -60,8 +60,9 @@ petsc::KspHandle shifted_solver(const fem::Structure& structure, const Statics& 
   const petsc::MatHandle A = fem::assemble(structure, conditions, 1, 1, -lambda);
   petsc::KspHandle ksp = direct_solver(A, "derivatives_");
   if (!factors(ksp))
-    throw InputError("options -derivatives_pc_...: derivatives with inertia (derivative_type: full) have an indefinite "
-                     "matrix; expected a factorisation (cholesky, lu), or static derivatives");
+    throw InputError(
+        "options -derivatives_pc_...: derivatives with inertia (derivative_type: full) have an indefinite "
+        "matrix; expected a factorisation (cholesky, lu), or static derivatives");
   if (!statics.refines()) return ksp;
   const petsc::MatHandle exact = exact_operator(structure, statics, lambda, conditions);
   check(KSPSetOperators(ksp, exact, A));

@@ -12,7 +12,8 @@ bool factors(KSP ksp) {
   PC pc = nullptr;
   PetscBool direct = PETSC_FALSE;
   check(KSPGetPC(ksp, &pc));
-  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &direct, PCCHOLESKY, PCLU, PCREDUNDANT, PCSVD, ""));
+  check(
+      PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(pc), &direct, PCCHOLESKY, PCLU, PCREDUNDANT, PCSVD, ""));
   return direct;
 }
 

@@ -151,9 +151,8 @@ void warn(const Prepared& prepared, int index, Formulation formulation, std::vec
   const bool no_columns =
       spec.attachment == ReductionSpec::Attachment::none || spec.attachment == ReductionSpec::Attachment::loads;
   const auto of_interface = [&](const PreparedPlace& joint) {
-    return std::any_of(body.interface.begin(), body.interface.end(), [&](const PreparedPlace& place) {
-      return place.moved_by(joint.node);
-    });
+    return std::any_of(body.interface.begin(), body.interface.end(),
+                       [&](const PreparedPlace& place) { return place.moved_by(joint.node); });
   };
   for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
     const Joint& joint = prepared.scene.joints[j];

@@ -38,8 +38,7 @@ int clamp_of(const Prepared& prepared, int b) {
     if (is_unlocked(prepared.scene, joint.name)) continue;
     const PreparedPlace& place = first.ground() ? second : first;
     if (place.body != b) continue;
-    if (place.map ? at_rest(body, *place.map)
-                  : place.moved_by(body.frame.conditions.front() / 6))
+    if (place.map ? at_rest(body, *place.map) : place.moved_by(body.frame.conditions.front() / 6))
       return static_cast<int>(j);
   }
   return -1;
@@ -101,7 +100,8 @@ void SpaceAssembly::refuse() const {
     if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
       faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
                                    body.spec.damping.where.text(), name_of(formulation_)));
-    if (slots_[b].still && body.host < 0 && (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+    if (slots_[b].still && body.host < 0 &&
+        (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
   }

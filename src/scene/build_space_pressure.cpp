@@ -17,9 +17,10 @@ using Chosen = std::function<bool(const fem::Mesh::Cell&)>;
 /// The shells that a pressure acts on. Collective.
 Chosen shells_of(const Load& load, const PreparedBody& body) {
   if (body.spec.reduced)
-    throw InputError(fmt::format("{}: acts on body {}, which comes from a file without its shells; expected a body "
-                                 "with a mesh",
-                                 load.where.text(), body.spec.name));
+    throw InputError(
+        fmt::format("{}: acts on body {}, which comes from a file without its shells; expected a body "
+                    "with a mesh",
+                    load.where.text(), body.spec.name));
   const auto part = std::find(body.parts.begin(), body.parts.end(), load.part);
   if (!load.part.empty() && part == body.parts.end()) {
     const std::string near = math::nearest(load.part, body.parts);

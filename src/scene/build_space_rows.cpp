@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "independent_rows.h"
-
 #include "floe/math/rotation.h"
+#include "independent_rows.h"
 
 namespace floe::scene {
 

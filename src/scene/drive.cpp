@@ -18,9 +18,9 @@ dynamics::TimeFunction drive_of(const Joint& joint, const Motion& motion) {
   const bool turns = joint.kind == Joint::Kind::driven;
   const math::Formula f = turns ? joint.angle : joint.position;
   if (std::abs(f(0)) > 1e-9)
-    throw InputError(fmt::format(
-        "{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
-        joint.where.text(), turns ? "angle" : "position", f(0)));
+    throw InputError(
+        fmt::format("{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
+                    joint.where.text(), turns ? "angle" : "position", f(0)));
   return {[f](double t) { return f(t); }, [f](double t) { return f.derivative(t); },
           [f](double t) { return f.second_derivative(t); }};
 }

@@ -193,8 +193,8 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
       estimate.notes.push_back(
           fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
     if (!has_structure(body)) continue;
-    const int most = static_cast<int>(
-        time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
+    const int most =
+        static_cast<int>(time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
     if (most < most_columns)
       estimate.notes.push_back(
           fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
@@ -254,12 +254,10 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   };
   const double before = time.spent();  // of some steps, to know how many there may be
   const std::vector<State> first(states.begin(), states.begin() + std::min<std::ptrdiff_t>(8, std::ssize(states)));
-  dynamics::deviation(system, motion.begin(), first, [&](const State& state, const VectorXd&, const VectorXd&) {
-    values(state), values(state);
-  });
+  dynamics::deviation(system, motion.begin(), first,
+                      [&](const State& state, const VectorXd&, const VectorXd&) { values(state), values(state); });
   const double each = (time.spent() - before) / static_cast<double>(first.size());
-  const auto count = static_cast<std::size_t>(
-      time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
+  const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
   if (count < states.size()) {
     estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
     states = spread(states, count);
@@ -268,8 +266,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   double error = 0, size = 0;
   const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate) {
     const std::vector<double> was = values(state);
-    std::vector<double> gap =
-        values(dynamics::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
+    std::vector<double> gap = values(dynamics::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
     sums.add(gap, was);
     const double e = deformations(more, d).squaredNorm();
@@ -310,8 +307,8 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   if (std::none_of(offline.prepared.bodies.begin(), offline.prepared.bodies.end(), has_structure))
     estimate.none = "no body has a mesh: those from files, or rigid, have no structure to compare with";
   else if (const PetscInt elements = elements_of(offline); elements >= most_elements)
-    estimate.none = fmt::format("its full order of {} elements would take too long; it is made below {}", elements,
-                                most_elements);
+    estimate.none =
+        fmt::format("its full order of {} elements would take too long; it is made below {}", elements, most_elements);
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;

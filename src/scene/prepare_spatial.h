@@ -14,8 +14,8 @@ struct SpatialMesh {
 /// @throws InputError  the same on all ranks. Collective.
 SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm);
 
-/// Whether the joint makes one rigid piece of a place of many nodes (`edges`), and does not clamp it to the ground, where
-/// every node is held.
+/// Whether the joint makes one rigid piece of a place of many nodes (`edges`), and does not clamp it to the ground,
+/// where every node is held.
 bool holds_a_piece(const Joint& joint);
 
 /// Where a structure's axes lie in those of its mesh: x_mesh = origin + axes x.

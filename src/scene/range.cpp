@@ -20,9 +20,9 @@ constexpr std::size_t samples = 64;
 
 /// Of one body over the motion.
 struct Seen {
-  double slope = 0, spin = 0;     // greatest
+  double slope = 0, spin = 0;        // greatest
   double bending = 0, membrane = 0;  // energies where membrane's is greatest
-  double rate = 0, size = 0;      // sums of squares of deformations
+  double rate = 0, size = 0;         // sums of squares of deformations
 };
 
 double spin_of(const BodyReport& body, const State& state) {
@@ -36,8 +36,8 @@ double greatest_rotation(int dimension, const double* values, PetscInt dofs) {
   const int n = dimension == 2 ? 3 : 6;
   double most = 0;
   for (PetscInt i = 0; i + n <= dofs; i += n)
-    most = std::max(most, dimension == 2 ? std::abs(values[i + 2])
-                                         : Eigen::Map<const Eigen::Vector3d>(values + i + 3).norm());
+    most = std::max(
+        most, dimension == 2 ? std::abs(values[i + 2]) : Eigen::Map<const Eigen::Vector3d>(values + i + 3).norm());
   return most;
 }
 
@@ -65,8 +65,7 @@ void see_deformation(const Model& model, std::size_t b, const State& state, Seen
   if (full || !model.offline) return;
   const body::Elasticity& elasticity = model.offline->reduced[b].body.elasticity;
   const VectorXd eta = state.q.segment(first, count);
-  const double bending = 0.5 * eta.dot(elasticity.bending * eta),
-               membrane = body::energy(elasticity, eta) - bending;
+  const double bending = 0.5 * eta.dot(elasticity.bending * eta), membrane = body::energy(elasticity, eta) - bending;
   if (membrane > seen.membrane) seen.membrane = membrane, seen.bending = bending;
 }
 
@@ -112,11 +111,12 @@ void judge_slope(const Model& model, const BodyReport& body, const std::string& 
   const bool tangent = frame == "clamped";
   const double error = tangent ? 0.04 * std::pow(slope, 3) : 0.008 * std::pow(slope, 4);
   if (error > 0.005)
-    out.push_back({"slope", body.name, slope, tangent ? 0.5 : 0.89,
-                   fmt::format("body {}: slopes to {:.2g} in its {} frame, beyond {}: von Karman's strains err by about "
-                               "{:.1g} % there; {}",
-                               body.name, slope, frame, tangent ? "0.5" : "0.89", 100 * error,
-                               tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)")});
+    out.push_back(
+        {"slope", body.name, slope, tangent ? 0.5 : 0.89,
+         fmt::format("body {}: slopes to {:.2g} in its {} frame, beyond {}: von Karman's strains err by about "
+                     "{:.1g} % there; {}",
+                     body.name, slope, frame, tangent ? "0.5" : "0.89", 100 * error,
+                     tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)")});
 }
 
 void judge_stretching(const BodyReport& body, const Seen& seen, double omega, bool linear,
@@ -182,10 +182,11 @@ void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>&
     if (load.omega > fastest) fastest = load.omega, of = "load " + load.name;
   const double turn = scene.motion.step * fastest;
   if (turn > 0.25)
-    out.push_back({"step", of, turn, 0.25,
-                   fmt::format("motion.step {:.3g} s: only {:.2g} steps in a period of the {}, {:.3g} s (limit 25): take "
-                               "{:.2g} s or less",
-                               scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
+    out.push_back(
+        {"step", of, turn, 0.25,
+         fmt::format("motion.step {:.3g} s: only {:.2g} steps in a period of the {}, {:.3g} s (limit 25): take "
+                     "{:.2g} s or less",
+                     scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
 }
 
 }  // namespace

@@ -10,8 +10,7 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   Reading reading(document, value, "load");
   if (!value.node.IsMap()) return load;
   const std::size_t before = document.fault_count();
-  load.kind = reading.choice<Kind>(
-      "type", {{"force", Kind::force},
+  load.kind = reading.choice<Kind>("type", {{"force", Kind::force},
                                             {"moment", Kind::moment},
                                             {"distributed", Kind::distributed},
                                             {"pressure", Kind::pressure}});

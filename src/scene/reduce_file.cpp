@@ -47,9 +47,7 @@ Scene alone(const Scene& scene, int index) {
   for (Joint& joint : part.joints)  // another body is, for this one, a place that is not held
     for (Place* place : {&joint.first, &joint.second})
       if (!stays(*place)) *place = Place{}, place->where = joint.where;
-  std::erase_if(part.loads, [&](const Load& load) {
-    return load.spread() ? load.body != name : load.at.body != name;
-  });
+  std::erase_if(part.loads, [&](const Load& load) { return load.spread() ? load.body != name : load.at.body != name; });
   std::erase_if(part.probes, [&](const Probe& probe) {
     return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
   });
@@ -152,7 +150,8 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       prepared, Formulation::vm_md,
-      [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; }, warnings);
+      [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; },
+      warnings);
   const BodyReport& report = reduced[0].report;
   output::ReducedBodyFile file;
   file.name = body.spec.name;

@@ -53,7 +53,8 @@ const SchemaSection scene_section{
 
 const SchemaSection ground_section{
     "ground",
-    "A ground that shakes without turning. The world's axes go with it: positions and velocities are those that one sees "
+    "A ground that shakes without turning. The world's axes go with it: positions and velocities are those that one "
+    "sees "
     "who stands on it, and all that has mass feels the opposite acceleration.",
     "acceleration: [0, \"3*sin(20*t)\"]",
     {
@@ -62,7 +63,8 @@ const SchemaSection ground_section{
 
 const SchemaSection limits_section{
     "limits",
-    "Stops: beyond a limit a spring pushes back. Its force sets in like a parabola over the width and is linear behind; "
+    "Stops: beyond a limit a spring pushes back. Its force sets in like a parabola over the width and is linear "
+    "behind; "
     "the damping sets in likewise.",
     "lower: -pi/4\nupper: pi/4\nstiffness: 1e4",
     {
@@ -292,7 +294,8 @@ const SchemaSection joint_section{
                            "along x, y, z, unstretched at the start; axes as at the start in the "
                            "world, carried by the first place",
                            nonnegative}),
-        only({"bushing"}, {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z, by less than a turn", nonnegative}),
+        only({"bushing"},
+             {"rotation", Type::numbers, "N m/rad", "[0, 0, 0]", "about x, y, z, by less than a turn", nonnegative}),
         only({"bushing"}, {"translation_viscosity", Type::numbers, "N s/m", "[0, 0, 0]", "along x, y, z", nonnegative}),
         only({"bushing"},
              {"rotation_viscosity", Type::numbers, "N m s/rad", "[0, 0, 0]", "about x, y, z", nonnegative}),
@@ -308,7 +311,8 @@ const SchemaSection load_section{
         only({"force", "moment"}, {"at", Type::place, "", required, "where it acts"}),
         only({"distributed", "pressure"}, {"body", Type::body, "", required, "on which it acts"}),
         only({"pressure"}, in_space({"part", Type::text, "", "", "of the mesh, on which it acts; absent: all shells"})),
-        only({"pressure"}, in_space({"pressure", Type::formula, "N/m2", required, "positive along the shells' normals"})),
+        only({"pressure"},
+             in_space({"pressure", Type::formula, "N/m2", required, "positive along the shells' normals"})),
         only({"pressure"}, in_space({"follower", Type::flag, "", "true",
                                      "whether it stays normal to the shells as they bend and move, or keeps the "
                                      "direction that it has at the start"})),
@@ -383,10 +387,10 @@ const SchemaSection place_section{
 const std::vector<SchemaSection>& schema() {
   static const std::vector<SchemaSection> all = [] {
     std::vector<SchemaSection> sections{
-        scene_section,     ground_section,  body_section,     mesh_section,  line_section,      polyline_section,
-        segments_section,  section_section, material_section, frame_section, reduction_section, modes_section,
-        damping_section,   initial_section, joint_section,    limits_section, load_section,     place_section,
-        motion_section,    probe_section,   event_section};
+        scene_section,    ground_section,  body_section,     mesh_section,   line_section,      polyline_section,
+        segments_section, section_section, material_section, frame_section,  reduction_section, modes_section,
+        damping_section,  initial_section, joint_section,    limits_section, load_section,      place_section,
+        motion_section,   probe_section,   event_section};
     for (const SchemaSection& section : spatial_sections()) sections.push_back(section);
     return sections;
   }();

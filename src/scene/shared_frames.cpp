@@ -28,8 +28,7 @@ bool joined_to_ground(const Scene& scene, const Body& body) {
 /// Whether both start with the velocities of one rigid body.
 bool moves_with(const InitialSpec& guest, const InitialSpec& host) {
   const Eigen::Vector3d spin = vector(host.angular_velocity), rate = vector(guest.velocity),
-                        carried = vector(host.velocity) +
-                                  spin.cross(vector(guest.position) - vector(host.position));
+                        carried = vector(host.velocity) + spin.cross(vector(guest.position) - vector(host.position));
   const auto equal = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).norm() <= 1e-9 * std::max(a.norm(), b.norm());
   };
@@ -55,8 +54,8 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
   };
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
-    if (joint.kind != Joint::Kind::fixed || joint.edges == Joint::Edges::mean ||
-        is_unlocked(scene, joint.name)) continue;
+    if (joint.kind != Joint::Kind::fixed || joint.edges == Joint::Edges::mean || is_unlocked(scene, joint.name))
+      continue;
     int a = index_of(scene, joint.first), b = index_of(scene, joint.second);
     if (a < 0 || b < 0 || a == b) continue;
     const auto attempt = [&](int guest, const Place& at, int host) {

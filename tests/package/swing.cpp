@@ -15,10 +15,12 @@ scene::Scene pendulum(double length) {
   const std::string L = std::to_string(length);
   return scene::parse_scene(
       "gravity: [0, -9.81]\n"
-      "bodies:\n  rod:\n    mesh: {line: {from: [0, 0], to: [" + L + ", 0], elements: 10}}\n"
-      "    section: {EA: 1.2e4, EI: 10, rhoA: 1}\n    reduction: {modes: 3, derivatives: all}\n"
-      "joints: {hinge: {type: revolute, between: [ground, rod.start]}}\n"
-      "motion: {end: 3, step: 1e-3}\nprobes: {tip: {at: rod.end, quantity: position}}\n",
+      "bodies:\n  rod:\n    mesh: {line: {from: [0, 0], to: [" +
+          L +
+          ", 0], elements: 10}}\n"
+          "    section: {EA: 1.2e4, EI: 10, rhoA: 1}\n    reduction: {modes: 3, derivatives: all}\n"
+          "joints: {hinge: {type: revolute, between: [ground, rod.start]}}\n"
+          "motion: {end: 3, step: 1e-3}\nprobes: {tip: {at: rod.end, quantity: position}}\n",
       "pendulum");
 }
 

@@ -5,7 +5,8 @@
 using namespace floe;
 using namespace floe::test;
 
-// A speed is integrated by the program: what it drives is where the integral in closed form is, at the end of every step.
+// A speed is integrated by the program: what it drives is where the integral in closed form is, at the end of every
+// step.
 
 namespace {
 

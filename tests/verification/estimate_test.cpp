@@ -21,8 +21,8 @@ void check_effectivity(const std::string& name, const std::string& text, const s
     for (std::size_t p = 0; p < reduced.estimate.probes.size(); ++p) {
       const std::string& probe = reduced.history.model.probes[p].name;
       const double error = vector_error(reduced.history, full, probe), estimate = reduced.estimate.probes[p];
-      INFO(fmt::format("{} {} {}: error {:.3g}, estimate {:.3g}, effectivity {:.2f}", name,
-                       scene::name_of(formulation), probe, error, estimate, estimate / error));
+      INFO(fmt::format("{} {} {}: error {:.3g}, estimate {:.3g}, effectivity {:.2f}", name, scene::name_of(formulation),
+                       probe, error, estimate, estimate / error));
       if (error > 0.3 || error < floor) continue;
       CHECK(estimate > 0.3 * error);
       CHECK(estimate < 3 * error);

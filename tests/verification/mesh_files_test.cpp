@@ -183,8 +183,9 @@ TEST_CASE("a load on a rigid tip block: full order, reduced, and at nodes that o
   for (int i : {0, 2}) CHECK(at[Formulation::vm_md][i] == Approx(at[Formulation::nlffr][i]).epsilon(1e-2));
   // A place of the edge that the block moves: its displacement is that of the block's node with the arm between them.
   const std::string both = "loads: {f: {type: force, at: {body: plate, " + block + "}, force: [0, 0, 0.5*t]}}\n" +
-                           "probes: {block: {at: {body: plate, " + block + "}}, edge: {at: {body: plate, node: [2, 0.5, 0]}}, " +
-                           "turn: {at: {body: plate, " + block + "}, quantity: rotation}}\n";
+                           "probes: {block: {at: {body: plate, " + block +
+                           "}}, edge: {at: {body: plate, node: [2, 0.5, 0]}}, " + "turn: {at: {body: plate, " + block +
+                           "}, quantity: rotation}}\n";
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
     const scene::Model model = built(on_hub(hub, both), formulation);
     dynamics::equilibrium(*model.system, 1, model.U, model.V);

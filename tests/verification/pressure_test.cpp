@@ -96,7 +96,8 @@ TEST_CASE("pressure: a clamped plate at rest, dead as the load per area, followi
 
 // Six modes are too few for a swing of a tenth of the length; ten follow it.
 TEST_CASE("pressure: a flap that is spun up, reduced against full order, following and dead") {
-  std::array<History, 2> full{move(flap("true", "6"), Formulation::nlffr), move(flap("false", "6"), Formulation::nlffr)};
+  std::array<History, 2> full{move(flap("true", "6"), Formulation::nlffr),
+                              move(flap("false", "6"), Formulation::nlffr)};
   CHECK(apart(full[0], full[1], "tip") > 0.05);
   for (int i : {0, 1}) {
     const std::string follower = i == 0 ? "true" : "false";

@@ -1,7 +1,8 @@
+#include "floe/scene/range.h"
+
 #include <catch2/catch.hpp>
 
 #include "estimated.h"
-#include "floe/scene/range.h"
 #include "paper_cantilever.h"
 
 using namespace floe;
@@ -79,7 +80,8 @@ TEST_CASE("range: slopes against the frame that they are measured in") {
   const auto lines = said(judged(bent(tangent, "1.6"), Formulation::vm_md));
   REQUIRE(lines.count("slope"));
   CHECK(lines.at("slope") == Approx(0.8).epsilon(0.1));  // F L^2 / 2 EI, with a little vibration
-  CHECK_FALSE(said(judged(bent("pinned", "1.6"), Formulation::vm_md)).count("slope"));  // half of it in the chord's frame
+  CHECK_FALSE(
+      said(judged(bent("pinned", "1.6"), Formulation::vm_md)).count("slope"));  // half of it in the chord's frame
   CHECK_FALSE(said(judged(bent(tangent, "0.5"), Formulation::vm_md)).count("slope"));
 }
 
@@ -92,7 +94,8 @@ TEST_CASE("range: a linear elastic force does not shorten the body, and modes al
 }
 
 TEST_CASE("range: loads against kept frequencies, and the step against what moves") {
-  const auto fast = said(judged(text_of({.end = "0.5", .reduction = "{modes: 2, derivatives: all}"}), Formulation::vm_md));
+  const auto fast =
+      said(judged(text_of({.end = "0.5", .reduction = "{modes: 2, derivatives: all}"}), Formulation::vm_md));
   REQUIRE(fast.count("load"));  // cos(9.5 t) under modes to 9.0 rad/s
   CHECK(fast.at("load") == Approx(9.5 / 9.0).epsilon(0.15));
   CHECK_FALSE(fast.count("step"));

@@ -6,8 +6,8 @@
 using namespace floe;
 using namespace floe::test;
 
-// A shell's edge that is joined to another body is one rigid piece: clamped to a rigid hub that stands, or is heavy, the
-// shell vibrates as if the ground clamped it.
+// A shell's edge that is joined to another body is one rigid piece: clamped to a rigid hub that stands, or is heavy,
+// the shell vibrates as if the ground clamped it.
 
 namespace {
 
@@ -92,8 +92,8 @@ probes: {tip: {at: plate.p3}, side: {at: plate.p2}}
   }
 }
 
-// The left edge is clamped to a rigid hub and the bottom edge to a rigid bar: they share p1, and are one piece. Loads and
-// probes at nodes of the piece act on it and move with it.
+// The left edge is clamped to a rigid hub and the bottom edge to a rigid bar: they share p1, and are one piece. Loads
+// and probes at nodes of the piece act on it and move with it.
 TEST_CASE("edges in space: two edges with a common corner, loads and probes on what follows") {
   const auto moved = [](const std::string& load, Formulation formulation) {
     return move(on_hub("post: {type: revolute, between: [ground, hub.start], axis: [0, 1, 0]}, " + clamp +

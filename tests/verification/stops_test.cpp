@@ -73,8 +73,8 @@ TEST_CASE("stops: contact time and rebound of a rod are those of the penalty osc
   CHECK(gaps[1] == Approx(0.5 - at["rod.angle"].back()));
 }
 
-// A linear damped contact with the damping ratio z leaves with exp(-z pi / sqrt(1 - z^2)) of the speed when d = 0 again;
-// a width small against the depth changes that little.
+// A linear damped contact with the damping ratio z leaves with exp(-z pi / sqrt(1 - z^2)) of the speed when d = 0
+// again; a width small against the depth changes that little.
 TEST_CASE("stops: damping takes away the speed that it should") {
   const double z = 0.1;
   const History at = move(fill(fill_planar(4, 2 * z * std::sqrt(k), 0.5), {}), Formulation::vm_md);
@@ -97,9 +97,15 @@ joints: {guide: {type: $type, between: [ground, rod.start], axis: $axis, limits:
 motion: {end: $end, step: 1e-3}
 probes: {rod: {at: rod.end, quantity: $quantity}}
 )yaml";
-  const History hinge = move(fill(rod, {{"turn", turn.rotation()}, {"u", "[0, 0, 0]"}, {"w", turn(0, 0, 10)},
-                                        {"type", "revolute"}, {"axis", turn(0, 0, 1)}, {"limits", "upper: 7"},
-                                        {"k", "400"}, {"end", "1.2"}, {"quantity", "velocity"}}),
+  const History hinge = move(fill(rod, {{"turn", turn.rotation()},
+                                        {"u", "[0, 0, 0]"},
+                                        {"w", turn(0, 0, 10)},
+                                        {"type", "revolute"},
+                                        {"axis", turn(0, 0, 1)},
+                                        {"limits", "upper: 7"},
+                                        {"k", "400"},
+                                        {"end", "1.2"},
+                                        {"quantity", "velocity"}}),
                              Formulation::vm_md);
   const auto speed = [&](std::size_t i) { return vector_at(hinge, "rod", i).norm(); };
   CHECK(speed(0) == Approx(10));
@@ -110,14 +116,18 @@ probes: {rod: {at: rod.end, quantity: $quantity}}
   CHECK(longest == Approx(duration(10)).epsilon(0.05));
   CHECK(drift(hinge) < 2e-3);
 
-  const History slide = move(fill(rod, {{"turn", turn.rotation()}, {"u", turn(2, 0)}, {"w", "[0, 0, 0]"},
-                                        {"type", "prismatic"}, {"axis", turn(1, 0)},
-                                        {"limits", "lower: -0.3, upper: 0.2"}, {"k", "1200"}, {"end", "0.75"},
+  const History slide = move(fill(rod, {{"turn", turn.rotation()},
+                                        {"u", turn(2, 0)},
+                                        {"w", "[0, 0, 0]"},
+                                        {"type", "prismatic"},
+                                        {"axis", turn(1, 0)},
+                                        {"limits", "lower: -0.3, upper: 0.2"},
+                                        {"k", "1200"},
+                                        {"end", "0.75"},
                                         {"quantity", "displacement"}}),
                              Formulation::vm_md);
   std::vector<double> x;
-  for (std::size_t i = 0; i < slide.t.size(); ++i)
-    x.push_back((turn.Q.transpose() * vector_at(slide, "rod", i)).x());
+  for (std::size_t i = 0; i < slide.t.size(); ++i) x.push_back((turn.Q.transpose() * vector_at(slide, "rod", i)).x());
   // 0.1 s there, contact, 0.25 s back, contact, and on with 2 m/s: k/m as above
   const double back = 0.1 + duration(2) + 0.25 + duration(2);
   CHECK(*std::max_element(x.begin(), x.end()) > 0.29);

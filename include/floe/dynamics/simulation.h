@@ -33,10 +33,10 @@ struct Instant {
 
 struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
-  double end = 0;      ///< reached [s]
-  double seconds = 0;  ///< wall clock
+  double end = 0;                ///< reached [s]
+  double seconds = 0;            ///< wall clock
   double processor_seconds = 0;  ///< of this rank
-  std::string type;    ///< of the TS
+  std::string type;              ///< of the TS
 };
 
 /// The motion stopped before its end. What was observed until then stands.

@@ -44,10 +44,10 @@ struct SpatialPose {
   Eigen::Vector3d p, velocity = Eigen::Vector3d::Zero(), acceleration = Eigen::Vector3d::Zero();
   Eigen::Matrix3d D;
   Eigen::Vector3d spin = Eigen::Vector3d::Zero(), spin_rate = Eigen::Vector3d::Zero();  ///< of D, in world axes
-  Matrix6Xd P;                      ///< (dp, dphi) of each coordinate, 6 x n, without T(x)
-  Eigen::Matrix3d A, T;             ///< of the frame; T(x), or I when it stands still
-  Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e, and its velocity omega x c + S e.
-  Eigen::Vector3d omega, turn;      ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
+  Matrix6Xd P;                  ///< (dp, dphi) of each coordinate, 6 x n, without T(x)
+  Eigen::Matrix3d A, T;         ///< of the frame; T(x), or I when it stands still
+  Eigen::Vector3d c, c_rate;    ///< body axes: x0 + S e, and its velocity omega x c + S e.
+  Eigen::Vector3d omega, turn;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
   Eigen::Vector3d beta, beta_rate;
   Eigen::Matrix3d bend;  ///< T(beta)
 };

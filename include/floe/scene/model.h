@@ -37,7 +37,7 @@ struct PreparedPlace {
   int body = -1;  ///< index of prepared bodies; -1: ground; elsewhere: a body that is not here
   PetscInt node = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
-  std::vector<PetscInt> nodes = {};  ///< in space, global: a place may be a set of nodes
+  std::vector<PetscInt> nodes = {};             ///< in space, global: a place may be a set of nodes
   /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
   /// is the first of them.
   std::vector<Lever> levers = {};
@@ -155,7 +155,7 @@ struct Model {
   PetscInt coordinates = 0, multipliers = 0;
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
   std::vector<JointMultipliers> joints;
-  std::shared_ptr<Offline> offline = {};        ///< if it was to be kept
+  std::shared_ptr<Offline> offline = {};  ///< if it was to be kept
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank

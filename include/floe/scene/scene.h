@@ -177,10 +177,11 @@ struct Joint {
   } kind = Kind::fixed;
   std::string name;
   Place first, second;
-  math::Formula angle;     ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
-  math::Formula position;  ///< driven_slide: likewise along the axis [m]
-  std::optional<math::Formula> speed;            ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
-  std::optional<LimitsSpec> limits, turn_limits;  ///< of the slide, or of the turn where there is none; of a turn besides
+  math::Formula angle;                 ///< driven: angle(second) - angle(first) less its value at the start, of t [rad]
+  math::Formula position;              ///< driven_slide: likewise along the axis [m]
+  std::optional<math::Formula> speed;  ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
+  std::optional<LimitsSpec> limits,
+      turn_limits;  ///< of the slide, or of the turn where there is none; of a turn besides
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
@@ -251,8 +252,9 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   std::vector<Load> loads;
-  std::array<math::Formula, 3> gravity{0.0, 0.0, 0.0};              ///< of t [m/s2]
-  std::array<math::Formula, 3> ground_acceleration{0.0, 0.0, 0.0};  ///< of t [m/s2]: axes of the world go with the ground
+  std::array<math::Formula, 3> gravity{0.0, 0.0, 0.0};  ///< of t [m/s2]
+  std::array<math::Formula, 3> ground_acceleration{0.0, 0.0,
+                                                   0.0};  ///< of t [m/s2]: axes of the world go with the ground
   bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
   std::vector<Probe> probes;

@@ -37,7 +37,7 @@ joints: {hinge: {type: revolute, between: [ground, arm.start]}, other: {type: re
 motion: {end: 1, step: 1e-2, every: 4}
 probes: {tip: {at: arm.end}}
 )yaml",
-                                                        "scene");
+                                                       "scene");
   return scene;
 }
 

@@ -44,9 +44,8 @@ struct Top {
     coordinates.number();
     attitude->base = Eigen::AngleAxisd(0.6, Vector3d::UnitX());
     testing::Terms terms;
-    terms.push_back(std::make_unique<dynamics::SpatialBody>(std::vector<int>{0, 1, 2, 3, 4, 5}, attitude,
-                                                            testing::rigid(m, {0.2, 0.2, 0.3}),
-                                                            testing::no_elasticity()));
+    terms.push_back(std::make_unique<dynamics::SpatialBody>(
+        std::vector<int>{0, 1, 2, 3, 4, 5}, attitude, testing::rigid(m, {0.2, 0.2, 0.3}), testing::no_elasticity()));
     terms.push_back(std::make_unique<testing::HeavyOnPoint>(attitude, Vector3d(0, 0, -l), m * gravity));
     system = std::make_unique<dynamics::System>(coordinates, std::move(terms), dynamics::Attitudes{{3, attitude}});
   }
@@ -93,17 +92,16 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
     double difference = 0, size = 0, rates = 0, greatest = 0;
     const States exact = every(to, n);
     std::size_t i = 0;
-    dynamics::deviation(*equations.system, 0, every(from, n),
-                        [&](const dynamics::State& at, const VectorXd& d, const VectorXd& rate) {
-                          const dynamics::State& there = exact[i++];
-                          const Vector3d gap = math::rotation_vector(at.bases[0].conjugate() * there.bases[0]);
-                          difference += (d.segment<3>(3) - gap).squaredNorm(), size += gap.squaredNorm();
-                          const dynamics::State now =
-                              dynamics::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
-                          const Vector3d w = there.v.segment<3>(3) - at.v.segment<3>(3);
-                          rates += (now.v.segment<3>(3) - at.v.segment<3>(3) - w).squaredNorm();
-                          greatest += w.squaredNorm();
-                        });
+    dynamics::deviation(
+        *equations.system, 0, every(from, n), [&](const dynamics::State& at, const VectorXd& d, const VectorXd& rate) {
+          const dynamics::State& there = exact[i++];
+          const Vector3d gap = math::rotation_vector(at.bases[0].conjugate() * there.bases[0]);
+          difference += (d.segment<3>(3) - gap).squaredNorm(), size += gap.squaredNorm();
+          const dynamics::State now = dynamics::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
+          const Vector3d w = there.v.segment<3>(3) - at.v.segment<3>(3);
+          rates += (now.v.segment<3>(3) - at.v.segment<3>(3) - w).squaredNorm();
+          greatest += w.squaredNorm();
+        });
     CHECK(i == exact.size());
     CHECK(std::sqrt(rates / greatest) < 0.1);
     return std::sqrt(difference / size);

@@ -28,8 +28,9 @@ TEST_CASE("tangents of pressures, follower and dead, are the differences of the 
     for (const bool moves : {true, false}) {
       std::vector<int> coordinates(moves ? 9 : 3);
       for (int i = 0; i < static_cast<int>(coordinates.size()); ++i) coordinates[i] = i;
-      const PressureLoad load(coordinates, moves ? testing::attitude(random) : nullptr, random_pressure(random, 3),
-                              [](double t) { return 2 + t * t; }, kind, math::rotation(random.vector(3)));
+      const PressureLoad load(
+          coordinates, moves ? testing::attitude(random) : nullptr, random_pressure(random, 3),
+          [](double t) { return 2 + t * t; }, kind, math::rotation(random.vector(3)));
       const State s(random, static_cast<Eigen::Index>(coordinates.size()));
       CHECK(testing::tangent_error(load, s) < 1e-8);
     }
@@ -42,8 +43,9 @@ TEST_CASE("a dead pressure and one that follows are the same load at the start")
   State s(random, 8);
   s.q.setZero();
   const auto load = [&](PressureLoad::Kind kind) {
-    return PressureLoad({0, 1, 2, 3, 4, 5, 6, 7}, attitude, unit, [](double) { return 1.5; }, kind,
-                        attitude->axes(Eigen::Vector3d::Zero()));
+    return PressureLoad(
+        {0, 1, 2, 3, 4, 5, 6, 7}, attitude, unit, [](double) { return 1.5; }, kind,
+        attitude->axes(Eigen::Vector3d::Zero()));
   };
   const Eigen::VectorXd follower = testing::rows_of(load(PressureLoad::Kind::follower), s),
                         dead = testing::rows_of(load(PressureLoad::Kind::dead), s);

@@ -1,8 +1,9 @@
+#include "../../../src/dynamics/simplified_newton.h"
+
 #include <petscsnes.h>
 
 #include <catch2/catch.hpp>
 
-#include "../../../src/dynamics/simplified_newton.h"
 #include "floe/petsc/handle.h"
 
 using namespace floe;

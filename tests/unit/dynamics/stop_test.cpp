@@ -73,6 +73,7 @@ TEST_CASE("undamped stops give back as power what they lose of energy") {
         const State at = motion.state(t);
         return stop.energy({at.t, at.q, at.v, at.a}).elastic;
       };
-      CHECK(testing::rows_of(stop, s).dot(s.v) == Approx(testing::derivative(energy, 0.4, 5e-4)).epsilon(1e-7).margin(1e-8));
+      CHECK(testing::rows_of(stop, s).dot(s.v) ==
+            Approx(testing::derivative(energy, 0.4, 5e-4)).epsilon(1e-7).margin(1e-8));
     }
 }

@@ -4,7 +4,6 @@
 #include <fstream>
 
 #include "floe/error.h"
-
 #include "scratch.h"
 
 using namespace floe;

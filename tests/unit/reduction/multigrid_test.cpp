@@ -1,8 +1,9 @@
+#include "../../../src/reduction/multigrid.h"
+
 #include <catch2/catch.hpp>
 #include <map>
 #include <string>
 
-#include "../../../src/reduction/multigrid.h"
 #include "bodies_in_space.h"
 
 using namespace floe;
@@ -66,8 +67,7 @@ void check_same(Kind kind, const std::vector<PetscInt>& held, std::map<std::stri
 TEST_CASE("the near null space of a body that nothing holds is that of its stiffness") {
   const What what = GENERATE(What::triangles, What::beams);
   const SpatiallyHeld body(body_of(what, PETSC_COMM_WORLD, Spread::metis), Kind::mean_axis, {});
-  const petsc::MatHandle K = fem::stiffness(body.structure, {}),
-                         rows = reduction::for_multigrid(K, body.frame, {});
+  const petsc::MatHandle K = fem::stiffness(body.structure, {}), rows = reduction::for_multigrid(K, body.frame, {});
   MatNullSpace near = nullptr;
   PetscInt count = 0, block = 0;
   const Vec* motions = nullptr;
@@ -103,7 +103,7 @@ TEST_CASE("derivatives with inertia want a factor") {
   const reduction::Modes modes = body.modes(1);
   const Options set(multigrid("derivatives_"));
   reduction::Pairs which;
-  CHECK_THROWS_WITH(reduction::full_derivatives(body.structure, body.frame, body.holding, body.statics, modes, {{0, 0}},
-                                                which),
-                    Catch::Contains("expected a factorisation"));
+  CHECK_THROWS_WITH(
+      reduction::full_derivatives(body.structure, body.frame, body.holding, body.statics, modes, {{0, 0}}, which),
+      Catch::Contains("expected a factorisation"));
 }

@@ -164,8 +164,8 @@ TEST_CASE("another body of the scene does not hold the one that is reduced") {
 }
 
 // Hinged at both ends, immovable: u_ij' = -v_i' v_j' + its mean, v_i = sin(i pi x / L), omega_i ~ i^2. With s_n =
-// sin(n pi x / L) and c = pi / L, theta_11 = -c s_2 / 4, theta_12 = -c (s_1 + s_3 / 3), theta_13 = -3/2 c (s_2 / 2 + s_4 /
-// 4), theta_23 = -3 c (s_1 + s_5 / 5); of theta_13 only s_4 is new, theta_22 = -c s_4 / 2 adds nothing after it.
+// sin(n pi x / L) and c = pi / L, theta_11 = -c s_2 / 4, theta_12 = -c (s_1 + s_3 / 3), theta_13 = -3/2 c (s_2 / 2 +
+// s_4 / 4), theta_23 = -3 c (s_1 + s_5 / 5); of theta_13 only s_4 is new, theta_22 = -c s_4 / 2 adds nothing after it.
 TEST_CASE("derivatives that are chosen by count are those with the greatest interaction under equal forces") {
   const testing::Folder folder;
   std::vector<std::string> warnings;
