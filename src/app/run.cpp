@@ -154,6 +154,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     try {
       result.out_of_range = scene::out_of_range(scene, model, kept, comm);
       for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+      if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
     } catch (const RunError& error) {  // frequencies that nothing else asked for
       result.warnings.push_back(std::string("the model's range was not checked: ") + error.what());
     }

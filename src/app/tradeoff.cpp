@@ -150,8 +150,9 @@ void tradeoff(const scene::Scene& scene, MPI_Comm comm, const TradeoffRequest& r
     fmt::print("{}\n{}\n", output::to_text(tradeoff_table(names, reference, finer, rungs, chosen, false)),
                words(request, finer, size));
     if (chosen)
-      fmt::print("Choice for {:.2g} %: {} ({}), error {:.2g} %, {:.3g} times faster than {}\n", 100 * request.accuracy,
-                 rungs[*chosen].name, rungs[*chosen].formulation, 100 * rungs[*chosen].worst(),
+      fmt::print("{} {:.2g} %: {} ({}), error {:.2g} %, {:.3g} times faster than {}\n",
+                 rungs[*chosen].worst() <= request.accuracy ? "Choice for" : "No model is within",
+                 100 * request.accuracy, rungs[*chosen].name, rungs[*chosen].formulation, 100 * rungs[*chosen].worst(),
                  reference.motion / rungs[*chosen].motion, reference.name);
     fmt::print("Picture: {}\n", draw("tradeoff", folder.path.string()));
   });

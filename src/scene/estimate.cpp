@@ -35,7 +35,7 @@ constexpr PetscInt most_elements = 20000;
 /// Time that is left, as rank 0 sees it: all ranks decide alike.
 class Allowance {
  public:
-  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(MPI_Wtime()), allowed_(seconds) {}
+  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(MPI_Wtime()), allowed_(of_first(seconds)) {}
   double spent() const { return of_first(MPI_Wtime() - begin_); }
   double left() const { return std::max(0.0, allowed_ - spent()); }
   double of_first(double value) const {
@@ -276,6 +276,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     estimate.relative.push_back(std::sqrt(e));
   };
   const dynamics::DeviationReport report = dynamics::deviation(system, motion.begin(), states, observe);
+  if (report.steps == 0) throw RunError("the error cannot be followed from the start");
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
   const double whole = std::sqrt(size / std::max<double>(1, report.steps));
