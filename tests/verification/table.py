@@ -71,13 +71,12 @@ def distance(one):
 
 
 def digits(x):
-    return f"{x:.6g}"
+    """Catch2 tells ten decimals."""
+    return f"{x:.6g}" if x else "0 (below 1e-10)"
 
 
 def expected_words(one):
-    if one.relation != "==":
-        return f"{one.relation} {digits(one.expected)}"
-    return digits(one.expected)
+    return ("" if one.relation == "==" else one.relation + " ") + f"{one.expected:.6g}"
 
 
 def off_words(one):
