@@ -18,7 +18,7 @@ demo: build
 	@bash makefiles/demo.sh $(BUILD)
 
 check: build
-	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) --output-on-failure
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$(nproc)" --output-on-failure
 
 verify-ranks: build
 	@bash makefiles/verify_ranks.sh $(BUILD)
