@@ -31,6 +31,7 @@ struct Instant {
   const std::function<MotionState()>* state = nullptr;
 };
 
+/// What an integration took, and how far it came.
 struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
   double end = 0;                ///< reached [s]
