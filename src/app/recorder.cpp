@@ -138,9 +138,10 @@ void Recorder::open_files() {
 }
 
 std::int64_t Recorder::expected_rows() const {
-  return scene_.motion.tolerance ? 0
-                                 : static_cast<std::int64_t>(end_ / scene_.motion.step / scene_.motion.every) + 2 +
-                                       static_cast<std::int64_t>(scene_.events.size());
+  const scene::Motion& motion = scene_.motion;
+  if (motion.tolerance && !motion.output) return 0;
+  const double interval = motion.output.value_or(motion.step * motion.every);
+  return static_cast<std::int64_t>(end_ / interval) + 2 + static_cast<std::int64_t>(scene_.events.size());
 }
 
 std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_series() const {
@@ -283,7 +284,7 @@ void Recorder::write_estimate() {
                        {"", "estimated error of each column of probes.csv: full order less this model"});
 }
 
-void Recorder::store_state(const dynamics::Instant& instant) {
+void Recorder::store_state(Vec U, Vec V) {
   const auto append = [&](const char* name, Vec vector) {
     petsc::Values values(vector);
     const std::span<const double> part(values.begin(), static_cast<std::size_t>(values.end - values.first));
@@ -292,34 +293,67 @@ void Recorder::store_state(const dynamics::Instant& instant) {
     else
       file_->append_distributed(name, values.first, part);
   };
-  append("motion/U", instant.U);
-  append("motion/V", instant.V);
+  append("motion/U", U);
+  append("motion/V", V);
+}
+
+/// Whether an instant is one of those that the scene wants: every so many steps, or, with `output`, at a multiple.
+bool Recorder::due(const dynamics::Instant& instant) const {
+  if (instant.last || instant.step == 0) return true;
+  if (!scene_.motion.output) return instant.step % scene_.motion.every == 0;
+  const double number = instant.t / *scene_.motion.output;
+  return std::abs(number - std::round(number)) < 1e-9 * std::max(1.0, number);
 }
 
 void Recorder::observe(const dynamics::Instant& instant) {
-  if (instant.step % scene_.motion.every != 0 && !instant.last) return;
-  if (!result_.series.t.empty() && result_.series.t.back() == instant.t) return;  // the last one, once more
+  bool some = false;  // stored within the step
+  if (scene_.motion.output && instant.between && !result_.series.t.empty()) {
+    const double interval = *scene_.motion.output, last = result_.series.t.back();
+    for (double next = std::floor(last / interval * (1 + 1e-12) + 1e-9) + 1;
+         next * interval < instant.t - 1e-9 * interval; ++next) {
+      if (!between_U_) between_U_ = model_.system->create_vector(), between_V_ = model_.system->create_vector();
+      const double begin = MPI_Wtime();
+      (*instant.between)(next * interval, between_U_, between_V_);
+      seconds_ += MPI_Wtime() - begin;
+      store(next * interval, between_U_, between_V_);
+      some = true;
+    }
+  }
+  const bool again = !result_.series.t.empty() && result_.series.t.back() == instant.t;  // the last one, once more
+  const bool stores = due(instant) && !again;
+  if (stores || some) look_after(instant);
+  if (stores) store(instant.t, instant.U, instant.V);
+}
+
+/// Between steps energy and constraints have the error of the interpolation: at the ends of steps.
+void Recorder::look_after(const dynamics::Instant& instant) {
   const double begin = MPI_Wtime();
-  const std::vector<double> values = scene::probe_values(model_, instant.t, instant.U, instant.V);
-  result_.series.t.push_back(instant.t);
-  result_.series.values.push_back(values);
   const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
-  result_.series.energy.push_back(energy);
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
+  if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
-  violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
-                                                                   dynamics::ConstraintLevel::position));
-  velocity_violation_ =
-      std::max(velocity_violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
-                                                                   dynamics::ConstraintLevel::velocity));
+  const auto violation = [&](dynamics::ConstraintLevel level) {
+    return dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V, level);
+  };
+  violation_ = std::max(violation_, violation(dynamics::ConstraintLevel::position));
+  velocity_violation_ = std::max(velocity_violation_, violation(dynamics::ConstraintLevel::velocity));
+  seconds_ += MPI_Wtime() - begin;
+}
+
+void Recorder::store(double t, Vec U, Vec V) {
+  const double begin = MPI_Wtime();
+  const std::vector<double> values = scene::probe_values(model_, t, U, V);
+  result_.series.t.push_back(t);
+  result_.series.values.push_back(values);
+  const dynamics::Energy energy = model_.system->energy(t, U, V);
+  result_.series.energy.push_back(energy);
   if (folder_) {
-    const std::vector<double> attitudes = scene::attitudes(model_, instant.U);
+    const std::vector<double> attitudes = scene::attitudes(model_, U);
     const auto write = [&] {
-      probes_->row(instant.t, values);
-      const double t[1] = {instant.t}, e[3] = {energy.kinetic, energy.elastic, energy.potential};
-      file_->append("motion/t", t);
+      probes_->row(t, values);
+      const double at[1] = {t}, e[3] = {energy.kinetic, energy.elastic, energy.potential};
+      file_->append("motion/t", at);
       file_->append("motion/energy", e);
       if (!attitudes.empty()) file_->append("motion/attitude", attitudes);
     };
@@ -327,7 +361,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
       write();
     else
       petsc::agree(comm_, write);
-    store_state(instant);
+    store_state(U, V);
   }
   seconds_ += MPI_Wtime() - begin;
 }

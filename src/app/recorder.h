@@ -5,6 +5,7 @@
 
 #include "floe/output/result_file.h"
 #include "floe/output/series_file.h"
+#include "floe/petsc/handle.h"
 #include "run.h"
 
 namespace floe::app {
@@ -34,7 +35,11 @@ class Recorder {
   void write_checkpoint(const dynamics::Instant& instant);
   void write_basis();
   void write_estimate();
-  void store_state(const dynamics::Instant& instant);
+  void store_state(Vec U, Vec V);
+  void store(double t, Vec U, Vec V);
+  /// Energy and constraints, for the summary.
+  void look_after(const dynamics::Instant& instant);
+  bool due(const dynamics::Instant& instant) const;
   const scene::Scene& scene_;
   const scene::Model& model_;
   MPI_Comm comm_;
@@ -51,6 +56,7 @@ class Recorder {
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
   double kept_at_ = 0, kept_seconds_ = 0;  // wall clock
+  petsc::VecHandle between_U_, between_V_;  // of instants within a step
 };
 
 }  // namespace floe::app
