@@ -32,7 +32,6 @@ class Recorder {
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const dynamics::Instant& instant);
-  void write_basis();
   void write_estimate();
   void store_state(const dynamics::Instant& instant);
   const scene::Scene& scene_;
