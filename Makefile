@@ -17,7 +17,7 @@ demo: build
 	@bash makefiles/demo.sh $(BUILD)
 
 check: build
-	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) --output-on-failure
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$(nproc)" --output-on-failure
 
 # Pictures, reports and files for ParaView as VTK and a browser see them, which make check skips where they are missing.
 check-look: build

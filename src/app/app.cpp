@@ -33,7 +33,7 @@ struct Choices {
   CampbellRequest campbell;
   std::string reference = "nlffr";
   TradeoffRequest tradeoff;
-  std::optional<std::string> restart, checkpoint;
+  std::optional<std::string> restart, checkpoint, accuracy, explicit_scene;
   std::optional<double> until;
   std::vector<std::string> varied;
   bool together = false;
@@ -113,6 +113,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run_command->add_flag("--no-estimate", choices.no_estimate,
                         "spare the estimate of the error against full order (vm, vm+md)");
+  run_command->add_option(
+      "--accuracy", choices.accuracy,
+      "choose columns, elastic force and step for this error of the probes, 1% or 0.01 (default: the "
+      "scene's accuracy, if it has one)");
+  run_command->add_option("--write-scene", choices.explicit_scene,
+                          "with an accuracy: write the scene with what was chosen into this file");
   add_folder(run_command, choices);
   run_command->add_option("--checkpoint", choices.checkpoint,
                           "write a checkpoint each so many steps (1000) or seconds (60s), and at the end");
@@ -126,6 +132,8 @@ int main(int argc, char** argv) {
     if (choices.until && !choices.restart) throw CLI::RequiresError("--until", "--restart");
     if (choices.restart && choices.out) throw CLI::ExcludesError("--restart", "--out");
     if (choices.restart && choices.force) throw CLI::ExcludesError("--restart", "--force");
+    if (choices.accuracy && choices.restart) throw CLI::ExcludesError("--accuracy", "--restart");
+    if (choices.accuracy && choices.formulation != "vm+md") throw CLI::ExcludesError("--accuracy", "--formulation");
     work = [&, formulation_given] {
       RunPlan plan;
       plan.estimate = !choices.no_estimate && scene::is_reduced(scene::formulation_of(choices.formulation));
@@ -136,6 +144,20 @@ int main(int argc, char** argv) {
                            choices.until, plan, PETSC_COMM_WORLD);
       const scene::Formulation formulation = scene::formulation_of(choices.formulation);
       const scene::Scene scene = read_moving(choices.scene);
+      const bool chooses = formulation == scene::Formulation::vm_md && (choices.accuracy || scene.accuracy);
+      if (choices.explicit_scene && !chooses)
+        throw InputError("--write-scene: goes with an accuracy, of the scene or --accuracy, in formulation vm+md");
+      if (chooses) {
+        const double accuracy = choices.accuracy ? scene::accuracy_of(*choices.accuracy) : *scene.accuracy;
+        if (choices.checkpoint)
+          throw InputError("--checkpoint: does not go with an accuracy; expected the scene of --write-scene");
+        if (scene.motion.tolerance)
+          throw InputError(scene.motion.where.text() +
+                           ".tolerance: does not go with an accuracy, which chooses the step");
+        return run_chosen(scene, accuracy, PETSC_COMM_WORLD,
+                          output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "accuracy"), choices.force),
+                          choices.explicit_scene, choices.force);
+      }
       run_one(scene, formulation, PETSC_COMM_WORLD,
               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force), plan);
     };

@@ -104,6 +104,7 @@ Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Com
       alone_(scene::is_reduced(model.formulation)),
       kept_at_(MPI_Wtime()) {
   result_.summary = first_summary(scene, model, comm, result);
+  if (!plan.choice.is_null()) result_.summary["accuracy"] = plan.choice;
   if (!folder_) return;
   if (checkpoint_every_.any()) {
     identity_ = identity_of(scene, model.formulation, comm);

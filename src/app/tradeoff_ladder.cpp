@@ -120,6 +120,12 @@ std::vector<Candidate> ladder(const Scene& scene) {
   add_models(scene, members);
   add_attachments(scene, members);
   add_steps(scene, members);
+  for (const double accuracy : {0.05, 0.01, 0.002}) {
+    scene::Scene any = scene;
+    any.motion.tolerance.reset();
+    members.push_back(
+        {"accuracy", fmt::format("chosen for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
+  }
   return members;
 }
 

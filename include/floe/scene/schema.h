@@ -8,10 +8,12 @@ namespace floe::scene {
 /// What a value of the file may be. Reading, the printed reference and the messages take their words from describe().
 enum class Type {
   text,
+  texts,
   flag,
   integer,
   integers,
   number,
+  share,
   numbers,
   point,
   points,
