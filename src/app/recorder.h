@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <tuple>
@@ -33,12 +34,17 @@ class Recorder {
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const dynamics::Instant& instant);
-  void write_basis();
   void write_estimate();
   void store_state(Vec U, Vec V);
-  void store(double t, Vec U, Vec V);
-  /// Energy and constraints, for the summary.
-  void look_after(const dynamics::Instant& instant);
+  /// Energy, and the greatest violations of constraints and of their rates.
+  struct Measured {
+    dynamics::Energy energy;
+    std::array<double, 2> violations;
+  };
+  Measured measured(double t, Vec U, Vec V);
+  void store(double t, Vec U, Vec V, const Measured& now);
+  /// For the summary: of the ends of steps; between them all this has the error of the interpolation.
+  void look_after(const Measured& now);
   bool due(const dynamics::Instant& instant) const;
   const scene::Scene& scene_;
   const scene::Model& model_;
