@@ -1,7 +1,8 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package
+.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package \
+	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
 setup:
@@ -45,6 +46,36 @@ bench-online: build
 
 sanitize: setup
 	@bash makefiles/sanitize.sh
+
+setup-manual:
+	@bash makefiles/setup.sh packages_manual.txt
+
+setup-maintain:
+	@bash makefiles/setup.sh packages_maintain.txt
+
+manual: build setup-manual
+	@bash makefiles/manual.sh $(BUILD)
+
+api: setup-manual
+	@bash makefiles/api.sh $(BUILD)
+
+verification: build
+	@bash makefiles/verification.sh $(BUILD)
+
+format: setup-maintain
+	@bash makefiles/format.sh
+
+format-check: setup-maintain
+	@bash makefiles/format.sh --check
+
+lint: setup-maintain $(BUILD)/build.ninja
+	@bash makefiles/lint.sh $(BUILD)
+
+coverage: setup-maintain
+	@bash makefiles/coverage.sh
+
+fuzz: setup-maintain
+	@bash makefiles/fuzz.sh
 
 PREFIX ?= /usr/local
 install: build

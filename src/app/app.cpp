@@ -13,6 +13,7 @@
 #include "compare.h"
 #include "drawing.h"
 #include "equilibrium.h"
+#include "floe/scene/schema.h"
 #include "floe/version.h"
 #include "restart.h"
 #include "session.h"
@@ -37,7 +38,7 @@ struct Choices {
   std::optional<double> until;
   std::vector<std::string> varied;
   bool together = false;
-  bool force = false, no_reference_error = false, no_estimate = false;
+  bool force = false, no_reference_error = false, no_estimate = false, markdown = false;
 };
 
 std::string stem(const std::string& path) {
@@ -313,7 +314,12 @@ int main(int argc, char** argv) {
   check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
-  schema_command->callback([&] { work = [&] { on_first_rank([] { fmt::print("{}", scene::schema_reference()); }); }; });
+  schema_command->add_flag("--markdown", choices.markdown, "as Markdown, for the manual");
+  schema_command->callback([&] {
+    work = [&] {
+      on_first_rank([&] { fmt::print("{}", choices.markdown ? scene::schema_markdown() : scene::schema_reference()); });
+    };
+  });
 
   try {
     std::vector<std::string> words(line.own.rbegin(), line.own.rend());

@@ -78,4 +78,8 @@ const SchemaSection& schema_section(const std::string& name);
 /// @param dimension  of the scene: how many coordinates a point has
 std::string describe(const Key& key, int dimension = 2);
 
+/// The whole grammar as Markdown, a heading and a table for each section: what the manual shows. Sections have targets
+/// `scene-NAME`, and keys that hold a section link to it.
+std::string schema_markdown();
+
 }  // namespace floe::scene
