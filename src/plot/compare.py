@@ -8,7 +8,8 @@ import math
 import os
 import sys
 
-from style import COLOURS, DASHES, Fault, pyplot, read_json, read_series, save, span, with_unit
+sys.dont_write_bytecode = True
+from style import COLOURS, DASHES, Fault, pyplot, read_json, read_series, save, span, with_unit  # noqa: E402
 
 PANEL_HEIGHT, WIDTH = 2.1, 7.6  # inches
 

@@ -115,8 +115,21 @@ def why(column, formulation):
     return f"left out: the columns before it lack only {column['new_part']:.1g} of it"
 
 
+def choice(summary):
+    """Of a model that floe chose for an accuracy."""
+    chosen = summary.get("accuracy")
+    if not chosen:
+        return ""
+    words = (f"Chosen for an error of {100 * chosen['asked']:.3g} %: {100 * chosen['supported']:.2g} % is supported, "
+             f"{'within' if chosen['within'] else 'beyond'} what was asked for; {chosen['trials']} motions of reduced models, "
+             f"{duration(chosen['seconds'])}.")
+    return (f"<p>{escaped(words)}</p>"
+            + table(["what", "choice", "measured reason"],
+                    [[one["what"], one["choice"], one["reason"]] for one in chosen.get("decisions") or []]))
+
+
 def model(summary):
-    text = ""
+    text = choice(summary)
     for body in summary.get("bodies") or []:
         words = [f"{body['nodes']} nodes, {body['elements']} elements, {body['dofs']} dofs"]
         if body.get("rigid"):

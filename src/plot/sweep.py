@@ -8,7 +8,8 @@ import json
 import os
 import sys
 
-from style import COLOURS, MARKS, Fault, pyplot, save
+sys.dont_write_bytecode = True
+from style import COLOURS, MARKS, Fault, pyplot, save  # noqa: E402
 
 PANEL_HEIGHT, WIDTH, MOST_LINES = 2.1, 7.6, 12  # inches
 

@@ -248,7 +248,7 @@ FAULTS = [
     *case("disk full in the run", codes=1, lines=1, changes=GROWING, file_size=1500, environment=SMALL_FILES,
           says=("File too large", "the motion stopped at t = "), check=full),
     *case("disk full in the run at full order", formulations=("nlffr",), codes=1, lines=1, changes=GROWING_FAST,
-          file_size=4500, ranks=(1,), says=("File too large", "the motion stopped at t = "), check=full),
+          file_size=5600, ranks=(1,), says=("File too large", "the motion stopped at t = "), check=full),
     *case("killed", formulations=("vm+md", "nlffr"), codes=(-9, 137), changes=LONG, signal=signal.SIGKILL,
           check=killed),
     *case("told to end", formulations=("vm+md", "nlffr"), codes=(1, 143, 130), changes=LONG, signal=signal.SIGTERM,
