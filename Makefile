@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package \
+.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package \
 	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
@@ -19,6 +19,11 @@ demo: build
 
 check: build
 	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$(nproc)" --output-on-failure
+
+# Pictures, reports and files for ParaView as VTK and a browser see them, which make check skips where they are missing.
+check-look: build
+	@bash makefiles/setup.sh packages_look.txt
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -L look --verbose
 
 verify-ranks: build
 	@bash makefiles/verify_ranks.sh $(BUILD)

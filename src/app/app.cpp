@@ -11,11 +11,13 @@
 #include "campbell.h"
 #include "commands.h"
 #include "compare.h"
+#include "drawing.h"
 #include "equilibrium.h"
 #include "floe/scene/schema.h"
 #include "floe/version.h"
 #include "restart.h"
 #include "session.h"
+#include "showing.h"
 #include "sweep.h"
 #include "tradeoff.h"
 
@@ -304,6 +306,9 @@ int main(int argc, char** argv) {
   info_command->add_option("FILE", choices.scene, "made by floe reduce")->required();
   info_command->callback([&] { work = [&] { info(choices.scene, PETSC_COMM_WORLD); }; });
 
+  Showing showing;
+  add_showing(app, showing, work);
+
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
   check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
@@ -326,10 +331,17 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check "
-          "or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
+          "motion, "
+          "plot, report, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
+  }
+  if (showing.script && !work) {
+    if (line.petsc.empty()) return become_script(showing.script->name, showing.script->words);
+    work = [&] {
+      throw InputError(fmt::format("{}: {} has no options of PETSc", line.petsc.front(), showing.script->name));
+    };
   }
   return in_session(line, work);
 }

@@ -45,6 +45,7 @@ class Search {
   scene::Scene with_step(double step) const {
     scene::Scene other = scene_;
     other.motion.step = step, other.motion.every = 1, other.motion.tolerance.reset();
+    other.motion.output = scene_.motion.output.value_or(scene_.motion.step * scene_.motion.every);
     return other;
   }
 
@@ -166,8 +167,9 @@ class Search {
     return enough;
   }
 
-  /// Output is at steps: some are needed to see the motion.
-  bool longer_step() const { return 2 * step_ <= scene_.motion.end / 64; }
+  /// What the scene wants stored between steps is interpolated, and the error of that is seen; but some steps there
+  /// must be.
+  bool longer_step() const { return 2 * step_ <= scene_.motion.end / 32; }
 
   /// What may be lost beside the richest model's own error.
   double allowance() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
@@ -240,7 +242,7 @@ class Search {
     }
     decide("step", fmt::format("{:.4g} s", step_),
            longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(tried(selection_, 2 * step_)))
-                         : "64 steps of the motion at least");
+                         : "32 steps of the motion at least");
   }
 
   Chosen finished() {
@@ -253,8 +255,6 @@ class Search {
                        percent(chosen.supported - richest_), percent(space_), percent(time_)));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
-    chosen.scene.motion.every =
-        std::max(1, static_cast<int>(std::lround(scene_.motion.step * scene_.motion.every / step_)));
     chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
     chosen.selection = selection_;
     chosen.model = pool_->model(selection_);

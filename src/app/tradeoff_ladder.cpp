@@ -93,12 +93,13 @@ void add_steps(const Scene& scene, std::vector<Candidate>& members) {
     for (const int times : {2, 4, 8}) {
       Scene longer = scene;
       longer.motion.step *= times;
-      longer.motion.every = std::max(1, longer.motion.every / times);
+      longer.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
       members.push_back({"step", fmt::format("step {}x", times), longer, Formulation::vm_md});
     }
   for (const double tolerance : {1e-3, 1e-5}) {
     Scene adaptive = scene;
     adaptive.motion.tolerance = tolerance;
+    adaptive.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
     members.push_back({"step", fmt::format("adaptive, {:.0e}", tolerance), adaptive, Formulation::vm_md});
   }
   for (const double radius : {0.0, 0.9}) {

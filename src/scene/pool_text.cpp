@@ -52,7 +52,11 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
   if (share_frames != scene.share_frames) root["share_frames"] = share_frames;
   root.remove("accuracy");
   root["motion"]["step"] = fmt::format("{}", motion.step);
-  root["motion"]["every"] = motion.every;
+  root["motion"].remove("every");
+  if (motion.output)
+    root["motion"]["output"] = fmt::format("{}", *motion.output);
+  else
+    root["motion"]["every"] = motion.every;
   YAML::Emitter out;
   out << root;
   return out.c_str();

@@ -47,7 +47,10 @@ const SchemaSection scene_section{
         part("loads", Type::named_sections, "", "the loads by name", "load"),
         part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
              "motion"),
-        {"accuracy", Type::share, "", "",
+        {"accuracy",
+         Type::share,
+         "",
+         "",
          "greatest error of the probes against the full order of the same mesh, each as a vector, root mean square: "
          "floe run chooses columns, elastic force and step for it; absent: as the scene says",
          {0, 1, true, true}},
@@ -350,6 +353,10 @@ const SchemaSection motion_section{
          "relative error a step, by which the step is adapted; absent: steps are equal",
          {0, 1, true, true}},
         {"every", Type::integer, "", "1", "store each so many steps", counts},
+        {"output", Type::number, "s", "",
+         "store at multiples of this time instead, whatever the steps: between them by the integrator's cubic "
+         "polynomials",
+         positive},
     }};
 
 const SchemaSection probe_section{

@@ -233,6 +233,7 @@ struct Motion {
   double spectral_radius = 0.8;
   std::optional<double> tolerance;  ///< adaptive step, relative
   int every = 1;                    ///< store each so many steps
+  std::optional<double> output;     ///< instead: at multiples of this time, between steps by interpolation [s]
   Where where;
 };
 
