@@ -104,7 +104,7 @@ struct ReductionSpec {
   DerivativesSpec derivatives;
   enum class Attachment { none, joints, loads, all } attachment = Attachment::joints;
   std::vector<Place> interface;  ///< Craig-Bampton: held by the modes, with a static column for each dof
-  double drop_tolerance = 1e-7;
+  double drop_tolerance = 1e-9;
 };
 
 struct DampingSpec {
