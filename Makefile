@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package
+.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize install package
 all: build
 
 setup:
@@ -34,6 +34,9 @@ check64:
 
 tradeoff: build
 	@bash makefiles/tradeoff.sh $(BUILD)
+
+extremes: build
+	@bash makefiles/extremes.sh $(BUILD)
 
 bench-online: build
 	@bash makefiles/bench_online.sh $(BUILD)
