@@ -1,7 +1,5 @@
 """From motions of 1e-12 of the length, which must be linear to round-off, to loads that no model follows."""
-import numpy
-
-from floe import Floe, changed, relative
+from floe import Floe, relative
 from scenes import cantilever, pendulum, spatial_cantilever, tip_force
 from study import Answer, Point, Study
 

@@ -1,6 +1,4 @@
 """Denormal numbers, infinities and what is no number, in scenes and in formulas, at the start and in the middle."""
-import numpy
-
 from floe import Floe, changed
 from scenes import cantilever, pendulum, plate, tip_force
 from study import Answer, Point, Refusal, Study
@@ -49,11 +47,10 @@ def short(**more):
 
 
 def gap(at):
-    """Not a number between at - 2e-4 and at + 2e-4."""
+    """Not a number between at - 2e-4 and at + 2e-4: between the times that reading a scene looks at."""
     return f"sqrt((t - {at})^2 - 4e-8)"
 
 
-MID = 0.0372  # between the times that reading a scene looks at
 BLOWN = {
     "force": short(loads=tip_force(0, f"sin(9*t) + {gap(0.037)}")),
     "force, infinite": short(loads=tip_force(0, "sin(9*t) + (t < 0.0365 ? 0 : 1/(t >= 0.0374 ? 1 : 0))")),

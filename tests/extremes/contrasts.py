@@ -1,4 +1,6 @@
 """Neighbours that differ: stiffness and mass by 1e8, tips that weigh a millionth or a million times the beam."""
+import numpy
+
 from floe import Floe
 from reference import beam_in_segments, with_tip_mass
 from scenes import cantilever
@@ -104,7 +106,6 @@ def tip_mass(floe: Floe, ratio, formulation):
 
 def in_motion(floe: Floe, ratio, formulation):
     """Tip mass pushed by a force that is switched on: w = F/k (1 - cos omega t), to the share of the higher modes."""
-    import numpy
     omega, F = with_tip_mass(ratio), 1e-6
     scene = cantilever(loads={"push": {"type": "force", "at": "tip.middle", "force": [0, F]}})
     scene["bodies"]["tip"] = {"rigid": True, "mesh": {"line": {"from": [1 - 5e-5, 0], "to": [1 + 5e-5, 0], "elements": 2}},

@@ -1,5 +1,5 @@
 """Slender beams, thin plates, long triangles."""
-from floe import Floe, changed, relative
+from floe import Floe, relative
 from scenes import cantilever, plate, spatial_cantilever, tip_force
 from study import Point, Study
 
