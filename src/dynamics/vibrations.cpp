@@ -137,7 +137,7 @@ std::vector<Vibration> paired(const Exponents& exponents, double nothing, double
   }
   std::sort(real.rbegin(), real.rend());
   for (std::size_t i = 0; 2 * i < real.size(); ++i) all.push_back({0, real[i]});
-  for (int i = 0; 2 * i < zeros; ++i) all.push_back({0, 0, true});
+  for (int i = 0; 2 * i < zeros; ++i) all.push_back({0, 0, true, nothing});
   std::sort(all.begin(), all.end(), [](const Vibration& a, const Vibration& b) {
     return a.omega != b.omega ? a.omega < b.omega : a.growth > b.growth;
   });

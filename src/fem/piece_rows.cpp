@@ -9,11 +9,15 @@
 namespace floe::fem {
 namespace {
 
-/// R with R'R = S, for S symmetric positive semi-definite.
+/// R with R'R = S, for S symmetric positive semi-definite: by the eigenvalues of S with a diagonal of ones, for rows of
+/// displacements and of rotations have units of their own.
 Eigen::MatrixXd root(const Eigen::MatrixXd& S) {
   if (S.size() == 1) return S.cwiseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
-  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::VectorXd size = S.diagonal().unaryExpr([](double s) { return s > 0 ? std::sqrt(s) : 1.0; }),
+                        inverse = size.cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * S * inverse.asDiagonal());
+  return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose() *
+         size.asDiagonal();
 }
 
 /// The same, upper triangular; a direction without stiffness but for round-off has none.

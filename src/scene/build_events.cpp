@@ -33,6 +33,16 @@ std::optional<double> first_sign_change(const math::Formula& formula, double ste
   return {};
 }
 
+/// Of an event that a formula of t decides; infinite: never.
+double time_of(const Event& event, double step, double end) {
+  try {
+    return first_sign_change(*event.when, step, end).value_or(INFINITY);
+  } catch (const math::FormulaError& error) {
+    throw InputError(
+        fmt::format("{}.when: {}; expected a finite number until it changes sign", event.where.text(), error.what()));
+  }
+}
+
 /// The index of a column of the probes.
 std::size_t column_of(const Event& event, const Model& model) {
   std::vector<std::string> names;
@@ -79,10 +89,7 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
       if (lock) out.first_row = latches.first_row, out.rows = latches.rows;
     }
     if (event.at) out.at = *event.at;
-    if (event.when) {
-      const auto at = first_sign_change(*event.when, scene.motion.step, end);
-      out.at = at.value_or(INFINITY);
-    }
+    if (event.when) out.at = time_of(event, scene.motion.step, end);
     if (!event.probe.empty()) {
       const std::size_t column = column_of(event, model);
       out.crosses = [&model, column, value = event.crosses](double t, Vec U, Vec V) {

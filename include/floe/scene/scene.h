@@ -109,7 +109,7 @@ struct ReductionSpec {
   std::vector<std::string> columns;
   Where columns_where;
   bool linear = false;  ///< elastic forces by the linear stiffness alone
-  double drop_tolerance = 1e-7;
+  double drop_tolerance = 1e-9;
 };
 
 struct DampingSpec {
