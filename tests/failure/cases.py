@@ -146,8 +146,11 @@ IN_SPACE = [
            'loads.p.part: plate has no part "skin"'))
       for formulation in ("vm+md", "nlffr")),
     Case("a hinge along an edge at a rigid piece", run(), 2, ("joints.hinge: its edge has nodes of a rigid piece",), lines=1,
-         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom]}\n"
+         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom], edges: mean}\n"
          "motion: {end: 0.002, step: 0.001}\n"),
+    Case("a hinge line that a rigid piece leads", run(), scene=HUB
+         + "  hinge: {type: revolute, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
+         check=files("finished", 3)),
     Case("an edge of a piece that a clamp holds besides", run(), scene=HUB
          + "  clamp: {type: fixed, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
          check=files("finished", 3)),
