@@ -1,7 +1,8 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package
+.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package \
+	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
 setup:
@@ -17,7 +18,12 @@ demo: build
 	@bash makefiles/demo.sh $(BUILD)
 
 check: build
-	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) --output-on-failure
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -j "$$(nproc)" --output-on-failure
+
+# Pictures, reports and files for ParaView as VTK and a browser see them, which make check skips where they are missing.
+check-look: build
+	@bash makefiles/setup.sh packages_look.txt
+	@source makefiles/mpi_environment.sh; ctest --test-dir $(BUILD) -L look --verbose
 
 verify-ranks: build
 	@bash makefiles/verify_ranks.sh $(BUILD)
@@ -40,6 +46,36 @@ bench-online: build
 
 sanitize: setup
 	@bash makefiles/sanitize.sh
+
+setup-manual:
+	@bash makefiles/setup.sh packages_manual.txt
+
+setup-maintain:
+	@bash makefiles/setup.sh packages_maintain.txt
+
+manual: build setup-manual
+	@bash makefiles/manual.sh $(BUILD)
+
+api: setup-manual
+	@bash makefiles/api.sh $(BUILD)
+
+verification: build
+	@bash makefiles/verification.sh $(BUILD)
+
+format: setup-maintain
+	@bash makefiles/format.sh
+
+format-check: setup-maintain
+	@bash makefiles/format.sh --check
+
+lint: setup-maintain $(BUILD)/build.ninja
+	@bash makefiles/lint.sh $(BUILD)
+
+coverage: setup-maintain
+	@bash makefiles/coverage.sh
+
+fuzz: setup-maintain
+	@bash makefiles/fuzz.sh
 
 PREFIX ?= /usr/local
 install: build

@@ -64,7 +64,7 @@ _floe() {{
   if [[ $now == -* || -z $command ]]; then
     COMPREPLY=($(compgen -W "$words" -- "$now"))
   else
-    COMPREPLY=($(compgen -f -X '!*.@(yaml|yml|h5)' -- "$now") $(compgen -d -- "$now"))
+    COMPREPLY=($(compgen -f -X '!*.@(yaml|yml|h5|xdmf)' -- "$now") $(compgen -d -- "$now"))
   fi
 }}
 complete -o filenames -F _floe floe

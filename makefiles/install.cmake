@@ -11,7 +11,8 @@ add_custom_target(pages DEPENDS ${pages}/floe.1 ${pages}/floe.bash)
 
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/floe)
 install(TARGETS floe COMPONENT floe)
-file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/plot/*.py)
+file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/plot/*.py ${PROJECT_SOURCE_DIR}/src/plot/*.js
+  ${PROJECT_SOURCE_DIR}/src/plot/*.css)
 install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/floe COMPONENT floe)
 install(FILES ${pages}/floe.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT floe OPTIONAL)
 install(FILES ${pages}/floe.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME floe
@@ -42,7 +43,8 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FLOE_PACKAGE_NAME floe)
 set(CPACK_DEBIAN_FLOE_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FLOE_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_FLOE_PACKAGE_DEPENDS "openmpi-bin, libopenblas0-serial, python3, python3-matplotlib, python3-h5py")
+set(CPACK_DEBIAN_FLOE_PACKAGE_DEPENDS "openmpi-bin, libopenblas0-serial, python3, python3-matplotlib, python3-h5py, \
+libjs-three")
 set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_NAME floe-dev)
 set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_DEPENDS "floe (= ${PROJECT_VERSION}), g++, pkg-config, libpetsc-real3.18-dev, \

@@ -11,10 +11,13 @@
 #include "campbell.h"
 #include "commands.h"
 #include "compare.h"
+#include "drawing.h"
 #include "equilibrium.h"
+#include "floe/scene/schema.h"
 #include "floe/version.h"
 #include "restart.h"
 #include "session.h"
+#include "showing.h"
 #include "sweep.h"
 #include "tradeoff.h"
 
@@ -31,11 +34,11 @@ struct Choices {
   CampbellRequest campbell;
   std::string reference = "nlffr";
   TradeoffRequest tradeoff;
-  std::optional<std::string> restart, checkpoint;
+  std::optional<std::string> restart, checkpoint, accuracy, explicit_scene;
   std::optional<double> until;
   std::vector<std::string> varied;
   bool together = false;
-  bool force = false, no_reference_error = false, no_estimate = false;
+  bool force = false, no_reference_error = false, no_estimate = false, markdown = false;
 };
 
 std::string stem(const std::string& path) {
@@ -111,6 +114,12 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   run_command->add_flag("--no-estimate", choices.no_estimate,
                         "spare the estimate of the error against full order (vm, vm+md)");
+  run_command->add_option(
+      "--accuracy", choices.accuracy,
+      "choose columns, elastic force and step for this error of the probes, 1% or 0.01 (default: the "
+      "scene's accuracy, if it has one)");
+  run_command->add_option("--write-scene", choices.explicit_scene,
+                          "with an accuracy: write the scene with what was chosen into this file");
   add_folder(run_command, choices);
   run_command->add_option("--checkpoint", choices.checkpoint,
                           "write a checkpoint each so many steps (1000) or seconds (60s), and at the end");
@@ -124,6 +133,8 @@ int main(int argc, char** argv) {
     if (choices.until && !choices.restart) throw CLI::RequiresError("--until", "--restart");
     if (choices.restart && choices.out) throw CLI::ExcludesError("--restart", "--out");
     if (choices.restart && choices.force) throw CLI::ExcludesError("--restart", "--force");
+    if (choices.accuracy && choices.restart) throw CLI::ExcludesError("--accuracy", "--restart");
+    if (choices.accuracy && choices.formulation != "vm+md") throw CLI::ExcludesError("--accuracy", "--formulation");
     work = [&, formulation_given] {
       RunPlan plan;
       plan.estimate = !choices.no_estimate && scene::is_reduced(scene::formulation_of(choices.formulation));
@@ -134,6 +145,20 @@ int main(int argc, char** argv) {
                            choices.until, plan, PETSC_COMM_WORLD);
       const scene::Formulation formulation = scene::formulation_of(choices.formulation);
       const scene::Scene scene = read_moving(choices.scene);
+      const bool chooses = formulation == scene::Formulation::vm_md && (choices.accuracy || scene.accuracy);
+      if (choices.explicit_scene && !chooses)
+        throw InputError("--write-scene: goes with an accuracy, of the scene or --accuracy, in formulation vm+md");
+      if (chooses) {
+        const double accuracy = choices.accuracy ? scene::accuracy_of(*choices.accuracy) : *scene.accuracy;
+        if (choices.checkpoint)
+          throw InputError("--checkpoint: does not go with an accuracy; expected the scene of --write-scene");
+        if (scene.motion.tolerance)
+          throw InputError(scene.motion.where.text() +
+                           ".tolerance: does not go with an accuracy, which chooses the step");
+        return run_chosen(scene, accuracy, PETSC_COMM_WORLD,
+                          output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "accuracy"), choices.force),
+                          choices.explicit_scene, choices.force);
+      }
       run_one(scene, formulation, PETSC_COMM_WORLD,
               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force), plan);
     };
@@ -281,12 +306,20 @@ int main(int argc, char** argv) {
   info_command->add_option("FILE", choices.scene, "made by floe reduce")->required();
   info_command->callback([&] { work = [&] { info(choices.scene, PETSC_COMM_WORLD); }; });
 
+  Showing showing;
+  add_showing(app, showing, work);
+
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
   check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
-  schema_command->callback([&] { work = [&] { on_first_rank([] { fmt::print("{}", scene::schema_reference()); }); }; });
+  schema_command->add_flag("--markdown", choices.markdown, "as Markdown, for the manual");
+  schema_command->callback([&] {
+    work = [&] {
+      on_first_rank([&] { fmt::print("{}", choices.markdown ? scene::schema_markdown() : scene::schema_reference()); });
+    };
+  });
 
   try {
     std::vector<std::string> words(line.own.rbegin(), line.own.rend());
@@ -298,10 +331,17 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, check "
-          "or schema",
+          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
+          "motion, "
+          "plot, report, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
+  }
+  if (showing.script && !work) {
+    if (line.petsc.empty()) return become_script(showing.script->name, showing.script->words);
+    work = [&] {
+      throw InputError(fmt::format("{}: {} has no options of PETSc", line.petsc.front(), showing.script->name));
+    };
   }
   return in_session(line, work);
 }

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "choose.h"
 #include "floe/output/table.h"
 #include "floe/scene/reduced.h"
 #include "run.h"
@@ -182,16 +184,11 @@ void info(const std::string& path, MPI_Comm comm) {
   if (first_rank(comm)) fmt::print("{}", output::describe(file));
 }
 
-void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
-             const output::ResultFolder& folder, const RunPlan& plan) {
-  RunResult result;
-  try {
-    result = run(scene, formulation, comm, folder, plan);
-  } catch (const std::exception&) {
-    output::discard_if_empty(folder);
-    throw;
-  }
-  if (!first_rank(comm)) return;
+namespace {
+
+/// What a run has to say, on the terminal.
+void show(const scene::Scene& scene, scene::Formulation formulation, const RunResult& result,
+          const output::ResultFolder& folder, const RunPlan& plan) {
   const auto& s = result.summary;
   fmt::print("{} as {} ({}): {} coordinates, {} steps to t = {} s\n", scene.title.empty() ? scene.file : scene.title,
              scene::name_of(formulation), result.label, result.coordinates, result.steps, result.end);
@@ -233,6 +230,45 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
   if (plan.estimate) fmt::print("{}", estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
+}
+
+/// Runs, and leaves no empty folder behind where that fails.
+RunResult run_into(const output::ResultFolder& folder, const std::function<RunResult()>& work) {
+  try {
+    return work();
+  } catch (const std::exception&) {
+    output::discard_if_empty(folder);
+    throw;
+  }
+}
+
+}  // namespace
+
+void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
+             const output::ResultFolder& folder, const RunPlan& plan) {
+  const RunResult result = run_into(folder, [&] { return run(scene, formulation, comm, folder, plan); });
+  if (first_rank(comm)) show(scene, formulation, result, folder, plan);
+}
+
+void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const output::ResultFolder& folder,
+                const std::optional<std::string>& explicit_scene, bool overwrite) {
+  std::vector<std::string> written;
+  const RunResult result = run_into(folder, [&] {
+    Chosen chosen = choose(scene, accuracy, comm);
+    if (explicit_scene) written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
+    if (first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
+    RunPlan plan;
+    plan.choice = to_json(chosen);
+    plan.check_range = false;  // the choice has measured what a range would warn of
+    RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
+    if (!chosen.within())
+      moved.warnings.push_back(fmt::format("an error of {:.2g} % was asked for; {:.2g} % is supported",
+                                           100 * chosen.asked, 100 * chosen.supported));
+    return moved;
+  });
+  if (!first_rank(comm)) return;
+  show(scene, scene::Formulation::vm_md, result, folder, {});
+  if (!written.empty()) fmt::print("Scene: {}\n", fmt::join(written, ", "));
 }
 
 }  // namespace floe::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace floe::app {
 
@@ -79,6 +80,30 @@ std::vector<std::optional<double>> relative_vector_errors(const Series& series, 
     errors.push_back(size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt);
   }
   return errors;
+}
+
+std::vector<double> vector_errors(const Series& series, const Series& reference) {
+  const Squares sums = squares(series, reference);
+  const std::vector<std::optional<double>> relative = relative_vector_errors(series, reference);
+  const std::vector<std::string> names = probes(series.columns);
+  double greatest = 0;
+  for (const double size : sums.size) greatest = std::max(greatest, size);
+  std::vector<double> errors;
+  for (std::size_t p = 0; p < names.size(); ++p) {
+    double difference = 0;
+    for (std::size_t c = 0; c < sums.size.size(); ++c)
+      if (probe_of(series.columns[c]) == names[p]) difference += sums.difference[c];
+    const bool still = difference <= 1e-18 * greatest;
+    errors.push_back(relative[p] ? *relative[p] : still ? 0 : std::numeric_limits<double>::infinity());
+  }
+  return errors;
+}
+
+double worst_error(const Series& series, const Series& reference) {
+  double worst = 0;
+  for (const double error : vector_errors(series, reference))
+    worst = std::isnan(error) ? error : std::max(worst, error);
+  return worst;
 }
 
 std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference) {

@@ -26,6 +26,12 @@ std::vector<std::optional<double>> relative_vector_errors(const Series& series, 
 /// Greatest |p - r| over the greatest |r| of each probe as a vector, at the times of `series`.
 std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference);
 
+/// relative_vector_errors, of probes that stand still in the reference, too: 0 where they move by no more than the
+/// round-off of what moves most (1e-9), else infinite.
+std::vector<double> vector_errors(const Series& series, const Series& reference);
+/// The greatest of them; 0: no probes.
+double worst_error(const Series& series, const Series& reference);
+
 /// sqrt(sum (e - r)^2 / sum r^2) of the energy that moves and deforms, kinetic and elastic.
 std::optional<double> relative_energy_error(const Series& series, const Series& reference);
 

@@ -19,6 +19,7 @@ using petsc::check;
 /// The scene with its steps of load where a motion's steps would stand: the recorder keeps every one.
 scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
   scene.motion.end = load.at, scene.motion.step = load.at / load.steps, scene.motion.every = 1;
+  scene.motion.output.reset();
   scene.motion.tolerance.reset();
   return scene;
 }

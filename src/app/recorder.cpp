@@ -9,6 +9,7 @@
 #include "floe/output/provenance.h"
 #include "floe/output/summary.h"
 #include "floe/petsc/values.h"
+#include "record_bodies.h"
 
 namespace floe::app {
 
@@ -103,6 +104,7 @@ Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Com
       alone_(scene::is_reduced(model.formulation)),
       kept_at_(MPI_Wtime()) {
   result_.summary = first_summary(scene, model, comm, result);
+  if (!plan.choice.is_null()) result_.summary["accuracy"] = plan.choice;
   if (!folder_) return;
   if (checkpoint_every_.any()) {
     identity_ = identity_of(scene, model.formulation, comm);
@@ -131,15 +133,16 @@ void Recorder::open_files() {
   file_ = std::make_unique<output::ResultFile>(comm_, folder_->result());
   file_->write_text("summary", result_.summary.dump(2));
   file_->write_text("scene", scene_.text);
-  write_basis();
+  write_bodies(*file_, model_);
   for (const auto& [name, count, label] : all_series()) file_->add_series(name, count, label, expected_rows());
   file_->publish();
 }
 
 std::int64_t Recorder::expected_rows() const {
-  return scene_.motion.tolerance ? 0
-                                 : static_cast<std::int64_t>(end_ / scene_.motion.step / scene_.motion.every) + 2 +
-                                       static_cast<std::int64_t>(scene_.events.size());
+  const scene::Motion& motion = scene_.motion;
+  if (motion.tolerance && !motion.output) return 0;
+  const double interval = motion.output.value_or(motion.step * motion.every);
+  return static_cast<std::int64_t>(end_ / interval) + 2 + static_cast<std::int64_t>(scene_.events.size());
 }
 
 std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_series() const {
@@ -148,7 +151,8 @@ std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_seri
       {"motion/t", 1, {"s", "time"}},
       {"motion/U", unknowns, {"", "coordinates and multipliers"}},
       {"motion/V", unknowns, {"", "their rates"}},
-      {"motion/energy", 3, {"J", "kinetic, elastic, potential"}}};
+      {"motion/energy", 3, {"J", "kinetic, elastic, potential"}},
+      {"motion/constraints", 2, {"", "greatest violation of the constraints, and of their rates"}}};
   if (const int frames = scene::moving_frames(model_); frames > 0)
     all.emplace_back(
         "motion/attitude", 4 * frames,
@@ -233,41 +237,6 @@ void Recorder::write_checkpoint(const dynamics::Instant& instant) {
   output::write_checkpoint(alone_ ? PETSC_COMM_SELF : comm_, folder_->checkpoint(), checkpoint);
 }
 
-void Recorder::write_basis() {
-  for (const auto& body : model_.bodies) {
-    if (!body.basis || body.columns == 0) continue;
-    PetscInt first = 0, end = 0;
-    std::vector<double> rows;
-    for (int j = 0; j < body.columns; ++j) {
-      Vec column = nullptr;
-      check(BVGetColumn(body.basis->V, j, &column));
-      {
-        petsc::Values values(column);
-        first = values.first, end = values.end;
-        rows.resize((end - first) * body.columns);
-        for (PetscInt i = first; i < end; ++i) rows[(i - first) * body.columns + j] = values[i];
-      }
-      check(BVRestoreColumn(body.basis->V, j, &column));
-    }
-    file_->write_distributed_rows(
-        "bodies/" + body.name + "/basis", body.dofs, body.columns, first, rows,
-        {"", "V: nodal (displacements, rotations) of each reduced coordinate, in the floating frame"});
-    file_->write_distributed_rows("bodies/" + body.name + "/nodes", body.nodes, body.dimension, body.first_node,
-                                  body.positions, {"m", "undeformed positions in the floating frame"});
-  }
-  for (const auto& body : model_.bodies) {
-    if (!body.file.empty()) file_->write_text("bodies/" + body.name + "/reduced_file", body.file);
-    const double where[2] = {static_cast<double>(body.first_coordinate), static_cast<double>(body.first_elastic)};
-    if (scene::is_reduced(model_.formulation))
-      file_->write_array(
-          "bodies/" + body.name + "/columns_of_motion", {2}, where,
-          {"", body.dimension == 2
-                   ? "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates"
-                   : "first columns of motion/U: of the frame (R; then three of its turn in the step, "
-                     "see motion/attitude), of the reduced coordinates; -1: it stands still"});
-  }
-}
-
 void Recorder::write_estimate() {
   const scene::Estimate& estimate = result_.estimate;
   if (!estimate.none.empty() || estimate.t.empty()) return;
@@ -283,7 +252,7 @@ void Recorder::write_estimate() {
                        {"", "estimated error of each column of probes.csv: full order less this model"});
 }
 
-void Recorder::store_state(const dynamics::Instant& instant) {
+void Recorder::store_state(Vec U, Vec V) {
   const auto append = [&](const char* name, Vec vector) {
     petsc::Values values(vector);
     const std::span<const double> part(values.begin(), static_cast<std::size_t>(values.end - values.first));
@@ -292,42 +261,83 @@ void Recorder::store_state(const dynamics::Instant& instant) {
     else
       file_->append_distributed(name, values.first, part);
   };
-  append("motion/U", instant.U);
-  append("motion/V", instant.V);
+  append("motion/U", U);
+  append("motion/V", V);
+}
+
+/// Whether an instant is one of those that the scene wants: every so many steps, or, with `output`, at a multiple.
+bool Recorder::due(const dynamics::Instant& instant) const {
+  if (instant.last || instant.step == 0) return true;
+  if (!scene_.motion.output) return instant.step % scene_.motion.every == 0;
+  const double number = instant.t / *scene_.motion.output;
+  return std::abs(number - std::round(number)) < 1e-9 * std::max(1.0, number);
 }
 
 void Recorder::observe(const dynamics::Instant& instant) {
-  if (instant.step % scene_.motion.every != 0 && !instant.last) return;
-  if (!result_.series.t.empty() && result_.series.t.back() == instant.t) return;  // the last one, once more
+  bool some = false;  // stored within the step
+  if (scene_.motion.output && instant.between && !result_.series.t.empty()) {
+    const double interval = *scene_.motion.output, last = result_.series.t.back();
+    for (double next = std::floor(last / interval * (1 + 1e-12) + 1e-9) + 1;
+         next * interval < instant.t - 1e-9 * interval; ++next) {
+      if (!between_U_) between_U_ = model_.system->create_vector(), between_V_ = model_.system->create_vector();
+      const double begin = MPI_Wtime();
+      (*instant.between)(next * interval, between_U_, between_V_);
+      seconds_ += MPI_Wtime() - begin;
+      store(next * interval, between_U_, between_V_, measured(next * interval, between_U_, between_V_));
+      some = true;
+    }
+  }
+  const bool again = !result_.series.t.empty() && result_.series.t.back() == instant.t;  // the last one, once more
+  const bool stores = due(instant) && !again;
+  if (!stores && !some) return;
+  const Measured now = measured(instant.t, instant.U, instant.V);
+  look_after(now);
+  if (stores) store(instant.t, instant.U, instant.V, now);
+}
+
+Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   const double begin = MPI_Wtime();
-  const std::vector<double> values = scene::probe_values(model_, instant.t, instant.U, instant.V);
-  result_.series.t.push_back(instant.t);
-  result_.series.values.push_back(values);
-  const dynamics::Energy energy = model_.system->energy(instant.t, instant.U, instant.V);
-  result_.series.energy.push_back(energy);
+  const auto violation = [&](dynamics::ConstraintLevel level) {
+    return dynamics::constraint_violation(*model_.system, t, U, V, level);
+  };
+  const Measured all{
+      model_.system->energy(t, U, V),
+      {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)}};
+  seconds_ += MPI_Wtime() - begin;
+  return all;
+}
+
+void Recorder::look_after(const Measured& now) {
+  const dynamics::Energy& energy = now.energy;
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
-  if (result_.series.t.size() == 1) energy_start_ = energy_now_;  // a table of equilibria may begin late
+  if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late
   energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
-  violation_ = std::max(violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
-                                                                   dynamics::ConstraintLevel::position));
-  velocity_violation_ =
-      std::max(velocity_violation_, dynamics::constraint_violation(*model_.system, instant.t, instant.U, instant.V,
-                                                                   dynamics::ConstraintLevel::velocity));
+  violation_ = std::max(violation_, now.violations[0]);
+  velocity_violation_ = std::max(velocity_violation_, now.violations[1]);
+}
+
+void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
+  const double begin = MPI_Wtime();
+  const std::vector<double> values = scene::probe_values(model_, t, U, V);
+  result_.series.t.push_back(t);
+  result_.series.values.push_back(values);
+  result_.series.energy.push_back(now.energy);
   if (folder_) {
-    const std::vector<double> attitudes = scene::attitudes(model_, instant.U);
+    const std::vector<double> attitudes = scene::attitudes(model_, U);
     const auto write = [&] {
-      probes_->row(instant.t, values);
-      const double t[1] = {instant.t}, e[3] = {energy.kinetic, energy.elastic, energy.potential};
-      file_->append("motion/t", t);
+      probes_->row(t, values);
+      const double at[1] = {t}, e[3] = {now.energy.kinetic, now.energy.elastic, now.energy.potential};
+      file_->append("motion/t", at);
       file_->append("motion/energy", e);
+      file_->append("motion/constraints", now.violations);
       if (!attitudes.empty()) file_->append("motion/attitude", attitudes);
     };
     if (scene::is_reduced(model_.formulation))
       write();
     else
       petsc::agree(comm_, write);
-    store_state(instant);
+    store_state(U, V);
   }
   seconds_ += MPI_Wtime() - begin;
 }

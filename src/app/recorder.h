@@ -1,10 +1,12 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <tuple>
 
 #include "floe/output/result_file.h"
 #include "floe/output/series_file.h"
+#include "floe/petsc/handle.h"
 #include "run.h"
 
 namespace floe::app {
@@ -32,9 +34,18 @@ class Recorder {
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const dynamics::Instant& instant);
-  void write_basis();
   void write_estimate();
-  void store_state(const dynamics::Instant& instant);
+  void store_state(Vec U, Vec V);
+  /// Energy, and the greatest violations of constraints and of their rates.
+  struct Measured {
+    dynamics::Energy energy;
+    std::array<double, 2> violations;
+  };
+  Measured measured(double t, Vec U, Vec V);
+  void store(double t, Vec U, Vec V, const Measured& now);
+  /// For the summary: of the ends of steps; between them all this has the error of the interpolation.
+  void look_after(const Measured& now);
+  bool due(const dynamics::Instant& instant) const;
   const scene::Scene& scene_;
   const scene::Model& model_;
   MPI_Comm comm_;
@@ -51,6 +62,7 @@ class Recorder {
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
   double kept_at_ = 0, kept_seconds_ = 0;  // wall clock
+  petsc::VecHandle between_U_, between_V_;  // of instants within a step
 };
 
 }  // namespace floe::app

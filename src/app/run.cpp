@@ -150,7 +150,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   result.motion_seconds = report.seconds - recorder.seconds();
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
-  if (!fault) {
+  if (!fault && plan.check_range) {
     try {
       result.out_of_range = scene::out_of_range(scene, model, kept, comm);
       for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
@@ -163,9 +163,12 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
   } else if (plan.estimate && !fault) {
     const output::Waiting waiting(comm, "estimating the error");
-    result.estimate = scene::estimate_error(
-        model, kept, std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+    result.estimate =
+        scene::estimate_error(model, kept,
+                              plan.estimate_seconds.value_or(std::max(
+                                  0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds()))));
   }
+  if (plan.keep_states) result.states = kept.states();
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
     const std::exception_ptr lost = fault_of([&] {

@@ -31,6 +31,7 @@ struct RunResult {
   std::vector<std::string> warnings;
   scene::Estimate estimate;
   std::vector<scene::OutOfRange> out_of_range;  ///< their texts are among the warnings
+  std::vector<dynamics::State> states;          ///< some, along the motion, if they were to be kept
 };
 
 /// What keeps a run from being lost, and where it begins and ends.
@@ -39,7 +40,11 @@ struct RunPlan {
   std::optional<output::Checkpoint> from = {};  ///< of the run in the folder, which is taken up again
   std::optional<double> until = {};             ///< [s]; else the scene's motion.end
   bool quiet = false;                           ///< shows no progress
-  bool estimate = false;  ///< of the error, of reduced formulations (scene::estimate_error): a tenth of all the rest
+  bool estimate = false;                        ///< of the error, of reduced formulations (scene::estimate_error)
+  std::optional<double> estimate_seconds = {};  ///< that it may take; else a tenth of all the rest
+  bool check_range = true;                      ///< scene::out_of_range
+  nlohmann::ordered_json choice = {};           ///< how the model was chosen, for the summary
+  bool keep_states = false;                     ///< RunResult::states
 };
 
 /// Builds, moves and writes one scene in one formulation.

@@ -70,7 +70,7 @@ int flushed() {
 }
 
 bool command(const std::string& word) {
-  for (const char* name : {"run", "compare", "modes", "check", "schema"})
+  for (const char* name : {"run", "compare", "modes", "motion", "plot", "report", "check", "schema"})
     if (word == name) return true;
   return false;
 }

@@ -93,12 +93,13 @@ void add_steps(const Scene& scene, std::vector<Candidate>& members) {
     for (const int times : {2, 4, 8}) {
       Scene longer = scene;
       longer.motion.step *= times;
-      longer.motion.every = std::max(1, longer.motion.every / times);
+      longer.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
       members.push_back({"step", fmt::format("step {}x", times), longer, Formulation::vm_md});
     }
   for (const double tolerance : {1e-3, 1e-5}) {
     Scene adaptive = scene;
     adaptive.motion.tolerance = tolerance;
+    adaptive.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
     members.push_back({"step", fmt::format("adaptive, {:.0e}", tolerance), adaptive, Formulation::vm_md});
   }
   for (const double radius : {0.0, 0.9}) {
@@ -120,6 +121,12 @@ std::vector<Candidate> ladder(const Scene& scene) {
   add_models(scene, members);
   add_attachments(scene, members);
   add_steps(scene, members);
+  for (const double accuracy : {0.05, 0.01, 0.002}) {
+    scene::Scene any = scene;
+    any.motion.tolerance.reset();
+    members.push_back(
+        {"accuracy", fmt::format("chosen for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
+  }
   return members;
 }
 

@@ -32,7 +32,7 @@ std::optional<std::size_t> choice(const std::vector<Rung>& rungs, double accurac
   if (front.empty()) return {};
   const auto found =
       std::find_if(front.begin(), front.end(), [&](std::size_t i) { return rungs[i].worst() <= accuracy; });
-  return found == front.end() ? front.back() : *found;
+  return found == front.end() ? std::nullopt : std::optional(*found);
 }
 
 namespace {
@@ -120,24 +120,20 @@ ordered_json to_json(const Rung& rung) {
           {"motion", rung.motion},
           {"steps", rung.steps},
           {"rms", numbers(rung.rms)},
+          {"reduction", numbers(rung.reduction)},
           {"peak", numbers(rung.peak)},
           {"energy", numbers({rung.energy})},
           {"estimate", numbers(rung.estimate)}};
 }
 
 Rung rung_of(const ordered_json& j) {
-  return {j["family"],
-          j["name"],
-          j["formulation"],
-          j["stopped"],
-          j["unknowns"],
-          j["offline"],
-          j["motion"],
-          j["steps"],
-          numbers_of(j["rms"]),
-          numbers_of(j["peak"]),
-          numbers_of(j["energy"]).at(0),
-          numbers_of(j["estimate"])};
+  Rung rung;
+  rung.family = j["family"], rung.name = j["name"], rung.formulation = j["formulation"], rung.stopped = j["stopped"];
+  rung.coordinates = j["unknowns"], rung.steps = j["steps"];
+  rung.offline = j["offline"], rung.motion = j["motion"];
+  rung.rms = numbers_of(j["rms"]), rung.reduction = numbers_of(j["reduction"]), rung.peak = numbers_of(j["peak"]);
+  rung.energy = numbers_of(j["energy"]).at(0), rung.estimate = numbers_of(j["estimate"]);
+  return rung;
 }
 
 }  // namespace floe::app

@@ -166,6 +166,7 @@ constexpr const char* set_multipliers_name = "TSGeneralizedAlphaSetMultipliers_C
 constexpr const char* set_radius_name = "TSGeneralizedAlphaSetRadius_C";
 constexpr const char* set_start_name = "TSGeneralizedAlphaSetStart_C";
 constexpr const char* set_rotations_name = "TSGeneralizedAlphaSetRotations_C";
+constexpr const char* interpolate_name = "TSGeneralizedAlphaInterpolate_C";
 constexpr const char* get_acceleration_name = "TSGeneralizedAlphaGetAcceleration_C";
 
 PetscErrorCode destroy(TS ts) {
@@ -175,8 +176,8 @@ PetscErrorCode destroy(TS ts) {
   if (ts->snes) PetscCall(SNESSetConvergenceTest(ts->snes, SNESConvergedDefault, nullptr, nullptr));
   delete generalized_alpha_data(ts);
   ts->data = nullptr;
-  for (const char* name :
-       {set_multipliers_name, set_radius_name, set_start_name, set_rotations_name, get_acceleration_name})
+  for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, set_rotations_name,
+                           get_acceleration_name, interpolate_name})
     PetscCall(PetscObjectComposeFunction((PetscObject)ts, name, nullptr));
   PetscFunctionReturn(0);
 }
@@ -226,6 +227,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, interpolate_name, interpolate_both));
   PetscFunctionReturn(0);
 }
 
@@ -257,6 +259,12 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations) {
   PetscFunctionBegin;
   PetscTryMethod(ts, "TSGeneralizedAlphaSetRotations_C", (TS, const TSGeneralizedAlphaRotations*), (ts, rotations));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V) {
+  PetscFunctionBegin;
+  PetscUseMethod(ts, "TSGeneralizedAlphaInterpolate_C", (TS, PetscReal, Vec, Vec), (ts, t, U, V));
   PetscFunctionReturn(0);
 }
 

@@ -27,6 +27,7 @@ struct Context {
   TS ts = nullptr;
   std::vector<double> carried_of_tangent = {};  ///< as it was when the last tangent was formed
   std::function<MotionState()> state = {};
+  std::function<void(double, Vec, Vec)> between = {};
   std::unique_ptr<Crossings> crossings = {};
   std::vector<double> happened = {};  ///< of each event
 };
@@ -83,7 +84,8 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
     check(TS2GetSolution(ts, nullptr, &V));
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
     c.observe({t, step, U, V, A, t >= c.end * (1 - 1e-12),
-               c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr});
+               c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
+               c.between && A ? &c.between : nullptr});
   });
 }
 
@@ -285,7 +287,12 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
   check(TSGetType(ts, &type));
   report.type = type;
   context.ts = ts;
-  if (report.type == generalized_alpha) context.state = [&] { return keep(context); };
+  if (report.type == generalized_alpha) {
+    context.state = [&] { return keep(context); };
+    context.between = [&](double t, Vec at, Vec rate) {
+      check(TSGeneralizedAlphaInterpolate(context.ts, t, at, rate));
+    };
+  }
   context.happened.assign(how.events.size(), 0);
   double nominal = 0;
   check(TSGetTimeStep(ts, &nominal));

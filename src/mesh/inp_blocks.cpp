@@ -57,7 +57,7 @@ void include(const InpBlock& block, const std::string& from, int depth, InpBlock
     walk(path.is_absolute() ? path.string() : (std::filesystem::path(from).parent_path() / path).string(), depth + 1,
          result, faults);
   } catch (const InputError& error) {
-    throw InputError(std::string(error.what()) + "\n  included from " + faults.text_of(block.where));
+    throw InputError(std::string(error.what()) + " (included from " + faults.text_of(block.where) + ")");
   }
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 /// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
 const std::vector<std::vector<std::string>> results = {
-    {"summary.json", "probes.csv", "result.h5", "campbell.csv", "checkpoint.h5", "sweep.h5", "sweep.csv", "sweep.png"},
+    {"summary.json", "probes.csv", "result.h5", "campbell.csv", "checkpoint.h5", "sweep.h5", "sweep.csv", "sweep.png",
+     "motion.h5", "motion.xdmf", "report.html"},
     {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"},
     {"tradeoff.json", "tradeoff.md", "tradeoff.csv", "tradeoff.png"}};
 
@@ -29,6 +30,8 @@ const std::vector<std::vector<std::string>> results = {
 bool of_floe(const fs::path& path, const fs::path& mark) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored) || !is_own_json(mark)) return false;
+  if (path.extension() == ".xdmf") return is_own_xdmf(path);
+  if (path.extension() == ".html") return is_own_page(path);
   return path.extension() != ".csv" || path.stem() != "probes" || is_series(path);
 }
 

@@ -240,5 +240,6 @@ template void write_whole(hid_t, const std::string&, const Extent&, std::span<co
 template std::vector<double> read_whole(hid_t, const std::string&, Extent&);
 template std::vector<std::int64_t> read_whole(hid_t, const std::string&, Extent&);
 template std::vector<double> read_block(hid_t, const std::string&, const Extent&, const Extent&, const Extent&);
+template std::vector<std::int64_t> read_block(hid_t, const std::string&, const Extent&, const Extent&, const Extent&);
 
 }  // namespace floe::output

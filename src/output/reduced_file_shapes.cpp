@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "floe/petsc/error.h"
-#include "ordered_rows.h"
 #include "reduced_file_hdf5.h"
 #include "reserve.h"
+#include "shape_rows.h"
 
 namespace floe::output {
 namespace {
@@ -28,36 +27,6 @@ void check_mine(const ReducedBodyFile& file, const ReducedShapes& shapes) {
   }
   for (const auto& [name, nodes] : shapes.sets)
     need(std::all_of(nodes.begin(), nodes.end(), known), fmt::format("set '{}': a node that the body lacks", name));
-}
-
-void write_cells(MPI_Comm comm, hid_t file, const Integers& rows, hsize_t count) {
-  const hsize_t first = sum_before(comm, std::ssize(rows) / cell_width);
-  write_shared(comm, file, "shapes/cells/nodes", {count, 4}, first, columns_of(rows, 0, 4),
-               {"", "original numbers, from 0; -1 where unused"});
-  write_shared(comm, file, "shapes/cells/part", {count}, first, columns_of(rows, 4, 1), {"", "index of shapes/parts"});
-  write_shared(comm, file, "shapes/cells/kind", {count}, first, columns_of(rows, 5, 1),
-               {"", "VTK cell types: 1 vertex, 3 line, 5 triangle, 9 quadrilateral"});
-}
-
-void write_basis(MPI_Comm comm, hid_t file, const NodeRows& rows, const ReducedBodyFile& body,
-                 const ReducedShapes& shapes) {
-  const hsize_t k = body.body.coordinates(), n = body.nodes, width = shapes.dofs_per_node;
-  Hid dataset;
-  petsc::agree(comm, [&] {
-    dataset = create_dataset<double>(file, "shapes/basis", {k, n, width},
-                                     {"kg^-1/2; rotations: rad m^-1 kg^-1/2", "in the axes of the floating frame"});
-  });
-  std::vector<double> mine(shapes.nodes.size() * width);
-  for (hsize_t j = 0; j < k; ++j) {
-    petsc::agree(comm, [&] { shapes.column(static_cast<int>(j), mine); });
-    const auto share = rows.in_order(mine, static_cast<int>(width));
-    petsc::agree(comm, [&] {
-      need(std::all_of(share.begin(), share.end(), [](double x) { return std::isfinite(x); }),
-           fmt::format("column {} is not finite", j));
-      write_rows<double>(dataset, {j, hsize_t(rows.first()), 0}, {1, share.size() / width, width}, share, true);
-    });
-  }
-  petsc::agree(comm, [&] { dataset.close(); });
 }
 
 /// Each set ascending, each node once.
@@ -131,13 +100,11 @@ void add_shapes(MPI_Comm comm, const std::filesystem::path& draft, const Reduced
   });
   Hid file;
   petsc::agree(comm, [&] { file = open_file(draft, Open::change, comm); });
-  std::vector<double> positions;
-  for (const auto& x : shapes.positions) positions.insert(positions.end(), {x[0], x[1], x[2]});
-  write_shared(comm, file, "shapes/positions", {hsize_t(body.nodes), 3}, rows.first(), rows.in_order(positions, 3),
-               {"m", "in the axes of the floating frame"});
-  write_cells(comm, file, cells_in_order(comm, shares, shapes.cells), cells);
+  write_positions(comm, file, "shapes", body.nodes, rows, shapes);
+  write_cells(comm, file, "shapes/cells", cells, cells_in_order(comm, shares, shapes.cells));
   write_sets(comm, file, sets, starts);
-  write_basis(comm, file, rows, body, shapes);
+  write_columns(comm, file, "shapes/basis", body.body.coordinates(), body.nodes, rows, shapes,
+                {"kg^-1/2; rotations: rad m^-1 kg^-1/2", "in the axes of the floating frame"});
   petsc::agree(comm, [&] { file.close(); });
 }
 

@@ -40,8 +40,8 @@ std::string first_bytes(const fs::path& path, std::size_t count) {
 }  // namespace
 
 bool is_own_xdmf(const fs::path& path) {
-  const std::string start = first_bytes(path, 512);
-  return start.empty() || start.find(xdmf_mark) != std::string::npos;
+  const std::string start = first_bytes(path, 512), before = "<Information Name=\"program\" Value=\"floe\"/>";
+  return start.empty() || start.find(xdmf_mark) != std::string::npos || start.find(before) != std::string::npos;
 }
 
 bool is_own_json(const fs::path& path) {
@@ -49,6 +49,11 @@ bool is_own_json(const fs::path& path) {
   const auto json = nlohmann::json::parse(file, nullptr, false);
   return json.is_object() && json.contains("provenance") && json["provenance"].is_object() &&
          json["provenance"].contains("floe");
+}
+
+bool is_own_page(const fs::path& path) {
+  const std::string start = first_bytes(path, 400);
+  return start.empty() || start.find("<meta name=\"generator\" content=\"floe\">") != std::string::npos;
 }
 
 bool is_series(const fs::path& path) {

@@ -7,10 +7,13 @@ namespace floe::output {
 /// Whether --force may replace a file: one that is empty, or HDF5 whose attribute `format` is this. Rank-local.
 bool is_of_format(const std::filesystem::path& path, const std::string& format);
 
-/// What floe's own XDMF files say of themselves.
-inline const std::string xdmf_mark = "<Information Name=\"program\" Value=\"floe\"/>";
-/// Likewise an XDMF file with this mark. Rank-local.
+/// What floe's own XDMF files say of themselves: a comment, for XDMF 3 wants nothing but domains there.
+inline const std::string xdmf_mark = "<!-- written by floe -->";
+/// Likewise an XDMF file with this mark, or with that of floe before it was a comment. Rank-local.
 bool is_own_xdmf(const std::filesystem::path& path);
+
+/// Likewise a page with the mark that src/plot/report.py writes. Rank-local.
+bool is_own_page(const std::filesystem::path& path);
 
 /// Whether the file is JSON whose `provenance` names floe. Rank-local.
 bool is_own_json(const std::filesystem::path& path);

@@ -4,58 +4,14 @@
 DIR/compare.json names the runs, the probes and the reference; each run's series is the CSV file that floe wrote.
 """
 import argparse
-import csv
-import io
-import json
 import math
 import os
 import sys
 
-COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
-DASHES = [(), (6, 2), (2, 1.5), (7, 2, 1.5, 2), (10, 2.5), (4, 1.5, 1, 1.5, 1, 1.5), (1, 1)]
+sys.dont_write_bytecode = True
+from style import COLOURS, DASHES, Fault, pyplot, read_json, read_series, save, span, with_unit  # noqa: E402
+
 PANEL_HEIGHT, WIDTH = 2.1, 7.6  # inches
-
-
-class Fault(Exception):
-    """Something that the user should read, in one line."""
-
-
-def read_json(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            return json.load(file)
-    except OSError as error:
-        raise Fault(f"{path}: {error.strerror}") from error
-    except ValueError as error:
-        raise Fault(f"{path}: not JSON: {error}") from error
-
-
-def number(text, path, line):
-    try:
-        return float(text)
-    except ValueError:
-        raise Fault(f"{path}:{line}: '{text}' is not a number") from None
-
-
-def read_series(path):
-    """Columns by name, without their units: {"t": [...], "tip.x": [...]}."""
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except OSError as error:
-        raise Fault(f"{path}: {error.strerror}") from error
-    if not rows or not rows[0]:
-        raise Fault(f"{path}: empty")
-    names = [cell.split(" [")[0].strip() for cell in rows[0]]
-    columns = {name: [] for name in names}
-    for line, row in enumerate(rows[1:], start=2):
-        if len(row) != len(names):
-            raise Fault(f"{path}:{line}: {len(row)} cells for {len(names)} columns")
-        for name, cell in zip(names, row):
-            columns[name].append(number(cell, path, line))
-    if "t" not in columns or not columns["t"]:
-        raise Fault(f"{path}: no times")
-    return columns
 
 
 def interpolated(times, values, at):
@@ -112,15 +68,6 @@ def give_styles(description):
                 run["line"]["dashes"] = dashes
             count += 1
         run["line"].update(run.get("style") or {})
-
-
-def span(values):
-    finite = [value for value in values if math.isfinite(value)]
-    return max(finite) - min(finite) if finite else 0.0
-
-
-def with_unit(name, unit):
-    return f"{name} [{unit}]" if unit else name
 
 
 def value_range(description, column):
@@ -204,13 +151,7 @@ def place_legend(figure, axes):
 
 
 def draw(description, path, dpi):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
-                                "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "floe"})
+    plt = pyplot()
     give_styles(description)
     probes = moving(description)
     main = main_probe(description)
@@ -231,18 +172,6 @@ def draw(description, path, dpi):
     head = place_legend(figure, axes[0])
     figure.tight_layout(rect=(0, 0, 1, 1 - head / height))
     save(figure, path, dpi)
-
-
-def save(figure, path, dpi, colours=64):
-    """A PNG has a palette: lines in few colours take a third of the bytes then."""
-    if not path.endswith(".png"):
-        figure.savefig(path)
-        return
-    from PIL import Image  # matplotlib needs it, too
-
-    with io.BytesIO() as drawn:
-        figure.savefig(drawn, format="png", dpi=dpi)
-        Image.open(drawn).convert("RGB").quantize(colours).save(path, optimize=True, dpi=(dpi, dpi))
 
 
 def main_probe(description):

@@ -8,8 +8,9 @@ import json
 import os
 import sys
 
-COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
-MARKS = ["o", "s", "^", "D", "v", "P", "X"]
+sys.dont_write_bytecode = True
+from style import COLOURS, MARKS, Fault, pyplot, save  # noqa: E402
+
 PANEL_HEIGHT, WIDTH, MOST_LINES = 2.1, 7.6, 12  # inches
 
 
@@ -25,17 +26,12 @@ def label(row, paths):
     return ", ".join(f"{path} = {float(row[path]):.4g}" for path in paths)
 
 
-def draw(folder):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as pyplot
-
+def draw(folder, path, dpi):
     paths, rows = load(folder)
     columns = [name for name in rows[0] if name and name.startswith("greatest ")] if rows else []
     if not columns:
-        raise SystemExit(f"{folder}: no members")
-    figure, panels = pyplot.subplots(len(columns), 1, sharex=True, squeeze=False, layout="constrained",
+        raise Fault(f"{folder}: no members")
+    figure, panels = pyplot().subplots(len(columns), 1, sharex=True, squeeze=False, layout="constrained",
                                      figsize=(WIDTH, 0.7 + PANEL_HEIGHT * len(columns)))
     lines = {}
     for row in rows:
@@ -51,15 +47,14 @@ def draw(folder):
             panel.plot(failed, [0.02] * len(failed), "kx", transform=panel.get_xaxis_transform(), label="failed")
         quantity, unit = column[len("greatest "):].rsplit(" [", 1)
         panel.set_ylabel(f"greatest |{quantity}| [{unit}")
-        panel.grid(color="0.9", linewidth=0.6)
-        panel.set_axisbelow(True)
-        for side in ("top", "right"):
-            panel.spines[side].set_visible(False)
     panels[-1, 0].set_xlabel(paths[0])
     if len(lines) > 1 or failed:
         panels[0, 0].legend(fontsize="small", frameon=False, ncols=2)
-    figure.savefig(os.path.join(folder, "sweep.png"), dpi=150)
+    save(figure, path, dpi)
 
 
 if __name__ == "__main__":
-    draw(sys.argv[1])
+    try:
+        draw(sys.argv[1], os.path.join(sys.argv[1], "sweep.png"), 150)
+    except Fault as fault:
+        sys.exit(f"sweep.py: {fault}")

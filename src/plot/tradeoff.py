@@ -9,9 +9,8 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from compare import COLOURS, Fault, read_json, save  # noqa: E402
+from style import COLOURS, MARKS, Fault, duration, pyplot, read_json, save  # noqa: E402
 
-MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 WIDTH, HEIGHT = 7.6, 4.4  # inches, of the diagram; the key of the front comes below
 LINE = 0.19
 
@@ -40,13 +39,6 @@ def load(folder):
     return description, shown
 
 
-def seconds(value):
-    for limit, factor, unit in ((1e-3, 1e6, "µs"), (1, 1e3, "ms")):
-        if value < limit:
-            return f"{factor * value:.3g} {unit}"
-    return f"{value:.3g} s"
-
-
 def per_cent(value):
     return f"{100 * value:.2g} %"
 
@@ -54,7 +46,7 @@ def per_cent(value):
 def key_lines(description):
     lines = []
     for number, rung in enumerate(description["front"], start=1):
-        words = f"{number}  {rung['name']} ({rung['formulation']}): {per_cent(rung['error'])}, {seconds(rung['motion'])}"
+        words = f"{number}  {rung['name']} ({rung['formulation']}): {per_cent(rung['error'])}, {duration(rung['motion'])}"
         if rung is description["chosen"]:
             words += f"   ← choice for {per_cent(description['accuracy'])}"
         lines.append(words)
@@ -72,13 +64,7 @@ def copy_of_size(line, size):
 
 
 def draw(description, shown, path, dpi):
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
-                                "axes.spines.top": False, "axes.spines.right": False})
+    plt = pyplot()
     lines = key_lines(description)
     below = LINE * (len(lines) + 1.4)
     figure = plt.figure(figsize=(WIDTH, HEIGHT + below))
@@ -92,7 +78,7 @@ def draw(description, shown, path, dpi):
     for i, family in enumerate(dict.fromkeys(rung["family"] for rung in shown)):
         members = [rung for rung in shown if rung["family"] == family]
         axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none",
-                  marker=MARKERS[i % len(MARKERS)], markersize=7, color=COLOURS[i % len(COLOURS)],
+                  marker=MARKS[i % len(MARKS)], markersize=7, color=COLOURS[i % len(COLOURS)],
                   markeredgecolor="white", markeredgewidth=0.6, zorder=3, label=family)
     chosen = description["chosen"]
     if chosen:
@@ -100,7 +86,7 @@ def draw(description, shown, path, dpi):
                   markerfacecolor="none", markeredgecolor="black", markeredgewidth=1.4, zorder=4, label="choice")
     reference = description["reference"]
     axes.axvline(reference["motion"], color="0.35", linestyle=(0, (6, 2)), linewidth=1.1,
-                 label=f"{reference['name']}: {seconds(reference['motion'])}")
+                 label=f"{reference['name']}: {duration(reference['motion'])}")
     own = worst(description["reference_itself"]) if "reference_itself" in description else None
     if own:
         axes.axhline(100 * own, color="0.35", linestyle=(0, (1, 1.5)), linewidth=1.2,

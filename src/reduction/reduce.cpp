@@ -134,16 +134,18 @@ void drop_round_off(const fem::Structure& structure, Columns& columns) {
 
 }  // namespace
 
+std::string derivative_label(const Generators& generators, int i, int j) {
+  const auto name = [&](int field) {
+    const ColumnOrigin& origin = generators.origins[field];
+    return origin.label.substr(
+        std::string_view(origin.kind == ColumnOrigin::Kind::mode ? "mode " : "attachment ").size());
+  };
+  return fmt::format("derivative {},{}", name(i), name(j));
+}
+
 DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
                                      const fem::Holding& holding, const Statics& statics, const Generators& generators,
                                      const Pairs& pairs, bool full) {
-  auto name = [&](int i) {
-    const ColumnOrigin& origin = generators.origins[i];
-    return origin.kind == ColumnOrigin::Kind::mode ? origin.label.substr(5) : origin.label.substr(11);
-  };
-  auto origin = [&](int i, int j) {
-    return ColumnOrigin{ColumnOrigin::Kind::derivative, fmt::format("derivative {},{}", name(i), name(j))};
-  };
   DerivativeColumns result;
   Pairs with_inertia, without;
   const int modes = static_cast<int>(generators.modes.omega.size());
@@ -159,25 +161,32 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
   for (std::size_t p = 0; p < which.size(); ++p) {
     const auto [i, j] = which[p];
     if (!sloped[i] && !sloped[j]) check(VecSet(result.columns[p], 0));
-    result.origins.push_back(origin(i, j));
+    result.origins.push_back({ColumnOrigin::Kind::derivative, derivative_label(generators, i, j)});
   }
   drop_round_off(structure, result.columns);
   return result;
 }
 
 Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
-               double tolerance) {
-  const std::size_t first = generators.fields.size();
+               double tolerance, const std::vector<char>& left_out) {
+  std::vector<Vec> taken;
+  std::vector<ColumnOrigin> origins;
+  for (std::size_t i = 0; i < generators.fields.size(); ++i) {
+    if (!left_out.empty() && left_out[i]) continue;
+    taken.push_back(generators.fields[i]);
+    origins.push_back(generators.origins[i]);
+  }
+  const std::size_t first = taken.size();
   fem::FieldRows candidates = fem::gather(
       structure, static_cast<Eigen::Index>(first + derivatives.columns.size()), [&](Eigen::Index j, double* local) {
         const auto at = static_cast<std::size_t>(j);
-        structure.exchange.gather(at < first ? generators.fields[at] : derivatives.columns[at - first], local);
+        structure.exchange.gather(at < first ? taken[at] : derivatives.columns[at - first].get(), local);
       });
   derivatives.columns.clear();  // their memory
-  std::vector<ColumnOrigin> origins = generators.origins;
   origins.insert(origins.end(), derivatives.origins.begin(), derivatives.origins.end());
   Basis basis = orthonormal_basis(structure, std::move(candidates), std::move(origins), tolerance);
-  for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
+  if (left_out.empty())
+    for (const auto& origin : generators.dropped) basis.origins.push_back(origin);
   return basis;
 }
 

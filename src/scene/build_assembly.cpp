@@ -9,6 +9,7 @@
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
 #include "floe/reference/corotational_beam.h"
+#include "mesh_copy.h"
 #include "weight.h"
 
 namespace floe::scene {
@@ -216,6 +217,9 @@ Model Assembly::model() {
     report.frame = name_of(prepared_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.first_node = mesh.first_node;
+    report.mesh = body_mesh(prepared_.bodies[b]);
+    report.place << prepared_.bodies[b].pose.head<2>(), 0;
+    report.axes.topLeftCorner<2, 2>() = turn(prepared_.bodies[b].pose[2]);
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
     model.bodies.push_back(std::move(report));

@@ -85,6 +85,7 @@ ReducedBody from_file(const PreparedBody& body, Formulation formulation) {
   report.name = body.spec.name, report.file = body.spec.reduced->path;
   report.nodes = file.nodes, report.elements = file.cells, report.dofs = file.dofs;
   report.dimension = file.dimension;
+  report.shapes_in_file = file.has_shapes;
   report.columns = reduced.body.coordinates();
   report.omega = file.omega, report.residual = file.residual;
   report.origins = origins_of(file, formulation);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_stage.h"
 #include "build_attachments.h"
 #include "build_interface.h"
 #include "floe/reduction/ranking.h"
@@ -15,90 +16,6 @@ namespace floe::scene {
 using petsc::check;
 
 namespace {
-
-/// C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)' + alpha V'MV + beta V'KV.
-///
-/// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
-/// the frame, phi_i'K phi_i = omega_i^2.
-Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
-  const DampingSpec& spec = body.spec.damping;
-  const int k = reduced.body.coordinates();
-  if (spec.mass == 0 && spec.stiffness == 0 && spec.modal.empty()) return {};
-  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
-  Eigen::MatrixXd C = spec.stiffness * K;
-  C.diagonal().array() += spec.mass;
-  for (std::size_t i = 0; i < std::min(spec.modal.size(), modes.omega.size()); ++i) {
-    Eigen::VectorXd phi(k);
-    check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
-    const Eigen::VectorXd force = K * phi;
-    C += 2 * spec.modal[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
-  }
-  return C;
-}
-
-/// What one body carries through the stages of its reduction.
-struct Stage {
-  fem::Holding for_modes, for_statics;
-  std::unique_ptr<reduction::Statics> statics;
-  std::unique_ptr<reduction::ModeSolver> solver;
-  std::vector<reduction::Attachment> attachments;
-  reduction::Generators generators;
-  reduction::Pairs pairs;
-};
-
-/// (Re)makes the generators, with the lowest `modes` modes.
-void generate(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
-  const PreparedBody& body = prepared.bodies[index];
-  const double start = MPI_Wtime();
-  try {
-    stage.generators = reduction::generators(body.structure, *stage.statics, stage.solver->solve(modes),
-                                             stage.attachments, body.spec.reduction.drop_tolerance);
-  } catch (const InputError& error) {
-    throw InputError(body.spec.reduction.modes.where.text() + ": " + error.what());
-  }
-  report.omega = stage.generators.modes.omega;
-  report.residual = stage.generators.modes.residual;
-  report.seconds_modes = MPI_Wtime() - start;
-}
-
-/// In place of a count of modes: the default, or fewer where the body has fewer under its conditions.
-constexpr int as_the_body_has = -1;
-
-int count_of_modes(const PreparedBody& body) {
-  return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
-}
-
-void begin(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
-  const PreparedBody& body = prepared.bodies[index];
-  check_interface(prepared, index);
-  stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
-  stage.for_modes =
-      of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
-  stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
-  stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
-  stage.attachments = attachments(prepared, index);
-  if (modes == as_the_body_has)
-    modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
-  generate(prepared, index, modes, stage, report);
-}
-
-void end(const PreparedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives, ReducedBody& reduced) {
-  const double start = MPI_Wtime();
-  reduced.basis = std::make_shared<reduction::Basis>(reduction::basis_of(
-      body.structure, stage.generators, std::move(derivatives), body.spec.reduction.drop_tolerance));
-  reduced.body = reduction::project(body.structure, *reduced.basis);
-  reduced.damping = damping_matrix(body, reduced, stage.generators.modes);
-  reduced.report.columns = reduced.basis->columns;
-  reduced.report.origins = reduced.basis->origins;
-  reduced.report.basis = reduced.basis;
-  reduced.report.seconds_projection = MPI_Wtime() - start;
-}
-
-reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stage& stage, const reduction::Pairs& pairs,
-                                            bool full) {
-  return reduction::derivative_columns(body.structure, body.frame, stage.for_modes, *stage.statics, stage.generators,
-                                       pairs, full);
-}
 
 /// theta_ij by maximum modal interaction, int |eta_i eta_j| dt |what theta_ij adds|_M (half of it for i = j, as in the
 /// series u = phi_i eta_i + 1/2 theta_ij eta_i eta_j): one after the other, each without what the generators and those
@@ -115,20 +32,6 @@ void rank_pairs(const PreparedBody& body, Stage& stage, const Eigen::MatrixXd& i
     stage.pairs.push_back(all[next.candidate]);
     weights.push_back(next.weight);
   }
-}
-
-reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
-  using Choice = DerivativesSpec::Choice;
-  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
-  reduction::Pairs pairs;
-  if (spec.choice == Choice::pairs)
-    for (const auto& [i, j] : spec.pairs) {
-      if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
-        throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
-                                     spec.where.text(), i, j, j, modes));
-      pairs.push_back({i - 1, j - 1});
-    }
-  return pairs;
 }
 
 /// Whether the ground holds more than the rigid motions, so that bending has to stretch the body. In space one clamped
@@ -248,7 +151,7 @@ std::vector<std::vector<double>> choose_by_count(const Prepared& prepared, Formu
       linear[b] = from_file(prepared.bodies[b], Formulation::lffr);
       continue;
     }
-    end(prepared.bodies[b], stages[b], {}, linear[b]);
+    end_stage(prepared.bodies[b], stages[b], {}, linear[b]);
     linear[b].body.elasticity = body::linearised(linear[b].body.elasticity);
     linear[b].of_fields = coordinates_of_fields(stages[b], linear[b]);
   }
@@ -291,7 +194,7 @@ BodyFields fields_of_body(const Prepared& prepared, int index) {
   const DerivativesSpec& spec = body.spec.reduction.derivatives;
   BodyFields fields;
   Stage stage;
-  begin(prepared, index, count_of_modes(body), stage, fields.report);
+  begin_stage(prepared, index, count_of_modes(body), stage, fields.report);
   const int count = static_cast<int>(stage.generators.fields.size());
   const bool all = spec.choice == DerivativesSpec::Choice::count;
   reduction::DerivativeColumns derivatives =
@@ -317,7 +220,7 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
       continue;
     }
     Stage stage;
-    if (!report.rigid) begin(prepared, static_cast<int>(b), count_of_modes(body), stage, report);
+    if (!report.rigid) begin_stage(prepared, static_cast<int>(b), count_of_modes(body), stage, report);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -342,8 +245,11 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
       continue;
     }
     const bool stated = alone && spec.modes.alone > 0;
-    begin(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
-    if (!stated) stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
+    begin_stage(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
+    if (!spec.columns.empty() && !stated)
+      keep_named(body, stages[b]);
+    else if (!stated)
+      stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(prepared, b, formulation, warnings);
     if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
       warnings.push_back(
@@ -357,7 +263,8 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     if (body.spec.rigid || body.spec.reduced) continue;
     reduction::DerivativeColumns derivatives;
     if (alone) {
-      if (body.spec.reduction.modes.alone == 0) modes_for_derivatives(prepared, b, stages[b], all[b].report);
+      if (body.spec.reduction.modes.alone == 0 && body.spec.reduction.columns.empty())
+        modes_for_derivatives(prepared, b, stages[b], all[b].report);
     } else {
       const double start = MPI_Wtime();
       derivatives = derivatives_of(body, stages[b], stages[b].pairs, body.spec.reduction.derivatives.full);
@@ -365,7 +272,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
         derivatives.origins[i].interaction = weights[b][i];
       all[b].report.seconds_derivatives = MPI_Wtime() - start;
     }
-    end(body, stages[b], std::move(derivatives), all[b]);
+    end_stage(body, stages[b], std::move(derivatives), all[b]);
     warn_of_loads(prepared, b, stages[b], all[b], warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
     if (keep_statics) all[b].statics = std::move(stages[b].statics);

@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+
 #include "build_prepare.h"
 
 namespace floe::scene {
@@ -44,6 +46,10 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared);
 /// (lffr).
 /// @throws InputError  vm: a derivative stands before a mode. Rank-local; the same everywhere.
 ReducedBody from_file(const PreparedBody& body, Formulation formulation);
+
+/// Writes a body on its columns into a file, with its basis at every node. @param body  of `prepared`. Collective.
+void write_body(const Prepared& prepared, const PreparedBody& body, const ReducedBody& reduced,
+                const std::filesystem::path& path, bool overwrite);
 
 /// The mass of a body that does not deform. Collective.
 ReducedBody rigid(const PreparedBody& body);

@@ -11,6 +11,7 @@
 #include "floe/dynamics/start.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
+#include "mesh_copy.h"
 #include "prepare_reduced.h"
 
 namespace floe::scene {
@@ -310,6 +311,9 @@ Model SpaceAssembly::model() {
     report.frame = name_of(prepared_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
     report.attitude = slots_[b].attitude;
+    report.mesh = body_mesh(body);
+    report.place = prepared_.bodies[owner_of_frame(index)].place;
+    report.axes = prepared_.bodies[owner_of_frame(index)].attitude;
     report.first_node = mesh.first_node;
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), mesh.positions[i].data(), mesh.positions[i].data() + 3);

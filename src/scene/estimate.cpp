@@ -189,6 +189,7 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     const PreparedBody& body = offline.prepared.bodies[b];
     const ReducedBody& reduced = offline.reduced[b];
     bodies.push_back(reduced);
+    estimate.responses.emplace_back();
     if (body.spec.reduced)
       estimate.notes.push_back(
           fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
@@ -198,9 +199,11 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     if (most < most_columns)
       estimate.notes.push_back(
           fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
-    const reduction::Columns W = response_columns(*reduced.statics, residuals.loads(b), most);
-    if (W.empty()) continue;
-    bodies.back() = with_columns(body, reduced, W);
+    const auto W =
+        std::make_shared<const reduction::Columns>(response_columns(*reduced.statics, residuals.loads(b), most));
+    if (W->empty()) continue;
+    estimate.responses.back() = W;
+    bodies.back() = with_columns(body, reduced, *W);
     estimate.columns += bodies.back().body.coordinates() - reduced.body.coordinates();
   }
   return bodies;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "values.h"
@@ -40,6 +41,22 @@ std::vector<std::array<int, 2>> read_pairs(Document& document, const Value& valu
   }
   if (document.fault_count() != before) pairs.clear();
   return pairs;
+}
+
+std::vector<std::string> read_texts(Document& document, const Value& value, const Key& key) {
+  const std::size_t before = document.fault_count();
+  std::vector<std::string> texts;
+  for (const auto& item : read_list(document, value, key)) {
+    if (!item.node.IsScalar() || item.node.Scalar().empty())
+      document.fault(item.where, shown(item.node), "a text");
+    else if (std::find(texts.begin(), texts.end(), item.node.Scalar()) != texts.end())
+      document.fault(item.where, quoted(item.node.Scalar()) + " stands twice", "each once");
+    else
+      texts.push_back(item.node.Scalar());
+  }
+  if (texts.empty() && document.fault_count() == before) document.fault(value.where, "is empty", "at least one");
+  if (document.fault_count() != before) texts.clear();
+  return texts;
 }
 
 std::vector<Entry> read_mapping(Document& document, const Value& value, const std::string& expected) {

@@ -14,6 +14,9 @@ Motion read_motion(Document& document, const Value& value) {
   motion.spectral_radius = reading.number("spectral_radius");
   motion.tolerance = reading.optional_number("tolerance");
   motion.every = reading.integer("every");
+  motion.output = reading.optional_number("output");
+  if (motion.output && reading.given("every"))
+    document.fault(reading.where("every"), "does not go with output, which does not count steps", "one of them");
   if (motion.step > motion.end) {
     document.fault(reading.where("step"), fmt::format("is {}", motion.step),
                    fmt::format("at most end, {}", motion.end));

@@ -84,6 +84,14 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
       reduction.interface.push_back(read_own_place(document, place, reading.key("interface"), body));
   if (!reduction.interface.empty() && reduction.modes.of == ModesSpec::Of::frame)
     document.fault(reading.where("interface"), "does not go with modes: {of: frame}", "modes as the joints hold them");
+  if (const auto columns = reading.value("columns"); columns && reading.given("columns")) {
+    reduction.columns_where = reading.where("columns");
+    reduction.columns = read_texts(document, *columns, reading.key("columns"));
+    if (reading.given("derivatives"))
+      document.fault(reading.where("derivatives"), "does not go with columns, which names the derivatives",
+                     "one of them");
+  }
+  reduction.linear = reading.choice("elastic_force") == "linear";
   reduction.drop_tolerance = reading.number("drop_tolerance");
   return reduction;
 }

@@ -88,6 +88,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
   scene.loads = read_named<Load>(document, reading, "loads", read_load);
   if (const auto motion = reading.value("motion")) scene.motion = read_motion(document, *motion);
+  if (reading.given("accuracy"))
+    scene.accuracy = read_share(document, *reading.value("accuracy"), reading.key("accuracy"));
+  if (scene.accuracy && scene.motion.tolerance)
+    document.fault(reading.where("accuracy"), "does not go with motion.tolerance: it chooses the step", "one of them");
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
   scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {

@@ -135,7 +135,35 @@ output::ReducedShapes shapes_of(const PreparedBody& body, const reduction::Basis
   return shapes;
 }
 
+/// The body on its columns, for the file.
+output::ReducedBodyFile file_of(const Prepared& prepared, const PreparedBody& body, const ReducedBody& reduced) {
+  const BodyReport& report = reduced.report;
+  output::ReducedBodyFile file;
+  file.name = body.spec.name;
+  file.dimension = body.structure.dimension();
+  file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
+  file.cells = body.structure.mesh.cell_count;
+  file.body = reduced.body;
+  file.damping = reduced.damping;
+  file.places = places_of(prepared, body, *reduced.basis);
+  file.columns = columns_of(report);
+  file.omega = report.omega, file.residual = report.residual;
+  file.frame = frame_of(body);
+  file.made = output::made_here(prepared.comm, prepared.scene.text);
+  file.made.seconds = {{"modes", report.seconds_modes},
+                       {"derivatives", report.seconds_derivatives},
+                       {"projection", report.seconds_projection}};
+  return file;
+}
+
 }  // namespace
+
+void write_body(const Prepared& prepared, const PreparedBody& body, const ReducedBody& reduced,
+                const std::filesystem::path& path, bool overwrite) {
+  const output::ReducedBodyFile file = file_of(prepared, body, reduced);
+  const output::ReducedShapes shapes = shapes_of(body, *reduced.basis);
+  output::write_reduced_body(prepared.comm, path, file, overwrite, &shapes);
+}
 
 output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name, MPI_Comm comm,
                                     const std::filesystem::path& path, bool overwrite,
@@ -152,23 +180,8 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
       prepared, Formulation::vm_md,
       [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; },
       warnings);
-  const BodyReport& report = reduced[0].report;
-  output::ReducedBodyFile file;
-  file.name = body.spec.name;
-  file.dimension = body.structure.dimension();
-  file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
-  file.cells = body.structure.mesh.cell_count;
-  file.body = reduced[0].body;
-  file.damping = reduced[0].damping;
-  file.places = places_of(prepared, body, *reduced[0].basis);
-  file.columns = columns_of(report);
-  file.omega = report.omega, file.residual = report.residual;
-  file.frame = frame_of(body);
-  file.made = output::made_here(comm, scene.text);
-  file.made.seconds = {{"mesh", meshed - start},
-                       {"modes", report.seconds_modes},
-                       {"derivatives", report.seconds_derivatives},
-                       {"projection", report.seconds_projection}};
+  output::ReducedBodyFile file = file_of(prepared, body, reduced[0]);
+  file.made.seconds["mesh"] = meshed - start;
   const output::ReducedShapes shapes = shapes_of(body, *reduced[0].basis);
   output::write_reduced_body(comm, path, file, overwrite, &shapes);
   file.has_shapes = true;

@@ -47,6 +47,13 @@ const SchemaSection scene_section{
         part("loads", Type::named_sections, "", "the loads by name", "load"),
         part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
              "motion"),
+        {"accuracy",
+         Type::share,
+         "",
+         "",
+         "greatest error of the probes against the full order of the same mesh, each as a vector, root mean square: "
+         "floe run chooses columns, elastic force and step for it; absent: as the scene says",
+         {0, 1, true, true}},
         part("probes", Type::named_sections, "", "what to record, by name", "probe"),
         part("events", Type::named_sections, "", "what happens once in the motion, by name", "event"),
     }};
@@ -203,6 +210,12 @@ const SchemaSection reduction_section{
         {"interface", Type::own_places, "", "",
          "Craig-Bampton: places that the modes hold, each as one rigid piece, with a static column for each of its "
          "dofs"},
+        {"columns", Type::texts, "", "",
+         "only these of the columns and their derivatives, as summary.json names them: mode 1, attachment pin.moment, "
+         "\"derivative 1,2\" (in quotation marks); not with derivatives"},
+        choice("elastic_force", "von_karman",
+               "of reduced models; linear: without the quadratic and cubic part, for motions that hardly bend",
+               {"von_karman", "linear"}),
         {"drop_tolerance",
          Type::number,
          "",
@@ -344,6 +357,10 @@ const SchemaSection motion_section{
          "relative error a step, by which the step is adapted; absent: steps are equal",
          {0, 1, true, true}},
         {"every", Type::integer, "", "1", "store each so many steps", counts},
+        {"output", Type::number, "s", "",
+         "store at multiples of this time instead, whatever the steps: between them by the integrator's cubic "
+         "polynomials",
+         positive},
     }};
 
 const SchemaSection probe_section{

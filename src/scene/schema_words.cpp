@@ -44,6 +44,8 @@ std::string describe(const Key& key, int dimension) {
   switch (key.type) {
     case Type::text:
       return "a text";
+    case Type::texts:
+      return "a list of texts";
     case Type::flag:
       return "true or false";
     case Type::integer:
@@ -52,6 +54,8 @@ std::string describe(const Key& key, int dimension) {
       return "an integer or a list of them";
     case Type::number:
       return "a number or a formula of the parameters";
+    case Type::share:
+      return "a number, or per cent (1 %)";
     case Type::numbers:
       return "a list of numbers";
     case Type::point:

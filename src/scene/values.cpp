@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "floe/scene/scene.h"
+
 namespace floe::scene {
 namespace {
 
@@ -92,6 +94,32 @@ double read_number(Document& document, const Value& value, const Key& key) {
     document.fault(value.where, is, expected_number(key, "a number"));
   }
   return document.fault_count() == before ? number : NAN;
+}
+
+namespace {
+
+/// `1 %` or `0.01`; nothing for any other text.
+std::optional<double> plain_share(const std::string& text) {
+  if (!text.ends_with('%')) return plain_number(text);
+  const auto number = plain_number(text.substr(0, text.find_last_not_of(" %") + 1));
+  return number ? std::optional(*number / 100) : std::nullopt;
+}
+
+}  // namespace
+
+double read_share(Document& document, const Value& value, const Key& key) {
+  if (!value.node.IsScalar() || !value.node.Scalar().ends_with('%')) return read_number(document, value, key);
+  const auto share = plain_share(value.node.Scalar());
+  if (share && key.range.contains(*share)) return *share;
+  document.fault(value.where, shown(value.node), fmt::format("{}, {}", describe(key), key.range.text()));
+  return NAN;
+}
+
+double accuracy_of(const std::string& text) {
+  const auto share = plain_share(text);
+  if (!share || !(*share > 0 && *share < 1))
+    throw InputError(fmt::format("--accuracy: is \"{}\"; expected a share of one, 0.01, or per cent, 1%", text));
+  return *share;
 }
 
 int read_integer(Document& document, const Value& value, const Key& key) {

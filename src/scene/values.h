@@ -17,6 +17,7 @@ std::string shown(const YAML::Node& node);
 std::string quoted(const std::string& text);
 
 double read_number(Document& document, const Value& value, const Key& key);
+double read_share(Document& document, const Value& value, const Key& key);
 int read_integer(Document& document, const Value& value, const Key& key);
 bool read_flag(Document& document, const Value& value, const Key& key);
 std::string read_choice(Document& document, const Value& value, const Key& key);
@@ -26,6 +27,9 @@ Point read_point(Document& document, const Value& value, const Key& key);
 
 /// The entries of a list, of which there must be `count` (0: any number). Nothing after a fault.
 std::vector<Value> read_list(Document& document, const Value& value, const Key& key, std::size_t count = 0);
+
+/// A list of texts, each once, at least one. Nothing after a fault.
+std::vector<std::string> read_texts(Document& document, const Value& value, const Key& key);
 
 /// Pairs of integers from 1. Nothing after a fault.
 std::vector<std::array<int, 2>> read_pairs(Document& document, const Value& value, const Key& key);

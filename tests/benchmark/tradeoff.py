@@ -25,9 +25,32 @@ def measure(floe, example, folder, limit):
 
 def effectivity(rungs):
     """Of every probe whose error is below 30 % and above a millionth: estimate over error."""
-    return [estimate / error for rung in rungs if not rung["stopped"] and rung["family"] not in ("step", "integrator")
-            for error, estimate in zip(rung["rms"], rung["estimate"])
+    return [estimate / error for rung in rungs
+            if not rung["stopped"] and rung["family"] not in ("step", "integrator", "accuracy")
+            for error, estimate in zip(rung["reduction"], rung["estimate"])
             if error is not None and estimate is not None and 1e-6 < error < 0.3]
+
+
+def choices(rungs):
+    """What was chosen for an accuracy: its true error, and its time against the fastest rung that is as good."""
+    lines = []
+    worst = {rung["name"]: max((e if e is not None else float("inf") for e in rung["rms"]), default=0)
+             for rung in rungs if not rung["stopped"]}
+    ladder = [rung for rung in rungs if rung["name"] in worst and rung["family"] != "accuracy"]
+    for rung in rungs:
+        if rung["family"] != "accuracy":
+            continue
+        asked = float(rung["name"].split()[-2]) / 100
+        if rung["stopped"]:
+            lines.append(f"- {100 * asked:g} % asked: {rung['stopped']}.")
+            continue
+        good = [other for other in ladder if worst[other["name"]] <= asked]
+        best = min(good, key=lambda other: other["motion"], default=None)
+        beside = "no rung of the ladder is as good" if best is None else \
+            f"{rung['motion'] / best['motion']:.2g} of the time of the fastest rung as good ({best['name']})"
+        lines.append(f"- {100 * asked:g} % asked: {100 * worst[rung['name']]:.2g} % true, "
+                     f"{100 * max(rung['estimate'], default=0):.2g} % said; {beside}; chosen in {rung['offline']:.2g} s.")
+    return lines
 
 
 def processor():
@@ -46,6 +69,7 @@ def section(example, folder, out):
         shutil.copyfile(picture, os.path.join(out, f"tradeoff_{example}.png"))
         lines += [f"![Error against time, {found['title']}](tradeoff_{example}.png)", ""]
     lines += [table, ""]
+    lines += ["What `accuracy:` chooses:", "", *choices(found["rungs"]), ""]
     ratios = sorted(effectivity(found["rungs"]))
     if ratios:
         inside = sum(0.3 <= ratio <= 3 for ratio in ratios)

@@ -52,7 +52,7 @@ def main():
         assert all(abs(a / b - 1) < 1e-5 for a, b in zip(one[0], at_rest)), (one, at_rest)
         # the centrifugal force stiffens flap
         assert one[300][0] > one[150][0] > one[0][0]
-        subprocess.run([sys.executable, EXAMPLE / "plot.py", "one", "picture.png"], cwd=folder, check=True)
+        floe(folder, "plot", "one", "-o", "picture.png")
         assert (folder / "picture.png").stat().st_size > 5000
         bad = subprocess.run([FLOE, "campbell", "scene.yaml", "--speeds", "0:1", "-o", "bad"], cwd=folder,
                              capture_output=True, text=True)

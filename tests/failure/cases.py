@@ -157,6 +157,14 @@ IN_SPACE = [
 ]
 
 FOLDERS = [
+    Case("motion of no folder", ["motion", "none"], 2, ("motion 'none': is not there; expected the folder of a run",), lines=1,
+         check=absent("none")),
+    Case("motion of no run", ["motion", "out"], 2, ("motion 'out': has no result.h5",), lines=1, files={"out/mine.txt": "mine"}),
+    Case("motion of a damaged result", ["motion", "out"], 2, ("motion 'out': result.h5: ",), lines=1,
+         files={"out/result.h5": "no HDF5"}, check=absent("out/motion.xdmf")),
+    Case("motion enlarged by no number", ["motion", "out", "--amplify", "nan"], 2, ("--amplify: is nan; expected a number",), lines=1),
+    Case("plot of nothing", ["plot", "none"], 2, ("plot: none: is not there",), lines=1),
+    Case("report on nothing", ["report", "none"], 2, ("report: none: is not a folder",), lines=1),
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
     Case("folder without a name", ["run", "scene.yaml", "-o", ""], 2, ("needs a name",), lines=1, check=nothing),
@@ -243,7 +251,7 @@ FAULTS = [
     *case("disk full in the run", codes=1, lines=1, changes=GROWING, file_size=1500, environment=SMALL_FILES,
           says=("File too large", "the motion stopped at t = "), check=full),
     *case("disk full in the run at full order", formulations=("nlffr",), codes=1, lines=1, changes=GROWING_FAST,
-          file_size=4500, ranks=(1,), says=("File too large", "the motion stopped at t = "), check=full),
+          file_size=5600, ranks=(1,), says=("File too large", "the motion stopped at t = "), check=full),
     *case("killed", formulations=("vm+md", "nlffr"), codes=(-9, 137), changes=LONG, signal=signal.SIGKILL,
           check=killed),
     *case("told to end", formulations=("vm+md", "nlffr"), codes=(1, 143, 130), changes=LONG, signal=signal.SIGTERM,

@@ -4,7 +4,33 @@ from scenes import scene
 
 def cases(Case, run, case, nothing, kept):
     sweep = ["sweep", "scene.yaml", "-o", "out"]
+    kept_none = {"bodies.beam.reduction": {"modes": 3, "columns": ["mode 1", "mod 2"]}}
     return [
+        *(Case(f"accuracy of {word}", ["run", "scene.yaml", "-o", "out", "--accuracy", word], 2,
+               (f'--accuracy: is "{word}"; expected a share of one',), lines=1, check=nothing)
+          for word in ("0", "1", "-1%", "nan", "abc", "200 %")),
+        *case("accuracy of nothing", codes=2, lines=1, check=nothing, changes={"accuracy": "0 %"},
+              says=('accuracy: is "0 %"', "0 < value < 1")),
+        *case("accuracy and tolerance", codes=2, lines=1, check=nothing,
+              changes={"accuracy": 0.01, "motion.tolerance": 1e-4}, says=("does not go with motion.tolerance",)),
+        *case("accuracy without probes", codes=2, lines=1, check=nothing, changes={"accuracy": 0.01, "probes": None},
+              says=("accuracy: is that of the probes, and there are none",)),
+        Case("accuracy with checkpoints", ["run", "scene.yaml", "-o", "out", "--accuracy", "1%", "--checkpoint", "10"],
+             2, ("--checkpoint: does not go with an accuracy",), lines=1, check=nothing),
+        Case("scene of no choice", ["run", "scene.yaml", "-o", "out", "--write-scene", "chosen.yaml"], 2,
+             ("--write-scene: goes with an accuracy",), lines=1, check=nothing),
+        Case("scene that exists",
+             ["run", "scene.yaml", "-o", "out", "--accuracy", "1%", "--write-scene", "scene.yaml"], 2,
+             ("scene.yaml: exists",), lines=1, check=nothing),
+        *case("column that is not there", codes=2, lines=1, check=nothing, changes=kept_none,
+              says=('has no column "mod 2"', 'did you mean "mode 2"?')),
+        *case("column twice", codes=2, lines=1, check=nothing,
+              changes={"bodies.beam.reduction": {"columns": ["mode 1", "mode 1"]}}, says=('"mode 1" stands twice',)),
+        *case("columns and derivatives", codes=2, lines=1, check=nothing,
+              changes={"bodies.beam.reduction": {"columns": ["mode 1"], "derivatives": "all"}},
+              says=("does not go with columns",)),
+        *case("elastic force of a wrong name", codes=2, lines=1, check=nothing,
+              changes={"bodies.beam.reduction": {"elastic_force": "liner"}}, says=('did you mean "linear"?',)),
         *(Case(f"checkpoint each {word}", run("vm+md", "--checkpoint", word), 2,
                (f"--checkpoint: is {word}; expected a number of steps",), lines=1, check=nothing)
           for word in ("0", "1.5", "10m", "nan", "abc")),

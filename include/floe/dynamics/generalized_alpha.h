@@ -53,4 +53,8 @@ PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRot
 /// and for other types.
 PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);
 
+/// U and its rates V within the last step, cubic polynomials between its ends (errors of fourth order in the step);
+/// multipliers in U are linear, and zero in V. Rotations are relative to the base that the step's end has.
+PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V);
+
 }  // namespace floe::dynamics

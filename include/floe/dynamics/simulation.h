@@ -29,6 +29,9 @@ struct Instant {
   bool last;
   /// All that the motion goes on from here with; null with other types of TS than generalized-alpha. Rank-local.
   const std::function<MotionState()>* state = nullptr;
+  /// U and V at a time within the step that ends here (TSGeneralizedAlphaInterpolate); null at the start and with other
+  /// types of TS. Attitudes are relative to the bases that stand. Collective.
+  const std::function<void(double t, Vec U, Vec V)>* between = nullptr;
 };
 
 struct IntegrationReport {

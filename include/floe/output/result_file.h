@@ -12,6 +12,8 @@
 
 namespace floe::output {
 
+struct ReducedShapes;
+
 /// Kept beside a dataset as its attributes `unit` and `description` (left out where empty).
 struct Label {
   std::string unit, description;
@@ -52,6 +54,19 @@ class ResultFile {
   /// also none). Collective: one MPI-IO transfer of all ranks.
   void write_distributed_rows(const std::string& name, std::int64_t global_rows, std::int64_t columns,
                               std::int64_t first_row, std::span<const double> local, const Label& label = {});
+
+  /// A body's mesh as GROUP/positions, GROUP/cells/{nodes, part, kind} and, where it has columns, GROUP/basis (columns
+  /// x nodes x dofs): as in a reduced body's file (reduced_file.h), in original order on any number of ranks.
+  /// @param nodes    of all ranks
+  /// @param columns  that shapes.column fills
+  /// Collective.
+  void write_shapes(const std::string& group, std::int64_t nodes, std::int64_t columns, const ReducedShapes& shapes,
+                    const Label& basis = {});
+  /// Some numbers of each node, nodes x columns, in original order; each rank gives those of shapes.nodes. Collective.
+  void write_of_nodes(const std::string& name, std::int64_t nodes, std::int64_t columns, const ReducedShapes& shapes,
+                      std::span<const double> rows, const Label& label = {});
+  /// A link to what another HDF5 file holds under `object`; its absolute path is kept. Collective.
+  void write_link(const std::string& name, const std::filesystem::path& file, const std::string& object);
 
   /// A time series, rows x columns, that starts empty.
   /// @param expected_rows  room to begin with; the right number spares all copying (0: a guess)

@@ -50,9 +50,13 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
                                      const fem::Holding& holding, const Statics& statics, const Generators& generators,
                                      const Pairs& pairs, bool full);
 
+/// `derivative 1,2` of two generators; with inertia that of the first by the second.
+std::string derivative_label(const Generators& generators, int i, int j);
+
 /// Generators and derivatives as one M-orthonormal basis. Collective.
+/// @param left_out  of each generator whether it stays out of the basis; empty: none does
 Basis basis_of(const fem::Structure& structure, const Generators& generators, DerivativeColumns derivatives,
-               double tolerance);
+               double tolerance, const std::vector<char>& left_out = {});
 
 /// M-norm of a field. Collective.
 double mass_norm(Mat M, Vec field);

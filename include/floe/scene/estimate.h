@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,8 @@ struct Estimate {
   int columns = 0;               ///< that the bodies got for the estimate
   double unbalanced = 0;         ///< greatest |V'r| of what |V'f| is: round-off, or something is missing in r
   double seconds = 0, allowed = 0;
-  std::vector<std::string> notes;  ///< what was left out, and why
+  std::vector<std::string> notes;                                    ///< what was left out, and why
+  std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none
 };
 
 /// The full-order equations of every body are evaluated at lifted states (U = V eta) of some instants, r; the columns

@@ -81,6 +81,8 @@ struct PreparedBody {
   int host_joint = -1;  ///< the joint that makes it so
 };
 
+struct BodyMesh;
+
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
 struct BodyReport {
   std::string name;
@@ -97,9 +99,13 @@ struct BodyReport {
   std::shared_ptr<const dynamics::Attitude> attitude = {};  ///< in space, of a frame that moves
   int first_elastic = 0;                                    ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
-  PetscInt first_node = 0;        ///< of this rank
-  int first_dof = -1;             ///< full order: local index of the first of this rank's own dofs
-  std::vector<double> positions;  ///< of this rank's own nodes, x y (z), in the frame
+  PetscInt first_node = 0;                             ///< of this rank
+  int first_dof = -1;                                  ///< full order: local index of the first of this rank's own dofs
+  std::vector<double> positions;                       ///< of this rank's own nodes, x y (z), in the frame
+  std::shared_ptr<const BodyMesh> mesh = {};           ///< body_mesh.h; null: of a body from a file
+  bool shapes_in_file = false;                         ///< whether that file has its mesh and the basis on it
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< of the frame at the start, world
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the frame at the start, as columns in world axes
 };
 
 /// A place of a body in space. Its axes at the start are those of the world.

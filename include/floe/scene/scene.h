@@ -104,6 +104,11 @@ struct ReductionSpec {
   DerivativesSpec derivatives;
   enum class Attachment { none, joints, loads, all } attachment = Attachment::joints;
   std::vector<Place> interface;  ///< Craig-Bampton: held by the modes, with a static column for each dof
+  /// Only these, of all columns that there are and their derivatives: `mode 1`, `derivative 1,2`; empty: as the rest
+  /// says.
+  std::vector<std::string> columns;
+  Where columns_where;
+  bool linear = false;  ///< elastic forces by the linear stiffness alone
   double drop_tolerance = 1e-7;
 };
 
@@ -222,6 +227,7 @@ struct Motion {
   double spectral_radius = 0.8;
   std::optional<double> tolerance;  ///< adaptive step, relative
   int every = 1;                    ///< store each so many steps
+  std::optional<double> output;     ///< instead: at multiples of this time, between steps by interpolation [s]
   Where where;
 };
 
@@ -260,6 +266,7 @@ struct Scene {
                                                    0.0};  ///< of t [m/s2]: axes of the world go with the ground
   bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
+  std::optional<double> accuracy;  ///< greatest relative error of the probes: floe chooses the model
   std::vector<Probe> probes;
   std::vector<Event> events;
 };
@@ -269,6 +276,9 @@ struct Scene {
 Scene read_scene(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);
+
+/// A share of one from `0.01` or `1 %`, above 0 and below 1. @throws InputError  anything else
+double accuracy_of(const std::string& text);
 
 /// The reference of the grammar, printed by `floe schema`: every key with type, unit, default, range, text.
 std::string schema_reference();

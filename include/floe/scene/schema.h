@@ -8,10 +8,12 @@ namespace floe::scene {
 /// What a value of the file may be. Reading, the printed reference and the messages take their words from describe().
 enum class Type {
   text,
+  texts,
   flag,
   integer,
   integers,
   number,
+  share,
   numbers,
   point,
   points,
@@ -75,5 +77,9 @@ const SchemaSection& schema_section(const std::string& name);
 /// In words: `a number or a formula of the parameters`, `one of pinned, clamped, mean-axis`.
 /// @param dimension  of the scene: how many coordinates a point has
 std::string describe(const Key& key, int dimension = 2);
+
+/// The whole grammar as Markdown, a heading and a table for each section: what the manual shows. Sections have targets
+/// `scene-NAME`, and keys that hold a section link to it.
+std::string schema_markdown();
 
 }  // namespace floe::scene

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <set>
+#include <sstream>
 
 #include "floe/scene/scene.h"
 
@@ -23,6 +24,26 @@ TEST_CASE("the printed reference has every key with unit, default and range") {
   }
   CHECK(reference.find("0 <= value < 1; default 0.8") != std::string::npos);
   CHECK(reference.find("only for type prismatic") != std::string::npos);
+}
+
+TEST_CASE("the Markdown reference has a heading for each section and a row for each key, of five columns") {
+  const std::string reference = schema_markdown();
+  std::size_t rows = 0, keys = 0;
+  for (const auto& section : schema()) {
+    CHECK(reference.find(")=\n## " + section.name + "\n") != std::string::npos);
+    keys += section.keys.size();
+    for (const Key& key : section.keys) CHECK(reference.find("\n| `" + key.name + "` | ") != std::string::npos);
+  }
+  std::istringstream lines(reference);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("| `", 0) != 0) continue;
+    ++rows;
+    int bars = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+    CHECK(bars == 6);
+  }
+  CHECK(rows == keys);
+  CHECK(reference.find("[`line`](scene-line)") != std::string::npos);
 }
 
 TEST_CASE("no key is declared twice and every named section exists") {

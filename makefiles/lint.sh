@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# make lint: clang-tidy by .clang-tidy over src, tests or one room. BUILD: the build folder. ROOM: a room (all). JOBS.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$1 jobs=${JOBS:-$(nproc)} room=${ROOM:-}
+mapfile -t files < <(git ls-files "src/${room:+$room/}*.cpp")
+[ ${#files[@]} -gt 0 ] || { echo "no room $room" >&2; exit 2; }
+log=$build/lint.log
+# GCC's own options mean nothing to clang; headers of Eigen and PETSc are not ours to judge.
+printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" \
+  clang-tidy-16 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option >"$log" 2>/dev/null && found=0 || found=1
+grep -E '(warning|error):' "$log" | sort -u || true
+echo "${#files[@]} files, $(grep -cE '(warning|error):' "$log" || true) findings; all of clang-tidy's words: $log"
+exit $found

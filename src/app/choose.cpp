@@ -1,0 +1,315 @@
+#include "choose.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "compare_table.h"
+#include "floe/output/progress.h"
+#include "interruption.h"
+
+namespace floe::app {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// A model that was moved.
+struct Trial {
+  double error = none;    ///< of the worst probe, against the motion that stands for the truth
+  double seconds = none;  ///< of the motion
+  std::string failed;     ///< why there is no error
+};
+
+/// Tries models of a pool, each once.
+class Search {
+ public:
+  Search(const scene::Scene& scene, double accuracy, MPI_Comm comm)
+      : scene_(scene), accuracy_(accuracy), comm_(comm), pool_(std::make_unique<scene::Pool>(scene, comm)) {}
+
+  Chosen result() {
+    enrich();
+    resolve_time();
+    choose_columns_and_step();
+    choose_force();
+    return finished();
+  }
+
+ private:
+  using Selection = scene::Selection;
+
+  scene::Scene with_step(double step) const {
+    scene::Scene other = scene_;
+    other.motion.step = step, other.motion.every = 1, other.motion.tolerance.reset();
+    other.motion.output = scene_.motion.output.value_or(scene_.motion.step * scene_.motion.every);
+    return other;
+  }
+
+  RunResult moved(const Selection& selection, double step, bool estimate, bool keep_states) {
+    RunPlan plan;
+    plan.quiet = true, plan.check_range = false;
+    plan.estimate = estimate, plan.keep_states = keep_states;
+    plan.estimate_seconds = 1e9;
+    scene::Model model = pool_->model(selection, estimate);
+    ++trials_;
+    return move(with_step(step), model, 0, comm_, std::nullopt, plan);
+  }
+
+  Trial tried(const Selection& selection, double step) {
+    const auto key = std::tuple{selection.taken, selection.linear, step};
+    const auto found = known_.find(key);
+    if (found != known_.end()) return found->second;
+    Trial trial;
+    try {
+      const RunResult result = moved(selection, step, false, false);
+      trial.seconds = result.motion_seconds;
+      MPI_Bcast(&trial.seconds, 1, MPI_DOUBLE, 0, comm_);
+      if (std::abs(result.end - truth_.t.back()) > 2 * step)
+        trial.failed = fmt::format("ends at t = {:.4g} s", result.end);
+      else
+        trial.error = worst_error(result.series, truth_);
+    } catch (const InputError& error) {
+      trial.failed = first_line(error.what());
+    } catch (const RunError& error) {
+      if (Interruption::happened(comm_)) throw;
+      trial.failed = first_line(error.what());
+    }
+    if (!std::isfinite(trial.error)) trial.error = none;
+    known_.emplace(key, trial);
+    return trial;
+  }
+
+  static std::string first_line(const std::string& text) {
+    const std::string line = text.substr(0, text.find('\n'));
+    return line.size() > 90 ? line.substr(0, 87) + "..." : line;
+  }
+  static std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+  static std::string words(const Trial& trial) { return trial.failed.empty() ? percent(trial.error) : trial.failed; }
+
+  void decide(std::string what, std::string choice, std::string reason) {
+    decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
+  }
+
+  /// The richest model: responses join it until its estimate is a third of what is asked, four times at most.
+  void enrich() {
+    constexpr int most_rounds = 4;
+    double first = 0;
+    int responses = 0;
+    for (int round = 0;; ++round) {
+      const RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
+      states_ = result.states;
+      space_ = estimate_of(result);
+      if (round == 0) first = space_;
+      if (space_ <= accuracy_ / 3 || round == most_rounds || pool_->columns().empty()) break;
+      const int added = pool_->add_responses(result.estimate);
+      if (added == 0) break;
+      responses += added;
+      known_.clear();
+    }
+    if (pool_->columns().empty()) return;
+    std::size_t offered = pool_->columns().size();
+    decide("richest model", fmt::format("{} columns", offered),
+           responses > 0 ? fmt::format("{} responses to what is missing: estimated error {} (before: {})", responses,
+                                       percent(space_), percent(first))
+                         : "estimated error " + percent(space_));
+  }
+
+  double estimate_of(const RunResult& result) const {
+    if (pool_->columns().empty()) return 0;
+    if (!result.estimate.none.empty())
+      throw InputError(fmt::format("{}: accuracy: nothing supports a choice: {}", scene_.file, result.estimate.none));
+    double worst = 0;
+    for (const double error : result.estimate.probes) worst = std::max(worst, error);
+    return worst;
+  }
+
+  /// The step that stands for the truth: halved until it errs by less than a tenth of what is asked. Errors of second
+  /// order: of h by 4/3, of h/2 by 1/3 of what lies between the two.
+  void resolve_time() {
+    constexpr int most_halvings = 5;
+    double step = scene_.motion.step;
+    Series coarse = moved(pool_->whole(), step, false, false).series;
+    for (int halving = 0; halving < most_halvings; ++halving, step /= 2) {
+      truth_ = moved(pool_->whole(), step / 2, false, false).series;
+      const double between = worst_error(coarse, truth_);
+      time_ = between / 3;
+      if (time_ <= 0.1 * accuracy_) break;
+      coarse = truth_;
+    }
+    finest_ = step;
+    richest_ = space_ + time_;
+  }
+
+  Selection first_of(const std::vector<scene::Participation>& order, std::size_t count) const {
+    Selection selection{std::vector<char>(pool_->columns().size(), 0), false};
+    for (std::size_t i = 0; i < count; ++i) selection.taken[order[i].column] = 1;
+    return selection;
+  }
+
+  /// The fewest columns with at most this error; all of `order` where none will do.
+  std::size_t fewest(const std::vector<scene::Participation>& order, std::size_t most, double step, double error,
+                     bool linear = false) {
+    std::size_t enough = most;
+    long too_few = -1;
+    while (static_cast<long>(enough) - too_few > 1) {
+      const std::size_t middle = static_cast<std::size_t>((static_cast<long>(enough) + too_few) / 2);
+      Selection selection = first_of(order, middle);
+      selection.linear = linear;
+      if (tried(selection, step).error <= error)
+        enough = middle;
+      else
+        too_few = static_cast<long>(middle);
+    }
+    return enough;
+  }
+
+  /// What the scene wants stored between steps is interpolated, and the error of that is seen; but some steps there
+  /// must be.
+  bool longer_step() const { return 2 * step_ <= scene_.motion.end / 32; }
+
+  /// What may be lost beside the richest model's own error.
+  double allowance() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
+
+  void choose_columns_and_step() {
+    if (!pool_->columns().empty()) order_ = pool_->participation(pool_->model(pool_->whole()), states_);
+    step_ = finest_;
+    count_ = fewest(order_, order_.size(), step_, allowance() / 2);
+    for (double before = 0; step_ != before;) {
+      before = step_;
+      while (longer_step() && tried(first_of(order_, count_), 2 * step_).error <= allowance()) step_ *= 2;
+      count_ = fewest(order_, count_, step_, allowance());
+    }
+    selection_ = first_of(order_, count_);
+  }
+
+  /// Linear, without derivatives: they would follow nothing.
+  void choose_force() {
+    if (count_ == 0) return;
+    std::vector<scene::Participation> plain;
+    for (const scene::Participation& one : order_)
+      if (!pool_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
+    Selection all = first_of(plain, plain.size());
+    all.linear = true;
+    linear_ = tried(all, step_);
+    if (!(linear_.error <= allowance())) return;
+    Selection some = first_of(plain, fewest(plain, plain.size(), step_, allowance(), true));
+    some.linear = true;
+    const Trial cheaper = tried(some, step_);
+    if (!(cheaper.error <= allowance() && cheaper.seconds < 0.9 * tried(selection_, step_).seconds)) return;
+    selection_ = some, order_ = plain, count_ = some.count();
+  }
+
+  std::string names(const Selection& selection) const {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < selection.taken.size(); ++i)
+      if (selection.taken[i]) all.push_back(pool_->columns()[i].label);
+    const std::size_t shown = 6;
+    if (all.size() <= shown) return fmt::format("{}", fmt::join(all, "; "));
+    return fmt::format("{}; {} more", fmt::join(all.begin(), all.begin() + shown, "; "), all.size() - shown);
+  }
+
+  void explain() {
+    if (!pool_->columns().empty()) {
+      const Trial rigid = tried(first_of(order_, 0), step_);
+      if (count_ == 0) {
+        decide("bodies", "rigid", "error " + words(rigid));
+      } else {
+        decide("bodies", "flexible", "rigid: " + words(rigid));
+        Selection less = first_of(order_, count_ - 1);
+        less.linear = selection_.linear;
+        decide("columns", fmt::format("{} of {}", count_, pool_->columns().size()),
+               fmt::format("without the last, {}: {}", pool_->columns()[order_[count_ - 1].column].label,
+                           words(tried(less, step_))));
+        std::vector<std::string> bodies;
+        for (std::size_t i = 0; i < pool_->columns().size(); ++i) {
+          const std::string& body = pool_->columns()[i].body;
+          if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
+        }
+        for (const std::string& body : bodies) {
+          Selection of_body = selection_;
+          for (std::size_t i = 0; i < of_body.taken.size(); ++i)
+            if (pool_->columns()[i].body != body) of_body.taken[i] = 0;
+          decide("  " + body, of_body.count() > 0 ? fmt::format("{} columns", of_body.count()) : "rigid",
+                 names(of_body));
+        }
+        decide("elastic force", selection_.linear ? "linear" : "von Karman",
+               fmt::format("linear: {}", selection_.linear ? words(tried(selection_, step_)) : words(linear_)));
+      }
+    }
+    decide("step", fmt::format("{:.4g} s", step_),
+           longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(tried(selection_, 2 * step_)))
+                         : "32 steps of the motion at least");
+  }
+
+  Chosen finished() {
+    explain();
+    Chosen chosen;
+    chosen.asked = accuracy_, chosen.richest = richest_;
+    chosen.supported = richest_ + tried(selection_, step_).error;
+    decide("supported error", percent(chosen.supported),
+           fmt::format("{} of the choice, {} of the richest model, {} of its step",
+                       percent(chosen.supported - richest_), percent(space_), percent(time_)));
+    chosen.decisions = std::move(decisions_);
+    chosen.scene = with_step(step_);
+    chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+    chosen.selection = selection_;
+    chosen.model = pool_->model(selection_);
+    chosen.pool = std::move(pool_);
+    chosen.trials = trials_;
+    return chosen;
+  }
+
+  const scene::Scene& scene_;
+  double accuracy_;
+  MPI_Comm comm_;
+  std::unique_ptr<scene::Pool> pool_;
+  std::vector<dynamics::State> states_;  // of the richest model
+  Series truth_;                         // its motion, in fine steps
+  double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
+  std::vector<scene::Participation> order_;
+  std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
+  std::size_t count_ = 0;
+  double step_ = 0;
+  Selection selection_;
+  Trial linear_;
+  std::vector<Decision> decisions_;
+  int trials_ = 0;
+};
+
+}  // namespace
+
+Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
+  const double begin = MPI_Wtime();
+  if (scene.probes.empty())
+    throw InputError(scene.file + ": accuracy: is that of the probes, and there are none; expected `probes: {...}`");
+  const output::Waiting waiting(comm, "choosing the model");
+  Chosen chosen = Search(scene, accuracy, comm).result();
+  chosen.seconds = MPI_Wtime() - begin;
+  return chosen;
+}
+
+nlohmann::ordered_json to_json(const Chosen& chosen) {
+  nlohmann::ordered_json j;
+  j["asked"] = chosen.asked;
+  j["supported"] = chosen.supported;
+  j["of_richest_model"] = chosen.richest;
+  j["within"] = chosen.within();
+  j["trials"] = chosen.trials;
+  j["seconds"] = chosen.seconds;
+  for (const Decision& one : chosen.decisions)
+    j["decisions"].push_back({{"what", one.what}, {"choice", one.choice}, {"reason", one.reason}});
+  return j;
+}
+
+output::Table decisions_table(const Chosen& chosen) {
+  output::Table table;
+  table.columns = {{"decision", ""}, {"choice", ""}, {"reason", ""}};
+  for (const Decision& one : chosen.decisions) table.rows.push_back({one.what, one.choice, one.reason});
+  return table;
+}
+
+}  // namespace floe::app

@@ -1,0 +1,98 @@
+#include "record_bodies.h"
+
+#include <petscsys.h>
+
+#include <algorithm>
+
+#include "floe/petsc/values.h"
+#include "floe/scene/body_mesh.h"
+
+namespace floe::app {
+namespace {
+
+using petsc::check;
+
+/// Column of motion/U of a local unknown; -1: there is none.
+double column_of(const scene::Model& model, int local) {
+  return local < 0 ? -1 : static_cast<double>(model.system->coordinates().global()[local]);
+}
+
+/// Origin, then axes: the rows of [R'; A'].
+void write_frame(output::ResultFile& file, const std::string& group, const scene::BodyReport& body) {
+  Eigen::Matrix<double, 4, 3, Eigen::RowMajor> rows;
+  rows << body.place.transpose(), body.axes.transpose();
+  file.write_array(group + "/frame_at_start", {4, 3}, {rows.data(), 12},
+                   {"m, then 1", "of the floating frame in the world: its origin; its axes, a row each"});
+}
+
+void write_columns(output::ResultFile& file, const std::string& group, const scene::Model& model,
+                   const scene::BodyReport& body) {
+  const bool still = body.first_coordinate < 0 || (body.dimension == 3 && !body.attitude);
+  const bool nodes = body.first_dof >= 0;  // full order
+  const double where[2] = {still ? -1 : column_of(model, body.first_coordinate),
+                           nodes || body.rigid ? -1 : column_of(model, body.first_elastic)};
+  file.write_array(
+      group + "/columns_of_motion", {2}, where,
+      {"", body.dimension == 2
+               ? "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates; -1: none"
+               : "first columns of motion/U: of the frame (R; then three of its turn in the step, see "
+                 "motion/attitude), of the reduced coordinates; -1: it stands still, there are none"});
+}
+
+/// Column j of the basis at this rank's nodes.
+void copy_column(const scene::BodyReport& body, int j, std::span<double> values) {
+  Vec column = nullptr;
+  check(BVGetColumn(body.basis->V, j, &column));
+  {
+    petsc::Values own(column);
+    std::copy(own.begin(), own.begin() + values.size(), values.begin());
+  }
+  check(BVRestoreColumn(body.basis->V, j, &column));
+  body.mesh->let_follow(values);
+}
+
+void write_mesh(output::ResultFile& file, const std::string& group, const scene::BodyReport& body) {
+  output::ReducedShapes shapes = body.mesh->shapes;
+  shapes.column = [&](int j, std::span<double> values) { copy_column(body, j, values); };
+  file.write_shapes(group + "/shapes", body.nodes, body.basis ? body.columns : 0, shapes,
+                    {"",
+                     "displacements, rotations at each node for a unit of each reduced coordinate, in the axes of "
+                     "the floating frame"});
+}
+
+/// Of full order, the dofs of each node in the motion's states.
+void write_nodes(output::ResultFile& file, const std::string& group, const scene::Model& model,
+                 const scene::BodyReport& body) {
+  const scene::BodyMesh& mesh = *body.mesh;
+  const bool in_world = model.formulation == scene::Formulation::cfr;
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < mesh.shapes.nodes.size(); ++i) {
+    const int dof = body.first_dof + mesh.shapes.dofs_per_node * static_cast<int>(mesh.mover(i));
+    const Eigen::Vector3d arm = mesh.arm(i);
+    rows.insert(rows.end(), {column_of(model, dof), arm.x(), arm.y(), arm.z()});
+  }
+  file.write_of_nodes(
+      group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
+      {"", std::string("first column of motion/U of the displacements and rotations, in ") +
+               (in_world ? "world axes" : "the axes of the floating frame") +
+               ", that move the node; its place from where they act, which is not zero where it follows another one"});
+}
+
+}  // namespace
+
+void write_bodies(output::ResultFile& file, const scene::Model& model) {
+  const double dimension[1] = {model.bodies.empty() ? 0. : model.bodies.front().dimension};
+  file.write_array("motion/dimension", {}, dimension, {"", "2: in the plane, 3: in space"});
+  for (const scene::BodyReport& body : model.bodies) {
+    const std::string group = "bodies/" + body.name;
+    write_frame(file, group, body);
+    write_columns(file, group, model, body);
+    if (!body.file.empty()) file.write_text(group + "/reduced_file", body.file);
+    if (body.shapes_in_file) file.write_link(group + "/shapes", body.file, "/shapes");
+    if (!body.mesh) continue;
+    write_mesh(file, group, body);
+    if (body.first_dof >= 0) write_nodes(file, group, model, body);
+  }
+}
+
+}  // namespace floe::app

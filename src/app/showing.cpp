@@ -1,0 +1,143 @@
+#include "showing.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <petscsys.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+
+#include "floe/error.h"
+#include "floe/output/motion_file.h"
+#include "floe/output/progress.h"
+
+namespace floe::app {
+namespace {
+
+/// Empty for a finite number, else what is wrong with it.
+std::string finite(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  return end != word.c_str() && *end == '\0' && std::isfinite(number) ? "" : "is " + word + "; expected a number";
+}
+
+void add_amplify(CLI::App* command, Showing& showing) {
+  command->add_option("--amplify", showing.amplify, "enlarge deformations so many times (default: 1)")
+      ->check(CLI::Validator(finite, "NUMBER"));
+}
+
+void write_motion(const Showing& showing) {
+  output::MotionRequest request;
+  request.results = showing.folder;
+  request.xdmf = showing.out ? *showing.out : (request.results / "motion.xdmf").string();
+  request.amplify = std::strtod(showing.amplify.c_str(), nullptr);
+  request.frames = showing.frames;
+  request.overwrite = showing.force;
+  const output::MotionWritten written = [&] {
+    const output::Waiting waiting(PETSC_COMM_WORLD, "writing the motion");
+    return output::write_motion(PETSC_COMM_WORLD, request);
+  }();
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (rank != 0) return;
+  fmt::print("{} instants from t = {} to {} s, {} nodes and {} cells of {}\n", written.t.size(), written.t.front(),
+             written.t.back(), written.nodes, written.cells, fmt::join(written.bodies, ", "));
+  for (const std::string& name : written.without)
+    fmt::print("Note: {} has no mesh in the results and is left out\n", name);
+  fmt::print("For ParaView: {}\n", request.xdmf.string());
+}
+
+void add_motion(CLI::App& app, Showing& showing, std::function<void()>& work) {
+  CLI::App* command =
+      app.add_subcommand("motion", "the moving mechanism of a run for ParaView, all nodes of its meshes");
+  command->add_option("DIR", showing.folder, "what floe run left")->required();
+  command->add_option("-o,--out", showing.out, "FILE.xdmf, and FILE.h5 beside it (default: DIR/motion.xdmf)");
+  add_amplify(command, showing);
+  command->add_option("--frames", showing.frames, "at most so many instants; 0: all that the run kept")
+      ->check(CLI::Range(0, 1000000000))
+      ->capture_default_str();
+  command->add_flag("--force", showing.force, "replace these files if they are there");
+  command->callback([&] { work = [&] { write_motion(showing); }; });
+}
+
+std::vector<std::string> plot_words(const Showing& showing) {
+  std::vector<std::string> words = showing.paths;
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) words.push_back(fmt::format("{}={}", name, value));
+  };
+  add("--kind", fmt::format("{}", fmt::join(showing.kinds, ",")));
+  if (showing.out) words.push_back("--out=" + *showing.out);
+  add("--format", showing.format);
+  add("--probes", fmt::format("{}", fmt::join(showing.probes, ",")));
+  add("--times", showing.times);
+  add("--amplify", showing.amplify);
+  add("--view", showing.view);
+  add("--body", showing.body);
+  add("--shapes", fmt::format("{}", showing.shapes));
+  add("--frames", fmt::format("{}", showing.pictures));
+  add("--fps", fmt::format("{}", showing.fps));
+  add("--dpi", fmt::format("{}", showing.dpi));
+  return words;
+}
+
+void add_plot(CLI::App& app, Showing& showing) {
+  CLI::App* command =
+      app.add_subcommand("plot", "pictures of results: histories, energy, shapes, comparisons, diagrams, animations");
+  command
+      ->add_option("PATH", showing.paths,
+                   "folders that floe run, static, compare, tradeoff, sweep or campbell left; shapes (modes.xdmf), "
+                   "reduced bodies (NAME.h5)")
+      ->required();
+  command
+      ->add_option("--kind", showing.kinds,
+                   "which pictures, separated by commas: probes, energy, deformed, animation, shapes, campbell, "
+                   "compare, tradeoff, sweep (default: all that PATH has, but for the animation)")
+      ->delimiter(',');
+  command->add_option("-o,--out", showing.out,
+                      "a picture (.png .svg .pdf, an animation .gif .mp4) or a folder (default: beside the results)");
+  command->add_option("--format", showing.format, "png | svg | pdf (default: png)")
+      ->check(CLI::IsMember({"png", "svg", "pdf"}));
+  command->add_option("--probes", showing.probes, "columns of probes.csv, separated by commas: tip.x (default: all)")
+      ->delimiter(',');
+  command->add_option("--times", showing.times, "instants of deformed shapes, A,B,C [s] (default: six)");
+  add_amplify(command, showing);
+  command->add_option("--view", showing.view, "on mechanisms in space: AZIMUTH,ELEVATION [degrees] (default: -60,25)");
+  command->add_option("--body", showing.body, "whose shapes (default: each body's)");
+  command->add_option("--shapes", showing.shapes, "how many shapes, in their order")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--frames", showing.pictures, "of an animation")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  command->add_option("--fps", showing.fps, "pictures of an animation in a second")
+      ->check(CLI::Range(0.1, 120.0))
+      ->capture_default_str();
+  command->add_option("--dpi", showing.dpi, "dots per inch of a PNG")
+      ->check(CLI::Range(20, 1200))
+      ->capture_default_str();
+  command->callback([&] { showing.script = {"plot", plot_words(showing)}; });
+}
+
+void add_report(CLI::App& app, Showing& showing) {
+  CLI::App* command =
+      app.add_subcommand("report", "one page (HTML) on a run: scene, model, tables, pictures, the moving mechanism");
+  command->add_option("DIR", showing.folder, "what floe run, static, compare, tradeoff, sweep or campbell left")
+      ->required();
+  command->add_option("-o,--out", showing.out,
+                      "the page (default: DIR/report.html); needs no network and no other file");
+  command->callback([&] {
+    showing.script = {"report", {showing.folder}};
+    if (showing.out) showing.script->words.push_back("--out=" + *showing.out);
+  });
+}
+
+}  // namespace
+
+void add_showing(CLI::App& app, Showing& showing, std::function<void()>& work) {
+  add_motion(app, showing, work);
+  add_plot(app, showing);
+  add_report(app, showing);
+}
+
+}  // namespace floe::app

@@ -1,0 +1,117 @@
+#include "floe/output/motion_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "floe/petsc/error.h"
+#include "motion_source.h"
+#include "xdmf.h"
+
+namespace floe::output {
+namespace {
+
+/// Rows nearest to instants at equal distances, each once; the first and the last among them.
+std::vector<std::size_t> chosen_rows(const std::vector<double>& times, int frames) {
+  std::vector<std::size_t> rows;
+  if (frames <= 0 || frames >= std::ssize(times)) {
+    for (std::size_t i = 0; i < times.size(); ++i) rows.push_back(i);
+    return rows;
+  }
+  for (int f = 0; f < frames; ++f) {
+    const double t = times.front() + (times.back() - times.front()) * f / std::max(1, frames - 1);
+    const auto after = std::lower_bound(times.begin(), times.end(), t);
+    std::size_t row = std::min<std::size_t>(after - times.begin(), times.size() - 1);
+    if (row > 0 && t - times[row - 1] < times[row] - t) --row;
+    if (rows.empty() || row != rows.back()) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string dataset(const MovingBody& body, std::size_t frame, const char* what) {
+  return fmt::format("{}/frame_{}/{}", body.name, frame + 1, what);
+}
+
+std::vector<double> numbers(const Eigen::Matrix3Xd& vectors) {
+  return {vectors.data(), vectors.data() + vectors.size()};
+}
+
+/// @return  how many numbers the topology has
+std::int64_t write_cells(MPI_Comm comm, hid_t file, const MotionSource& source, const MovingBody& body) {
+  std::int64_t first = 0;
+  Integers cells;
+  petsc::agree(comm, [&] { cells = source.cells(body, first); });
+  const Integers topology = mixed_topology(cells);
+  const std::int64_t size = sum(comm, std::ssize(topology));
+  write_shared(comm, file, body.name + "/part", {hsize_t(body.cells)}, first, columns_of(cells, 4, 1), {});
+  write_shared(comm, file, body.name + "/cells", {hsize_t(size)}, sum_before(comm, std::ssize(topology)), topology,
+               {"", "mixed topology of XDMF: kind, count of points and lines, nodes from 0"});
+  return size;
+}
+
+void write_frame(MPI_Comm comm, hid_t file, const MovingBody& body, std::size_t frame, const MovedNodes& at) {
+  const Extent shape{hsize_t(body.nodes), 3};
+  write_shared(comm, file, dataset(body, frame, "positions"), shape, body.first, numbers(at.x), {"m", ""});
+  write_shared(comm, file, dataset(body, frame, "deformation"), shape, body.first, numbers(at.deformation),
+               {"m", "in world axes, not enlarged"});
+}
+
+std::string grid_text(const MovingBody& body, std::size_t frame, double t, std::int64_t size, const std::string& data) {
+  return fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n", escaped(body.name),
+                     t) +
+         xdmf_mesh(body.cells, body.name + "/cells", size, body.nodes, dataset(body, frame, "positions"), data) +
+         xdmf_attribute("part", "Scalar", "Cell",
+                        xdmf_item(fmt::format("{}", body.cells), true, data, body.name + "/part")) +
+         xdmf_attribute("deformation", "Vector", "Node",
+                        xdmf_item(fmt::format("{} 3", body.nodes), false, data, dataset(body, frame, "deformation"))) +
+         "      </Grid>\n";
+}
+
+/// A collection over time for each body: readers then call it the same at all times.
+std::string text_of(const std::vector<MovingBody>& bodies, const std::vector<double>& times,
+                    const std::vector<std::int64_t>& sizes, const std::string& data) {
+  std::string text;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    text += fmt::format("    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+                        escaped(bodies[b].name));
+    for (std::size_t f = 0; f < times.size(); ++f) text += grid_text(bodies[b], f, times[f], sizes[b], data);
+    text += "    </Grid>\n";
+  }
+  return xdmf_document(text);
+}
+
+}  // namespace
+
+MotionWritten write_motion(MPI_Comm comm, const MotionRequest& request) {
+  const XdmfPair pair{request.xdmf, "motion", "floe motion"};
+  std::optional<MotionSource> source;
+  petsc::agree(comm, [&] { source.emplace(comm, request.results); });
+  check_pair(comm, pair, request.overwrite);
+  const std::vector<std::size_t> rows = chosen_rows(source->times(), request.frames);
+  MotionWritten written;
+  written.without = source->without();
+  for (const std::size_t row : rows) written.t.push_back(source->times()[row]);
+  std::uint64_t bytes = 0;
+  for (const MovingBody& body : source->bodies()) {
+    written.bodies.push_back(body.name);
+    written.nodes += body.nodes, written.cells += body.cells;
+    bytes += 8 * (7 * body.cells + 6 * body.nodes * rows.size()) + 4096 * (2 + 2 * rows.size());
+  }
+  std::vector<std::int64_t> sizes;
+  write_pair(
+      comm, pair, bytes,
+      [&](hid_t file) {
+        for (const MovingBody& body : source->bodies()) sizes.push_back(write_cells(comm, file, *source, body));
+        for (std::size_t f = 0; f < rows.size(); ++f) {
+          MotionRow row;
+          petsc::agree(comm, [&] { row = source->row(rows[f]); });
+          for (const MovingBody& body : source->bodies())
+            write_frame(comm, file, body, f, moved(body, row, request.amplify));
+        }
+      },
+      [&] { return text_of(source->bodies(), written.t, sizes, pair.data().filename().string()); });
+  return written;
+}
+
+}  // namespace floe::output

@@ -1,0 +1,61 @@
+"""A Campbell diagram: frequencies of a turning scene against its speed, with the engine orders."""
+import csv
+import math
+import os
+
+from style import COLOURS, MARKS, Fault, pyplot, read_json, save
+
+SIZE = 7.6, 4.6  # inches
+
+
+def load(folder):
+    """Frequencies [Hz] by speed [rad/s], ascending, and whether each is unstable; and the diagram's title."""
+    path = os.path.join(folder, "campbell.csv")
+    speeds = {}
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = csv.reader(file)
+            next(rows)
+            for speed, mode, hertz, _, _, remark in rows:
+                if mode:
+                    speeds.setdefault(float(speed), []).append((float(hertz), remark == "unstable"))
+    except OSError as error:
+        raise Fault(f"{path}: {error.strerror}") from error
+    except (ValueError, StopIteration) as error:
+        raise Fault(f"{path}: is no table of a Campbell diagram ({error})") from error
+    if not speeds:
+        raise Fault(f"{path}: nothing vibrates")
+    summary = read_json(os.path.join(folder, "summary.json"))
+    scene = summary.get("scene", {})
+    return speeds, f"{scene.get('title') or scene.get('file', '')}: {summary.get('label', '')}"
+
+
+def draw(folder, path, dpi, orders=6):
+    speeds, title = load(folder)
+    figure, panel = pyplot().subplots(figsize=SIZE, layout="constrained")
+    end = max(speeds)
+    top = 1.08 * max(hertz for modes in speeds.values() for hertz, _ in modes) or 1
+    for order in range(1, orders + 1):
+        if end == 0:
+            break
+        panel.plot([0, end], [0, order * end / (2 * math.pi)], color="0.6", linewidth=0.8, linestyle="--", zorder=1)
+        beyond = order * end / (2 * math.pi) > top  # leaves through the top, else on the right
+        at = (2 * math.pi * top / order, top) if beyond else (end, order * end / (2 * math.pi))
+        panel.annotate(f"{order}×", at, xytext=(0, 2) if beyond else (3, 0), textcoords="offset points", fontsize=8,
+                       color="0.35", ha="center" if beyond else "left", va="bottom" if beyond else "center",
+                       annotation_clip=False)
+    for mode in range(max(len(modes) for modes in speeds.values())):
+        points = [(speed, modes[mode][0]) for speed, modes in sorted(speeds.items()) if mode < len(modes)]
+        panel.plot(*zip(*points), marker=MARKS[mode % len(MARKS)], markersize=3.4, linewidth=1.4,
+                   color=COLOURS[mode % len(COLOURS)], label=f"{mode + 1}", zorder=3)
+    wild = [(speed, hertz) for speed, modes in speeds.items() for hertz, unstable in modes if unstable]
+    if wild:
+        panel.plot(*zip(*wild), "kx", markersize=8, label="unstable", zorder=4)
+    panel.set_xlim(0, end if end > 0 else 1)
+    panel.set_ylim(0, top)
+    panel.set_xlabel("speed of rotation [rad/s]   (dashed: engine orders)")
+    panel.set_ylabel("frequency [Hz]")
+    panel.legend(title="vibration", frameon=False, loc="center left", bbox_to_anchor=(1.04, 0.5))
+    figure.suptitle(title, fontsize=11)
+    save(figure, path, dpi)
+    return path

@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""`floe plot`: pictures of what floe's commands left. The program starts it with options that it has checked."""
+import argparse
+import os
+import sys
+
+sys.dont_write_bytecode = True
+from style import Fault  # noqa: E402
+
+KINDS = ["probes", "energy", "deformed", "animation", "shapes", "campbell", "compare", "tradeoff", "sweep"]
+OF_RUN = ["probes", "energy", "deformed"]  # without being asked
+ENDINGS = {"animation": (".gif", ".mp4")}
+PICTURES = (".png", ".svg", ".pdf")
+
+
+def kinds_of(path):
+    """What a path can be drawn as, those that are drawn without being asked first; and the path that holds it."""
+    if os.path.isdir(path):
+        has = lambda name: os.path.exists(os.path.join(path, name))  # noqa: E731
+        for mark, kind in (("compare.json", "compare"), ("tradeoff.json", "tradeoff"), ("sweep.csv", "sweep"),
+                           ("campbell.csv", "campbell")):
+            if has(mark):
+                return [kind], [kind], path
+        if has("probes.csv"):
+            return OF_RUN, OF_RUN + ["animation", "shapes"], path
+        raise Fault(f"{path}: holds nothing that floe has left; expected the folder of a run, a comparison, a "
+                    "trade-off, a sweep or a Campbell diagram")
+    if not os.path.exists(path):
+        raise Fault(f"{path}: is not there")
+    folder, name = os.path.split(path)
+    if name in ("result.h5", "probes.csv", "summary.json", "compare.json", "tradeoff.json", "sweep.csv", "sweep.h5",
+                "campbell.csv"):
+        return kinds_of(folder or ".")
+    if path.endswith((".xdmf", ".h5")):
+        return ["shapes"], ["shapes"], path
+    raise Fault(f"{path}: expected a folder, shapes (.xdmf) or a reduced body (.h5)")
+
+
+def wanted_kinds(path, asked):
+    usual, possible, at = kinds_of(path)
+    unknown = [kind for kind in asked if kind not in KINDS]
+    if unknown:
+        raise Fault(f"--kind {unknown[0]}: expected of {', '.join(KINDS)}")
+    chosen = [kind for kind in possible if kind in asked] if asked else usual
+    if not chosen:
+        raise Fault(f"--kind {','.join(asked)}: {path} can be drawn as {', '.join(possible)}")
+    return chosen, at
+
+
+def target(options, path, kind, several):
+    """The picture's file. @throws Fault  an ending that it cannot have"""
+    endings = ENDINGS.get(kind, PICTURES)
+    if options.out and not os.path.isdir(options.out) and os.path.splitext(options.out)[1]:
+        if several:
+            raise Fault(f"--out {options.out}: is one picture, and there are several; expected a folder, or one --kind")
+        if os.path.splitext(options.out)[1] not in endings:
+            raise Fault(f"--out {options.out}: expected a name that ends in {' '.join(endings)}")
+        return options.out
+    folder = path if os.path.isdir(path) else os.path.dirname(path) or "."
+    if options.out:
+        os.makedirs(options.out, exist_ok=True)
+        folder = options.out
+    name = kind if os.path.isdir(path) else f"{os.path.splitext(os.path.basename(path))[0]}-{kind}"
+    return os.path.join(folder, name + (endings[0] if kind in ENDINGS else "." + (options.format or "png")))
+
+
+def draw(kind, path, out, options, run):
+    if kind == "compare":
+        import compare
+        compare.draw(compare.load(path), out, options.dpi)
+    elif kind == "tradeoff":
+        import tradeoff
+        tradeoff.draw(*tradeoff.load(path), out, options.dpi)
+    elif kind == "sweep":
+        import sweep
+        sweep.draw(path, out, options.dpi)
+    elif kind == "campbell":
+        import campbell
+        campbell.draw(path, out, options.dpi)
+    elif kind == "shapes":
+        import shapes
+        found = shapes.of_run(run(path)) if os.path.isdir(path) else shapes.load(path)
+        shapes.draw(found, out, options.dpi, options.shapes, options.body, options.view)
+    elif kind == "probes":
+        import history
+        history.draw(run(path), out, options.dpi, options.probes)
+    elif kind == "energy":
+        import energy
+        energy.draw(run(path), out, options.dpi)
+    elif kind == "deformed":
+        import deformed
+        deformed.draw(run(path), out, options.dpi, options.times, options.amplify, options.view)
+    else:
+        import animation
+        animation.draw(run(path), out, options.dpi, options.frames, options.fps, options.amplify, options.view)
+
+
+def numbers(text, name, count=None):
+    try:
+        values = [float(word) for word in text.split(",")] if text else []
+    except ValueError:
+        values = None
+    if values is None or (count and len(values) != count):
+        raise Fault(f"{name} {text}: expected {count or 'some'} numbers, separated by commas")
+    return values
+
+
+def read_options():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("paths", nargs="+")
+    for name in ("--kind", "--out", "--format", "--probes", "--times", "--body"):
+        parser.add_argument(name, default="")
+    parser.add_argument("--view", default="-60,25")
+    parser.add_argument("--amplify", type=float, default=1.0)
+    parser.add_argument("--fps", type=float, default=20.0)
+    for name, default in (("--shapes", 6), ("--frames", 100), ("--dpi", 150)):
+        parser.add_argument(name, type=int, default=default)
+    options = parser.parse_args()
+    options.kind = [word for word in options.kind.split(",") if word]
+    options.probes = [word for word in options.probes.split(",") if word]
+    options.times = numbers(options.times, "--times")
+    options.view = tuple(numbers(options.view, "--view", 2))
+    return options
+
+
+def work():
+    options = read_options()
+    chosen = []
+    for path in options.paths:
+        kinds, at = wanted_kinds(path, options.kind)
+        chosen += [(kind, at) for kind in kinds]
+    several = len(chosen) > 1
+    targets = [target(options, path, kind, several) for kind, path in chosen]
+    runs, skipped = {}, []
+
+    def run(path):
+        from results import Run
+        return runs.setdefault(path, Run(path))
+
+    for (kind, path), out in zip(chosen, targets):
+        try:
+            draw(kind, path, out, options, run)
+            print(f"Picture: {out}")
+        except Fault as fault:  # of a picture that nobody asked for by its name
+            if options.kind or not several:
+                raise
+            skipped.append(f"Note: no picture of {kind}: {fault}")
+    for line in skipped:
+        print(line)
+    if len(skipped) == len(chosen):
+        raise Fault("there is nothing to draw")
+
+
+def guarded(name, attempt):
+    """Runs it; tells what the user should know in one line, with floe's exit codes."""
+    try:
+        attempt()
+        return 0
+    except Fault as fault:
+        print(f"floe: {name}: {fault}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        package = {"matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "numpy": "python3-numpy",
+                   "PIL": "python3-pil"}.get((error.name or "").split(".")[0], "python3-matplotlib, python3-h5py")
+        print(f"floe: {name}: {error}; install the package {package}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:
+        return 1
+    except OSError as error:
+        print(f"floe: {name}: cannot read or write {error.filename or 'a file'}: {error.strerror or error}",
+              file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(guarded("plot", work))

@@ -1,0 +1,372 @@
+#!/usr/bin/env python3
+"""`floe report`: one page on what a command of floe left, with everything in it: no network, no other file."""
+import argparse
+import base64
+import csv
+import html
+import os
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+from plot import guarded, kinds_of  # noqa: E402
+from style import Fault, duration, read_json  # noqa: E402
+
+THREE = ["/usr/share/javascript/three/three.min.js", "/usr/share/nodejs/three/build/three.min.js"]
+HERE = os.path.dirname(os.path.abspath(__file__))
+MARK = '<meta name="generator" content="floe">'
+CAPTIONS = {"probes": "Probes over time", "energy": "Energy, its change, and the violation of the constraints",
+            "deformed": "The mechanism at some instants, true to scale", "shapes": "Columns of the reduced basis",
+            "compare": "The formulations, and their errors against the reference",
+            "tradeoff": "Error against time: the Pareto front of the models", "sweep": "The members of the sweep",
+            "campbell": "Frequencies against the speed of rotation"}
+REMARKS = {"mode": "vibration mode", "derivative": "modal derivative", "attachment": "static column at a joint or load"}
+
+
+def escaped(value):
+    return html.escape(str(value))
+
+
+def shown(value):
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    return "" if value is None else str(value)
+
+
+def table(head, rows, left=()):
+    """Rows of numbers and texts; those whose index is in `left` are grey."""
+    cells = lambda row: "".join(  # noqa: E731
+        f'<td class="number">{shown(c)}</td>' if isinstance(c, (int, float)) and not isinstance(c, bool)
+        else f"<td>{escaped(shown(c))}</td>" for c in row)
+    lines = [f'<tr{" class=left" if i in left else ""}>{cells(row)}</tr>' for i, row in enumerate(rows)]
+    return ('<div class="wide"><table><thead><tr>' + "".join(f"<th>{escaped(h)}</th>" for h in head)
+            + "</tr></thead><tbody>" + "".join(lines) + "</tbody></table></div>")
+
+
+def section(name, title, body):
+    return f'<section id="{name}"><h2>{escaped(title)}</h2>{body}</section>' if body else ""
+
+
+def number_or_text(cell):
+    try:
+        return float(cell) if cell else ""
+    except ValueError:
+        return cell
+
+
+def table_of_file(path, most=60):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except OSError:
+        return ""
+    more = f'<p class="quiet">and {len(rows) - 1 - most} more rows in {escaped(os.path.basename(path))}</p>' if len(rows) > most + 1 else ""
+    return table(rows[0], [[number_or_text(c) for c in row] for row in rows[1:most + 1]]) + more if rows else ""
+
+
+def leaves(value, name=""):
+    """Names and values in nested objects."""
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from leaves(inner, f"{name} {key}".strip())
+    else:
+        yield name.replace("_", " "), ", ".join(map(str, value)) if isinstance(value, list) else value
+
+
+def facts(pairs):
+    return '<ul class="facts">' + "".join(f"<li>{escaped(name)}<b>{escaped(shown(value))}</b></li>"
+                                         for name, value in pairs if value not in (None, "")) + "</ul>"
+
+
+# --- parts of the page, from a summary
+
+def overview(summary):
+    status, seconds = summary.get("status", ""), summary.get("seconds", {})
+    estimate = summary.get("estimate", {})
+    pairs = [("formulation", summary.get("formulation")), ("model", summary.get("label")),
+             ("unknowns", summary.get("unknowns", {}).get("coordinates")),
+             ("steps", summary.get("integration", {}).get("steps")),
+             ("reached", f"{summary['integration']['reached']:g} s" if "integration" in summary else None),
+             ("offline", duration(seconds["offline"]) if "offline" in seconds else None),
+             ("motion", duration(seconds["motion"]) if "motion" in seconds else None),
+             ("a step", duration(seconds["per_step"]) if "per_step" in seconds else None),
+             ("estimated error", f"{100 * estimate['deformation']:.2g} %" if "deformation" in estimate else None)]
+    good = status == "finished"
+    reason = f": {escaped(summary['reason'])}" if summary.get("reason") else ""
+    words = "finished" if good else "still running, or killed" if status == "running" else status
+    return f'<p class="{"good" if good else "bad"}">{escaped(words)}{reason}</p>' + facts(pairs)
+
+
+def warnings(summary):
+    lines = list(summary.get("warnings") or [])
+    notes = summary.get("estimate", {}).get("notes") or []
+    lines += [f"estimate: {note}" for note in notes]
+    if not lines:
+        return "<p>None.</p>"
+    return '<ul class="warnings">' + "".join(f"<li>{escaped(line)}</li>" for line in lines) + "</ul>"
+
+
+def why(column, formulation):
+    weight = f"modal interaction {column['interaction']:.2g} of the greatest" if "interaction" in column else ""
+    if column["kept"]:
+        return "kept" + (f"; {weight}" if weight else "")
+    if formulation == "vm" and column["kind"] == "derivative":
+        return "left out: formulation vm has none"
+    return f"left out: the columns before it lack only {column['new_part']:.1g} of it"
+
+
+def choice(summary):
+    """Of a model that floe chose for an accuracy."""
+    chosen = summary.get("accuracy")
+    if not chosen:
+        return ""
+    words = (f"Chosen for an error of {100 * chosen['asked']:.3g} %: {100 * chosen['supported']:.2g} % is supported, "
+             f"{'within' if chosen['within'] else 'beyond'} what was asked for; {chosen['trials']} motions of reduced models, "
+             f"{duration(chosen['seconds'])}.")
+    return (f"<p>{escaped(words)}</p>"
+            + table(["what", "choice", "measured reason"],
+                    [[one["what"], one["choice"], one["reason"]] for one in chosen.get("decisions") or []]))
+
+
+def model(summary):
+    text = choice(summary)
+    for body in summary.get("bodies") or []:
+        words = [f"{body['nodes']} nodes, {body['elements']} elements, {body['dofs']} dofs"]
+        if body.get("rigid"):
+            words.append("rigid")
+        if "reduced_file" in body:
+            words.append(f"reduced before, from {body['reduced_file']}")
+        columns = body.get("basis") or []
+        kept = sum(column["kept"] for column in columns)
+        if columns:
+            words.append(f"{body['reduced_coordinates']} coordinates: {kept} of {len(columns)} candidate columns")
+        elif not body.get("rigid"):
+            words.append("of full order")
+        text += f"<h3>{escaped(body['name'])}</h3><p>{escaped('; '.join(words))}.</p>"
+        if columns:
+            hertz = iter(f["Hz"] for f in body.get("frequencies") or [])
+            rows = [[c["column"], REMARKS.get(c["kind"], c["kind"]), next(hertz, "") if c["kind"] == "mode" else "",
+                     float(c["new_part"]), why(c, summary.get("formulation"))] for c in columns]
+            text += "<details open>" if len(rows) <= 30 else "<details>"
+            text += "<summary>columns of the basis, and why</summary>" + table(
+                ["column", "what", "frequency [Hz]", "new part", "decision"], rows,
+                {i for i, c in enumerate(columns) if not c["kept"]}) + "</details>"
+    return text
+
+
+def errors(summary, run):
+    estimate = summary.get("estimate")
+    if not estimate:
+        return ""
+    if "none" in estimate:
+        return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>"
+    rows = [[name, 100 * value if value is not None else ""] for name, value in (estimate.get("probes") or {}).items()]
+    return ("<p>Estimated without moving the full order: what this model errs against the full order of the same mesh, root "
+            f"mean square over the motion. Deformations: {100 * estimate['deformation']:.2g} %; "
+            f"{estimate['full_order_residuals']} residuals of full order, {estimate['columns']} further columns.</p>"
+            + (table(["probe", "estimated error [%]"], rows) if rows else ""))
+
+
+def probes(run):
+    try:
+        series, units = run.probes()
+    except Fault:
+        return ""
+    rows = [[name, values[-1], min(values), max(values), units.get(name, "")]
+            for name, values in series.items() if name != "t"]
+    return table(["probe", "at the end", "least", "greatest", "unit"], rows) if rows else ""
+
+
+def events(summary):
+    rows = [[event["name"], event["what"], float(event["t"]), shown(event.get("kinetic_energy_lost"))]
+            for event in summary.get("events") or []]
+    return table(["event", "what", "time [s]", "kinetic energy lost [J]"], rows) if rows else ""
+
+
+def numbers(summary):
+    rows = [[name, value] for key in ("integration", "energy", "constraints", "unknowns")
+            for name, value in leaves(summary.get(key) or {}, "energy" if key == "energy" else "")]
+    return table(["what", "value"], rows) if rows else ""
+
+
+def timings(summary):
+    rows = [[name, value] for name, value in leaves(summary.get("seconds") or {})]
+    for body in summary.get("bodies") or []:
+        rows += [[f"{body['name']}: {name}", value] for name, value in leaves(body.get("seconds") or {})]
+    return table(["stage", "seconds"], rows) if rows else ""
+
+
+def provenance(description):
+    rows = [[name, str(value)] for name, value in leaves(description.get("provenance") or {})]
+    return table(["what", "value"], rows) if rows else ""
+
+
+# --- pictures and the mechanism
+
+def image(path, caption):
+    with open(path, "rb") as file:
+        data = base64.b64encode(file.read()).decode()
+    return (f'<figure><img alt="{escaped(caption)}" src="data:image/png;base64,{data}">'
+            f'<figcaption class="quiet">{escaped(caption)}</figcaption></figure>')
+
+
+def pictures(folder, kinds, run):
+    import plot
+
+    options = argparse.Namespace(dpi=110, probes=[], times=[], amplify=1.0, view=(-60.0, 25.0), shapes=6, body="")
+    text = ""
+    with tempfile.TemporaryDirectory() as scratch:
+        for kind in kinds:
+            path = os.path.join(scratch, kind + ".png")
+            try:
+                plot.draw(kind, folder, path, options, lambda _: run)
+                text += image(path, CAPTIONS[kind])
+            except Fault as fault:
+                text += f'<p class="quiet">No picture of {escaped(kind)}: {escaped(fault)}</p>'
+    return text
+
+
+CONTROLS = """<div id="mechanism"></div><p id="mechanism-note" class="quiet">Drag to turn, shift and drag to shift, wheel to come nearer.
+Colour: deformation, <span class="scale"></span> 0 to {greatest:.3g} m.</p>
+<div id="mechanism-controls"><button id="mechanism-play" type="button">Play</button>
+<input id="mechanism-time" type="range" min="0" value="0" step="1" aria-label="time"><span id="mechanism-clock"></span>
+<label>speed <select id="mechanism-speed"><option value="0.25">¼</option><option value="0.5">½</option><option value="1" selected>1</option>
+<option value="2">2</option><option value="4">4</option></select></label>
+<label>deformations <input id="mechanism-amplify" type="range" min="1" max="20" step="1" value="1"><span id="mechanism-factor">× 1</span></label>
+<button id="mechanism-home" type="button">Reset view</button></div>"""
+
+
+def script(path):
+    with open(path, encoding="utf-8") as file:
+        return "<script>" + file.read().replace("</script", "<\\/script") + "</script>"
+
+
+def mechanism(run):
+    """The view, and the scripts that come last in the page."""
+    from mechanism import script_data
+
+    three = next((path for path in THREE if os.path.exists(path)), None)
+    if three is None:
+        return '<p class="quiet">No moving view: three.js is missing (package libjs-three).</p>', ""
+    try:
+        data, none = script_data(run)
+    except Fault as fault:
+        data, none = None, str(fault)
+    if data is None:
+        return f'<p class="quiet">No moving view: {escaped(none)}.</p>', ""
+    greatest = float(data.partition('"greatest": ')[2].partition(",")[0])
+    return (CONTROLS.format(greatest=greatest),
+            script(three) + "<script>" + data + "</script>" + script(os.path.join(HERE, "viewer.js")))
+
+
+def page(title, parts, scripts):
+    with open(os.path.join(HERE, "report.css"), encoding="utf-8") as file:
+        style = file.read()
+    links = "".join(f'<a href="#{name}">{escaped(heading)}</a>' for name, heading, body in parts if body)
+    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{MARK}'
+            f'<meta name="viewport" content="width=device-width, initial-scale=1"><title>{escaped(title)}</title>'
+            f"<style>{style}</style></head><body><h1>{escaped(title)}</h1><nav>{links}</nav>"
+            + "".join(section(*part) for part in parts) + scripts + "</body></html>\n")
+
+
+def of_run(folder, run):
+    summary = run.summary
+    view, scripts = mechanism(run) if os.path.exists(os.path.join(folder, "result.h5")) else ("", "")
+    try:
+        run.load()
+        scene = (f"<p>{escaped(summary.get('scene', {}).get('file', ''))}, as it was read:</p>"
+                 f"<pre>{escaped(run.scene_text)}</pre>")
+    except Fault:
+        scene = ""
+    return [("overview", "Overview", overview(summary)), ("warnings", "Warnings", warnings(summary)),
+            ("motion", "The moving mechanism", view), ("pictures", "Pictures", pictures(folder, ["probes", "energy", "deformed"], run)),
+            ("probes", "Probes", probes(run)), ("error", "Error of the model", errors(summary, run)),
+            ("model", "The model, and why", model(summary)), ("events", "Events", events(summary)),
+            ("numbers", "The integration", numbers(summary)), ("timings", "Timings", timings(summary)),
+            ("scene", "The scene", scene),
+            ("provenance", "Provenance", provenance(summary))], scripts
+
+
+def of_compare(folder, description):
+    from results import Run
+
+    parts, view, scripts = [], "", ""
+    for one in description["runs"]:
+        sub = os.path.join(folder, one["name"])
+        if not view and os.path.exists(os.path.join(sub, "result.h5")):
+            view, scripts = mechanism(Run(sub))
+            view = f"<p>As {escaped(one['name'])}, {escaped(one.get('label', ''))}.</p>" + view
+    stopped = [f"{one['name']}: {one['reason']}" for one in description.get("stopped") or []]
+    warned = []
+    for one in description["runs"]:
+        path = os.path.join(folder, one["name"], "summary.json")
+        if os.path.exists(path):
+            warned += [f"{one['name']}: {line}" for line in read_json(path).get("warnings") or []]
+    reference = f"<p>Errors are relative, root mean square over the motion; the reference is {escaped(description['reference'])}.</p>"
+    parts += [("table", "Formulations", reference + table_of_file(os.path.join(folder, "compare.csv"))),
+              ("warnings", "Warnings", warnings({"warnings": stopped + warned})),
+              ("pictures", "Pictures", pictures(folder, ["compare"], None)), ("motion", "The moving mechanism", view)]
+    return parts, scripts
+
+
+def of_tradeoff(folder, description):
+    words = ""
+    if "choice" in description:
+        rung = description["rungs"][description["choice"]]
+        words = (f"<p><b>Choice: {escaped(rung['name'])}</b> ({escaped(rung['formulation'])}): the cheapest model within "
+                 f"{100 * description['accuracy']:g} % of {escaped(description['reference']['name'])} in every probe.</p>")
+    return [("choice", "The model, and why", words or "<p>No model is within the accuracy asked for.</p>"),
+            ("pictures", "Pictures", pictures(folder, ["tradeoff"], None)),
+            ("table", "Models", table_of_file(os.path.join(folder, "tradeoff.csv")))], ""
+
+
+def of_others(folder, kind, summary):
+    return [("overview", "Overview", overview(summary)), ("warnings", "Warnings", warnings(summary)),
+            ("pictures", "Pictures", pictures(folder, [kind], None)),
+            ("table", "Numbers", table_of_file(os.path.join(folder, kind + ".csv"))),
+            ("timings", "Timings", timings(summary))], ""
+
+
+def check_target(path):
+    if not os.path.exists(path):
+        return
+    if not os.path.isfile(path):
+        raise Fault(f"{path}: exists and is not a file")
+    with open(path, encoding="utf-8", errors="replace") as file:
+        if MARK not in file.read(400):
+            raise Fault(f"{path}: exists and is no report of floe's; name another with --out")
+
+
+def work():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder")
+    parser.add_argument("--out")
+    options = parser.parse_args()
+    folder = options.folder
+    if not os.path.isdir(folder):
+        raise Fault(f"{folder}: is not a folder; expected one that a command of floe left")
+    kinds, _, folder = kinds_of(folder)
+    out = options.out or os.path.join(folder, "report.html")
+    check_target(out)
+    from results import Run
+    if kinds[0] in ("compare", "tradeoff"):
+        description = read_json(os.path.join(folder, kinds[0] + ".json"))
+        title = description.get("title", folder)
+        parts, scripts = (of_compare if kinds[0] == "compare" else of_tradeoff)(folder, description)
+        parts.append(("provenance", "Provenance", provenance(description)))
+    else:
+        run = Run(folder)
+        title = run.title
+        parts, scripts = of_run(folder, run) if kinds[0] == "probes" else of_others(folder, kinds[0], run.summary)
+        if kinds[0] != "probes":
+            parts.append(("provenance", "Provenance", provenance(run.summary)))
+    text = page(title, parts, scripts)
+    draft = os.path.join(os.path.dirname(out), f".{os.path.basename(out)}.partial")
+    with open(draft, "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(draft, out)
+    print(f"Report: {out}")
+
+
+if __name__ == "__main__":
+    sys.exit(guarded("report", work))

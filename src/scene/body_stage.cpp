@@ -1,0 +1,153 @@
+#include "body_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "build_attachments.h"
+#include "build_interface.h"
+#include "floe/math/nearest.h"
+
+namespace floe::scene {
+
+using petsc::check;
+
+namespace {
+
+/// C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)' + alpha V'MV + beta V'KV.
+///
+/// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
+/// the frame, phi_i'K phi_i = omega_i^2.
+Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
+  const DampingSpec& spec = body.spec.damping;
+  const int k = reduced.body.coordinates();
+  if (spec.mass == 0 && spec.stiffness == 0 && spec.modal.empty()) return {};
+  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+  Eigen::MatrixXd C = spec.stiffness * K;
+  C.diagonal().array() += spec.mass;
+  for (std::size_t i = 0; i < std::min(spec.modal.size(), modes.omega.size()); ++i) {
+    Eigen::VectorXd phi(k);
+    check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
+    const Eigen::VectorXd force = K * phi;
+    C += 2 * spec.modal[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
+  }
+  return C;
+}
+
+}  // namespace
+
+int count_of_modes(const PreparedBody& body) {
+  return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
+}
+
+void generate(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
+  const PreparedBody& body = prepared.bodies[index];
+  const double start = MPI_Wtime();
+  try {
+    stage.generators = reduction::generators(body.structure, *stage.statics, stage.solver->solve(modes),
+                                             stage.attachments, body.spec.reduction.drop_tolerance);
+  } catch (const InputError& error) {
+    throw InputError(body.spec.reduction.modes.where.text() + ": " + error.what());
+  }
+  report.omega = stage.generators.modes.omega;
+  report.residual = stage.generators.modes.residual;
+  report.seconds_modes = MPI_Wtime() - start;
+}
+
+void begin_stage(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
+  const PreparedBody& body = prepared.bodies[index];
+  check_interface(prepared, index);
+  stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
+  stage.for_modes =
+      of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
+  stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
+  stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
+  stage.attachments = attachments(prepared, index);
+  if (modes == as_the_body_has)
+    modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
+  generate(prepared, index, modes, stage, report);
+}
+
+reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
+  using Choice = DerivativesSpec::Choice;
+  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
+  reduction::Pairs pairs;
+  if (spec.choice == Choice::pairs)
+    for (const auto& [i, j] : spec.pairs) {
+      if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
+        throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
+                                     spec.where.text(), i, j, j, modes));
+      pairs.push_back({i - 1, j - 1});
+    }
+  return pairs;
+}
+
+void keep_named(const PreparedBody& body, Stage& stage) {
+  const ReductionSpec& spec = body.spec.reduction;
+  const std::vector<std::string>& wanted = spec.columns;
+  const auto take = [&](const std::string& label) {
+    return std::find(wanted.begin(), wanted.end(), label) != wanted.end();
+  };
+  std::vector<std::string> all;
+  stage.left_out.clear();
+  for (const reduction::ColumnOrigin& origin : stage.generators.origins)
+    all.push_back(origin.label), stage.left_out.push_back(!take(origin.label));
+  stage.pairs.clear();
+  for (const auto& pair : reduction::all_pairs(static_cast<int>(stage.generators.fields.size())))
+    for (const bool turned : {false, true}) {  // with inertia (i, j) and (j, i) differ
+      if (turned && (!spec.derivatives.full || pair[0] == pair[1])) continue;
+      all.push_back(reduction::derivative_label(stage.generators, pair[turned], pair[1 - turned]));
+      if (take(all.back()) && (stage.pairs.empty() || stage.pairs.back() != pair)) stage.pairs.push_back(pair);
+    }
+  std::vector<std::string> faults;
+  for (const std::string& label : wanted) {
+    if (std::find(all.begin(), all.end(), label) != all.end()) continue;
+    const std::string near = math::nearest(label, all);
+    faults.push_back(
+        fmt::format("{}: body {} has no column \"{}\"; expected one that `floe run` lists in summary.json{}",
+                    spec.columns_where.text(), body.spec.name, label,
+                    near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stage& stage, const reduction::Pairs& pairs,
+                                            bool full) {
+  reduction::DerivativeColumns all = reduction::derivative_columns(body.structure, body.frame, stage.for_modes,
+                                                                   *stage.statics, stage.generators, pairs, full);
+  const std::vector<std::string>& wanted = body.spec.reduction.columns;
+  if (wanted.empty()) return all;
+  reduction::DerivativeColumns some;
+  for (std::size_t i = 0; i < all.columns.size(); ++i) {
+    if (std::find(wanted.begin(), wanted.end(), all.origins[i].label) == wanted.end()) continue;
+    some.columns.push_back(std::move(all.columns[i]));
+    some.origins.push_back(std::move(all.origins[i]));
+  }
+  return some;
+}
+
+void put_on(const PreparedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
+            ReducedBody& reduced) {
+  reduced.basis = std::move(basis);
+  reduced.body = reduction::project(body.structure, *reduced.basis);
+  if (body.spec.reduction.linear) reduced.body.elasticity = body::linearised(reduced.body.elasticity);
+  reduced.damping = damping_matrix(body, reduced, modes);
+  reduced.report.columns = reduced.basis->columns;
+  reduced.report.origins = reduced.basis->origins;
+  reduced.report.basis = reduced.basis;
+}
+
+void end_stage(const PreparedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives,
+               ReducedBody& reduced) {
+  const double start = MPI_Wtime();
+  const double tolerance = body.spec.reduction.drop_tolerance;
+  put_on(body,
+         std::make_shared<reduction::Basis>(
+             reduction::basis_of(body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
+         stage.generators.modes, reduced);
+  reduced.report.seconds_projection = MPI_Wtime() - start;
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,49 @@
+#pragma once
+#include "build_reduce.h"
+#include "floe/reduction/reduce.h"
+
+namespace floe::scene {
+
+/// What one body carries through the stages of its reduction.
+struct Stage {
+  fem::Holding for_modes, for_statics;
+  std::unique_ptr<reduction::Statics> statics;
+  std::unique_ptr<reduction::ModeSolver> solver;
+  std::vector<reduction::Attachment> attachments;
+  reduction::Generators generators;
+  reduction::Pairs pairs;
+  std::vector<char> left_out;  ///< of the generators; empty: none
+};
+
+/// In place of a count of modes: the default, or fewer where the body has fewer under its conditions.
+constexpr int as_the_body_has = -1;
+int count_of_modes(const PreparedBody& body);
+
+/// Factors, modes and static columns. @param modes  how many, or as_the_body_has. Collective.
+void begin_stage(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report);
+
+/// (Re)makes the generators, with the lowest `modes` modes. Collective.
+void generate(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report);
+
+/// Pairs of generators that the scene asks derivatives of; those by count come later.
+/// @throws InputError  a mode that the body does not have
+reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators);
+
+/// Leaves the stage those generators and pairs that reduction.columns names.
+/// @throws InputError  one that there is not, with the nearest
+void keep_named(const PreparedBody& body, Stage& stage);
+
+/// Collective.
+reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stage& stage, const reduction::Pairs& pairs,
+                                            bool full);
+
+/// The body on generators and derivatives. Collective.
+void end_stage(const PreparedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives,
+               ReducedBody& reduced);
+
+/// The body on a basis, with its damping; `reduced` gets all but statics and what the report knows of modes.
+/// Collective.
+void put_on(const PreparedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
+            ReducedBody& reduced);
+
+}  // namespace floe::scene

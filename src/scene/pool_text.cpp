@@ -1,0 +1,65 @@
+#include "pool_text.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace floe::scene {
+
+namespace {
+
+/// The reduction of a body: its modes as they are, all static columns, and of these the ones that are taken.
+void write_columns(YAML::Node reduction, const std::vector<std::string>& labels, bool linear) {
+  reduction.remove("derivatives");
+  reduction["attachment"] = "all";
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const std::string& label : labels) list.push_back(label);
+  reduction["columns"] = list;
+  if (linear)
+    reduction["elastic_force"] = "linear";
+  else
+    reduction.remove("elastic_force");
+}
+
+}  // namespace
+
+std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
+                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames) {
+  YAML::Node root = YAML::Load(scene.text);
+  for (const Body& body : scene.bodies) {
+    if (body.rigid || body.reduced) continue;
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (selection.taken[i] && columns[i].body == body.name && !columns[i].response)
+        labels.push_back(columns[i].label);
+    YAML::Node node = root["bodies"][body.name];
+    if (const auto file = files.find(body.name); file != files.end()) {
+      const YAML::Node initial = node["initial"];
+      YAML::Node from_file(YAML::NodeType::Map);
+      from_file["reduced"] = file->second;
+      if (initial.IsDefined()) from_file["initial"] = initial;
+      root["bodies"][body.name] = from_file;
+      continue;
+    }
+    if (labels.empty()) {
+      node["rigid"] = true;
+      continue;
+    }
+    YAML::Node reduction = node["reduction"];
+    if (!reduction.IsMap()) reduction = YAML::Node(YAML::NodeType::Map);
+    write_columns(reduction, labels, selection.linear);
+    node["reduction"] = reduction;
+  }
+  if (share_frames != scene.share_frames) root["share_frames"] = share_frames;
+  root.remove("accuracy");
+  root["motion"]["step"] = fmt::format("{}", motion.step);
+  root["motion"].remove("every");
+  if (motion.output)
+    root["motion"]["output"] = fmt::format("{}", *motion.output);
+  else
+    root["motion"]["every"] = motion.every;
+  YAML::Emitter out;
+  out << root;
+  return out.c_str();
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,158 @@
+#include <catch2/catch.hpp>
+
+#include "../../src/app/choose.h"
+#include "../../src/app/compare_table.h"
+#include "../unit/output/scratch.h"
+#include "scene_motion.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+const std::string pendulum = R"yaml(
+gravity: [0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}
+    section: {EA: 1.2e4, EI: 0.5, rhoA: 1}
+    reduction: {modes: 4}
+joints: {hinge: {type: revolute, between: [ground, rod.start]}}
+motion: {end: 0.6, step: 1e-3, every: 2}
+probes: {tip: {at: rod.end, quantity: position}, middle: {at: rod.middle, quantity: deflection}}
+)yaml";
+
+const std::string plate = R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [8, 4]}}
+    section: {thickness: 0.01}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads: {corner: {type: force, at: plate.p3, force: [0, 0, "300*sin(40*t)"]}}
+motion: {end: 0.15, step: 1e-3}
+probes: {tip: {at: plate.p3}}
+)yaml";
+
+app::RunPlan quiet() {
+  app::RunPlan plan;
+  plan.quiet = true, plan.check_range = false;
+  return plan;
+}
+
+/// Full order in steps of a quarter.
+app::Series truth(scene::Scene scene) {
+  scene.motion.step /= 4, scene.motion.every *= 4;
+  return app::run(scene, Formulation::nlffr, PETSC_COMM_WORLD, std::nullopt, quiet()).series;
+}
+
+}  // namespace
+
+TEST_CASE("accuracy: what is chosen errs by no more than what was asked, and says so") {
+  for (const std::string& text : {pendulum, plate}) {
+    const scene::Scene scene = scene::parse_scene(text, "scene");
+    const app::Series full = truth(scene);
+    std::size_t columns = 0;
+    double motion = 0;
+    for (const double accuracy : {0.05, 0.01, 0.002}) {
+      app::Chosen chosen = app::choose(scene, accuracy, PETSC_COMM_WORLD);
+      const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+      const double error = app::worst_error(result.series, full);
+      INFO(scene.bodies[0].name << ", asked " << accuracy << ", supported " << chosen.supported << ", true " << error
+                                << ", " << chosen.selection.count() << " columns, step " << chosen.scene.motion.step);
+      CHECK(chosen.within());
+      CHECK(error <= 1.5 * accuracy);
+      CHECK(chosen.supported > 0.5 * error);
+      CHECK(chosen.supported < 3 * error);
+      CHECK(chosen.selection.count() >= columns);  // more for less error
+      CHECK((motion == 0 || chosen.scene.motion.step <= motion));
+      columns = chosen.selection.count(), motion = chosen.scene.motion.step;
+      CHECK_FALSE(chosen.decisions.empty());
+    }
+    CHECK(columns > 0);
+  }
+}
+
+TEST_CASE("accuracy: the scene that is written moves as the model that was chosen") {
+  for (const auto& [text, accuracy] : {std::pair{pendulum, 0.01}, std::pair{plate, 0.05}}) {
+    const scene::Scene scene = scene::parse_scene(text, "scene");
+    app::Chosen chosen = app::choose(scene, accuracy, PETSC_COMM_WORLD);
+    REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
+    CHECK(written.motion.step == chosen.scene.motion.step);
+    const app::RunResult again = app::run(written, Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
+    CHECK(again.coordinates == result.coordinates);
+    CHECK(again.series.t.size() == result.series.t.size());
+    CHECK(again.series.t[1] == Approx(scene.motion.step * scene.motion.every));  // stored as the scene wants it
+    CHECK(app::worst_error(again.series, result.series) < 1e-8);
+  }
+}
+
+TEST_CASE("accuracy: responses, for which scenes have no words, are written into the file of a reduced body") {
+  const scene::Scene scene = scene::parse_scene(plate, "scene");
+  app::Chosen chosen = app::choose(scene, 0.01, PETSC_COMM_WORLD);
+  REQUIRE(chosen.pool->has_responses(chosen.selection));
+  const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+  const Scratch folder;
+  const std::string path = (folder / "chosen.yaml").string();
+  const std::vector<std::string> files = chosen.pool->write(chosen.selection, chosen.scene.motion, path, false);
+  REQUIRE(files.size() == 2);
+  CHECK(files[1] == (folder / "chosen-plate.h5").string());
+  CHECK_THROWS_WITH(chosen.pool->write(chosen.selection, chosen.scene.motion, path, false), Catch::Contains("exists"));
+  const app::RunResult again =
+      app::run(scene::read_scene(path), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
+  CHECK(again.coordinates == result.coordinates);
+  CHECK(app::worst_error(again.series, result.series) < 1e-8);
+}
+
+TEST_CASE("accuracy: loads that hardly bend leave a linear force, loads that do not bend a rigid body") {
+  const std::string arm = R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 10}}
+    section: {EA: 1e6, EI: $EI, rhoA: 1}
+joints: {hinge: {type: revolute, between: [ground, arm.start]}}
+loads: {drive: {type: moment, at: arm.start, moment: "0.1*sin(8*t)"}}
+motion: {end: 0.5, step: 1e-3}
+probes: {tip: {at: arm.end}}
+)yaml";
+  const auto chosen = [&](const std::string& stiffness) {
+    return app::choose(scene::parse_scene(fill(arm, {{"EI", stiffness}}), "scene"), 0.01, PETSC_COMM_WORLD);
+  };
+  CHECK(chosen("1e5").selection.count() == 0);
+  const app::Chosen soft = chosen("1");
+  CHECK(soft.selection.count() > 0);
+}
+
+TEST_CASE("accuracy: bodies of two frames, and one that responses enrich") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 12}}
+    section: {EA: 1.2e4, EI: 1, rhoA: 1}
+    frames: $frames
+    reduction: {modes: $modes}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: {body: beam, node: [0.5, 0]}, force: [0, "2*sin(9*t)"]}}
+motion: {end: 0.4, step: 1e-3}
+probes: {tip: {at: beam.end}}
+)yaml";
+  for (const Words& words : {Words{{"frames", "2"}, {"modes", "4"}}, Words{{"frames", "1"}, {"modes", "1"}}}) {
+    const scene::Scene scene = scene::parse_scene(fill(text, words), "scene");
+    app::Chosen chosen = app::choose(scene, 0.002, PETSC_COMM_WORLD);
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    const double error = app::worst_error(result.series, truth(scene));
+    INFO(words[0].second << " frames: supported " << chosen.supported << ", true " << error);
+    CHECK(chosen.within());
+    CHECK(error <= 0.003);
+  }
+}
+
+TEST_CASE("accuracy: refuses what nothing supports") {
+  const auto refused = [](const std::string& text, const std::string& phrase) {
+    CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), 0.01, PETSC_COMM_WORLD), Catch::Contains(phrase));
+  };
+  refused(pendulum.substr(0, pendulum.find("probes")), "there are none");
+  refused(pendulum + "events: {off: {unlock: hinge, at: 0.1}}\n", "events change the joints");
+}
