@@ -34,6 +34,7 @@ struct Instant {
   const std::function<void(double t, Vec U, Vec V)>* between = nullptr;
 };
 
+/// What an integration took, and how far it came.
 struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
   double end = 0;                ///< reached [s]

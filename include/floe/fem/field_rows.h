@@ -47,6 +47,7 @@ struct Strained {
   int reference = 0;  ///< that node
   DofRanges ranges;  ///< of each dof of a node
 };
+/// Fills `strained`; its memory is used again.
 void take_strained(const Structure& structure, const PieceRows& piece, const FieldRows& fields, const DofRanges& ranges,
                    Strained& strained);
 /// out = rows * strained, as above.
@@ -69,6 +70,6 @@ struct Slopes {
   Eigen::VectorXd squares;
   double measure = 0;
 };
-Slopes slopes(const Structure& structure, const FieldRows& fields);
+Slopes slopes(const Structure& structure, const FieldRows& fields);  ///< of all ranks
 
 }  // namespace floe::fem

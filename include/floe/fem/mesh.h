@@ -31,6 +31,7 @@ using mesh::CellKind;
 ///
 /// phi is the one dof of theirs that is left, the rotation `spin_slot`; cells that touch them act on it and on the leader.
 struct Mesh {
+  /// An element: what it is, where it is, and which nodes move it.
   struct Cell {
     CellKind kind = CellKind::line;
     int part = 0;
@@ -71,6 +72,7 @@ struct Mesh {
   std::vector<Spin> spins;  ///< ascending
   std::vector<PetscInt> original;  ///< of local nodes: a numbering that does not depend on ranks; empty: the global one
 
+  /// From original numbers to global ones.
   struct Renumbering {
     std::vector<PetscInt> starts;  ///< of the ranks' shares of original numbers
     std::vector<PetscInt> global;  ///< of this rank's share
@@ -111,6 +113,7 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
 /// x -> R'(x - origin): the mesh in the axes of a frame. Rank-local.
 void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rotation);
 
+/// A node that was looked for by a point.
 struct NearestNode {
   PetscInt node;  ///< global; of equally near ones the first by original number, followers last
   double distance;

@@ -16,6 +16,7 @@ struct StrainRows {
   SmallRows L;    ///< s x dofs
   SmallRows G;    ///< g x dofs
   double weight;  ///< that the rows of L hold the root of [m], [m2]
+  /// A product of two slopes in the strain: C of slopes p and q.
   struct Term {
     int p, q;  ///< p <= q
     std::array<double, 3> C;

@@ -117,6 +117,7 @@ struct SpatialProbe {
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
 };
 
+/// A probe of a planar scene, by the markers that it looks at.
 struct ModelProbe {
   std::string name;
   Probe::Quantity quantity;

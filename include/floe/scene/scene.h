@@ -75,6 +75,7 @@ struct PartSpec {
 
 enum class Strain { averaged, pointwise };
 
+/// Where the floating frame is attached, as the scene gives it.
 struct FrameSpec {
   enum class Kind { pinned, clamped, mean_axis } kind = Kind::pinned;
   bool given = false;
@@ -83,6 +84,7 @@ struct FrameSpec {
   Where where;
 };
 
+/// Which vibration modes, as the scene gives it.
 struct ModesSpec {
   enum class Of { joints, frame } of = Of::joints;
   int count = 6;
@@ -91,6 +93,7 @@ struct ModesSpec {
   Where where;
 };
 
+/// Which modal derivatives, as the scene gives it.
 struct DerivativesSpec {
   enum class Choice { none, all, count, pairs } choice = Choice::all;
   int count = 0;                          ///< choice count: this many, first by maximum modal interaction
@@ -99,6 +102,7 @@ struct DerivativesSpec {
   Where where;
 };
 
+/// The reduced basis, as the scene gives it.
 struct ReductionSpec {
   ModesSpec modes;
   DerivativesSpec derivatives;
@@ -112,6 +116,7 @@ struct ReductionSpec {
   double drop_tolerance = 1e-9;
 };
 
+/// Damping of the elastic coordinates, as the scene gives it.
 struct DampingSpec {
   double mass = 0;            ///< Rayleigh alpha [1/s]
   double stiffness = 0;       ///< Rayleigh beta [s]
@@ -119,6 +124,7 @@ struct DampingSpec {
   Where where;
 };
 
+/// Position, velocity and deformation at the start.
 struct InitialSpec {
   Point position{};                                              ///< of the mesh's origin, world
   double angle = 0;                                              ///< of the mesh's axes [rad]; in the plane
@@ -166,6 +172,7 @@ struct LimitsSpec {
   Where where;
 };
 
+/// What holds two places together, as the scene gives it.
 struct Joint {
   /// In the plane: fixed to spring.
   enum class Kind {
@@ -205,6 +212,7 @@ struct Joint {
   Where where;
 };
 
+/// A force, moment or pressure, as the scene gives it.
 struct Load {
   enum class Kind { force, moment, distributed, pressure } kind = Kind::force;
   std::string name;
@@ -221,6 +229,7 @@ struct Load {
   bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
 };
 
+/// How long, and by what steps.
 struct Motion {
   double end = 0;  ///< 0: the scene has no motion
   double step = 0;
@@ -231,6 +240,7 @@ struct Motion {
   Where where;
 };
 
+/// What is recorded at a place.
 struct Probe {
   std::string name;
   Place at;
