@@ -333,7 +333,7 @@ int main(int argc, char** argv) {
       what = fmt::format(
           "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
           "motion, "
-          "plot, report, check or schema",
+          "plot, report, export, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }
