@@ -8,7 +8,7 @@ import numpy as np
 
 import geometric_stiffness
 import inertia_terms
-from reduced_body import in_space, on_columns
+from reduced_body import Fault, in_space, on_columns
 
 INDENT = "    "
 
@@ -110,6 +110,8 @@ def lines_of(whole, geometric, all_columns):
     whole = in_space(whole)
     all_stiffness = (geometric_stiffness.geometric_stiffness if geometric else geometric_stiffness.none)(whole)
     chosen = [i for i, kind in enumerate(whole.kinds) if all_columns or kind != "derivative"]
+    if chosen != list(range(len(chosen))):  # the basis was orthonormalised in its order
+        raise Fault("a derivative stands before a mode or static column, which holds a part of it; take --columns all")
     body = on_columns(whole, chosen)
 
     def stiffness_of(loads):
