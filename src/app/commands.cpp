@@ -115,7 +115,9 @@ std::string estimate_words(const scene::Estimate& estimate) {
 
 }  // namespace
 
-void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
+           const std::optional<std::string>& matrices, bool overwrite) {
+  if (matrices) scene::write_matrices(scene, comm, *matrices, overwrite);
   const std::vector<scene::BodyReport> bodies =
       path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
   if (!first_rank(comm)) return;
@@ -126,6 +128,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
+  if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
     if (!body.file.empty()) fmt::print("Note: body {} comes from {}, which holds its shapes\n", body.name, body.file);

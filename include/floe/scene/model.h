@@ -191,6 +191,14 @@ std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
 std::vector<BodyReport> write_modes(const Scene& scene, MPI_Comm comm, const std::filesystem::path& path,
                                     bool overwrite);
 
+/// Stiffness and mass matrix of every flexible body with a mesh, full order, under the conditions that its modes have:
+/// NAME-K.mtx and NAME-M.mtx (output/matrix_market.h) without the rows that are held, NAME-rows.txt with what each row
+/// is.
+/// @return  the bodies' names
+/// @throws InputError  as output::prepare_folder; no body with a mesh. Collective; rank 0 takes a whole matrix.
+std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const std::filesystem::path& folder,
+                                        bool overwrite);
+
 /// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
 Scene split_frames(const Scene& scene);
 
