@@ -113,7 +113,7 @@ struct ReductionSpec {
   std::vector<std::string> columns;
   Where columns_where;
   bool linear = false;  ///< elastic forces by the linear stiffness alone
-  double drop_tolerance = 1e-7;
+  double drop_tolerance = 1e-9;
 };
 
 /// Damping of the elastic coordinates, as the scene gives it.
@@ -133,6 +133,8 @@ struct InitialSpec {
   Point angular_velocity{};                                      ///< world; in the plane about z
   std::optional<std::array<math::Formula, 2>> deformation;       ///< (u, v)(x, y) in mesh axes
   std::optional<std::array<math::Formula, 2>> deformation_rate;  ///< likewise, 1/s
+  /// The same in space: (u, v, w)(x, y, z) in mesh axes.
+  std::optional<std::array<math::Formula, 3>> spatial_deformation, spatial_deformation_rate;
   Where where;
 };
 
@@ -197,8 +199,9 @@ struct Joint {
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
-  /// How the joint holds a place of many nodes: as one rigid piece where it holds all rotations, or by their mean.
-  enum class Edges { rigid, mean } edges = Edges::rigid;
+  /// How the joint holds a place of many nodes: as one rigid piece, as a hinge line (hinge_lines), or by their mean.
+  enum class Edges { rigid, mean, line } edges = Edges::rigid;
+  bool edges_given = false;
   Point second_axis{};                                      ///< universal: carried by the second place
   double stiffness = 0;                                     ///< spring [N/m]
   double viscosity = 0;                                     ///< spring [N s/m]
