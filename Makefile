@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff sanitize install package \
+.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize install package \
 	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
@@ -40,6 +40,9 @@ check64:
 
 tradeoff: build
 	@bash makefiles/tradeoff.sh $(BUILD)
+
+extremes: build
+	@bash makefiles/extremes.sh $(BUILD)
 
 bench-online: build
 	@bash makefiles/bench_online.sh $(BUILD)

@@ -25,7 +25,7 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
       table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
                             v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
                             std::string(v.unstable() ? "unstable"
-                                        : v.zero     ? "zero mode"
+                                        : v.zero     ? fmt::format("zero mode, or below {:.2g} rad/s", v.below)
                                                      : "")});
     }
   }
@@ -52,6 +52,8 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
     for (const dynamics::Vibration& v : point.vibrations)
       at["vibrations"].push_back(
           {{"Hz", v.omega / (2 * M_PI)}, {"rad_per_s", v.omega}, {"growth_per_s", v.growth}, {"zero", v.zero}});
+    for (std::size_t i = 0; i < point.vibrations.size(); ++i)
+      if (point.vibrations[i].zero) at["vibrations"][i]["below_rad_per_s"] = point.vibrations[i].below;
     j["speeds"].push_back(at);
   }
   j["warnings"] = diagram.model.warnings;

@@ -94,16 +94,24 @@ class Search {
     decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
   }
 
-  /// The richest model: responses join it until its estimate is a third of what is asked, four times at most.
+  /// The richest model: responses join it until its estimate is a third of what is asked, six times at most.
+  ///
+  /// What they change in the motion shows how good the estimate before them was: where the columns were far too poor
+  /// for it, it was too low, and the next ones are taken as many times greater.
   void enrich() {
-    constexpr int most_rounds = 4;
-    double first = 0;
+    constexpr int most_rounds = 6;
+    double first = 0, before = 0, too_low = 1;
     int responses = 0;
+    Series poorer;
     for (int round = 0;; ++round) {
-      const RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
-      states_ = result.states;
-      space_ = estimate_of(result);
-      if (round == 0) first = space_;
+      RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
+      states_ = std::move(result.states);
+      const double estimate = estimate_of(result);
+      if (round == 0) first = estimate;
+      if (round > 0 && before > 0)
+        too_low = std::max(1.0, (worst_error(poorer, result.series) + estimate) / before);
+      space_ = too_low * estimate;
+      before = estimate, poorer = std::move(result.series);
       if (space_ <= accuracy_ / 3 || round == most_rounds || pool_->columns().empty()) break;
       const int added = pool_->add_responses(result.estimate);
       if (added == 0) break;
@@ -116,6 +124,9 @@ class Search {
            responses > 0 ? fmt::format("{} responses to what is missing: estimated error {} (before: {})", responses,
                                        percent(space_), percent(first))
                          : "estimated error " + percent(space_));
+    if (too_low > 2)
+      decisions_.back().reason += fmt::format(
+          "; the first estimates were too low by as much as {:.2g}, which is counted", too_low);
   }
 
   double estimate_of(const RunResult& result) const {

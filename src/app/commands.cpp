@@ -204,12 +204,20 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   const auto probes_estimate = [&](const std::string& column) {
     return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
   };
-  for (const auto& event : s["events"])
+  constexpr std::size_t shown = 20;  // a body that rests on a stop bounces many times
+  std::size_t number = 0;
+  for (const auto& event : s["events"]) {
+    if (number++ == shown) {
+      fmt::print("... and {} events more, in summary.json\n", s["events"].size() - shown);
+      break;
+    }
     fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
                event["what"].get<std::string>(),
                event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
                                                         event["kinetic_energy_lost"].get<double>())
-                                          : "");
+               : event.contains("speed") ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
+                                         : "");
+  }
   if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};

@@ -46,6 +46,10 @@ void advance(const scene::Model& model, double t, double next, double least, Pet
   try {
     iterations += dynamics::equilibrium(*model.system, next, model.U, model.V);
     model.system->rebase(model.U);
+  } catch (const dynamics::NothingHolds&) {
+    throw;
+  } catch (const dynamics::LostInRoundOff&) {
+    throw;
   } catch (const RunError&) {
     check(VecCopy(before, model.U));
     if (next - t < 2 * least) throw;

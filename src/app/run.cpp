@@ -81,7 +81,7 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   const double begin = MPI_Wtime();
   scene::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
-    return scene::build(scene, formulation, comm, plan.estimate);
+    return scene::build(scene, formulation, comm, plan.estimate || plan.check_range);
   }();
   return move(scene, model, MPI_Wtime() - begin, comm, folder, plan);
 }

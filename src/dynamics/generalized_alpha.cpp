@@ -23,7 +23,7 @@ constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,     &Data::A0,   
                                   &Data::a_used,    &Data::base_q, &Data::base_v,    &Data::base_A,    &Data::dynamic,
                                   &Data::stiffness, &Data::mass,   &Data::row,       &Data::scale,     &Data::weight,
                                   &Data::origin,    &Data::turns,  &Data::tangent_U, &Data::tangent_V, &Data::tangent_A,
-                                  &Data::work_U,    &Data::work_V, &Data::work_A,    &Data::work_F};
+                                  &Data::work_U,    &Data::work_V, &Data::work_A,    &Data::work_F,    &Data::column};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;

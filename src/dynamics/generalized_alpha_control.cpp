@@ -130,7 +130,7 @@ PetscErrorCode estimate_error(TS ts) {
     for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i) rows[i] *= dynamic[i] * scale[i];
   }
   PetscCall(SNESGetKSP(ts->snes, &ksp));
-  PetscCall(KSPSolve(ksp, data->work_F, data->work_U));
+  PetscCall(solve_scaled(ts, data->work_F, data->work_U));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);

@@ -34,6 +34,8 @@ struct GeneralizedAlpha {
   Vec turns = nullptr;                    // of each row: 1 for an attitude, else 0
   Vec scale = nullptr, weight = nullptr;  // row scaling and |J_ii| (0 for multipliers), for the step size h_scale
   PetscReal h_scale = 0;
+  Vec column = nullptr;  // column scaling of the Jacobian that was formed last: 1 where `two_sided` is not set
+  PetscBool two_sided = PETSC_FALSE;
 
   // Newton's updates in the step under way, and what earlier steps taught about their rate.
   PetscReal update = 0, best = 0, first_update = 0;
@@ -117,6 +119,11 @@ PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 PetscErrorCode measure_scales(TS ts, Mat* inertia);
 /// Sets scale and weight for the shifts under way, and lets SNES form a new Jacobian.
 PetscErrorCode set_scales(TS ts);
+/// Scales a Jacobian that was just formed. What is solved with it, and multiplied with it, goes through the two below.
+PetscErrorCode scale_jacobian(TS ts, Mat P);
+/// x = J^-1 b and y = J x, rows scaled. The KSP says how the first went.
+PetscErrorCode solve_scaled(TS ts, Vec b, Vec x);
+PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y);
 /// Lets SNES form a new Jacobian and a new factorisation at the given iteration, whatever the lags.
 void renew_jacobian(SNES snes, PetscInt iteration);
 

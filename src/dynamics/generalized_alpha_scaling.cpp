@@ -3,9 +3,11 @@
 #include <vector>
 
 #include "generalized_alpha_data.h"
+#include "simplified_newton.h"
 
-// Rows are scaled, unknowns are not: LU with partial pivoting compares entries of a column, which row scaling gives one
-// unit. With w_i = |K_ii| + shift_a M_ii (the Jacobian's diagonal, an energy per unit of q_i squared)
+// Rows are scaled: a dense LU with partial pivoting compares entries of a column, which row scaling gives one unit. A
+// sparse one may compare those of a row (PETSc hands KLU the transpose, and leaves KLU's own scaling out): there the
+// unknowns are scaled likewise, and what it solves for is scaled back. With w_i = |K_ii| + shift_a M_ii (the Jacobian's diagonal, an energy per unit of q_i squared)
 //   dynamic row     1 / sqrt(w_i)
 //   constraint row  1 / sqrt(sum_j C_j^2 / w_j)
 // the dynamic rows get a unit diagonal in the variables sqrt(w_j) q_j and the constraint rows unit length, at any step
@@ -130,6 +132,56 @@ PetscErrorCode set_scales(TS ts) {
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);
+  PetscFunctionReturn(0);
+}
+
+// Both scales of a Jacobian that was just formed. The solution of what SNES itself solves is scaled back by
+// simplified-newton, which knows of it; other types of SNES do without.
+PetscErrorCode scale_jacobian(TS ts, Mat P) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscBool dense, knows, compared;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)P, &dense, MATSEQDENSE, MATDENSE, ""));
+  PetscCall(PetscObjectTypeCompare((PetscObject)ts->snes, simplified_newton, &knows));
+  PetscCall(PetscOptionsHasName(((PetscObject)ts->snes)->options, ((PetscObject)ts->snes)->prefix,
+                                "-snes_test_jacobian", &compared));  // with differences of F, which knows no columns
+  data->two_sided = !dense && knows && !compared ? PETSC_TRUE : PETSC_FALSE;
+  if (data->two_sided) PetscCall(VecCopy(data->scale, data->column));
+  PetscCall(MatDiagonalScale(P, data->scale, data->two_sided ? data->column : nullptr));
+  PetscCall(PetscObjectCompose((PetscObject)ts->snes, column_scales,
+                               data->two_sided ? (PetscObject)data->column : nullptr));
+  PetscFunctionReturn(0);
+}
+
+// x with J x = b, b in scaled rows. The caller asks the KSP how it went.
+PetscErrorCode solve_scaled(TS ts, Vec b, Vec x) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPSolve(ksp, b, x));
+  if (data->two_sided) PetscCall(VecPointwiseMult(x, x, data->column));
+  PetscFunctionReturn(0);
+}
+
+// y = J x, in scaled rows.
+PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat P;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
+  if (!data->two_sided) {
+    PetscCall(MatMult(P, x, y));
+    PetscFunctionReturn(0);
+  }
+  Vec unscaled;
+  PetscCall(VecDuplicate(x, &unscaled));
+  PetscCall(VecPointwiseDivide(unscaled, x, data->column));
+  PetscCall(MatMult(P, unscaled, y));
+  PetscCall(VecDestroy(&unscaled));
   PetscFunctionReturn(0);
 }
 

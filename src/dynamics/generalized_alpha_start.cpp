@@ -86,7 +86,7 @@ PetscErrorCode take_jacobian(TS ts) {
 
   PetscFunctionBegin;
   PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
-  PetscCall(MatDiagonalScale(P, generalized_alpha_data(ts)->scale, nullptr));
+  PetscCall(scale_jacobian(ts, P));
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(KSPSetReusePreconditioner(ksp, PETSC_FALSE));
   PetscCall(KSPSetOperators(ksp, P, P));
@@ -122,7 +122,7 @@ PetscErrorCode solve_constraint_rows(TS ts, Vec y, Vec x) {
       if (dynamic[i] != 0) rows[i] = 0;
   }
   PetscCall(SNESGetKSP(ts->snes, &ksp));
-  PetscCall(KSPSolve(ksp, y, x));
+  PetscCall(solve_scaled(ts, y, x));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Consistent start: the linear solve failed (%s); are constraints redundant?", KSPConvergedReasons[reason]);
@@ -134,14 +134,12 @@ PetscErrorCode solve_constraint_rows(TS ts, Vec y, Vec x) {
 PetscErrorCode split_normal(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal c = 1. / 6 - data->beta + (data->alpha_f - data->alpha_m) / 2;
-  Mat P;
 
   PetscFunctionBegin;
   PetscCall(VecCopy(data->jerk, data->work_V));
   PetscCall(VecScale(data->work_V, c));
   PetscCall(add_bracket(ts, 1. / 12, data->V0, data->A0, data->work_A, data->work_V));
-  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
-  PetscCall(MatMult(P, data->work_V, data->work_F));
+  PetscCall(multiply_scaled(ts, data->work_V, data->work_F));
   PetscCall(solve_constraint_rows(ts, data->work_F, data->normal));
   PetscFunctionReturn(0);
 }
@@ -153,23 +151,21 @@ PetscErrorCode leave_out_stiff(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
   KSPConvergedReason reason;
-  Mat P;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(ts->snes, &ksp));
-  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
   PetscCall(VecWAXPY(data->work_A, data->h, data->jerk, data->A0));
   PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, data->work_F));
   PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_V));
   PetscCall(VecAXPY(data->work_F, -1, data->work_V));
-  PetscCall(MatMult(P, data->jerk, data->work_V));
+  PetscCall(multiply_scaled(ts, data->jerk, data->work_V));
   {
     const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
     Changed rows(data->work_F);
     for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
       rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a / data->h * rows[i] : seen[i];
   }
-  PetscCall(KSPSolve(ksp, data->work_F, data->jerk));
+  PetscCall(solve_scaled(ts, data->work_F, data->jerk));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);

@@ -265,8 +265,8 @@ PetscErrorCode form_jacobian(SNES, Vec U, Mat J, Mat P, TS ts) {
 
   PetscFunctionBegin;
   PetscCall(TSComputeI2Jacobian(ts, end_time(ts), U, data->V1, data->A1, data->shift_v, data->shift_a, J, P));
-  PetscCall(MatDiagonalScale(P, data->scale, nullptr));
-  if (J != P) PetscCall(MatDiagonalScale(J, data->scale, nullptr));
+  PetscCall(scale_jacobian(ts, P));
+  if (J != P) PetscCall(MatDiagonalScale(J, data->scale, data->two_sided ? data->column : nullptr));
   PetscCall(VecCopy(U, data->tangent_U));
   PetscCall(VecCopy(data->V1, data->tangent_V));
   PetscCall(VecCopy(data->A1, data->tangent_A));

@@ -63,6 +63,7 @@ PetscErrorCode renew(SNES snes) {
 PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
   KSPConvergedReason reason;
   PetscInt iterations = 1;
+  Vec columns = nullptr;
 
   PetscFunctionBegin;
   *failed = PETSC_FALSE;
@@ -81,6 +82,8 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
     PetscCall(KSPGetIterationNumber(snes->ksp, &iterations));
     *failed = reason < 0 ? PETSC_TRUE : PETSC_FALSE;
   }
+  PetscCall(PetscObjectQuery((PetscObject)snes, column_scales, (PetscObject*)&columns));
+  if (columns) PetscCall(VecPointwiseMult(Y, Y, columns));
   snes->linear_its += iterations;
   PetscFunctionReturn(0);
 }

@@ -6,6 +6,10 @@ namespace floe::dynamics {
 /// Name of the SNES type.
 inline constexpr char simplified_newton[] = "simplified-newton";
 
+/// Name of a Vec composed with the SNES: what each entry of a linear solve is multiplied with, where the columns of J
+/// were scaled.
+inline constexpr char column_scales[] = "floe_column_scales";
+
 /// Registers the SNES type simplified-newton with PETSc.
 ///
 ///   J d = F(U),   U <- U - d,   J kept from before as the lags of SNES say

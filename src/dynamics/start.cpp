@@ -8,6 +8,7 @@
 #include "at_base.h"
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/values.h"
+#include "round_off.h"
 #include "undetermined.h"
 
 namespace floe::dynamics {
@@ -149,13 +150,14 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
   check(VecScale(F, -1));
   double wrong = 0, size = 0, change = 0;
   check(VecNorm(F, NORM_INFINITY, &wrong));
-  if (wrong <= 1e-12) return 0;  // round-off of a body at rest [m/s, rad/s]
+  if (wrong == 0) return 0;
   const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
   split(system, x, impulses, A);
   check(VecNorm(V, NORM_2, &size));
   check(VecNorm(A, NORM_2, &change));
   check(VecAXPY(V, 1, A));
-  return size > 0 ? change / size : (change > 0 ? 1 : 0);
+  if (size > 0) return change / size;
+  return wrong > 1e-12 ? 1 : 0;  // bodies at rest, and drives whose rates are round-off: nothing to tell of
 }
 
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {
@@ -169,6 +171,7 @@ struct EquilibriumContext {
   double t;
   Vec V, A;
   petsc::Guard guard;
+  double open = 0;  ///< where nothing but round-off is left of the forces: the last step's share of the configuration
 };
 
 PetscErrorCode equilibrium_residual(SNES, Vec U, Vec F, void* context) {
@@ -267,33 +270,38 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
                           "less",
                           open.joints)));
   throw NothingHolds(fault(fmt::format(
-      "nothing holds the configuration in some direction{}; start from another one (`initial`)", open.bodies)));
+      "nothing holds the configuration in some direction{}, or so little that it is round-off of what holds the rest; "
+      "start from another one (`initial`)",
+      open.bodies)));
 }
 
-/// What of the residual is round-off where its terms cancel, 4 eps |(|J| |U|)|: a search that begins at an equilibrium
-/// cannot fall below it. 0 on several ranks.
-double round_off(const System& system, double t, Vec U, Vec V, Vec A, Mat J) {
-  int ranks = 1;
-  MPI_Comm_size(system.comm(), &ranks);
-  if (ranks > 1) return 0;
-  system.tangent(t, U, V, A, {1, 0, 0}, J);
-  const double* u = nullptr;
-  double square = 0;
-  PetscInt rows = 0;
-  check(MatGetSize(J, &rows, nullptr));
-  check(VecGetArrayRead(U, &u));
-  for (PetscInt i = 0; i < rows; ++i) {
-    PetscInt n = 0;
-    const PetscInt* columns = nullptr;
-    const double* values = nullptr;
-    double sum = 0;
-    check(MatGetRow(J, i, &n, &columns, &values));
-    for (PetscInt k = 0; k < n; ++k) sum += std::abs(values[k] * u[columns[k]]);
-    check(MatRestoreRow(J, i, &n, &columns, &values));
-    square += sum * sum;
-  }
-  check(VecRestoreArrayRead(U, &u));
-  return 4 * PETSC_MACHINE_EPSILON * std::sqrt(square);
+constexpr double open_limit = 1e-6;
+
+/// As SNES does it, or where nothing but round-off is left of any row (rows have units of their own, so that no norm of
+/// them all tells): a search may begin there, or arrive because some forces are stiff beside the rest. Then the last
+/// step is what another one would do, and too much of it is not accepted.
+PetscErrorCode equilibrium_converged(SNES snes, PetscInt iteration, PetscReal size, PetscReal step, PetscReal residual,
+                                     SNESConvergedReason* reason, void* context) {
+  auto& c = *static_cast<EquilibriumContext*>(context);
+  const PetscErrorCode code = SNESConvergedDefault(snes, iteration, size, step, residual, reason, nullptr);
+  if (code || *reason != SNES_CONVERGED_ITERATING || iteration == 1 || iteration == 2) return code;
+  return c.guard.run([&] {
+    Vec U = nullptr, F = nullptr;
+    check(SNESGetSolution(snes, &U));
+    check(SNESGetFunction(snes, &F, nullptr, nullptr));
+    const petsc::MatHandle J = c.system.create_tangent();
+    c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J);
+    if (!is_round_off(J, U, F, iteration == 0 ? 4 : 256)) return;
+    if (iteration > 0) {
+      Vec last = nullptr;
+      check(SNESGetSolutionUpdate(snes, &last));
+      c.open = share_of(J, last, U);
+    }
+    if (c.open <= open_limit)
+      *reason = SNES_CONVERGED_FNORM_ABS;
+    else if (iteration >= 10)
+      *reason = SNES_DIVERGED_MAX_IT;
+  });
 }
 
 }  // namespace
@@ -304,7 +312,7 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   const PetscInt relaxed = prepare_search(system, t, U, V);
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
-  EquilibriumContext context{system, t, V, A, {}};
+  EquilibriumContext context{system, t, V, A, {}, 0};
   petsc::SnesHandle snes;
   KSP ksp = nullptr;
   SNESLineSearch search = nullptr;
@@ -312,7 +320,8 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   check(SNESSetOptionsPrefix(snes, "static_"));
   check(SNESSetFunction(snes, F, equilibrium_residual, &context));
   check(SNESSetJacobian(snes, J, J, equilibrium_tangent, &context));
-  check(SNESSetTolerances(snes, round_off(system, t, U, V, A, J), 1e-11, 1e-11, 100, 10000));
+  check(SNESSetTolerances(snes, 0, 1e-11, 1e-11, 100, 10000));
+  check(SNESSetConvergenceTest(snes, equilibrium_converged, &context, nullptr));
   check(SNESSetDivergenceTolerance(snes, -1));  // the first step stretches slender bodies by (L/r)^2
   check(SNESGetLineSearch(snes, &search));
   check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
@@ -341,6 +350,11 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
     throw RunError(fmt::format(
         "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
   }
+  if (why.empty() && context.open > open_limit)
+    throw LostInRoundOff(
+        fmt::format("no equilibrium at t = {:.6g}: round-off of the greatest forces leaves {:.2g} of the configuration "
+                    "open (limit {:.0e}); stiffnesses, or the sides of cells, differ too much for double precision",
+                    t, context.open, open_limit));
   if (why.empty()) why = SNESConvergedReasons[reason];
   throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
                              iterations));

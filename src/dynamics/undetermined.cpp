@@ -51,6 +51,18 @@ std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::
   return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
 }
 
+/// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is held, however
+/// softly, is more.
+Eigen::Index true_null_vectors(const Eigen::MatrixXd& J, const Eigen::MatrixXd& vectors) {
+  constexpr double several = 128 * PETSC_MACHINE_EPSILON;
+  Eigen::Index count = 0;
+  for (Eigen::Index i = vectors.cols() - 1; i >= 0; --i, ++count) {
+    const double terms = std::max(1.0, (J.cwiseAbs() * vectors.col(i).cwiseAbs()).maxCoeff());
+    if ((J * vectors.col(i)).cwiseAbs().maxCoeff() > several * terms) break;
+  }
+  return count;
+}
+
 }  // namespace
 
 Undetermined null_vectors(const System& system, Mat J) {
@@ -64,7 +76,9 @@ Undetermined null_vectors(const System& system, Mat J) {
   if (pivots.minCoeff() > nothing) return {};
   const Eigen::BDCSVD<Eigen::MatrixXd> svd(J_scaled, Eigen::ComputeFullV);
   const Eigen::VectorXd& size = svd.singularValues();  // descending
-  const Eigen::Index count = (size.array() <= std::max(10 * nothing, 1.001 * size[size.size() - 1])).count();
+  const Eigen::Index near = (size.array() <= std::max(10 * nothing, 1.001 * size[size.size() - 1])).count();
+  const Eigen::Index count = true_null_vectors(J_scaled, svd.matrixV().rightCols(near));
+  if (count == 0) return {};
   const Eigen::MatrixXd N = svd.matrixV().rightCols(count);
   const std::vector<char> multiplier = multiplier_rows(system);
   double of_multipliers = 0;  // K q = 0 and C'l = 0 go apart: the number of null vectors of the latter kind

@@ -28,8 +28,12 @@ petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& c
   double* values = nullptr;
   check(VecGetOwnershipRange(x, &first, &end));
   check(VecGetArrayWrite(x, &values));
-  for (PetscInt i = 0; i < end - first; ++i)
-    values[i] = std::sin(12.9898 * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5;
+  const double length = fem::extent(structure);  // rotations of the size that displacements give, in any units
+  for (PetscInt i = 0; i < end - first; ++i) {
+    const bool rotation = i % structure.dofs_per_node >= structure.dimension();
+    values[i] = (std::sin(12.9898 * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5) *
+                (rotation ? 1 / length : 1);
+  }
   check(VecRestoreArrayWrite(x, &values));
   fem::hold(x, conditions);
   return x;

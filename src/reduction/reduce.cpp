@@ -29,6 +29,20 @@ Generators generators(const fem::Structure& structure, const fem::ReferenceFrame
 
 namespace {
 
+/// Of a load, where a moment counts as the force that has it over the body's extent. [N] Collective.
+double size_of_load(const fem::Structure& structure, Vec load) {
+  const int n = structure.dofs_per_node;
+  const double length = fem::extent(structure);
+  double square = 0;
+  {
+    petsc::Values own(load);
+    for (PetscInt i = own.first; i < own.end; ++i)
+      square += std::pow(i % n < structure.dimension() ? own[i] : own[i] / length, 2);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  return std::sqrt(square);
+}
+
 /// Responses to all attachments, in their order.
 Columns static_columns(const fem::Structure& structure, const Statics& statics,
                        const std::vector<Attachment>& attachments) {
@@ -64,8 +78,12 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
   double greatest = 0;
   std::vector<double> norms;
   for (const auto& response : responses) norms.push_back(mass_norm(M, response));
-  for (std::size_t i = 0; i < norms.size(); ++i)  // of loads: those of displacements have a scale of their own
-    if (attachments[i].load) greatest = std::max(greatest, norms[i]);
+  for (std::size_t i = 0; i < norms.size(); ++i) {  // of loads: those of displacements have a scale of their own
+    if (!attachments[i].load) continue;
+    const double size = size_of_load(structure, attachments[i].load);
+    if (size > 0) norms[i] /= size;
+    greatest = std::max(greatest, norms[i]);
+  }
   for (std::size_t i = 0; i < responses.size(); ++i) {
     ColumnOrigin origin{ColumnOrigin::Kind::attachment, "attachment " + attachments[i].label};
     if (norms[i] <= (attachments[i].load ? 1e-10 * greatest : 0)) {

@@ -34,13 +34,15 @@ Eigen::Vector2d third(double length, const Eigen::Vector2d& d) {
 }  // namespace
 
 Chord chord_at(const Eigen::Vector2d& undeformed, const Six& q) {
-  const Eigen::Vector2d d = undeformed + stretch(q);
+  const Eigen::Vector2d s = stretch(q), d = undeformed + s;
   const double length = d.norm(), mean = (q[2] + q[5]) / 2;
+  // of the displacements alone: beside the undeformed chord, small ones would come in stairs of its round-off
+  const double elongation = s.dot(undeformed + d) / (length + undeformed.norm());
   const Eigen::Vector2d e = d / length, n(-e[1], e[0]);
-  const double turn = std::atan2(undeformed[0] * d[1] - undeformed[1] * d[0], undeformed.dot(d));
+  const double turn = std::atan2(undeformed[0] * s[1] - undeformed[1] * s[0], undeformed.dot(d));
   constexpr double whole = 2 * std::numbers::pi;
   const double beta = turn + whole * std::round((mean - turn) / whole);
-  return {length, e, n, {q[2] - beta, q[5] - beta}};
+  return {length, elongation, e, n, {q[2] - beta, q[5] - beta}};
 }
 
 Six on_chord(const Chord& chord, const Six& x) {

@@ -15,6 +15,7 @@ using SevenSquare = Eigen::Matrix<double, 7, 7>;
 
 struct Chord {
   double length;
+  double elongation;      ///< length less the undeformed one, without the cancellation of that difference
   Eigen::Vector2d e, n;   ///< along it from node 1 to node 2, and a quarter turn further; world axes
   Eigen::Vector2d local;  ///< a_i = theta_i - beta [rad], beta next to their mean by whole turns
 };

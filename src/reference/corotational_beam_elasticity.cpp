@@ -4,7 +4,7 @@
 namespace floe::reference::corotational {
 
 double membrane_strain(const Moments& m, double length, const Chord& chord) {
-  return (chord.length - length) / length + chord.local.dot(m.slope * chord.local) / 2;
+  return chord.elongation / length + chord.local.dot(m.slope * chord.local) / 2;
 }
 
 double elastic_energy(const Moments& m, double length, const Chord& chord) {

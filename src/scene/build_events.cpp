@@ -33,6 +33,16 @@ std::optional<double> first_sign_change(const math::Formula& formula, double ste
   return {};
 }
 
+/// Of an event that a formula of t decides; infinite: never.
+double time_of(const Event& event, double step, double end) {
+  try {
+    return first_sign_change(*event.when, step, end).value_or(INFINITY);
+  } catch (const math::FormulaError& error) {
+    throw InputError(
+        fmt::format("{}.when: {}; expected a finite number until it changes sign", event.where.text(), error.what()));
+  }
+}
+
 /// The index of a column of the probes.
 std::size_t column_of(const Event& event, const Model& model) {
   std::vector<std::string> names;
@@ -79,16 +89,26 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
       if (lock) out.first_row = latches.first_row, out.rows = latches.rows;
     }
     if (event.at) out.at = *event.at;
-    if (event.when) {
-      const auto at = first_sign_change(*event.when, scene.motion.step, end);
-      out.at = at.value_or(INFINITY);
-    }
+    if (event.when) out.at = time_of(event, scene.motion.step, end);
     if (!event.probe.empty()) {
       const std::size_t column = column_of(event, model);
       out.crosses = [&model, column, value = event.crosses](double t, Vec U, Vec V) {
         return probe_values(model, t, U, V)[column] - value;
       };
     }
+    events.push_back(std::move(out));
+  }
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    const ModelStop& stop = model.stops[i];
+    const bool second = std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
+      return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
+    });
+    const std::string side = std::string(second ? "turn_" : "") + (stop.upper ? "upper" : "lower");
+    dynamics::Event out;
+    out.name = fmt::format("{}.{}", stop.joint, side);
+    out.what = fmt::format("joint {} hits its {} limit", stop.joint, side);
+    out.what_back = fmt::format("joint {} leaves its {} limit", stop.joint, side);
+    out.gap = [&model, i](double, Vec U, Vec V) { return stop_gap(model, i, U, V); };
     events.push_back(std::move(out));
   }
   return events;

@@ -36,24 +36,43 @@ Samples undeformed(const PreparedBody& body) {
   return axis;
 }
 
-Samples sampled(const PreparedBody& body, const Samples& axis, const Formulas& formulas) {
+/// The derivative along the cell at its end `x`, from values within the cell: a formula need not go on behind it.
+/// Differences of fourth order.
+template <class Value>
+Eigen::Vector2d slope_at(const Eigen::Vector2d& x, const Eigen::Vector2d& inward, double h, Value value) {
+  constexpr double weights[] = {-25, 48, -36, 16, -3};
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 5; ++k) sum += weights[k] * value(x + k * h * inward);
+  return sum / (12 * h);
+}
+
+/// @param key  of the formulas, for complaints. Collective.
+/// @throws InputError  one of them yields no number somewhere on the body
+Samples sampled(const PreparedBody& body, const Samples& axis, const Formulas& formulas, const char* key) {
   const fem::Mesh& mesh = body.structure.mesh;
   auto value = [&](const Eigen::Vector2d& X) -> Eigen::Vector2d {
     if (!formulas) return Eigen::Vector2d::Zero();
     return {(*formulas)[0](X.x(), X.y()), (*formulas)[1](X.x(), X.y())};
   };
   Samples field;
-  for (const Eigen::Vector2d& X : axis.values) field.values.push_back(value(X));
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-    const auto& nodes = mesh.cells[c].corner;
-    CellEnds& slopes = field.slopes.emplace_back();
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::Vector2d X = body.frame_origin + turn(body.frame_angle) * mesh.positions[nodes[i]].head<2>();
-      const double h = 1e-4 * (mesh.positions[nodes[1]] - mesh.positions[nodes[0]]).norm();
-      const Eigen::Vector2d step = h * axis.slopes[c][i];
-      slopes[i] = (8 * (value(X + step) - value(X - step)) - (value(X + 2 * step) - value(X - 2 * step))) / (12 * h);
+  petsc::agree(mesh.comm, [&] {
+    try {
+      for (const Eigen::Vector2d& X : axis.values) field.values.push_back(value(X));
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+        const auto& nodes = mesh.cells[c].corner;
+        CellEnds& slopes = field.slopes.emplace_back();
+        const double h = 1e-4 * (mesh.positions[nodes[1]] - mesh.positions[nodes[0]]).norm();
+        for (int i = 0; i < 2; ++i) {
+          const Eigen::Vector2d X = body.frame_origin + turn(body.frame_angle) * mesh.positions[nodes[i]].head<2>();
+          const double inward = i == 0 ? 1 : -1;
+          slopes[i] = inward * slope_at(X, inward * axis.slopes[c][i], h, value);
+        }
+      }
+    } catch (const math::FormulaError& error) {
+      throw InputError(body.spec.initial.where.text() + "." + key + ": " + error.what() +
+                       "; expected a finite number at every point of the body");
     }
-  }
+  });
   return field;
 }
 
@@ -85,7 +104,7 @@ struct DeformedBody {
   Samples undeformed, axis;  ///< mesh axes
 
   DeformedBody(const PreparedBody& b) : body(b), undeformed(scene::undeformed(b)) {
-    axis = sampled(b, undeformed, b.spec.initial.deformation);
+    axis = sampled(b, undeformed, b.spec.initial.deformation, "deformation");
     for (std::size_t i = 0; i < axis.values.size(); ++i) axis.values[i] += undeformed.values[i];
     for (std::size_t c = 0; c < axis.slopes.size(); ++c)
       for (int i = 0; i < 2; ++i) axis.slopes[c][i] += undeformed.slopes[c][i];
@@ -180,7 +199,7 @@ void start_body(PreparedBody& body) {
       fem::to_frame(body.frame, body.deformation);
     }
     if (start.deformation_rate) {
-      body.deformation_rate = deformed.rate(pose, sampled(body, deformed.undeformed, start.deformation_rate));
+      body.deformation_rate = deformed.rate(pose, sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate"));
       const petsc::VecHandle rotation = deformed.rotation(pose);
       const Eigen::Vector3d motion = rigid_part(body.frame, rotation, body.deformation_rate).motion;
       rates << turn(pose[2]) * motion.head<2>(), motion[2];
@@ -203,7 +222,7 @@ Eigen::MatrixX2d section_angles(const PreparedBody& body) {
   Eigen::MatrixX2d angles = Eigen::MatrixX2d::Zero(body.structure.mesh.owned_nodes, 2);
   if (!start.deformation && !start.deformation_rate) return angles;
   const DeformedBody deformed(body);
-  const Samples w = sampled(body, deformed.undeformed, start.deformation_rate);
+  const Samples w = sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate");
   const Eigen::Matrix2d At = turn(start.angle - body.pose[2]);
   const double turned = body.velocity[2] - start.angular_velocity[2];  // of the frame in mesh axes
   auto none = [](PetscInt) { return Eigen::Vector2d(Eigen::Vector2d::Zero()); };

@@ -135,25 +135,52 @@ void judge_stretching(const BodyReport& body, const Seen& seen, double omega, bo
                                body.name, 100 * seen.membrane / seen.bending, remedy)});
 }
 
-struct LoadRate {
-  std::string name;
-  double omega = 0;  ///< rms rate over rms value
-  std::string body;
+/// What drives bodies by formulas of t.
+struct Excitation {
+  std::string name;  ///< of a load, or the scene's key
+  std::string words;
+  std::string body;  ///< empty: all
+  std::vector<math::Formula> formulas;
 };
 
+std::vector<Excitation> excitations(const Scene& scene) {
+  std::vector<Excitation> all;
+  for (const Load& load : scene.loads) {
+    Excitation one{load.name, "load " + load.name, load.spread() ? load.body : load.at.body, {load.pressure}};
+    one.formulas.insert(one.formulas.end(), load.force.begin(), load.force.end());
+    one.formulas.insert(one.formulas.end(), load.moment.begin(), load.moment.end());
+    all.push_back(std::move(one));
+  }
+  const auto& g = scene.gravity;
+  const auto& a = scene.ground_acceleration;
+  all.push_back({"gravity", "gravity", "", {g.begin(), g.end()}});
+  all.push_back({"ground.acceleration", "ground.acceleration", "", {a.begin(), a.end()}});
+  return all;
+}
+
+struct LoadRate {
+  Excitation of;
+  double omega = 0;  ///< rms rate over rms value
+};
+
+/// Those that are something. A formula without a finite rate between the steps has none that can be judged.
 std::vector<LoadRate> rates_of_loads(const Scene& scene) {
   constexpr int points = 2000;
   std::vector<LoadRate> all;
-  for (const Load& load : scene.loads) {
+  for (Excitation& one : excitations(scene)) {
     double rate = 0, size = 0;
-    for (const auto& formulas : {load.force, load.moment})
-      for (const math::Formula& formula : formulas)
-        for (int i = 0; i < points; ++i) {
+    try {
+      for (const math::Formula& formula : one.formulas)
+        for (int i = 0; i < points && !formula.constant(); ++i) {
           const double t = scene.motion.end * (i + 0.5) / points;
           rate += std::pow(formula.derivative(t), 2), size += std::pow(formula(t), 2);
         }
-    const std::string body = load.kind == Load::Kind::distributed ? load.body : load.at.body;
-    if (size > 0 && std::isfinite(rate)) all.push_back({load.name, std::sqrt(rate / size), body});
+    } catch (const math::FormulaError&) {
+      continue;
+    }
+    for (const math::Formula& formula : one.formulas)
+      if (formula.constant()) size += points * std::pow(formula(), 2);
+    if (rate > 0 && std::isfinite(rate / size)) all.push_back({std::move(one), std::sqrt(rate / size)});
   }
   return all;
 }
@@ -161,13 +188,13 @@ std::vector<LoadRate> rates_of_loads(const Scene& scene) {
 void judge_loads(const Scene& scene, const Model& model, std::vector<OutOfRange>& out) {
   for (const LoadRate& load : rates_of_loads(scene))
     for (const BodyReport& body : model.bodies) {
-      if (body.name != load.body || body.omega.empty() || body.rigid) continue;
+      if ((!load.of.body.empty() && body.name != load.of.body) || body.omega.empty() || body.rigid) continue;
       const double share = load.omega / body.omega.back();
       if (share > 0.5)
-        out.push_back({"load", load.name, share, 0.5,
-                       fmt::format("load {}: changes at {:.3g} rad/s, {:.2g} of the highest kept frequency of body {} "
+        out.push_back({"load", load.of.name, share, 0.5,
+                       fmt::format("{}: changes at {:.3g} rad/s, {:.2g} of the highest kept frequency of body {} "
                                    "(limit 0.5): give it more modes",
-                                   load.name, load.omega, share, body.name)});
+                                   load.of.words, load.omega, share, body.name)});
     }
 }
 
@@ -179,7 +206,7 @@ void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>&
     if (seen[b].size > 0 && std::sqrt(seen[b].rate / seen[b].size) > fastest)
       fastest = std::sqrt(seen[b].rate / seen[b].size), of = "deformations of body " + model.bodies[b].name;
   for (const LoadRate& load : rates_of_loads(scene))
-    if (load.omega > fastest) fastest = load.omega, of = "load " + load.name;
+    if (load.omega > fastest) fastest = load.omega, of = load.of.words;
   const double turn = scene.motion.step * fastest;
   if (turn > 0.25)
     out.push_back(

@@ -12,6 +12,12 @@ namespace floe::scene {
 namespace {
 
 constexpr std::size_t longest_formula = 2000;
+constexpr double least_size = 1e-120, greatest_size = 1e120;  // squares and their quotients stay finite
+
+bool out_of_size(double number) {
+  const double size = std::abs(number);
+  return size != 0 && !(size >= least_size && size <= greatest_size);  // NaN was told before
+}
 
 // The number that a text is: digits as in C or YAML's .inf and .nan; nothing for any other text.
 std::optional<double> plain_number(std::string text) {
@@ -92,6 +98,10 @@ double read_number(Document& document, const Value& value, const Key& key) {
     const std::string& text = value.node.Scalar();
     const std::string is = plain_number(text) ? "is " + text : fmt::format("{} is {}", quoted(text), number);
     document.fault(value.where, is, expected_number(key, "a number"));
+  } else if (key.type != Type::parameters && out_of_size(number)) {
+    document.fault(value.where, fmt::format("is {}, whose products leave the range of double precision", number),
+                   fmt::format("0 or a size from {:.0e} to {:.0e}, in units of the problem's own size", least_size,
+                               greatest_size));
   }
   return document.fault_count() == before ? number : NAN;
 }

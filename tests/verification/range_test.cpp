@@ -101,3 +101,61 @@ TEST_CASE("range: loads against kept frequencies, and the step against what move
   CHECK_FALSE(fast.count("step"));
   CHECK(said(judged(text_of({.end = "1.5", .step = "5e-2"}), Formulation::vm_md)).count("step"));
 }
+
+TEST_CASE("range: gravity, a shaken ground and pressure have spectra as loads have") {
+  // Two modes of a cantilever, to 22.0 rad/s; the excitation at 60 rad/s.
+  const auto shaken = [](const std::string& excitation) {
+    return said(judged(excitation + R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 2}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+motion: {end: 0.5, step: 1e-3}
+)yaml",
+                       Formulation::vm_md));
+  };
+  for (const char* key : {"gravity: ", "ground:\n  acceleration: "}) {
+    const auto lines = shaken(key + std::string("[0, 9.81*sin(60*t)]\n"));
+    REQUIRE(lines.count("load"));
+    CHECK(lines.at("load") == Approx(60 / 22.03).epsilon(0.05));
+  }
+  CHECK_FALSE(shaken("gravity: [0, -9.81]\n").count("load"));
+  // The ratio of root mean squares: a constant part counts as what it is.
+  CHECK_FALSE(shaken("gravity: [0, -9.81 + 0.1*sin(60*t)]\n").count("load"));
+
+  const auto blown = said(judged(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [8, 4]}}
+    section: {thickness: 0.02}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 1}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads: {gust: {type: pressure, body: plate, pressure: 10*sin(200*t)}}
+motion: {end: 0.1, step: 1e-3}
+)yaml",
+                                 Formulation::vm_md));
+  REQUIRE(blown.count("load"));
+  CHECK(blown.at("load") == Approx(200 / 26.5).epsilon(0.1));  // f1 = 4.217 Hz (Leissa's plate, converged)
+}
+
+TEST_CASE("range: a load without a finite rate somewhere between the steps is left to those that have one") {
+  const auto lines = said(judged(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 2}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads:
+  kink: {type: force, at: beam.end, force: [0, "sqrt(abs(t - 0.25/2000))"]}  # the first time that is looked at
+  fast: {type: force, at: beam.end, force: [0, "0.01*sin(60*t)"]}
+motion: {end: 0.5, step: 1e-3}
+)yaml",
+                                 Formulation::vm_md));
+  CHECK(lines.count("load"));
+}

@@ -35,6 +35,11 @@ class NothingHolds : public RunError {
   using RunError::RunError;
 };
 
+/// Round-off of the greatest forces leaves the equilibrium open: smaller steps of the loads find no more.
+class LostInRoundOff : public RunError {
+  using RunError::RunError;
+};
+
 /// Coordinates and multipliers with F(t, U, V, 0) = 0 at given velocities: a static equilibrium (V = 0) or the steady
 /// shape of a body that turns at constant speed.
 ///
@@ -42,7 +47,7 @@ class NothingHolds : public RunError {
 /// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
 /// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
 /// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
-/// NothingHolds; U is then whatever it was last. Collective.
+/// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
 
 /// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for

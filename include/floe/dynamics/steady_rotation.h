@@ -57,6 +57,7 @@ struct Vibration {
   double omega = 0;   ///< [rad/s]
   double growth = 0;  ///< [1/s]; > 0: unstable, < 0: damped
   bool zero = false;  ///< neither swings nor grows: the scene may turn on or drift this way
+  double below = 0;   ///< of a zero: what is slower cannot be told from it beside the fastest vibrations [rad/s]
   bool unstable() const { return growth > 0; }
 };
 

@@ -9,7 +9,7 @@ namespace floe::scene {
 /// A model that has left the range in which it is good: one line with the number, the limit and what to do.
 struct OutOfRange {
   std::string what;  ///< `slope`, `spin`, `shortening`, `membrane`, `load`, `step`
-  std::string of;    ///< of a body or a load
+  std::string of;    ///< of a body or a load; `gravity`, `ground.acceleration`
   double value = 0, limit = 0;
   std::string text;
 };
@@ -23,7 +23,8 @@ struct OutOfRange {
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
 ///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
 ///   membrane    energy over that of bending, without derivatives to relieve it; limit 2 %
-///   load        rms rate over rms value of a load against the highest kept frequency; limit 0.5
+///   load        rms rate over rms value of a load, gravity or the ground's acceleration against the highest kept
+///               frequency; limit 0.5
 ///   step        times the fastest rate of what moves (rms rate of the deformations over their rms, loads); limit 0.25,
 ///               25 steps a period: generalised-alpha then lengthens periods by half a per cent
 ///

@@ -35,3 +35,35 @@ probes:
     }
   }
 }
+
+namespace {
+
+std::string shaped(const std::string& initial) {
+  return R"yaml(
+bodies:
+  b:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 5}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    frame: clamped
+    initial: {)yaml" +
+         initial + R"yaml(}
+motion: {end: 1, step: 0.1}
+probes: {p: {at: {body: b, node: [0.2, 0]}, quantity: rotation}}
+)yaml";
+}
+
+}  // namespace
+
+TEST_CASE("a deformed shape ends where the body does: its formula need not go on behind it") {
+  for (const char* keys : {"deformation: [0, \"0.01*x^1.5\"]", "deformation_rate: [0, \"0.01*sqrt(x*(1 - x))\"]"})
+    CHECK(testing::complaint(shaped(keys), Formulation::cfr) == "");
+}
+
+TEST_CASE("a deformed shape that is no number between the ends is told with its key") {
+  const std::string told =
+      testing::complaint(shaped("deformation: [0, \"sqrt(abs(x - 0.5) - 0.2)\"]"), Formulation::nlffr);
+  CHECK(told.find("test.yaml:7") == 0);
+  CHECK(told.find("initial.deformation: \"sqrt(abs(x - 0.5) - 0.2)\" is not a number at x = 0.4") != std::string::npos);
+  CHECK(testing::complaint(shaped("deformation_rate: [\"1/(x - 0.4)\", 0]"), Formulation::nlffr)
+            .find("deformation_rate: \"1/(x - 0.4)\" is infinite at x = 0.4") != std::string::npos);
+}

@@ -187,3 +187,14 @@ TEST_CASE("joints and probes that events name must be there") {
   CHECK_THAT(fault("e: {stop: true, probe: turns.angle, crosses: 1}"), Contains("did you mean \"turn\"?"));
   CHECK_THAT(fault("e: {stop: true, at: 2}"), Contains("at most motion.end, 1"));
 }
+
+TEST_CASE("a formula of an event that is no number is told with its key, unless the event comes before") {
+  const auto events = [](const std::string& when) {
+    const scene::Scene scene = scene::parse_scene(rod("e: {stop: true, when: \"" + when + "\"}"), "scene");
+    const scene::Model model = scene::build(scene, scene::Formulation::vm_md, PETSC_COMM_WORLD);
+    return scene::events_of(scene, model, 1);
+  };
+  using Catch::Contains;
+  CHECK_THROWS_WITH(events("sqrt(0.5 - t) + 1"), Contains(".when: \"sqrt(0.5 - t) + 1\" is not a number at t = 0.5"));
+  CHECK(events("sqrt(0.5 - t) - 0.5")[0].at == Approx(0.25));
+}

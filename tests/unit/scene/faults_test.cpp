@@ -92,3 +92,21 @@ TEST_CASE("aliases that multiply do not multiply the work") {
   }
   CHECK_THROWS_AS(scene::parse_scene(text + "bodies: *a59\nmotion: *a59\ngravity: *a59\n", "lol"), InputError);
 }
+
+TEST_CASE("numbers whose products are none in double precision are refused") {
+  const auto told = [](const std::string& EI) {
+    try {
+      scene::parse_scene("bodies:\n  b:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}\n    section: {EA: 1, EI: " +
+                             EI + ", rhoA: 1}\nmotion: {end: 1, step: 0.1}\n",
+                         "s.yaml");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* EI : {"1e-310", "1e-200", "1e200", "10^(-200)"})
+    CHECK(told(EI).find("bodies.b.section.EI: is ") != std::string::npos);
+  CHECK(told("1e200").find("is 1e+200, whose products leave the range of double precision; expected 0 or a size from "
+                           "1e-120 to 1e+120") != std::string::npos);
+  CHECK(told("1e-119") == "");
+}

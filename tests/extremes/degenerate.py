@@ -1,0 +1,225 @@
+"""Equal frequencies, mechanisms, columns that repeat one another, many derivatives, nothing at all."""
+import math
+
+from contrasts import one_body
+from floe import Floe, relative
+from reference import beam_in_segments
+from scenes import cantilever, pendulum, plate, spatial_cantilever, tip_force
+from study import Answer, Point, Study
+
+
+def nearly_square(floe: Floe, gap, formulation, command):
+    """Two bending modes whose frequencies differ by `gap`: the answers are those of the square section."""
+    def answer(eps):
+        h = 0.02
+        scene = spatial_cantilever(h, h * (1 + eps), 8, modes=4, E=12 / h**4,
+                                   rho=1 / h**2, loads=tip_force(0, "0.1*sin(5*t)", "0.07*sin(3*t)"))
+        if command == "static":
+            return floe.static(scene, formulation, "--at", "0.3", "--steps", "1").vector("tip")[-1]
+        return floe.run(scene, formulation).vector("tip")
+    return relative(answer(gap), answer(0.0))
+
+
+def turned(floe: Floe, angle, formulation):
+    """A square section whose equal modes may lie anyhow: turned about the beam, the same motion."""
+    def answer(a):
+        h = 0.02
+        scene = spatial_cantilever(h, h, 8, modes=4, E=12 / h**4, rho=1 / h**2,
+                                   loads=tip_force(0, "0.1*sin(5*t)", "0.07*sin(3*t)"))
+        scene["bodies"]["beam"]["section"]["orientation"] = [0, math.cos(a), math.sin(a)]
+        return floe.run(scene, formulation).vector("tip")
+    return relative(answer(angle), answer(0.0))
+
+
+def split_pair(floe: Floe, count):
+    """A square plate clamped all around has modes 2 and 3 of one frequency; a count that parts them takes both or says
+    so, and the motion has the symmetry of its load."""
+    scene = plate(1, 1, (8, 8), 0.01, "quadrilaterals", E=7e10, rho=2700, modes=count, loads={
+        "a": {"type": "force", "at": {"body": "plate", "node": [0.25, 0.25, 0]}, "force": [0, 0, "sin(100*t)"]}},
+        motion={"end": 0.05, "step": 2e-4})
+    scene["joints"] = {e: {"type": "fixed", "between": ["ground", f"plate.{e}"]} for e in ("left", "right", "bottom", "top")}
+    scene["probes"] = {"one": {"at": {"body": "plate", "node": [0.75, 0.25, 0]}},
+                       "two": {"at": {"body": "plate", "node": [0.25, 0.75, 0]}}}
+    moved = floe.run(scene, "vm+md")
+    told = moved.warned("frequency") or moved.warned("mode")
+    symmetric = relative(moved.probes["one.z"], moved.probes["two.z"])
+    return Answer(0.0 if told else symmetric, next((w for w in moved.warnings if "mode" in w), ""))
+
+
+def torsion_spring(floe: Floe, k, formulation):
+    """A rigid bar that a hinge holds, and a spring of so little or so much stiffness: angle M/k = 0.1."""
+    scene = pendulum(elements=2, loads={"m": {"type": "moment", "at": "rod.end", "moment": f"{0.1 * k!r}*t"}})
+    del scene["gravity"]
+    scene["bodies"]["rod"]["rigid"] = True
+    scene["joints"]["spring"] = {"type": "spring", "between": ["ground", "rod.start"], "torsional_stiffness": k}
+    scene["probes"]["tip"]["quantity"] = "rotation"
+    moved = floe.static(scene, formulation, "--at", "1", "--steps", "1")
+    return abs(moved.probes["tip.angle"][-1] / 0.1 - 1) if "tip.angle" in moved.probes else abs(
+        list(moved.probes.values())[0][-1] / 0.1 - 1)
+
+
+def flexible_on_spring(floe: Floe, k, formulation):
+    """The same with a flexible bar: K is nearly singular when the hinge's spring is weak."""
+    scene = pendulum(elements=4, loads={"m": {"type": "moment", "at": "rod.start", "moment": f"{0.1 * k!r}*t"}})
+    del scene["gravity"]
+    scene["joints"]["spring"] = {"type": "spring", "between": ["ground", "rod.start"], "torsional_stiffness": k}
+    scene["probes"] = {"turn": {"at": "rod.start", "quantity": "rotation"}}
+    moved = floe.static(scene, formulation, "--at", "1", "--steps", "1")
+    return abs(list(moved.probes.values())[0][-1] / 0.1 - 1)
+
+
+def mechanism(floe: Floe, formulation):
+    """Nothing holds a hinged bar against a moment."""
+    scene = pendulum(elements=4, loads={"m": {"type": "moment", "at": "rod.start", "moment": "t"}})
+    del scene["gravity"]
+    floe.static(scene, formulation, "--at", "1", "--steps", "1")
+    return float("nan")
+
+
+def repeated(floe: Floe, copies):
+    """Attachments of loads at one place, many times, and at its neighbours: columns that others hold already."""
+    loads = {f"l{i}": {"type": "force", "at": {"body": "beam", "node": [1 - (i % 4) / 16, 0]},
+                       "force": [0, "sin(5*t)" if i == 0 else "0*t"]} for i in range(copies)}
+    moved = floe.run(cantilever(16, EA=1e4, attachment="all", loads=loads), "vm+md")
+    full = floe.run(cantilever(16, EA=1e4, loads=tip_force(0, "sin(5*t)")), "nlffr")
+    basis = moved.summary["bodies"][0]["basis"]
+    return Answer(relative(moved.vector("tip"), full.vector("tip")),
+                  f"{sum(not c['kept'] for c in basis)} columns dropped, {sum(c['kept'] for c in basis)} kept")
+
+
+def tolerances(floe: Floe, tolerance):
+    """Nearly dependent columns, kept as long as drop_tolerance lets them: the full model's answer all the same."""
+    def scene(value=None):
+        s = cantilever(16, EA=1e4, modes=8, loads=tip_force(0, "sin(5*t)"))
+        if value is not None:
+            s["bodies"]["beam"]["reduction"]["drop_tolerance"] = value
+        return s
+    moved = floe.run(scene(tolerance), "vm+md")
+    kept = sum(c["kept"] for c in moved.summary["bodies"][0]["basis"])
+    return Answer(relative(moved.vector("tip"), floe.run(scene(), "nlffr").vector("tip")), f"{kept} columns kept")
+
+
+_full = {}
+
+
+def derivatives(floe: Floe, modes):
+    """m modes with all p = m (m + 1)/2 derivatives, against the full model."""
+    def scene():
+        return cantilever(48, EA=1e4, modes=modes, loads=tip_force(0, "sin(5*t)"), motion={"end": 1, "step": 2e-3})
+    if "nlffr" not in _full:
+        _full["nlffr"] = floe.run(scene(), "nlffr").vector("tip")
+    moved = floe.run(scene(), "vm+md")
+    basis = moved.summary["bodies"][0]["basis"]
+    p = [c for c in basis if c["kind"] == "derivative"]
+    return Answer(relative(moved.vector("tip"), _full["nlffr"]),
+                  f"p = {len(p)}, {sum(c['kept'] for c in p)} kept, {moved.summary['unknowns']['coordinates']} coordinates")
+
+
+def derivatives_in_space(floe: Floe, modes):
+    def scene(m):
+        return spatial_cantilever(0.02, 0.03, 16, modes=m, E=1e8, loads=tip_force(0, "sin(5*t)", "sin(4*t)"),
+                                  motion={"end": 1, "step": 2e-3})
+    if "space" not in _full:
+        _full["space"] = floe.run(scene(3), "nlffr").vector("tip")
+    moved = floe.run(scene(modes), "vm+md")
+    p = [c for c in moved.summary["bodies"][0]["basis"] if c["kind"] == "derivative"]
+    return Answer(relative(moved.vector("tip"), _full["space"]),
+                  f"p = {len(p)}, {sum(c['kept'] for c in p)} kept")
+
+
+def no_modes(floe: Floe, formulation):
+    """Static columns alone: at rest under a tip force they are exact."""
+    scene = cantilever(8, modes=0, attachment="all", loads=tip_force(0, "0.5*t"))
+    end = floe.static(scene, formulation, "--at", "1", "--steps", "1").vector("tip")[-1]
+    return abs(end[1] * 6 - 1)
+
+
+def no_columns(floe: Floe):
+    scene = cantilever(8, modes=0, loads=tip_force(0, "0.5*t"))
+    scene["bodies"]["beam"]["reduction"]["attachment"] = "none"
+    moved = floe.run(scene, "vm+md")
+    return float(abs(moved.vector("tip")).max())
+
+
+def no_loads(floe: Floe, formulation):
+    """Nothing moves, to the bit, and the error of nothing is nothing."""
+    moved = floe.run(cantilever(8, loads=tip_force(0, 0)), formulation, estimate=True)
+    estimate = moved.summary.get("estimate", {})
+    return float(abs(moved.vector("tip")).max() + abs(moved.energy).max() + estimate.get("deformation", 0))
+
+
+def massless_inner(density):
+    """A deck refuses a material without density; a scene's own material may have none."""
+    scene, files = one_body(1, 1)
+    b, h = 1.5e-3, 1e-3
+    scene["bodies"]["beam"]["parts"] = {"INNER": {
+        "section": {"shape": "rectangle", "width": h, "height": b, "orientation": [0, 1, 0]},
+        "material": {"E": 12 / (b * h**3), "nu": 0.3, "rho": density / (b * h)}}}
+    return scene, files
+
+
+def massless_part(floe: Floe):
+    """The inner half without mass: its outer half on a massless spring of three coordinates."""
+    scene, files = massless_inner(0.0)
+    return abs(floe.modes(scene, files=files)[0] / beam_in_segments([(1, 1, 1e-30), (1, 1, 1)]) - 1)
+
+
+def massless_in_motion(floe: Floe, formulation):
+    """The same in motion under a step load: against density 1e-9 there."""
+    def history(rho):
+        scene, files = massless_inner(rho)
+        scene |= {"loads": {"tip": {"type": "force", "at": "beam.TIP", "force": [0, 0, "1e-3*sin(t)"]}},
+                  "motion": {"end": 3, "step": 5e-3}, "probes": {"tip": {"at": "beam.TIP"}}}
+        return floe.run(scene, formulation, files=files).vector("tip")
+    return relative(history(0), history(1e-9))
+
+
+def massless_body(floe: Floe, command):
+    scene = spatial_cantilever(0.02, 0.02, 4, rho=0, loads=tip_force(0, 1, 0))
+    if command == "modes":
+        floe.modes(scene)
+    else:
+        floe.run(scene, command)
+    return float("nan")
+
+
+STUDIES = [
+    Study("nearly equal frequencies", "sections off the square by 1e-15 to 1e-6", "the square section",
+          [Point(f"{g:g}, {f}, {c}", lambda floe, g=g, f=f, c=c: nearly_square(floe, g, f, c), max(1e-7, 50 * g),
+                 quick=(g, f, c) == (1e-9, "vm+md", "run"))
+           for f in ("vm+md", "nlffr") for c in ("static", "run") for g in (1e-15, 1e-12, 1e-9, 1e-8, 1e-6)]),
+    Study("equal frequencies", "square section turned about its beam", "itself, not turned",
+          [Point(f"{a:g} rad, {f}", lambda floe, a=a, f=f: turned(floe, a, f), 1e-7, quick=(a, f) == (0.3, "vm+md"))
+           for f in ("vm+md", "nlffr") for a in (1e-9, 0.3, 0.7853981633974483)]),
+    Study("a pair of equal modes, cut", "1 to 6 modes of a clamped square plate", "the symmetry of its load, or a note",
+          [Point(f"{m}", lambda floe, m=m: split_pair(floe, m), 1e-6, quick=m == 2) for m in (1, 2, 3, 4, 5, 6)]),
+    Study("weak and strong springs", "a hinge's spring of 1e-30 to 1e30 N m/rad, rigid and flexible bar", "closed form M/k",
+          [Point(f"{k:g}, rigid", lambda floe, k=k: torsion_spring(floe, k, "nlffr"), 1e-9, quick=k == 1e-12)
+           for k in (1e-30, 1e-12, 1e-6, 1, 1e6, 1e12, 1e30)] +
+          [Point(f"{k:g}, {f}", lambda floe, k=k, f=f: flexible_on_spring(floe, k, f), 1e-6, quick=k == 1e-6)
+           for f in ("nlffr", "vm+md") for k in (1e-9, 1e-6, 1, 1e3)]),
+    Study("a mechanism", "no spring", "a refusal",
+          [Point(f, lambda floe, f=f: mechanism(floe, f), None, "nothing holds", quick=True) for f in ("nlffr", "vm+md")]),
+    Study("columns that repeat others", "2 to 200 loads with static columns at four places", "nlffr",
+          [Point(f"{n}", lambda floe, n=n: repeated(floe, n), 1e-4, quick=n == 20) for n in (2, 20, 200)]),
+    Study("nearly dependent columns", "drop_tolerance from 1e-1 to 1e-15", "nlffr",
+          [Point(f"{t:g}", lambda floe, t=t: tolerances(floe, t), 1e-3, quick=t == 1e-12)
+           for t in (1e-1, 1e-3, 1e-7, 1e-10, 1e-12, 1e-15)]),
+    Study("derivatives", "1 to 21 modes with all their derivatives, p = 1 to 231", "nlffr",
+          [Point(f"m = {m}", lambda floe, m=m: derivatives(floe, m), 1e-1 if m < 3 else 2e-2 if m < 6 else 1e-3, quick=m in (1, 6))
+           for m in (1, 2, 3, 4, 6, 8, 12, 16, 20, 21)]),
+    Study("derivatives in space", "1 to 20 modes with all their derivatives, p = 1 to 210", "nlffr",
+          [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 2 if m == 1 else 1e-1 if m < 8 else 5e-3, quick=False)
+           for m in (1, 2, 4, 8, 12, 16, 20)]),
+    Study("no modes", "static columns alone, or none at all", "closed form; nothing moves",
+          [Point("attachments", lambda floe: no_modes(floe, "vm+md"), 1e-8, quick=True),
+           Point("no columns", no_columns, 1e-15, quick=True)]),
+    Study("no loads", "forces of zero", "0, to the bit",
+          [Point(f, lambda floe, f=f: no_loads(floe, f), 1e-300, quick=f == "vm+md") for f in ("nlffr", "vm+md", "vm", "cfr")]),
+    Study("no density", "a part, or all, of a body without mass", "own beam elements; density 1e-9; a refusal",
+          [Point("part, modes", massless_part, 1e-4, quick=True)] +
+          [Point(f"part, motion, {f}", lambda floe, f=f: massless_in_motion(floe, f), 1e-6, quick=f == "vm+md")
+           for f in ("vm+md", "nlffr")] +
+          [Point(f"body, {c}", lambda floe, c=c: massless_body(floe, c), None, "mass", quick=c == "vm+md")
+           for c in ("modes", "vm+md", "nlffr")]),
+]
