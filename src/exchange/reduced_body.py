@@ -67,12 +67,14 @@ def open_file(path):
     try:
         file = h5py.File(path, "r")
     except OSError:
-        raise Fault(f"{path}: expected a file that floe reduce wrote, found one that is not HDF5 or is cut off") from None
+        raise Fault(f"{path}: expected a file that floe reduce wrote, found one that is not HDF5 or is cut "
+                    "off") from None
     found = file.attrs.get("format")
     if not isinstance(found, bytes) or found.rstrip(b"\0") != b"floe reduced body":
         file.close()
         raise Fault(f"{path}: expected a file that floe reduce wrote, found an HDF5 file of another kind")
-    for name, wanted, what in (("version", 1, "of another version of the format"), ("complete", 1, "that is incomplete")):
+    for name, wanted, what in (("version", 1, "of another version of the format"),
+                               ("complete", 1, "that is incomplete")):
         if file.attrs.get(name) != wanted:
             file.close()
             raise Fault(f"{path}: expected a reduced body of version 1, whole; found one {what}")
@@ -112,7 +114,8 @@ def from_hdf5(file):
     for name, value, shape in (
             ("elasticity/bending", bending, (k, k)), ("elasticity/F", F, (len(F), k + len(pairs))),
             ("inertia/S", inertia["S"], (d, k)), ("inertia/M", inertia["M"], (d, d, k, k)),
-            ("inertia/h", inertia["h"], (d, d, k)), ("columns/kept", kept, (k,)), ("damping", damping, (k, k) if damping.size else damping.shape),
+            ("inertia/h", inertia["h"], (d, d, k)), ("columns/kept", kept, (k,)),
+            ("damping", damping, (k, k) if damping.size else damping.shape),
             ("places/x", x, (len(names), d)), ("places/S", place_S, (len(names), d, k)),
             ("places/psi", place_psi, (len(names), 1 if d == 2 else 3, k))):
         if value.shape != shape:

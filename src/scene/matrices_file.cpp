@@ -21,7 +21,8 @@ FreeRows free_rows(const fem::Structure& structure, const fem::Conditions& held)
   FreeRows rows;
   rows.free.assign(structure.dofs(), 0);
   for (int i = 0; i < structure.owned_dofs(); ++i)
-    if (!std::binary_search(held.begin(), held.end(), structure.global_dof(i))) rows.free[structure.original_dof(i)] = 1;
+    if (!std::binary_search(held.begin(), held.end(), structure.global_dof(i)))
+      rows.free[structure.original_dof(i)] = 1;
   MPI_Allreduce(MPI_IN_PLACE, rows.free.data(), static_cast<int>(rows.free.size()), MPI_CHAR, MPI_MAX,
                 structure.mesh.comm);
   std::vector<std::int64_t> number(rows.free.size(), -1);
@@ -38,8 +39,8 @@ std::vector<Eigen::Vector3d> positions(const fem::Mesh& mesh) {
   int rank = 0;
   MPI_Comm_rank(mesh.comm, &rank);
   double* numbers = all.data()->data();
-  MPI_Reduce(rank == 0 ? MPI_IN_PLACE : numbers, rank == 0 ? numbers : nullptr, static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM, 0,
-             mesh.comm);
+  MPI_Reduce(rank == 0 ? MPI_IN_PLACE : numbers, rank == 0 ? numbers : nullptr, static_cast<int>(3 * all.size()),
+             MPI_DOUBLE, MPI_SUM, 0, mesh.comm);
   return all;
 }
 
@@ -48,14 +49,15 @@ std::string table(const fem::Structure& structure, const FreeRows& rows, const s
   static constexpr const char* planar[] = {"u", "v", "rz"};
   static constexpr const char* spatial[] = {"u", "v", "w", "rx", "ry", "rz"};
   const auto names = structure.dimension() == 2 ? planar : spatial;
-  std::string text = "# row from 1, node from 0 as the mesh numbers them, dof, undeformed place of the node; body axes\n";
+  std::string text =
+      "# row from 1, node from 0 as the mesh numbers them, dof, undeformed place of the node; body axes\n";
   text += "# row node dof x y z\n";
   std::int64_t row = 0;
   for (std::size_t dof = 0; dof < rows.free.size(); ++dof) {
     if (!rows.free[dof]) continue;
     const std::size_t node = dof / structure.dofs_per_node;
-    text += fmt::format("{} {} {} {} {} {}\n", ++row, node, names[dof % structure.dofs_per_node], x[node][0], x[node][1],
-                        x[node][2]);
+    text += fmt::format("{} {} {} {} {} {}\n", ++row, node, names[dof % structure.dofs_per_node], x[node][0],
+                        x[node][1], x[node][2]);
   }
   return text;
 }

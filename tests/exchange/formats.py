@@ -153,7 +153,7 @@ FLAP = {2: [4.1373196, 22.6149220, 62.2731841], 6: [7.3603730, 26.8090817, 66.68
 
 
 def spinning(sid, speed):
-    """Relative errors of three frequencies in the plane of rotation, without Coriolis terms: lag^2 = flap^2 - speed^2."""
+    """Relative errors of three frequencies in the plane of rotation without Coriolis terms: flap^2 - speed^2."""
     stiffness = sid.terms["Ke"].m0 + speed**2 * sid.terms["Oe"].m1[:, :, 2]
     found = frequencies((stiffness + stiffness.T) / 2, sid.terms["Me"].m0)[:3]
     return np.abs(found / np.sqrt(np.square(FLAP[speed]) - speed**2) - 1)
@@ -193,7 +193,7 @@ def mbsim_has_the_energy(folder):
         close(K, truth.stiffness(), 1e-13, "stiffness matrix")
         for _ in range(5):
             q = small(truth)
-            # MBSim: Ke1_i = Knl1_i' + 1/2 Knl1_i, Ke2_ij = 1/2 Knl2_ij, force (K + sum Ke1_i q_i + sum Ke2_ij q_i q_j) q
+            # MBSim's force: (K + sum q_i (Knl1_i' + 1/2 Knl1_i) + 1/2 sum q_i q_j Knl2_ij) q
             cubic = np.einsum("iba,i,b->a", Knl1, q, q) + 0.5 * np.einsum("iab,i,b->a", Knl1, q, q)
             quartic = 0.5 * np.einsum("ijab,i,j,b->a", Knl2, q, q, q)
             energy = q @ (K @ q / 2 + cubic / 3 + quartic / 4)  # of homogeneous forces
