@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -215,8 +216,8 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
                event["what"].get<std::string>(),
                event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
                                                         event["kinetic_energy_lost"].get<double>())
-               : event.contains("speed") ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
-                                         : "");
+               : event.contains("speed")  ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
+                                          : "");
   }
   if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
@@ -257,13 +258,23 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
                 const std::optional<std::string>& explicit_scene, bool overwrite) {
   std::vector<std::string> written;
   const RunResult result = run_into(folder, [&] {
+    petsc::agree(comm, [&] {
+      if (explicit_scene && !overwrite && std::filesystem::exists(*explicit_scene))
+        throw InputError(*explicit_scene + ": exists; expected another name, or --force");
+    });
     Chosen chosen = choose(scene, accuracy, comm);
-    if (explicit_scene) written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
     if (first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
     RunPlan plan;
     plan.choice = to_json(chosen);
     plan.check_range = false;  // the choice has measured what a range would warn of
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
+    if (explicit_scene) {
+      try {
+        written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
+      } catch (const InputError& error) {  // the run stands
+        moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
+      }
+    }
     if (!chosen.within())
       moved.warnings.push_back(fmt::format("an error of {:.2g} % was asked for; {:.2g} % is supported",
                                            100 * chosen.asked, 100 * chosen.supported));

@@ -186,6 +186,7 @@ void Crossings::after_step(TS ts) {
   whole_ = h;
   back_ = true;
   check(TSRollBack(ts));
+  check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));  // the step that is taken back may have come to the end
   check(TSSetTimeStep(ts, target_ - step.begin));
 }
 

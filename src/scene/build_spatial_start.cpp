@@ -1,6 +1,8 @@
 #include "build_spatial_start.h"
 
+#include "floe/error.h"
 #include "floe/math/rotation.h"
+#include "floe/petsc/error.h"
 #include "floe/petsc/values.h"
 
 namespace floe::scene {
@@ -21,12 +23,14 @@ Vector3d value(const Formulas& formulas, const Vector3d& X) {
   return {u(X.x(), X.y(), X.z()), v(X.x(), X.y(), X.z()), w(X.x(), X.y(), X.z())};
 }
 
-/// d value / d along, along a unit vector.
-Vector3d slope(const Formulas& formulas, const Vector3d& X, const Vector3d& along, double h) {
-  const Vector3d step = h * along;
-  return (8 * (value(formulas, X + step) - value(formulas, X - step)) -
-          (value(formulas, X + 2 * step) - value(formulas, X - 2 * step))) /
-         (12 * h);
+/// d value / d along, along a unit vector, from values on one side: a formula need not go on behind the body.
+/// Differences of fourth order. @param inward  that side: 1 along it, -1 against it
+Vector3d slope(const Formulas& formulas, const Vector3d& X, const Vector3d& along, double inward, double h) {
+  constexpr double weights[] = {-25, 48, -36, 16, -3};
+  Vector3d sum = Vector3d::Zero();
+  if (formulas)
+    for (int k = 0; k < 5; ++k) sum += weights[k] * value(formulas, X + inward * k * h * along);
+  return inward / (12 * h) * sum;
 }
 
 /// Where a place of the body is, and what becomes of its cell's directions; or rates of these.
@@ -59,10 +63,23 @@ struct Shape {
   std::vector<Moved> node, node_rate;  ///< of local nodes; directions are of no account
   std::vector<Corner> corners;
 
+  /// @throws InputError  a formula yields no number somewhere on the body. Collective.
   explicit Shape(const PreparedBody& b) : body(b) {
-    const fem::Mesh& mesh = b.structure.mesh;
-    const Formulas &d = b.spec.initial.spatial_deformation, &w = b.spec.initial.spatial_deformation_rate;
-    const auto in_mesh = [&](int i) { return Vector3d(b.origin + b.axes * mesh.positions[i]); };
+    petsc::agree(b.structure.mesh.comm, [&] {
+      try {
+        sample();
+      } catch (const math::FormulaError& error) {
+        throw InputError(b.spec.initial.where.text() + ".deformation: " + error.what() +
+                         "; expected a finite number at every point of the body (deformation_rate likewise)");
+      }
+    });
+  }
+
+ private:
+  void sample() {
+    const fem::Mesh& mesh = body.structure.mesh;
+    const Formulas &d = body.spec.initial.spatial_deformation, &w = body.spec.initial.spatial_deformation_rate;
+    const auto in_mesh = [&](int i) { return Vector3d(body.origin + body.axes * mesh.positions[i]); };
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vector3d X = in_mesh(static_cast<int>(i));
       node.push_back({X + value(d, X), Matrix3d::Zero()}), node_rate.push_back({value(w, X), Matrix3d::Zero()});
@@ -71,11 +88,14 @@ struct Shape {
       if (cell.kind == fem::CellKind::point) continue;
       const bool shell = cell.kind != fem::CellKind::line;
       const double h = 1e-4 * (mesh.positions[cell.corner[1]] - mesh.positions[cell.corner[0]]).norm();
+      Vector3d middle = Vector3d::Zero();
+      for (int i : cell.corners()) middle += in_mesh(i) / static_cast<double>(cell.corners().size());
       for (int i : cell.corners()) {
-        Corner c{i, shell, directions_of(mesh, cell, b.axes), node[i], node_rate[i]};
+        Corner c{i, shell, directions_of(mesh, cell, body.axes), node[i], node_rate[i]};
         for (int k = 0; k < (shell ? 2 : 1); ++k) {
-          c.deformed.directions.col(k) = c.cell.col(k) + slope(d, in_mesh(i), c.cell.col(k), h);
-          c.rate.directions.col(k) = slope(w, in_mesh(i), c.cell.col(k), h);
+          const double inward = c.cell.col(k).dot(middle - in_mesh(i)) < 0 ? -1 : 1;
+          c.deformed.directions.col(k) = c.cell.col(k) + slope(d, in_mesh(i), c.cell.col(k), inward, h);
+          c.rate.directions.col(k) = slope(w, in_mesh(i), c.cell.col(k), inward, h);
         }
         corners.push_back(c);
       }
