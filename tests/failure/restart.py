@@ -145,6 +145,9 @@ def compare(whole, pieces, repeats):
                 assert x == y, f"{name} differs"
                 continue
             assert x.shape == y.shape, f"{name} has shape {y.shape}, not {x.shape}"
+            if name == "motion/constraints" and not repeats:  # both are round-off
+                assert max(x.max(), y.max()) < 1e-8, f"{name} grows to {max(x.max(), y.max())}"
+                continue
             near = x.dtype.kind == "f" and not repeats and numpy.abs(x - y).max() <= 1e-7 * numpy.abs(x).max()
             assert near or numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
     assert not list(pieces.glob(".*")), "drafts are left"
