@@ -14,8 +14,8 @@ namespace {
 /// displacements and of rotations have units of their own.
 Eigen::MatrixXd root(const Eigen::MatrixXd& S) {
   if (S.size() == 1) return S.cwiseSqrt();
-  const Eigen::VectorXd size = S.diagonal().unaryExpr([](double s) { return s > 0 ? std::sqrt(s) : 1.0; }),
-                        inverse = size.cwiseInverse();
+  const Eigen::VectorXd size = S.diagonal().cwiseMax(0).cwiseSqrt(),
+                        inverse = size.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(inverse.asDiagonal() * S * inverse.asDiagonal());
   return eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose() *
          size.asDiagonal();

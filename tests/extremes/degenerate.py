@@ -218,8 +218,9 @@ STUDIES = [
           [Point(f, lambda floe, f=f: no_loads(floe, f), 1e-300, quick=f == "vm+md") for f in ("nlffr", "vm+md", "vm", "cfr")]),
     Study("no density", "a part, or all, of a body without mass", "own beam elements; density 1e-9; a refusal",
           [Point("part, modes", massless_part, 1e-4, quick=True)] +
-          [Point(f"part, motion, {f}", lambda floe, f=f: massless_in_motion(floe, f), 1e-6, quick=f == "vm+md")
-           for f in ("vm+md", "nlffr")] +
+          [Point("part, motion, vm+md", lambda floe: massless_in_motion(floe, "vm+md"), 1e-6, quick=True),
+           Point("part, motion, nlffr", lambda floe: massless_in_motion(floe, "nlffr"), 1e-6,
+                 misses="dofs without mass have no accelerations at the start; the refusal is right, its words are not")] +
           [Point(f"body, {c}", lambda floe, c=c: massless_body(floe, c), None, "mass", quick=c == "vm+md")
            for c in ("modes", "vm+md", "nlffr")]),
 ]

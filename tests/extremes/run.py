@@ -26,7 +26,7 @@ STUDIES = [study for room in (slenderness, unit_systems, contrasts, amplitudes, 
 
 
 def line(found):
-    what = f"FAIL {found.fault}" if found.fault else (
+    what = f"FAIL {found.fault}" if found.fault else f"missed, as known: {found.miss}" if found.miss else (
         f"refused ({found.refusal.code}): {found.refusal.text}" if found.refusal else
         f"error {found.error:.2g} (limit {found.point.limit:.2g})" + (f"; {found.note}" if found.note else ""))
     return f"{found.study.name} | {found.point.label} | {found.seconds:.1f} s | {what}"
@@ -52,7 +52,9 @@ def main():
                 print(line(found), flush=True)
     failed = sum(bool(f.fault) for f in results)
     seconds = time.monotonic() - begin
-    print(f"{len(results)} points of {len({f.study.name for f in results})} extremes, {failed} failed, {seconds:.0f} s")
+    missed = sum(bool(f.miss) for f in results)
+    print(f"{len(results)} points of {len({f.study.name for f in results})} extremes, {missed} missed as known, "
+          f"{failed} failed, {seconds:.0f} s")
     if arguments.write:
         table.write(arguments.write, results, arguments.floe, seconds)
     return 1 if failed else 0

@@ -14,7 +14,7 @@ other units, to another scale), or against a run without the extreme; or it refu
 Anything else fails the campaign: a number outside its limit, a missing warning, a number that is none, a crash, a message of
 PETSc's. `make check` runs some of the points ({quick}), `make extremes` all of them, and writes this page.
 
-Written by `make extremes` on {date}, floe {version}, {machine}: {points} points, {failed} failed, {seconds:.0f} s.
+Written by `make extremes` on {date}, floe {version}, {machine}: {points} points, {missed} missed, {failed} failed, {seconds:.0f} s.
 
 *Greatest error* is that of all points of the row that were answered, *limit* the one that it had to stay below there.
 """
@@ -39,9 +39,9 @@ def clean(text):
 
 
 def row(study, found):
-    answered = [f for f in found if f.error is not None]
-    refused = [f for f in found if f.refusal is not None]
-    failed = [f for f in found if f.fault]
+    answered = [f for f in found if f.error is not None and not f.miss]
+    refused = [f for f in found if f.refusal is not None and not f.miss]
+    failed = [f for f in found if f.fault or f.miss]
     held, worst = f"{len(found) - len(failed)} of {len(found)}", ""
     if answered:
         most = max(answered, key=lambda f: f.error / f.point.limit if f.point.limit else numpy.inf)
@@ -55,7 +55,8 @@ def row(study, found):
         words.append(f"{notes[-1].point.label}: {clean(notes[-1].note)}")
     if study.remark:
         words.append(clean(study.remark))
-    words += [f"**failed** at {f.point.label}: {clean(f.fault)}" for f in failed]
+    words += [f"**missed** at {f.point.label}: {clean(f.miss)}: {f.point.misses}" if f.miss else
+              f"**failed** at {f.point.label}: {clean(f.fault)}" for f in failed]
     return f"| {study.name} | {clean(study.extreme)} | {clean(study.against)} | {held} | {worst} | {'; '.join(words)} |"
 
 
@@ -66,7 +67,8 @@ def write(path, results, floe, seconds):
             studies.append(found.study)
     head = HEAD.format(quick=sum(f.point.quick for f in results), date=datetime.date.today().isoformat(),
                        version=version(floe), machine=processor(), points=len(results),
-                       failed=sum(bool(f.fault) for f in results), seconds=seconds)
+                       missed=sum(bool(f.miss) for f in results), failed=sum(bool(f.fault) for f in results),
+                       seconds=seconds)
     lines = [head, "| extreme | range tried | verified against | held | greatest error | refused, noted, missed |",
              "| ------- | ----------- | ---------------- | ---: | -------------- | ----------------------- |"]
     lines += [row(study, [f for f in results if f.study is study]) for study in studies]
