@@ -219,7 +219,7 @@ const SchemaSection reduction_section{
         {"drop_tolerance",
          Type::number,
          "",
-         "1e-9",
+         "1e-7",
          "columns that add less than this (relative) are dropped and reported",
          {0, 1, false, true}},
     }};

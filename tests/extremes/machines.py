@@ -88,7 +88,7 @@ def arm_in_space():
                       "limits": {"lower": -0.2, "upper": 0.2, "stiffness": 200, "damping": 0.5}},
             "ball": {"type": "spherical", "between": ["hand.end", "load.start"]}},
         "loads": {"wind": {"type": "force", "at": "load.end", "force": ["0.3*sin(20*t)", "0.2", 0]}},
-        "motion": {"end": 0.3, "step": 1e-3, "every": 5},
+        "motion": {"end": 0.25, "step": 5e-4, "every": 10},  # one hit; steps of 1 ms go 5 widths of the stop at once
         "probes": {"end": {"at": "load.end", "quantity": "position"}, "arm": {"at": "arm.end", "quantity": "deflection"},
                    "speed": {"at": "hand.end", "quantity": "velocity"},
                    "turn": {"at": "load.end", "quantity": "rotation"}}}

@@ -113,7 +113,7 @@ struct ReductionSpec {
   std::vector<std::string> columns;
   Where columns_where;
   bool linear = false;  ///< elastic forces by the linear stiffness alone
-  double drop_tolerance = 1e-9;
+  double drop_tolerance = 1e-7;
 };
 
 /// Damping of the elastic coordinates, as the scene gives it.
