@@ -12,7 +12,7 @@ add_custom_target(pages DEPENDS ${pages}/floe.1 ${pages}/floe.bash)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/floe)
 install(TARGETS floe COMPONENT floe)
 file(GLOB scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/plot/*.py ${PROJECT_SOURCE_DIR}/src/plot/*.js
-  ${PROJECT_SOURCE_DIR}/src/plot/*.css)
+  ${PROJECT_SOURCE_DIR}/src/plot/*.css ${PROJECT_SOURCE_DIR}/src/exchange/*.py)
 install(FILES ${scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/floe COMPONENT floe)
 install(FILES ${pages}/floe.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT floe OPTIONAL)
 install(FILES ${pages}/floe.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME floe

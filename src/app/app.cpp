@@ -27,7 +27,7 @@ namespace {
 
 struct Choices {
   std::string scene, formulation = "vm+md", body;
-  std::optional<std::string> out;
+  std::optional<std::string> out, matrices;
   std::vector<std::string> formulations = {"cfr", "nlffr", "lffr", "vm", "vm+md"};
   std::optional<double> at;
   int steps = 10;
@@ -285,9 +285,13 @@ int main(int argc, char** argv) {
   add_scene(modes_command, choices);
   modes_command->add_option("--write", choices.out,
                             "shapes of modes and derivatives for ParaView: FILE.xdmf, and FILE.h5 beside it");
+  modes_command->add_option("--write-matrices", choices.matrices,
+                            "a folder: K and M of each body under the conditions of its modes, in Matrix Market, and "
+                            "what their rows are");
   modes_command->add_flag("--force", choices.force, "replace these files if they are there");
-  modes_command->callback(
-      [&] { work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD, choices.out, choices.force); }; });
+  modes_command->callback([&] {
+    work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD, choices.out, choices.matrices, choices.force); };
+  });
 
   CLI::App* reduce_command =
       app.add_subcommand("reduce", "reduce one body, offline and in parallel, into a file that needs no mesh");
@@ -333,7 +337,7 @@ int main(int argc, char** argv) {
       what = fmt::format(
           "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
           "motion, "
-          "plot, report, check or schema",
+          "plot, report, export, check or schema",
           line.own.front());
     work = [text = what + " (floe --help)"] { throw InputError(text); };
   }

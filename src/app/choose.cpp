@@ -94,16 +94,23 @@ class Search {
     decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
   }
 
-  /// The richest model: responses join it until its estimate is a third of what is asked, four times at most.
+  /// The richest model: responses join it until its estimate is a third of what is asked, six times at most.
+  ///
+  /// What they change in the motion shows how good the estimate before them was: where the columns were far too poor
+  /// for it, it was too low, and the next ones are taken as many times greater.
   void enrich() {
-    constexpr int most_rounds = 4;
-    double first = 0;
+    constexpr int most_rounds = 6;
+    double first = 0, before = 0, too_low = 1;
     int responses = 0;
+    Series poorer;
     for (int round = 0;; ++round) {
-      const RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
-      states_ = result.states;
-      space_ = estimate_of(result);
-      if (round == 0) first = space_;
+      RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
+      states_ = std::move(result.states);
+      const double estimate = estimate_of(result);
+      if (round == 0) first = estimate;
+      if (round > 0 && before > 0) too_low = std::max(1.0, (worst_error(poorer, result.series) + estimate) / before);
+      space_ = too_low * estimate;
+      before = estimate, poorer = std::move(result.series);
       if (space_ <= accuracy_ / 3 || round == most_rounds || pool_->columns().empty()) break;
       const int added = pool_->add_responses(result.estimate);
       if (added == 0) break;
@@ -116,10 +123,20 @@ class Search {
            responses > 0 ? fmt::format("{} responses to what is missing: estimated error {} (before: {})", responses,
                                        percent(space_), percent(first))
                          : "estimated error " + percent(space_));
+    if (too_low > 2)
+      decisions_.back().reason +=
+          fmt::format("; the first estimates were too low by as much as {:.2g}, which is counted", too_low);
   }
 
   double estimate_of(const RunResult& result) const {
-    if (pool_->columns().empty()) return 0;
+    const auto from_file = [](const scene::Body& body) { return body.reduced.has_value(); };
+    if (pool_->columns().empty()) {
+      if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), from_file))
+        throw InputError(scene_.file +
+                         ": accuracy: nothing supports a choice: bodies from files have no mesh to compare "
+                         "with, and there is no other flexible body");
+      return 0;
+    }
     if (!result.estimate.none.empty())
       throw InputError(fmt::format("{}: accuracy: nothing supports a choice: {}", scene_.file, result.estimate.none));
     double worst = 0;
@@ -132,13 +149,15 @@ class Search {
   void resolve_time() {
     constexpr int most_halvings = 5;
     double step = scene_.motion.step;
+    double before = 0;  // what the halving before this one changed
     Series coarse = moved(pool_->whole(), step, false, false).series;
     for (int halving = 0; halving < most_halvings; ++halving, step /= 2) {
       truth_ = moved(pool_->whole(), step / 2, false, false).series;
       const double between = worst_error(coarse, truth_);
-      time_ = between / 3;
+      const bool second_order = before == 0 || before > 3 * between;
+      time_ = second_order ? between / 3 : between;
       if (time_ <= 0.1 * accuracy_) break;
-      coarse = truth_;
+      coarse = truth_, before = between;
     }
     finest_ = step;
     richest_ = space_ + time_;
@@ -247,6 +266,8 @@ class Search {
 
   Chosen finished() {
     explain();
+    for (const scene::Body& body : scene_.bodies)
+      if (body.reduced) decide("  " + body.name, "from a file", "counted as exact: its mesh is not here");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
     chosen.supported = richest_ + tried(selection_, step_).error;
@@ -255,7 +276,7 @@ class Search {
                        percent(chosen.supported - richest_), percent(space_), percent(time_)));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
-    chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+    if (!pool_->has_responses(selection_)) chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
     chosen.selection = selection_;
     chosen.model = pool_->model(selection_);
     chosen.pool = std::move(pool_);

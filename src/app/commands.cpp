@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -115,7 +116,9 @@ std::string estimate_words(const scene::Estimate& estimate) {
 
 }  // namespace
 
-void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite) {
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
+           const std::optional<std::string>& matrices, bool overwrite) {
+  if (matrices) scene::write_matrices(scene, comm, *matrices, overwrite);
   const std::vector<scene::BodyReport> bodies =
       path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
   if (!first_rank(comm)) return;
@@ -126,6 +129,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
+  if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
     if (!body.file.empty()) fmt::print("Note: body {} comes from {}, which holds its shapes\n", body.name, body.file);
@@ -201,12 +205,20 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   const auto probes_estimate = [&](const std::string& column) {
     return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
   };
-  for (const auto& event : s["events"])
+  constexpr std::size_t shown = 20;  // a body that rests on a stop bounces many times
+  std::size_t number = 0;
+  for (const auto& event : s["events"]) {
+    if (number++ == shown) {
+      fmt::print("... and {} events more, in summary.json\n", s["events"].size() - shown);
+      break;
+    }
     fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
                event["what"].get<std::string>(),
                event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
                                                         event["kinetic_energy_lost"].get<double>())
+               : event.contains("speed")  ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
                                           : "");
+  }
   if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
   table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
@@ -246,13 +258,23 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
                 const std::optional<std::string>& explicit_scene, bool overwrite) {
   std::vector<std::string> written;
   const RunResult result = run_into(folder, [&] {
+    petsc::agree(comm, [&] {
+      if (explicit_scene && !overwrite && std::filesystem::exists(*explicit_scene))
+        throw InputError(*explicit_scene + ": exists; expected another name, or --force");
+    });
     Chosen chosen = choose(scene, accuracy, comm);
-    if (explicit_scene) written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
     if (first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
     RunPlan plan;
     plan.choice = to_json(chosen);
     plan.check_range = false;  // the choice has measured what a range would warn of
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
+    if (explicit_scene) {
+      try {
+        written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
+      } catch (const InputError& error) {  // the run stands
+        moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
+      }
+    }
     if (!chosen.within())
       moved.warnings.push_back(fmt::format("an error of {:.2g} % was asked for; {:.2g} % is supported",
                                            100 * chosen.asked, 100 * chosen.supported));

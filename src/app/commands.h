@@ -8,8 +8,10 @@
 
 namespace floe::app {
 
-/// `floe modes`: frequencies of each body with residuals; with a path their shapes into an XDMF file. Collective.
-void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path, bool overwrite);
+/// `floe modes`: frequencies of each body with residuals; with a path their shapes into an XDMF file, with a folder
+/// their matrices into it. Collective.
+void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
+           const std::optional<std::string>& matrices, bool overwrite);
 /// `floe check`: what would be simulated; nothing is moved. Collective.
 void check(const scene::Scene& scene, MPI_Comm comm);
 /// `floe reduce`: one body of a scene into a file. Collective.

@@ -55,8 +55,9 @@ std::vector<output::ResultFolder> folders_of(const output::ResultFolder& folder,
 
 }  // namespace
 
-void compare(const scene::Scene& scene, const std::vector<Formulation>& formulations, MPI_Comm comm,
+void compare(const scene::Scene& as_written, const std::vector<Formulation>& formulations, MPI_Comm comm,
              const std::string& path, bool overwrite, bool reference_error) {
+  const scene::Scene scene = at_equal_times(as_written);
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   const output::ResultFolder folder = output::prepare_folder(comm, path, overwrite);

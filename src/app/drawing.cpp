@@ -27,9 +27,10 @@ std::string script_of(const std::string& name) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
   const std::string file = "/" + name + ".py";
   for (const std::string& folder :
-       {(program.parent_path().parent_path() / "share" / "floe").string(), std::string(FLOE_SCRIPTS_INSTALLED)})
+       {(program.parent_path().parent_path() / "share" / "floe").string(), std::string(FLOE_SCRIPTS_INSTALLED),
+        std::string(FLOE_SCRIPTS_SOURCE) + "/exchange"})
     if (readable(folder + file)) return folder + file;
-  return std::string(FLOE_SCRIPTS_SOURCE) + file;
+  return std::string(FLOE_SCRIPTS_SOURCE) + "/plot" + file;
 }
 
 std::string python() { return readable("/usr/bin/python3") ? "/usr/bin/python3" : "python3"; }

@@ -10,9 +10,16 @@ scene::Scene refined(const scene::Scene& scene) {
       for (int& elements : body.mesh.plate->elements) elements *= 2;
   }
   fine.motion.step /= 2;
-  fine.motion.every *= 2;
+  if (!fine.motion.output) fine.motion.every *= 2;
   if (fine.motion.tolerance) *fine.motion.tolerance /= 4;
   return fine;
+}
+
+scene::Scene at_equal_times(const scene::Scene& scene) {
+  scene::Scene other = scene;
+  other.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
+  other.motion.every = 1;
+  return other;
 }
 
 std::string refined_words(const scene::Scene& scene) {

@@ -132,12 +132,45 @@ void add_report(CLI::App& app, Showing& showing) {
   });
 }
 
+std::vector<std::string> export_words(const Showing& showing) {
+  std::vector<std::string> words = {"--out=" + showing.out.value_or("")};
+  if (!showing.format.empty()) words.push_back("--format=" + showing.format);
+  if (!showing.columns.empty()) words.push_back("--columns=" + showing.columns);
+  if (showing.with_shapes) words.push_back("--shapes");
+  if (showing.no_geometric_stiffness) words.push_back("--no-geometric-stiffness");
+  if (showing.force) words.push_back("--force");
+  words.insert(words.end(), {"--", showing.folder});  // whatever the body's name begins with
+  return words;
+}
+
+void add_export(CLI::App& app, Showing& showing) {
+  CLI::App* command = app.add_subcommand(
+      "export", "a reduced body for other programs: NumPy, Standard Input Data (SID), MBSim, Matrix Market");
+  command->add_option("BODY", showing.folder, "made by floe reduce")->required();
+  command
+      ->add_option("-o,--out", showing.out,
+                   "the file; its ending says the format: .npz, .sid .SID_FEM, .xml (MBSim, nonlinear), .h5mbs (MBSim, "
+                   "linear), .mtx (NAME-K.mtx, NAME-M.mtx, NAME-C.mtx)")
+      ->required();
+  command->add_option("--format", showing.format, "npz | sid | mbsim | mbsim-hdf5 | mtx, whatever the ending")
+      ->check(CLI::IsMember({"npz", "sid", "mbsim", "mbsim-hdf5", "mtx"}));
+  command->add_flag("--shapes", showing.with_shapes, "npz: with the mesh and the basis at all nodes");
+  command
+      ->add_option("--columns", showing.columns,
+                   "sid: modes (and static columns; derivatives act by geometric stiffness) | all (default: modes)")
+      ->check(CLI::IsMember({"modes", "all"}));
+  command->add_flag("--no-geometric-stiffness", showing.no_geometric_stiffness, "sid: leave out these terms");
+  command->add_flag("--force", showing.force, "replace the file if it is there");
+  command->callback([&] { showing.script = {"export", export_words(showing)}; });
+}
+
 }  // namespace
 
 void add_showing(CLI::App& app, Showing& showing, std::function<void()>& work) {
   add_motion(app, showing, work);
   add_plot(app, showing);
   add_report(app, showing);
+  add_export(app, showing);
 }
 
 }  // namespace floe::app

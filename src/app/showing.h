@@ -23,11 +23,12 @@ struct Showing {
   std::optional<std::string> out;
   int frames = 200, pictures = 100, dpi = 150, shapes = 6;  ///< frames: of motion; pictures: of an animation
   double fps = 20;
-  bool force = false;
+  bool force = false, with_shapes = false, no_geometric_stiffness = false;
+  std::string columns;  ///< of what is exported
   std::optional<Script> script;  ///< to become, instead of working in a session
 };
 
-/// Adds `motion`, `plot` and `report`. @param work  of motion
+/// Adds `motion`, `plot`, `report` and `export`. @param work  of motion
 void add_showing(CLI::App& app, Showing& showing, std::function<void()>& work);
 
 }  // namespace floe::app

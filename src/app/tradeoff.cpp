@@ -119,7 +119,7 @@ std::string words(const TradeoffRequest& request, int ranks) {
 /// The scene in steps of a quarter, stored as often.
 scene::Scene in_quarter_steps(scene::Scene scene) {
   scene.motion.step /= 4;
-  scene.motion.every *= 4;
+  if (!scene.motion.output) scene.motion.every *= 4;
   if (scene.motion.tolerance) *scene.motion.tolerance /= 16;
   return scene;
 }
@@ -132,11 +132,12 @@ scene::Scene on_finer_mesh(const scene::Scene& scene) {
 
 }  // namespace
 
-void tradeoff(const scene::Scene& scene, MPI_Comm comm, const TradeoffRequest& request, const std::string& path,
+void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffRequest& request, const std::string& path,
               bool overwrite) {
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
+  const scene::Scene scene = at_equal_times(as_written);
   const output::ResultFolder folder = output::prepare_folder(comm, path, overwrite);
   std::vector<Rung> rungs;
   Rung reference, own;

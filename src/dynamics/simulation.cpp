@@ -225,7 +225,7 @@ void take_up(TS ts, const MotionState& state, Context& context) {
 double next_stop(const Context& context) {
   double next = context.end;
   for (std::size_t i = 0; i < context.events.size(); ++i)
-    if (!context.events[i].crosses && context.happened[i] == 0) next = std::min(next, context.events[i].at);
+    if (!context.events[i].watched() && context.happened[i] == 0) next = std::min(next, context.events[i].at);
   return next;
 }
 
@@ -238,7 +238,7 @@ bool act(TS ts, const Integration& how, Context& context, double nominal) {
   bool changed = false, stopped = false;
   for (std::size_t i = 0; i < context.events.size(); ++i) {
     const Event& event = context.events[i];
-    const bool due = event.crosses ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
+    const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
     if (!due || context.happened[i] != 0) continue;
     const EventReport report = happen(context.system, event, t, U, V);
     context.happened[i] = 1;
@@ -294,12 +294,13 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
     };
   }
   context.happened.assign(how.events.size(), 0);
-  if (std::any_of(how.events.begin(), how.events.end(), [](const Event& event) { return bool(event.crosses); })) {
-    context.crossings = std::make_unique<Crossings>(how.events, context.happened);
-    check(TSSetPostStep(ts, post_step));
-  }
   double nominal = 0;
   check(TSGetTimeStep(ts, &nominal));
+  if (std::any_of(how.events.begin(), how.events.end(), [](const Event& event) { return event.watched(); })) {
+    context.crossings =
+        std::make_unique<Crossings>(how.events, context.happened, how.tolerance ? 0 : nominal, how.on_event);
+    check(TSSetPostStep(ts, post_step));
+  }
   if (how.from) take_up(ts, *how.from, context);
   const double begin = MPI_Wtime();
   bool ended = false;

@@ -74,6 +74,7 @@ Energy PlanarStop::energy(const Motion& motion) const {
 }
 
 double PlanarStop::position(const Motion& motion) const { return see(motion).x; }
+double PlanarStop::rate(const Motion& motion) const { return see(motion).rate; }
 
 /// @note by_motion: change of the gradient with the virtual motions
 struct SpatialStop::Seen {
@@ -133,6 +134,7 @@ Energy SpatialStop::energy(const Motion& motion) const {
 }
 
 double SpatialStop::position(const Motion& motion) const { return see(motion).x; }
+double SpatialStop::rate(const Motion& motion) const { return see(motion).rate; }
 
 void SpatialStop::begin_step(const Motion& motion) {
   if (of_ != Of::turn) return;

@@ -45,9 +45,14 @@ double fastest(const Quadratic& problem) {
   return greatest;
 }
 
-/// About the frequency of the slower ones of the first vibrations: inverse iteration with a block, without C.
-double typical(const Quadratic& problem) {
-  const Index n = problem.K.rows(), block = std::min<Index>(6, n);
+/// Frequencies that are zero but for round-off: a double zero of a matrix with errors of eps |K| splits by the root.
+double noise_of(const Quadratic& problem) {
+  return 4 * std::sqrt(std::numeric_limits<double>::epsilon()) * std::sqrt(fastest(problem));
+}
+
+/// Of so many first vibrations, about: inverse iteration with a block, without C.
+double typical_of(const Quadratic& problem, Index block) {
+  const Index n = problem.K.rows();
   const MatrixXd K = (problem.K + problem.K.transpose()) / 2, M = (problem.M + problem.M.transpose()) / 2;
   const Eigen::PartialPivLU<MatrixXd> factor(K + 1e-13 * fastest(problem) * M);
   MatrixXd X(n, block);
@@ -63,6 +68,17 @@ double typical(const Quadratic& problem) {
       Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(X.transpose() * K * X, X.transpose() * M * X).eigenvalues();
   const double middle = std::sqrt(std::abs(squares[block / 2]));
   return std::isfinite(middle) ? middle : 0;
+}
+
+/// About the frequency of the slower ones of the first vibrations; those of free motions, which are none, do not count.
+/// 0: there are no others.
+double typical(const Quadratic& problem) {
+  const Index n = problem.K.rows();
+  for (Index block = std::min<Index>(6, n);; block = std::min(2 * block, n)) {
+    const double found = typical_of(problem, block);
+    if (found > noise_of(problem)) return found;
+    if (block == n) return 0;
+  }
 }
 
 /// All exponents s of (s^2 M + s C + K) y = 0, by its linearisation in (y, s y / shift), shifted and inverted:
@@ -88,10 +104,11 @@ Exponents all_exponents(const Quadratic& problem, double shift) {
   return found;
 }
 
-/// Those nearest to `shift` > 0, which for swings are the slowest.
+/// Those nearest to `shift` > 0, which for swings are the slowest; solved for s / shift, so that a linearisation's halves
+/// weigh alike.
 Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   const PetscInt n = static_cast<PetscInt>(problem.K.rows());
-  const petsc::MatHandle K = dense(problem.K), C = dense(problem.C), M = dense(problem.M);
+  const petsc::MatHandle K = dense(problem.K), C = dense(shift * problem.C), M = dense(shift * shift * problem.M);
   Mat all[3] = {K, C, M};
   PepHandle pep;
   ST st = nullptr;
@@ -101,7 +118,7 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   check(PEPSetType(pep, PEPTOAR));
   check(PEPGetST(pep, &st));
   check(STSetType(st, STSINVERT));
-  check(PEPSetTarget(pep, shift));
+  check(PEPSetTarget(pep, 1));
   check(PEPSetWhichEigenpairs(pep, PEP_TARGET_MAGNITUDE));
   check(PEPSetDimensions(pep, std::min<PetscInt>(2 * count + 8, n), PETSC_DEFAULT, PETSC_DEFAULT));
   check(PEPSetTolerances(pep, 1e-11, 1000));
@@ -118,7 +135,7 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   for (PetscInt i = 0; i < converged; ++i) {
     double re = 0, im = 0;
     check(PEPGetEigenpair(pep, i, &re, &im, nullptr, nullptr));
-    found[i] = {re, im};
+    found[i] = {shift * re, shift * im};
   }
   return found;
 }
@@ -153,11 +170,9 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   const AllowedMotions allowed(rotating.system, at, mass_scale(rotating, at.M).root);
   if (allowed.size() == 0) return {};
   const Quadratic problem{allowed.restrict_both(at.M), allowed.restrict_both(at.C), allowed.restrict_both(at.K)};
-  const double swing = std::max(typical(problem), std::abs(speed)), highest = std::sqrt(fastest(problem));
+  const double swing = std::max(typical(problem), std::abs(speed));
   const double scale = swing > 0 ? swing : 1;
-  // a double zero of a matrix with errors of eps |K| splits by the square root of that
-  const double noise =
-      std::clamp(4 * std::sqrt(std::numeric_limits<double>::epsilon()) * highest, 1e-6 * scale, 1e-2 * scale);
+  const double noise = std::clamp(noise_of(problem), 1e-6 * scale, 1e-2 * scale);
   constexpr Index small = 150;
   const Exponents found =
       allowed.size() <= small ? all_exponents(problem, scale) : first_exponents(problem, scale, count);

@@ -49,7 +49,7 @@ petsc::MatHandle assemble(const Structure& structure, const Conditions& conditio
     Eigen::MatrixXd Ae = structure.matrix(cell, k, m);
     largest = std::max(largest, Ae.diagonal().cwiseAbs().maxCoeff());
     hold(structure, conditions, structure.cell_dofs(cell), Ae);
-    PetscInt nodes[4];
+    PetscInt nodes[8];
     PetscInt count = 0;
     for (int node : cell.nodes()) nodes[count++] = structure.mesh.global_node(node);
     check(MatSetValuesBlocked(A, count, nodes, count, nodes, Ae.data(), ADD_VALUES));  // symmetric: either major

@@ -103,8 +103,17 @@ bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; 
 Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
   const auto corners = cell.corners(), nodes = cell.nodes();
   const Eigen::Index n = mesh.dimension == 2 ? 3 : 6, size = n * static_cast<Eigen::Index>(nodes.size());
-  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(size, size);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n * static_cast<Eigen::Index>(corners.size()), size);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (cell.line[i] >= 0) {
+      const Eigen::Vector3d& axis = *spin_axis(mesh, corners[i]);
+      const Eigen::Index own = 6 * static_cast<Eigen::Index>(i);
+      T.block<6, 6>(own, own).setZero();
+      T.block<3, 3>(own + 3, own + 3) = spin(axis);
+      T.block<6, 6>(own, 6 * cell.line[i]) =
+          line_arm(mesh.positions[corners[i]] - mesh.positions[nodes[cell.line[i]]], axis);
+      continue;
+    }
     const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[i]];
     const Eigen::Index at = n * static_cast<Eigen::Index>(i);
     if (n == 3)

@@ -6,7 +6,4 @@ namespace floe::fem {
 /// @throws InputError  the section does not belong on a cell of this kind, or its axes do not. Rank-local.
 void check_cell(const Structure& structure, const Mesh::Cell& cell);
 
-/// Dofs of the cell's corners from those of the nodes that they follow.
-Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell);
-
 }  // namespace floe::fem

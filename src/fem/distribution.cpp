@@ -114,9 +114,23 @@ std::vector<mesh::Follower> renumbered(const Mesh& mesh, const std::vector<mesh:
   for (const mesh::Follower& f : followers) originals.push_back(f.node), originals.push_back(f.leader);
   const std::vector<PetscInt> found = global_nodes(mesh, originals);
   std::vector<mesh::Follower> all;
-  for (std::size_t i = 0; i < found.size(); i += 2) all.push_back({found[i], found[i + 1]});
+  for (std::size_t i = 0; i < found.size(); i += 2) all.push_back({found[i], found[i + 1], followers[i / 2].axis});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return all;
+}
+
+bool spins(const std::vector<mesh::Follower>& links, PetscInt node) {
+  const auto found = std::lower_bound(links.begin(), links.end(), node,
+                                      [](const mesh::Follower& f, PetscInt wanted) { return f.node < wanted; });
+  return found != links.end() && found->node == node && found->spins();
+}
+
+/// The leader of a corner on a hinge line among the nodes that the cell acts on.
+void lead(Mesh::Cell& cell, int corner, int leader) {
+  const auto end = cell.moved.begin() + cell.moving;
+  const auto found = std::find(cell.moved.begin(), end, leader);
+  cell.line[corner] = static_cast<int>(found - cell.moved.begin());
+  if (found == end) cell.moved[cell.moving++] = leader;
 }
 
 }  // namespace
@@ -140,12 +154,21 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector
     Mesh::Cell own(cell.kind, cell.part, {});
     for (int i = 0; i < mesh::node_count(cell.kind); ++i) {
       own.corner[i] = local(cell.nodes[i]);
-      own.moved[i] = local(mesh::leader_of(links, cell.nodes[i]));
+      own.moved[i] = local(spins(links, cell.nodes[i]) ? cell.nodes[i] : mesh::leader_of(links, cell.nodes[i]));
     }
+    for (int i = 0; i < mesh::node_count(cell.kind); ++i)
+      if (spins(links, cell.nodes[i])) lead(own, i, local(mesh::leader_of(links, cell.nodes[i])));
     mesh.cells.push_back(own);
   }
-  for (const mesh::Follower& f : links)
+  const auto is_local = [&](PetscInt node) {
+    return (node >= begin && node < end) || std::binary_search(mesh.foreign.begin(), mesh.foreign.end(), node);
+  };
+  for (const mesh::Follower& f : links) {
     if (f.node >= begin && f.node < end) mesh.followers.push_back({local(f.node), local(f.leader)});
+    if (f.spins() && is_local(f.node))
+      mesh.spins.push_back({local(f.node), Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2])});
+  }
+  std::sort(mesh.spins.begin(), mesh.spins.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return mesh;
 }
 
@@ -160,8 +183,11 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
 
 std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node) {
   std::vector<PetscInt> mine;
-  for (const Mesh::Follower& f : mesh.followers)
-    for (int d = 0; d < dofs_per_node; ++d) mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);
+  for (const Mesh::Follower& f : mesh.followers) {
+    const Eigen::Vector3d* axis = spin_axis(mesh, f.node);
+    for (int d = 0; d < dofs_per_node; ++d)
+      if (!axis || d != 3 + spin_slot(*axis)) mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);
+  }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
   std::vector<PetscInt> copies;

@@ -62,7 +62,7 @@ void ElementStiffness::each_line(const FieldRows& X, Sink&& sink) const {
     const auto nodes = cell.nodes();
     own.resize(dofs * static_cast<Eigen::Index>(nodes.size()), X.cols());
     for (std::size_t i = 0; i < nodes.size(); ++i) own.middleRows(dofs * i, dofs) = X.middleRows(dofs * nodes[i], dofs);
-    take_rigid_motion(own, arms(structure_.mesh, cell));
+    if (!cell.spins()) take_rigid_motion(own, arms(structure_.mesh, cell));  // else no node has all of it
     if (K_.empty())
       force.noalias() = structure_.matrix(cell, 1, 0) * own;
     else

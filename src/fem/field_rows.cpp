@@ -119,6 +119,24 @@ constexpr Turn planar_turns[] = {{0, 2, 1, 1}, {1, 2, 0, -1}};
 constexpr Turn spatial_turns[] = {{0, 4, 2, -1}, {0, 5, 1, 1},  {1, 5, 0, -1},
                                   {1, 3, 2, 1},  {2, 3, 1, -1}, {2, 4, 0, 1}};
 
+/// A node's own turn about a hinge line less that of the reference about it; rows of their rotations.
+void take_turned(const PieceRows::Spin& spin, const FieldRows& fields, const DofRanges& ranges, Eigen::Index own,
+                 Eigen::Index reference, Eigen::Index out, Strained& strained) {
+  for (int d = 0; d < 3; ++d) {
+    if (spin.slot[d] == 0) continue;
+    double* to = strained.rows.row(out + d).data();
+    const auto [begin, end] = ranges[3 + d];
+    for (int j = begin; j < end; ++j) to[j] = fields(own + d, j);
+    for (int i = 0; i < 3; ++i) {
+      const ColumnRange& range = ranges[3 + i];
+      if (spin.axis[i] == 0 || range.empty()) continue;
+      strained.ranges[3 + d].include(range);
+      add_multiple(-spin.slot[d] * spin.axis[i], fields.row(reference + i).data() + range.begin, to + range.begin,
+                   range.end - range.begin);
+    }
+  }
+}
+
 }  // namespace
 
 void take_strained(const Structure& structure, const PieceRows& piece, const FieldRows& fields, const DofRanges& ranges,
@@ -130,19 +148,31 @@ void take_strained(const Structure& structure, const PieceRows& piece, const Fie
   strained.rows.setZero(per_node * piece.nodes, fields.cols());
   strained.ranges = ranges;
   const auto row = [&](int a, int d) { return fields.row(per_node * piece.node[a] + d).data(); };
-  for (int a = 1; a < piece.nodes; ++a) {
-    const Eigen::Vector3d arm = at[piece.node[a]] - at[piece.node[0]];
+  const auto spins = [&](int a) {
+    const auto found = std::find_if(piece.spins.begin(), piece.spins.end(), [&](const auto& s) { return s.at == a; });
+    return found == piece.spins.end() ? nullptr : &*found;
+  };
+  int& reference = strained.reference;
+  for (reference = 0; spins(reference);) ++reference;  // a line's leader, at the latest
+  for (int a = 0; a < piece.nodes; ++a) {
+    if (a == reference) continue;
+    if (const PieceRows::Spin* spin = spins(a)) {
+      take_turned(*spin, fields, ranges, per_node * piece.node[a] + 3, per_node * piece.node[reference] + 3,
+                  per_node * a + 3, strained);
+      continue;
+    }
+    const Eigen::Vector3d arm = at[piece.node[a]] - at[piece.node[reference]];
     for (int d = 0; d < per_node; ++d) {
       const auto [begin, end] = ranges[d];
       double* out = strained.rows.row(per_node * a + d).data();
-      const double *own = row(a, d), *first = row(0, d);
+      const double *own = row(a, d), *first = row(reference, d);
       for (int j = begin; j < end; ++j) out[j] = own[j] - first[j];
     }
     for (const Turn& turn : turns) {
       const ColumnRange& range = ranges[turn.about];
       if (arm[turn.along] == 0 || range.empty()) continue;
       strained.ranges[turn.to].include(range);
-      add_multiple(turn.sign * arm[turn.along], row(0, turn.about) + range.begin,
+      add_multiple(turn.sign * arm[turn.along], row(reference, turn.about) + range.begin,
                    strained.rows.row(per_node * a + turn.to).data() + range.begin, range.end - range.begin);
     }
   }
@@ -153,7 +183,8 @@ ColumnRange multiply(const Eigen::Ref<const SmallRows>& rows, const Strained& st
   const Eigen::Index columns = strained.rows.cols();
   std::fill(out, out + rows.rows() * columns, 0);
   ColumnRange all;
-  for (Eigen::Index i = dofs_per_node; i < strained.rows.rows(); ++i) {
+  for (Eigen::Index i = 0; i < strained.rows.rows(); ++i) {
+    if (i / dofs_per_node == strained.reference) continue;
     const ColumnRange& range = strained.ranges[i % dofs_per_node];
     if (range.empty()) continue;
     const double* in = strained.rows.row(i).data() + range.begin;

@@ -117,6 +117,16 @@ const FlatBody* flat_body(const Structure& structure) {
   return kept.flat.get();
 }
 
+namespace {
+
+/// A node's rotation, of one on a hinge line its own.
+Vector3d turn_of(const Mesh& mesh, const Vector3d& dofs, Eigen::Index node) {
+  const Vector3d* axis = spin_axis(mesh, static_cast<int>(node));
+  return axis ? Vector3d(spin(*axis) * dofs) : dofs;
+}
+
+}  // namespace
+
 void separate(const Structure& structure, Vec field, double share) {
   if (structure.dimension() == 2) return separate_straight(structure, field, share);
   const FlatBody* flat = flat_body(structure);
@@ -127,7 +137,7 @@ void separate(const Structure& structure, Vec field, double share) {
   Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> q(values.begin(), 6, structure.mesh.owned_nodes);
   double squares[2] = {0, 0};  // out of the plane, in it
   for (Eigen::Index i = 0; i < q.cols(); ++i) {
-    const Vector3d u = q.col(i).head<3>(), turn = length * q.col(i).tail<3>();
+    const Vector3d u = q.col(i).head<3>(), turn = length * turn_of(structure.mesh, q.col(i).tail<3>(), i);
     const double w = normal.dot(u), drill = normal.dot(turn);
     squares[0] += w * w + (turn - drill * normal).squaredNorm();
     squares[1] += drill * drill + (u - w * normal).squaredNorm();
@@ -137,7 +147,10 @@ void separate(const Structure& structure, Vec field, double share) {
   for (int part : {0, 1}) {
     if (!(squares[part] < share * share * squares[1 - part])) continue;
     q.topRows<3>() = ((part == 0 ? along : across) * q.topRows<3>()).eval();
-    q.bottomRows<3>() = ((part == 0 ? across : along) * q.bottomRows<3>()).eval();
+    const Eigen::Matrix3Xd turns = q.bottomRows<3>();
+    q.bottomRows<3>() = (part == 0 ? across : along) * turns;
+    for (const Mesh::Spin& spin : structure.mesh.spins)  // about a line in the plane
+      if (spin.node < q.cols()) q.col(spin.node).tail<3>() = (part == 0 ? 0 : 1) * turns.col(spin.node);
   }
 }
 

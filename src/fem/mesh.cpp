@@ -88,6 +88,26 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments) {
 
 void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rotation) {
   for (Eigen::Vector3d& x : mesh.positions) x = rotation.transpose() * (x - origin);
+  for (Mesh::Spin& spin : mesh.spins) spin.axis = rotation.transpose() * spin.axis;
+}
+
+const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local) {
+  const auto found = std::lower_bound(mesh.spins.begin(), mesh.spins.end(), local,
+                                      [](const Mesh::Spin& spin, int node) { return spin.node < node; });
+  return found != mesh.spins.end() && found->node == local ? &found->axis : nullptr;
+}
+
+int spin_slot(const Eigen::Vector3d& axis) {
+  int slot = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(axis[i]) > std::abs(axis[slot]) + 1e-6) slot = i;  // ties by the order of the axes
+  return slot;
+}
+
+Eigen::Matrix3d spin(const Eigen::Vector3d& axis) {
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  own.col(spin_slot(axis)) = axis;
+  return own;
 }
 
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {

@@ -1,5 +1,6 @@
 #include "floe/fem/piece_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "floe/fem/flat_body.h"
@@ -48,10 +49,23 @@ std::vector<StrainRows::Term> terms_of(const StrainPoint& point, const Eigen::Ma
   return terms;
 }
 
+/// The axis of a hinge line and the dof that stands for the turn about it, in the axes of the pieces.
+PieceRows::Spin spin_of(const Structure& structure, int node, int at) {
+  const Eigen::Vector3d& axis = *spin_axis(structure.mesh, node);
+  const Eigen::Vector3d slot = Eigen::Vector3d::Unit(spin_slot(axis));
+  const FlatBody* flat = flat_body(structure);
+  if (!flat) return {at, axis, slot};
+  Eigen::Vector3d in_plane = flat->axes.transpose() * axis;
+  in_plane.z() = 0;  // but for round-off, like all edges of a flat body
+  return {at, in_plane.normalized(), flat->axes.transpose() * slot};
+}
+
 /// Cells on one or two nodes, from their maps.
 void generic_piece(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, PieceRows& piece) {
   piece.nodes = 0;
   for (int node : cell.nodes()) piece.node[piece.nodes++] = node;
+  for (int i = 0; i < static_cast<int>(cell.corners().size()); ++i)
+    if (cell.line[i] >= 0) piece.spins.push_back(spin_of(structure, cell.corner[i], i));
   if (parts.bending || parts.strain || parts.mass) {
     const ElementMaps maps = structure.maps(cell);
     if (parts.bending) piece.bending = root(maps.bending);
@@ -119,7 +133,7 @@ void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const Sh
 
 void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes, double share, int part,
                     PieceParts parts, PieceRows& piece) {
-  piece.node = nodes;
+  std::copy(nodes.begin(), nodes.end(), piece.node.begin());
   piece.nodes = 3;
   const FlatBody* flat = flat_body(structure);
   const auto& section = std::get<ShellSection>((flat ? flat->sections : structure.sections)[part]);
@@ -134,21 +148,62 @@ void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes,
     samples(g, (at[nodes[0]] + at[nodes[1]] + at[nodes[2]]) / 3, section, share, parts, piece);
 }
 
+/// Calls with all rows of a piece.
+template <class Act>
+void each_rows(PieceRows& piece, Act&& act) {
+  if (piece.bending.size() > 0) act(piece.bending);
+  for (StrainRows& point : piece.strain) act(point.L), act(point.G);
+  for (auto* samples : {&piece.mass, &piece.line})
+    for (MassRows& sample : *samples) act(sample.N);
+}
+
+/// Where the piece has the node, with all its dofs; it is added where it has not.
+int place_of(int node, PieceRows& piece) {
+  const auto turns = [&](int at) {
+    return std::any_of(piece.spins.begin(), piece.spins.end(), [&](const auto& spin) { return spin.at == at; });
+  };
+  for (int at = 0; at < piece.nodes; ++at)
+    if (piece.node[at] == node && !turns(at)) return at;
+  piece.node[piece.nodes++] = node;
+  each_rows(piece, [&](auto& rows) {
+    const Eigen::Index before = rows.cols();
+    rows.conservativeResize(Eigen::NoChange, 6 * piece.nodes);
+    rows.rightCols(rows.cols() - before).setZero();
+  });
+  return piece.nodes - 1;
+}
+
+/// Corner `at` of the piece as a node on a hinge line.
+void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, PieceRows& piece) {
+  piece.spins.push_back(spin);
+  const int led = place_of(leader, piece);
+  const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
+  each_rows(piece, [&](auto& rows) {
+    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own = rows.template middleCols<6>(6 * spin.at);
+    rows.template middleCols<6>(6 * led) += own * T;
+    rows.template middleCols<3>(6 * spin.at).setZero();
+    rows.template middleCols<3>(6 * spin.at + 3) = own.template rightCols<3>() * spin.axis * spin.slot.transpose();
+  });
+}
+
 /// The piece on the dofs of the nodes that move its corners.
-void follow(const Structure& structure, const std::array<int, 3>& moved, PieceRows& piece) {
+/// @param of  its corners among the cell's
+void follow(const Structure& structure, const Mesh::Cell& cell, const std::array<int, 3>& of, PieceRows& piece) {
   const FlatBody* flat = flat_body(structure);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
   for (int i = 0; i < 3; ++i) {
-    if (moved[i] == piece.node[i]) continue;
-    const Eigen::Matrix<double, 6, 6> T = rigid_arm(Eigen::Vector3d(at[piece.node[i]] - at[moved[i]]));
-    const auto carry = [&](auto& rows) {
-      if (rows.size() > 0) rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();
-    };
-    carry(piece.bending);
-    for (StrainRows& point : piece.strain) carry(point.L), carry(point.G);
-    for (auto* samples : {&piece.mass, &piece.line})
-      for (MassRows& sample : *samples) carry(sample.N);
-    piece.node[i] = moved[i];
+    const int moved = cell.moved[of[i]];
+    if (moved == piece.node[i]) continue;
+    const Eigen::Matrix<double, 6, 6> T = rigid_arm(Eigen::Vector3d(at[piece.node[i]] - at[moved]));
+    each_rows(piece, [&](auto& rows) {
+      rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();
+    });
+    piece.node[i] = moved;
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (cell.line[of[i]] < 0) continue;
+    const int node = cell.corner[of[i]], leader = cell.moved[cell.line[of[i]]];
+    spin_about(at[node] - at[leader], leader, spin_of(structure, node, i), piece);
   }
 }
 
@@ -157,7 +212,7 @@ void follow(const Structure& structure, const std::array<int, 3>& moved, PieceRo
 void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, std::vector<PieceRows>& pieces) {
   pieces.resize(cell.kind == CellKind::quadrilateral ? 4 : 1);
   for (PieceRows& piece : pieces)
-    piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.line.clear();
+    piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.line.clear(), piece.spins.clear();
   const auto& c = cell.corner;
   if (cell.kind == CellKind::triangle) {
     triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);
@@ -170,12 +225,8 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
     generic_piece(structure, cell, parts, pieces[0]);
   }
   if (!cell.follows() || cell.kind == CellKind::point || cell.kind == CellKind::line) return;
-  const auto& m = cell.moved;
-  if (cell.kind == CellKind::triangle) return follow(structure, {m[0], m[1], m[2]}, pieces[0]);
-  for (int k = 0; k < 4; ++k) {
-    const auto& of = quadrilateral_triangles[k];
-    follow(structure, {m[of[0]], m[of[1]], m[of[2]]}, pieces[k]);
-  }
+  if (cell.kind == CellKind::triangle) return follow(structure, cell, {0, 1, 2}, pieces[0]);
+  for (int k = 0; k < 4; ++k) follow(structure, cell, quadrilateral_triangles[k], pieces[k]);
 }
 
 }  // namespace floe::fem

@@ -80,7 +80,11 @@ Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, in
   if (!follows) return q;
   const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->leader];
   if (n == 3) return rigid_arm(Eigen::Vector2d(arm.head<2>())) * q;
-  return rigid_arm(arm) * q;
+  const Eigen::Vector3d* axis = spin_axis(structure.mesh, node);
+  if (!axis) return rigid_arm(arm) * q;
+  Eigen::VectorXd moved = line_arm(arm, *axis) * q;
+  moved.tail<3>() += spin(*axis) * Eigen::Map<const Eigen::Vector3d>(owned + static_cast<std::ptrdiff_t>(6) * node + 3);
+  return moved;
 }
 
 petsc::VecHandle field(const Structure& structure) {
@@ -119,8 +123,12 @@ std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {
       for (int i = 0; i < d; ++i) at[i] = u[i];
       at[motion] = 1;
     }
-    for (const Mesh::Follower& follower : structure.mesh.followers)
-      std::fill_n(values + static_cast<std::ptrdiff_t>(per_node) * follower.node, per_node, 0.0);
+    for (const Mesh::Follower& follower : structure.mesh.followers) {
+      double* at = values + static_cast<std::ptrdiff_t>(per_node) * follower.node;
+      std::fill_n(at, per_node, 0.0);
+      if (const Eigen::Vector3d* line = spin_axis(structure.mesh, follower.node); line && motion >= d)
+        at[3 + spin_slot(*line)] = line->dot(axis);
+    }
     check(VecRestoreArray(motions.back(), &values));
   }
   return motions;

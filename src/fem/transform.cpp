@@ -19,6 +19,12 @@ Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& a) {
   return T;
 }
 
+Eigen::Matrix<double, 6, 6> line_arm(const Eigen::Vector3d& arm, const Eigen::Vector3d& axis) {
+  Eigen::Matrix<double, 6, 6> T = rigid_arm(arm);
+  T.bottomRightCorner<3, 3>() -= axis * axis.transpose();
+  return T;
+}
+
 Eigen::Matrix3d rigid_arm(const Eigen::Vector2d& a) {
   return (Eigen::Matrix3d() << 1, 0, -a.y(), 0, 1, a.x(), 0, 0, 1).finished();
 }

@@ -68,7 +68,7 @@ struct Formula::Parser {
   double value = 0;  // of a formula without variables
   bool constant = true;
   std::vector<std::string> variables;
-  std::array<double, 2> arguments{};
+  std::array<double, 3> arguments{};
   std::unique_ptr<mu::Parser> parser;      // none for a number: it is large
   std::shared_ptr<const Expression> tree;  // for derivatives
 
@@ -126,23 +126,24 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& variab
   parser_->tree = Expression::read(text, variables, constants);
 }
 
-double Formula::finite(double value, const char* what, double first, double second) const {
+double Formula::finite(double value, const char* what, double first, double second, double third) const {
   if (std::isfinite(value)) return value;
   const auto& variables = parser_->variables;
   std::string where;
   if (!parser_->constant) where = fmt::format(" at {} = {}", variables[0], first);
   if (!parser_->constant && variables.size() > 1) where += fmt::format(", {} = {}", variables[1], second);
+  if (!parser_->constant && variables.size() > 2) where += fmt::format(", {} = {}", variables[2], third);
   throw FormulaError(
       fmt::format("{}\"{}\" is {}{}", what, text(), std::isnan(value) ? "not a number" : "infinite", where));
 }
 
-double Formula::operator()(double first, double second) const {
+double Formula::operator()(double first, double second, double third) const {
   double value = parser_->value;
   if (!parser_->constant) {
-    parser_->arguments = {first, second};
+    parser_->arguments = {first, second, third};
     value = parser_->evaluate();
   }
-  return finite(value, "", first, second);
+  return finite(value, "", first, second, third);
 }
 
 double Formula::derivative(double first, double second) const {

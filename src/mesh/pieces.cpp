@@ -1,6 +1,10 @@
 #include "floe/mesh/pieces.h"
 
+#include <algorithm>
 #include <map>
+#include <set>
+
+#include "floe/error.h"
 
 namespace floe::mesh {
 namespace {
@@ -48,6 +52,95 @@ std::vector<Follower> with_pieces(const std::vector<Follower>& links,
   std::vector<Follower> followers;
   for (const auto& [node, first] : all) followers.push_back({node, first});
   return followers;
+}
+
+namespace {
+
+std::vector<PetscInt> in_common(const HingeLine& one, const HingeLine& other) {
+  std::vector<PetscInt> both;
+  std::set_intersection(one.nodes.begin(), one.nodes.end(), other.nodes.begin(), other.nodes.end(),
+                        std::back_inserter(both));
+  return both;
+}
+
+/// Lines with two nodes in common made one; nodes ascend.
+std::vector<HingeLine> joined(std::vector<HingeLine> lines) {
+  std::vector<HingeLine> all;
+  for (HingeLine& line : lines) {
+    std::sort(line.nodes.begin(), line.nodes.end());
+    for (auto other = all.begin(); other != all.end();) {
+      if (in_common(line, *other).size() < 2) {
+        ++other;
+        continue;
+      }
+      std::vector<PetscInt> both;
+      std::set_union(line.nodes.begin(), line.nodes.end(), other->nodes.begin(), other->nodes.end(),
+                     std::back_inserter(both));
+      line.nodes = std::move(both);
+      line.held = line.held && other->held;
+      other = all.erase(other);
+    }
+    all.push_back(std::move(line));
+  }
+  return all;
+}
+
+}  // namespace
+
+namespace {
+
+/// What leads a line, if not a node of its own choice: more than one where that cannot be.
+std::set<PetscInt> leaders_of(const HingeLine& line, const std::vector<HingeLine>& all,
+                              const std::vector<Follower>& followers) {
+  std::set<PetscInt> leaders;
+  const auto leads = [&](PetscInt node) {
+    return std::any_of(followers.begin(), followers.end(), [&](const Follower& f) { return f.leader == node; });
+  };
+  for (PetscInt node : line.nodes)
+    if (const PetscInt leader = leader_of(followers, node); leader != node || leads(node)) leaders.insert(leader);
+  for (const HingeLine& other : all)
+    if (&other != &line)
+      for (PetscInt node : in_common(line, other)) leaders.insert(leader_of(followers, node));
+  return leaders;
+}
+
+/// Without those that the ground holds and that touch others, if some line has two leaders else.
+void leave_out_held(std::vector<HingeLine>& lines, const std::vector<Follower>& followers) {
+  const auto torn = [&](const HingeLine& line) { return leaders_of(line, lines, followers).size() > 1; };
+  if (std::none_of(lines.begin(), lines.end(), torn)) return;
+  std::vector<HingeLine> kept;
+  for (const HingeLine& line : lines)
+    if (!line.held || leaders_of(line, lines, followers).empty()) kept.push_back(line);
+  lines = std::move(kept);
+}
+
+}  // namespace
+
+std::vector<Follower> with_lines(const std::vector<Follower>& followers, std::vector<HingeLine> lines,
+                                 const std::vector<PetscInt>& preferred) {
+  std::map<PetscInt, Follower> all;
+  for (const Follower& f : followers) all.emplace(f.node, f);
+  lines = joined(std::move(lines));
+  leave_out_held(lines, followers);
+  std::vector<std::string> faults;
+  for (const HingeLine& line : lines) {
+    std::set<PetscInt> leaders = leaders_of(line, lines, followers);
+    if (leaders.size() > 1) {
+      faults.push_back(line.where +
+                       ": its edge has nodes in common with two others that joints or links hold; expected one such "
+                       "node at most, or edges: rigid or mean");
+      continue;
+    }
+    for (PetscInt node : line.nodes)
+      if (leaders.empty() && std::count(preferred.begin(), preferred.end(), node) > 0) leaders.insert(node);
+    const PetscInt leader = leaders.empty() ? line.nodes[line.nodes.size() / 2] : *leaders.begin();
+    for (PetscInt node : line.nodes)
+      if (node != leader && leader_of(followers, node) == node) all.emplace(node, Follower{node, leader, line.axis});
+  }
+  if (!faults.empty()) throw InputError(faults);
+  std::vector<Follower> ascending;
+  for (const auto& [node, follower] : all) ascending.push_back(follower);
+  return ascending;
 }
 
 }  // namespace floe::mesh

@@ -77,9 +77,12 @@ def draw(description, shown, path, dpi):
               label="Pareto front")
     for i, family in enumerate(dict.fromkeys(rung["family"] for rung in shown)):
         members = [rung for rung in shown if rung["family"] == family]
+        chosen_by_floe = family == "accuracy"
         axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none",
-                  marker=MARKS[i % len(MARKS)], markersize=7, color=COLOURS[i % len(COLOURS)],
-                  markeredgecolor="white", markeredgewidth=0.6, zorder=3, label=family)
+                  marker="o" if chosen_by_floe else MARKS[i % len(MARKS)], markersize=7,
+                  color="black" if chosen_by_floe else COLOURS[i % len(COLOURS)],
+                  markeredgecolor="white", markeredgewidth=0.6, zorder=3,
+                  label="chosen by floe" if chosen_by_floe else family)
     chosen = description["chosen"]
     if chosen:
         axes.plot(chosen["motion"], 100 * chosen["error"], linestyle="none", marker="o", markersize=15,
@@ -90,7 +93,7 @@ def draw(description, shown, path, dpi):
     own = worst(description["reference_itself"]) if "reference_itself" in description else None
     if own:
         axes.axhline(100 * own, color="0.35", linestyle=(0, (1, 1.5)), linewidth=1.2,
-                     label=f"its own error: {per_cent(own)}")
+                     label=f"error of its mesh: {per_cent(own)}")
     for number, rung in enumerate(front, start=1):  # below and left of the front there is nothing else
         axes.annotate(str(number), (rung["motion"], 100 * rung["error"]), xytext=(-6, -6), textcoords="offset points",
                       ha="right", va="top", fontsize=8, fontweight="bold")

@@ -59,10 +59,18 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem
   if (cell.kind != fem::CellKind::triangle && cell.kind != fem::CellKind::quadrilateral) return M;
   const auto at = [&](int i) { return structure.mesh.positions[cell.corner[i]]; };
   const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-  const Eigen::MatrixXd own =  // of its corners, whomever they follow: a follower's rotations are its leader's
+  const Eigen::MatrixXd own =  // of its corners, whomever they follow
       cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 0, 1) : M;
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.nodes().size()); ++i)
-    M.block<3, 3>(6 * i + 3, 6 * i + 3) += 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace() * n * n.transpose();
+  const Eigen::MatrixXd T = cell.follows() ? fem::following(structure.mesh, cell) : Eigen::MatrixXd();
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.corners().size()); ++i) {
+    const double lacking = 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace();
+    if (!cell.follows()) {
+      M.block<3, 3>(6 * i + 3, 6 * i + 3) += lacking * n * n.transpose();
+      continue;
+    }
+    const Eigen::VectorXd drill = T.middleRows<3>(6 * i + 3).transpose() * n;
+    M += lacking * drill * drill.transpose();
+  }
   return M;
 }
 

@@ -21,16 +21,25 @@ void BodyMesh::let_follow(std::span<double> values) const {
   const auto dofs = [&](int node) { return Eigen::Map<Eigen::VectorXd>(values.data() + n * node, n); };
   for (const fem::Mesh::Follower& f : followers) {
     const Eigen::Vector3d from = arm(f.node);
-    if (n == 3)
+    if (n == 3) {
       dofs(f.node) = fem::rigid_arm(Eigen::Vector2d(from.head<2>())) * dofs(f.leader);
-    else
-      dofs(f.node) = fem::rigid_arm(from) * dofs(f.leader);
+    } else {
+      const auto spin = std::find_if(spins.begin(), spins.end(), [&](const auto& s) { return s.node == f.node; });
+      if (spin == spins.end()) {
+        dofs(f.node) = fem::rigid_arm(from) * dofs(f.leader);
+        continue;
+      }
+      const Eigen::Vector3d own = fem::spin(spin->axis) * Eigen::Vector3d(dofs(f.node).tail<3>());
+      dofs(f.node) = fem::line_arm(from, spin->axis) * dofs(f.leader);
+      dofs(f.node).tail<3>() += own;
+    }
   }
 }
 
 std::shared_ptr<const BodyMesh> body_mesh(const PreparedBody& body) {
   if (body.spec.reduced) return nullptr;
-  return std::make_shared<const BodyMesh>(BodyMesh{mesh_copy(body), body.structure.mesh.followers});
+  const fem::Mesh& mesh = body.structure.mesh;
+  return std::make_shared<const BodyMesh>(BodyMesh{mesh_copy(body), mesh.followers, mesh.spins});
 }
 
 }  // namespace floe::scene

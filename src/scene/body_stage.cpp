@@ -56,12 +56,15 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   report.seconds_modes = MPI_Wtime() - start;
 }
 
+fem::Holding holding_of_modes(const PreparedBody& body) {
+  return fem::holding(body.structure, body.frame, of_frame(body) ? body.frame.conditions : held_by_modes(body));
+}
+
 void begin_stage(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report) {
   const PreparedBody& body = prepared.bodies[index];
   check_interface(prepared, index);
   stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
-  stage.for_modes =
-      of_frame(body) ? fem::holding(body.structure, body.frame, body.frame.conditions) : stage.for_statics;
+  stage.for_modes = of_frame(body) ? holding_of_modes(body) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
   stage.attachments = attachments(prepared, index);

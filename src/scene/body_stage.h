@@ -19,6 +19,9 @@ struct Stage {
 constexpr int as_the_body_has = -1;
 int count_of_modes(const PreparedBody& body);
 
+/// How the body is held when it vibrates in its modes. Collective.
+fem::Holding holding_of_modes(const PreparedBody& body);
+
 /// Factors, modes and static columns. @param modes  how many, or as_the_body_has. Collective.
 void begin_stage(const Prepared& prepared, int index, int modes, Stage& stage, BodyReport& report);
 

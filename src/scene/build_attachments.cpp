@@ -32,9 +32,11 @@ reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& p
   for (const Lever& lever : place.moved_by()) {
     const PetscInt dof = n * lever.node;
     if (dof < values.first || dof >= values.end) continue;
-    values[dof + component] = lever.share;
-    if (n < 6 || component > 2) continue;
-    const Eigen::Vector3d moment = lever.arm.cross(Eigen::Vector3d::Unit(component));
+    if (n < 6 || component < 3) values[dof + component] = lever.share;
+    if (n < 6) continue;
+    const Eigen::Vector3d moment = component < 3
+                                       ? Eigen::Vector3d(lever.arm.cross(Eigen::Vector3d::Unit(component)))
+                                       : Eigen::Vector3d(lever.turn.row(component - 3));
     for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }
   return attachment;
@@ -57,6 +59,11 @@ reduction::Attachment rigid_displacement(const PreparedBody& body, const Prepare
   for (const Lever& lever : place.moved_by()) {
     const PetscInt node = lever.node;
     if (n * node < values.first || n * node >= values.end) continue;
+    if (const Eigen::Vector3d* line = fem::spin_axis(
+            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own turn alone
+      if (component >= d) values[n * node + 3 + fem::spin_slot(*line)] = (*line)[component - 3];
+      continue;
+    }
     values[n * node + component] = 1;
     if (component < d) continue;
     const Eigen::Vector3d axis =
@@ -148,10 +155,11 @@ std::vector<Support> supports_of(const Prepared& prepared, int index) {
     if (place.body != index || place.nodes.empty()) continue;
     Support support{static_cast<int>(j), &place, {}, false};
     for (int c = 0; c < 6; ++c)
-      if (std::binary_search(body.held.begin(), body.held.end(), 6 * place.nodes.front() + c))
+      if (std::binary_search(body.held.begin(), body.held.end(),
+                             6 * (place.line ? place.node : place.nodes.front()) + c))
         support.components.push_back(c);
     // nodes whose displacements are held also hold the turns of their piece: about a line all but one
-    if (place.nodes.size() > 1 && support.components == std::vector<int>{0, 1, 2}) support.components = {0, 1, 2, 3, 4};
+    if (place.nodes.size() > 1 && !place.line && support.components == std::vector<int>{0, 1, 2}) support.components = {0, 1, 2, 3, 4};
     support.at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
                        std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0;
     if (!support.components.empty()) all.push_back(std::move(support));

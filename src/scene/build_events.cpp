@@ -98,6 +98,19 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
     }
     events.push_back(std::move(out));
   }
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    const ModelStop& stop = model.stops[i];
+    const bool second = std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
+      return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
+    });
+    const std::string side = std::string(second ? "turn_" : "") + (stop.upper ? "upper" : "lower");
+    dynamics::Event out;
+    out.name = fmt::format("{}.{}", stop.joint, side);
+    out.what = fmt::format("joint {} hits its {} limit", stop.joint, side);
+    out.what_back = fmt::format("joint {} leaves its {} limit", stop.joint, side);
+    out.gap = [&model, i](double, Vec U, Vec V) { return stop_gap(model, i, U, V); };
+    events.push_back(std::move(out));
+  }
   return events;
 }
 

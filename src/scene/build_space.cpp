@@ -9,6 +9,7 @@
 #include "build_space_rows.h"
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/start.h"
+#include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 #include "mesh_copy.h"
 #include "prepare_reduced.h"
@@ -25,6 +26,17 @@ bool at_rest(const PreparedBody& body, const body::PlaceMap& map) {
   const output::ReducedBodyFile& file = *body.spec.reduced->file;
   const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
   return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
+}
+
+Eigen::Matrix3d attitude_of_mesh(const Body& body) {
+  const Point& r = body.initial.rotation;
+  return math::rotation({r[0], r[1], r[2]});
+}
+
+/// Where a point of the undeformed mesh is at the start.
+Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
+  const Point& p = body.initial.position;
+  return Eigen::Vector3d(p[0], p[1], p[2]) + attitude_of_mesh(body) * x;
 }
 
 }  // namespace
@@ -86,7 +98,7 @@ void SpaceAssembly::refuse() const {
     const Joint& joint = prepared_.scene.joints[j];
     if (is_reduced(formulation_) || !prepared_.joint_held[j]) continue;
     const PreparedPlace& place = *held_place(prepared_, j);
-    if (compact(place.body) || place.nodes.size() < 2 || slots_[place.body].still) continue;
+    if (compact(place.body) || place.nodes.size() < 2 || place.line || slots_[place.body].still) continue;
     const fem::Conditions& held = prepared_.bodies[place.body].clamp;
     if (std::all_of(place.nodes.begin(), place.nodes.end(),
                     [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
@@ -101,6 +113,12 @@ void SpaceAssembly::refuse() const {
     if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
       faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
                                    body.spec.damping.where.text(), name_of(formulation_)));
+    if (slots_[b].still && body.deformation &&
+        ((body.place - start_of_mesh(body.spec, body.origin)).norm() > 1e-6 * prepared_.extent ||
+         (body.attitude - attitude_of_mesh(body.spec) * body.axes).norm() > 1e-6))
+      faults.push_back(
+          fmt::format("{}.deformation: moves or turns body {} where the ground clamps it; expected neither there",
+                      body.spec.initial.where.text(), body.spec.name));
     if (slots_[b].still && body.host < 0 &&
         (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
@@ -223,10 +241,36 @@ void SpaceAssembly::add_still_cells(int b) {
   }
 }
 
+/// What the body's deformation at the start makes of its elastic coordinates; those that are held stay zero.
+void SpaceAssembly::set_deformation(int b, Vec shape, Vec into) const {
+  if (!shape) return;
+  const PreparedBody& body = prepared_.bodies[b];
+  const auto set = [&](PetscInt row, double value) { check(VecSetValue(into, row, value, INSERT_VALUES)); };
+  if (compact(b)) {
+    Eigen::VectorXd eta = Eigen::VectorXd::Zero(reduced_[b].body.coordinates());
+    if (eta.size() > 0) check(BVDotVec(reduced_[b].basis->V, shape, eta.data()));
+    for (Eigen::Index i = 0; i < eta.size() && owner_; ++i)
+      set(coordinates_.global()[slots_[b].elastic + static_cast<int>(i)], eta[i]);
+    return;
+  }
+  petsc::Values own(shape);
+  const fem::Mesh& mesh = body.structure.mesh;
+  for (PetscInt dof = own.first; dof < own.end; ++dof) {
+    if (std::binary_search(held(b).begin(), held(b).end(), dof)) continue;
+    const int local = static_cast<int>(dof - 6 * mesh.first_node);
+    set(coordinates_.global()[slots_[b].nodes->of_local_node(local / 6) + local % 6], own[dof]);
+  }
+}
+
 void SpaceAssembly::set_start(Model& model) {
   const dynamics::System layout(coordinates_, {});
   model.U = layout.create_vector();
   model.V = layout.create_vector();
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PreparedBody& body = prepared_.bodies[b];
+    set_deformation(static_cast<int>(b), body.deformation, model.U);
+    set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
+  }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PreparedBody& body = prepared_.bodies[b];
     if (slots_[b].still || body.host >= 0) continue;

@@ -56,6 +56,7 @@ class SpaceAssembly {
   void add_spring(int joint, const PlacedJoint& placed);
   void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
   void add_probes(Model& model);
+  void set_deformation(int body, Vec shape, Vec into) const;
   void set_start(Model& model);
 
   dynamics::SpatialMarker marker(const PreparedPlace& place);

@@ -48,8 +48,12 @@ SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
       const Lever& lever = place.levers[i];
       at.coordinates.push_back(slot.nodes->of_node(lever.node) + d);
       if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * lever.node + d)) continue;
-      (d < 3 ? at.S : at.psi)(d % 3, 6 * i + d) = lever.share;
-      if (d >= 3) at.S.col(6 * i + d) = Eigen::Vector3d::Unit(d % 3).cross(lever.arm);
+      if (d < 3) {
+        at.S(d, 6 * i + d) = lever.share;
+        continue;
+      }
+      at.psi.col(6 * i + d) = lever.turn.col(d - 3);
+      at.S.col(6 * i + d) = Eigen::Vector3d::Unit(d - 3).cross(lever.arm);
     }
   return at;
 }

@@ -14,23 +14,29 @@ void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::St
   if (std::isfinite(limits.upper)) all.push_back({joint.name, true, term});
 }
 
-std::vector<double> stop_gaps(const Model& model, Vec U) {
-  std::vector<double> gaps(model.stops.size());
-  if (gaps.empty()) return gaps;
-  Eigen::VectorXd q;
-  model.system->gather(U, q);
+std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) {
+  std::array<double, 2> gap{};
+  Eigen::VectorXd q, v;
+  model.system->gather(U, q), model.system->gather(V, v);
   const MPI_Comm comm = model.system->comm();
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
-  for (std::size_t i = 0; i < gaps.size() && rank == size - 1; ++i) {
+  if (rank == size - 1) {
     const dynamics::Stop& stop = *model.stops[i].term;
-    const std::vector<int>& at = stop.coordinates();
-    const Eigen::VectorXd own = q(at), none = Eigen::VectorXd::Zero(own.size());
-    const double x = stop.position({0, own, none, none});
-    gaps[i] = model.stops[i].upper ? stop.law().upper - x : x - stop.law().lower;
+    const Eigen::VectorXd own = q(stop.coordinates()), rates = v(stop.coordinates()),
+                          none = Eigen::VectorXd::Zero(own.size());
+    const dynamics::Motion motion{0, own, rates, none};
+    const double x = stop.position(motion), rate = stop.rate(motion);
+    gap = model.stops[i].upper ? std::array{stop.law().upper - x, -rate} : std::array{x - stop.law().lower, rate};
   }
-  if (size > 1) MPI_Bcast(gaps.data(), static_cast<int>(gaps.size()), MPI_DOUBLE, size - 1, comm);
+  if (size > 1) MPI_Bcast(gap.data(), 2, MPI_DOUBLE, size - 1, comm);
+  return gap;
+}
+
+std::vector<double> stop_gaps(const Model& model, Vec U) {
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i < model.stops.size(); ++i) gaps.push_back(stop_gap(model, i, U, U)[0]);
   return gaps;
 }
 

@@ -50,8 +50,9 @@ void check_frames(Document& document, const Body& body) {
   if (body.frames == 1) return;
   Where where = body.where;
   where.key += ".frames";
-  if (body.mesh.segments.size() > 1) {
-    document.fault(where, fmt::format("is {} for a mesh of several segments", body.frames), "1, or a single line");
+  if (body.mesh.segments.size() != 1) {
+    const char* what = body.mesh.segments.empty() ? "that is no line" : "of several segments";
+    document.fault(where, fmt::format("is {} for a mesh {}", body.frames, what), "1, or a single line");
   } else if (body.mesh.elements[0] % body.frames != 0) {
     document.fault(where, fmt::format("is {} for {} elements", body.frames, body.mesh.elements[0]),
                    "a divisor of the number of elements");
@@ -77,13 +78,13 @@ void check_modes(Document& document, const Body& body) {
 }
 
 void check_initial(Document& document, const Body& body) {
-  const auto check = [&](const std::optional<std::array<math::Formula, 2>>& formulas, const char* key) {
+  const auto check = [&](const auto& formulas, const char* key) {
     if (!formulas) return;
     Where where = body.initial.where;
     where.key += std::string(".") + key;
     try {
       for (const Point& p : body.mesh.points) {
-        for (const auto& formula : *formulas) formula(p[0], p[1]);
+        for (const auto& formula : *formulas) formula(p[0], p[1], p[2]);
       }
     } catch (const math::FormulaError& error) {
       document.fault(where, error.what(), "a finite number at every point of the body");
@@ -91,6 +92,8 @@ void check_initial(Document& document, const Body& body) {
   };
   check(body.initial.deformation, "deformation");
   check(body.initial.deformation_rate, "deformation_rate");
+  check(body.initial.spatial_deformation, "deformation");
+  check(body.initial.spatial_deformation_rate, "deformation_rate");
 }
 
 }  // namespace
@@ -101,6 +104,11 @@ void check_body(Document& document, const Body& body) {
   const std::size_t before = document.fault_count();
   check_frames(document, body);
   if (document.fault_count() != before) return;
+  if (document.dimension == 3) {  // the rest is checked on the mesh itself
+    if (body.frames > 1 && body.frame.given) check_frame(document, body);
+    if (body.frames > 1) check_interface(document, body);
+    return;
+  }
   check_frame(document, body);
   check_interface(document, body);
   check_modes(document, body);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #include "estimate_columns.h"
 #include "estimate_lift.h"
@@ -32,11 +33,11 @@ constexpr int most_columns = 8;   // for each body
 /// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
 constexpr PetscInt most_elements = 20000;
 
-/// Time that is left, as rank 0 sees it: all ranks decide alike.
+/// Processor time that is left, as rank 0 sees it: all ranks decide alike, and not by what else the machine does.
 class Allowance {
  public:
-  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(MPI_Wtime()), allowed_(of_first(seconds)) {}
-  double spent() const { return of_first(MPI_Wtime() - begin_); }
+  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(now()), allowed_(of_first(seconds)) {}
+  double spent() const { return of_first(now() - begin_); }
   double left() const { return std::max(0.0, allowed_ - spent()); }
   double of_first(double value) const {
     MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm_);
@@ -44,6 +45,7 @@ class Allowance {
   }
 
  private:
+  static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
   MPI_Comm comm_;
   double begin_, allowed_;
 };

@@ -15,13 +15,16 @@ struct Candidates {
   std::vector<int> group;
 };
 
+bool is_spent(const Candidates& body, Eigen::Index c) { return !(body.D.col(c).norm() > spent * body.norms[c]); }
+
 double gain(const Candidates& body, Eigen::Index c) {
+  if (is_spent(body, c)) return 0;
   const double size = body.D.col(c).squaredNorm();
-  if (!(size > spent * spent * body.norms[c] * body.norms[c])) return 0;
   return body.D.col(c).dot(body.G * body.D.col(c)) / size;
 }
 
 void take(Candidates& body, Eigen::Index c) {
+  if (is_spent(body, c)) return;  // its direction would be round-off
   const Eigen::VectorXd d = body.D.col(c).normalized();
   for (int pass = 0; pass < 2; ++pass) body.D -= d * (d.transpose() * body.D).eval();
   body.D.col(c).setZero();

@@ -279,7 +279,9 @@ std::vector<Participation> Pool::participation(const Model& whole, const std::ve
     const ReducedBody& reduced = parts.reduced_body(b, std::vector<char>(source.columns.size(), 1));
     const int k = reduced.body.coordinates();
     const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
-    const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).operatorSqrt();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K);  // round-off may make the least ones negative
+    const Eigen::MatrixXd root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() *
+                                 eigen.eigenvectors().transpose();
     Directions one;
     one.D.resize(k, static_cast<Eigen::Index>(source.columns.size()));
     for (std::size_t i = 0; i < source.columns.size(); ++i) {
@@ -317,6 +319,18 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
   for (std::size_t i = 0; i < columns().size(); ++i)
     if (selection.taken[i] && columns()[i].response)
       files[columns()[i].body] = scene.stem().string() + "-" + columns()[i].body + ".h5";
+  const auto loaded = [&](const std::string& name) {
+    return std::any_of(parts.whole.loads.begin(), parts.whole.loads.end(),
+                       [&](const Load& load) { return load.kind == Load::Kind::pressure && load.body == name; });
+  };
+  for (const Body& body : parts.whole.bodies)
+    if (const InitialSpec& start = body.initial;
+        files.contains(body.name) && (start.deformation || start.deformation_rate || start.spatial_deformation ||
+                                      start.spatial_deformation_rate || loaded(body.name)))
+      throw InputError(
+          body.where.text() +
+          ": has columns of the error estimate, which a scene cannot name, and a deformation at the start or a "
+          "pressure, which a body from a file cannot have; expected another accuracy");
   for (const Body& body : parts.whole.bodies)
     if (files.contains(body.name) && body.frames > 1)
       throw InputError(body.where.text() +
@@ -338,8 +352,9 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
     }
     written.push_back(beside.string());
   }
-  const std::string text =
-      pool_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection)) + "\n";
+  const std::string text = pool_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection),
+                                     std::filesystem::absolute(scene).parent_path()) +
+                           "\n";
   petsc::agree(parts.comm, [&] {
     int rank = 0;
     MPI_Comm_rank(parts.comm, &rank);

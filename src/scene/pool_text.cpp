@@ -20,17 +20,43 @@ void write_columns(YAML::Node reduction, const std::vector<std::string>& labels,
     reduction.remove("elastic_force");
 }
 
+/// A path that is relative to the folder of one scene, for one in another folder.
+void move_path(YAML::Node node, const std::filesystem::path& from, const std::filesystem::path& to) {
+  const std::filesystem::path path = node.as<std::string>();
+  if (path.is_absolute()) return;
+  const auto whole = [](const std::filesystem::path& one) { return std::filesystem::absolute(one).lexically_normal(); };
+  node = whole(from / path).lexically_proximate(whole(to)).string();
+}
+
+void move_paths(YAML::Node root, const std::filesystem::path& from, const std::filesystem::path& to) {
+  for (const auto& entry : root["bodies"]) {
+    YAML::Node body = entry.second;
+    if (body["reduced"].IsDefined()) move_path(body["reduced"], from, to);
+    if (!body["mesh"].IsDefined() || !body["mesh"].IsMap() || !body["mesh"]["file"].IsDefined()) continue;
+    YAML::Node file = body["mesh"]["file"];
+    if (file.IsScalar())
+      move_path(file, from, to);
+    else if (file.IsMap() && file["path"].IsDefined())
+      move_path(file["path"], from, to);
+  }
+}
+
 }  // namespace
 
 std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
-                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames) {
+                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
+                      const std::filesystem::path& folder) {
   YAML::Node root = YAML::Load(scene.text);
+  if (!folder.empty()) move_paths(root, std::filesystem::path(scene.file).parent_path(), folder);
   for (const Body& body : scene.bodies) {
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      if (selection.taken[i] && columns[i].body == body.name && !columns[i].response)
-        labels.push_back(columns[i].label);
+    bool any = false;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!selection.taken[i] || columns[i].body != body.name) continue;
+      any = true;
+      if (!columns[i].response) labels.push_back(columns[i].label);
+    }
     YAML::Node node = root["bodies"][body.name];
     if (const auto file = files.find(body.name); file != files.end()) {
       const YAML::Node initial = node["initial"];
@@ -40,10 +66,11 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
       root["bodies"][body.name] = from_file;
       continue;
     }
-    if (labels.empty()) {
+    if (!any) {
       node["rigid"] = true;
       continue;
     }
+    if (labels.empty()) continue;  // responses alone
     YAML::Node reduction = node["reduction"];
     if (!reduction.IsMap()) reduction = YAML::Node(YAML::NodeType::Map);
     write_columns(reduction, labels, selection.linear);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "build_spatial_start.h"
 #include "floe/math/rotation.h"
 #include "prepare_reduced.h"
 #include "shared_frames.h"
@@ -221,27 +222,31 @@ Eigen::Matrix3d joint_axes(const Prepared& prepared, const Joint& joint, const s
 }
 
 /// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
-/// holds all dofs of all nodes, a hinge along an edge the displacements of its nodes; at one node what lies along the
-/// axes of the frame. Collective.
+/// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at one
+/// node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
 bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedBody& body, const PreparedPlace& place,
                    fem::Conditions& held) {
   using Kind = Joint::Kind;
+  const bool pinned = place.line && (joint.kind == Kind::revolute || joint.kind == Kind::cylindrical);
   const auto hold = [&](std::initializer_list<int> dofs) {
     for (const Lever& lever : place.levers)
-      for (int dof : dofs) held.push_back(6 * lever.node + dof);
+      for (int dof : dofs)
+        if (!pinned || lever.node == place.node) held.push_back(6 * lever.node + dof);
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const Eigen::Vector3d axis = body.attitude.transpose() * W.col(2);
-  const bool carried = place.levers.size() < place.nodes.size() || !place.levers.front().arm.isZero(0);
-  if (place.nodes.size() > 1) {
+  const Eigen::Vector3d& arm = place.levers.front().arm;
+  const bool carried = pinned ? arm.cross(axis).norm() > 1e-9 * arm.norm()
+                              : place.line || place.levers.size() < place.nodes.size() || !arm.isZero(0);
+  if (place.nodes.size() > 1 && !pinned) {
     const auto line = line_of(body, place);
     if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
       return false;
     if (carried)
       throw InputError(joint.where.text() +
-                       ": its edge has nodes of a rigid piece that a link or another joint makes; expected places "
-                       "without a node in common");
+                       ": its edge has nodes of a rigid piece or hinge line that a link or another joint makes; "
+                       "expected places without a node in common, or edges: mean at the other joint");
     return hold({0, 1, 2}), true;
   }
   if (carried) return false;
@@ -264,18 +269,6 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedB
   return true;
 }
 
-/// Where the frame is at the start, and how it moves.
-void start_body(PreparedBody& body) {
-  const InitialSpec& start = body.spec.initial;
-  const auto vector = [](const Point& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
-  const Eigen::Matrix3d Q = math::rotation(vector(start.rotation));
-  const Eigen::Vector3d arm = Q * body.origin, spin = vector(start.angular_velocity);
-  body.attitude = Q * body.axes;
-  body.place = vector(start.position) + arm;
-  body.rate = vector(start.velocity) + spin.cross(arm);
-  body.spin = body.attitude.transpose() * spin;
-}
-
 /// Hosts first, for their guests' meshes are expressed in their frames.
 std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
   const std::vector<SharedFrame> shared = shared_frames(scene);
@@ -286,7 +279,7 @@ std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
       if (shared[b].shared() != guests) continue;
       found[b] = spec.reduced ? prepare_reduced(spec, comm)
                               : prepare_body(scene, spec, comm, shared[b], guests ? &*found[shared[b].host] : nullptr);
-      start_body(*found[b]);
+      start_spatial_body(*found[b]);
     }
   std::vector<PreparedBody> bodies;
   for (std::optional<PreparedBody>& body : found) bodies.push_back(std::move(*body));

@@ -67,8 +67,13 @@ InitialSpec read_initial(Document& document, Reading& body) {
   if (reading.given("rotation")) initial.rotation = reading.point("rotation");
   if (reading.given("velocity")) initial.velocity = reading.point("velocity");
   initial.angular_velocity = reading.turning("angular_velocity");
-  initial.deformation = reading.formulas("deformation", {"x", "y"});
-  initial.deformation_rate = reading.formulas("deformation_rate", {"x", "y"});
+  if (document.dimension == 3) {
+    initial.spatial_deformation = reading.formulas<3>("deformation", {"x", "y", "z"});
+    initial.spatial_deformation_rate = reading.formulas<3>("deformation_rate", {"x", "y", "z"});
+  } else {
+    initial.deformation = reading.formulas<2>("deformation", {"x", "y"});
+    initial.deformation_rate = reading.formulas<2>("deformation_rate", {"x", "y"});
+  }
   return initial;
 }
 
@@ -96,8 +101,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing), name);
   body.damping = read_damping(document, reading);
   body.initial = read_initial(document, reading);
-  if (in_space) return body;  // its mesh is checked when it is there
-  fit_default_modes(body);
+  if (!in_space) fit_default_modes(body);
   if (document.fault_count() == before) check_body(document, body);
   return body;
 }

@@ -112,9 +112,14 @@ void read_properties(Document& document, Reading& reading, Joint& joint) {
   using Edges = Joint::Edges;
   const bool holds_rotations = joint.kind == Kind::fixed || joint.kind == Kind::prismatic ||
                                joint.kind == Kind::driven || joint.kind == Kind::driven_slide;
-  joint.edges = holds_rotations ? Edges::rigid : Edges::mean;
-  if (reading.given("edges"))
-    joint.edges = reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}});
+  const bool turns = joint.kind == Kind::revolute || joint.kind == Kind::cylindrical;
+  joint.edges = holds_rotations ? Edges::rigid : turns ? Edges::line : Edges::mean;
+  joint.edges_given = reading.given("edges");
+  if (joint.edges_given)
+    joint.edges = reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}, {"line", Edges::line}});
+  if (joint.edges == Edges::line && !turns)
+    document.fault(reading.where("edges"), fmt::format("is line at a joint of type {}", reading.text("type")),
+                   "rigid or mean; line with type revolute or cylindrical");
   joint.stiffness = reading.number("stiffness");
   joint.viscosity = reading.number("viscosity");
   joint.length = reading.optional_number("length");

@@ -135,14 +135,13 @@ std::array<double, 3> Reading::three(const std::string& name) {
   return all;
 }
 
-std::optional<std::array<math::Formula, 2>> Reading::formulas(const std::string& name,
-                                                              const std::vector<std::string>& variables) {
+std::vector<math::Formula> Reading::formulas(const std::string& name, const std::vector<std::string>& variables) {
   const auto found = value(name);
   if (!found) return {};
-  const auto parts = read_list(document_, *found, key(name), 2);
-  if (parts.size() != 2) return {};
-  return std::array{read_formula(document_, parts[0], key(name), variables),
-                    read_formula(document_, parts[1], key(name), variables)};
+  std::vector<math::Formula> all;
+  for (const Value& part : read_list(document_, *found, key(name), variables.size()))
+    all.push_back(read_formula(document_, part, key(name), variables));
+  return all;
 }
 
 }  // namespace floe::scene

@@ -49,8 +49,16 @@ class Reading {
   Point turning(const std::string& key);
   /// Exactly three numbers.
   std::array<double, 3> three(const std::string& key);
-  std::optional<std::array<math::Formula, 2>> formulas(const std::string& key,
-                                                       const std::vector<std::string>& variables);
+  /// As many formulas as variables.
+  template <std::size_t n>
+  std::optional<std::array<math::Formula, n>> formulas(const std::string& key,
+                                                       const std::array<std::string, n>& variables) {
+    std::array<math::Formula, n> all;
+    const std::vector<math::Formula> found = formulas(key, std::vector<std::string>(variables.begin(), variables.end()));
+    if (found.size() != n) return {};
+    std::copy(found.begin(), found.end(), all.begin());
+    return all;
+  }
   /// As it stands in the file, or the default; nothing when it is absent (a fault when it is required).
   std::optional<Value> value(const std::string& key);
   const Key& key(const std::string& name) const { return section_.key(name); }
@@ -58,6 +66,7 @@ class Reading {
   Where where(const std::string& key) const;
 
  private:
+  std::vector<math::Formula> formulas(const std::string& key, const std::vector<std::string>& variables);
   Document& document_;
   const SchemaSection& section_;
   Where where_;

@@ -110,8 +110,10 @@ const SchemaSection body_section{
              "where the floating frame is attached; absent: pinned from start to end; in space clamped where the "
              "ground holds the body, else mean-axis",
              "frame"),
-        in_plane({"frames", Type::integer, "", "1",
-                  "split a straight line into so many floating frames, joined rigidly; divides the elements", counts}),
+        {"frames", Type::integer, "", "1",
+         "split a straight line into so many floating frames, joined rigidly; divides the elements. In space they are "
+         "pinned ones unless `frame` says otherwise",
+         counts},
         part("reduction", Type::section, "", "the reduced basis", "reduction"),
         part("damping", Type::section, "", "absent: none", "damping"),
         part("initial", Type::section, "", "absent: at rest, undeformed, mesh axes on world axes", "initial"),
@@ -255,9 +257,9 @@ const SchemaSection initial_section{
         in_space({"rotation", Type::point, "rad", "", "rotation vector of the mesh's axes, world axes; absent: 0"}),
         {"velocity", Type::point, "m/s", "", "of the mesh's origin, world axes; absent: 0"},
         {"angular_velocity", Type::turning, "rad/s", "0", "of the mesh's axes; in space a vector in world axes"},
-        in_plane({"deformation", Type::formula_of_place, "m", "",
-                  "displacements u, v; absent: undeformed; the frame goes along"}),
-        in_plane({"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"}),
+        {"deformation", Type::formula_of_place, "m", "",
+         "displacements of the mesh, in its axes; absent: undeformed; the frame goes along. Beams in space do not twist"},
+        {"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"},
     }};
 
 const SchemaSection joint_section{
@@ -277,10 +279,12 @@ const SchemaSection joint_section{
         only({"fixed", "revolute", "prismatic", "driven", "cylindrical", "spherical", "universal", "planar",
               "driven_slide"},
              in_space(choice("edges", "",
-                             "rigid: a place of many nodes moves as one rigid piece; mean: the mean of its nodes is "
-                             "held. Absent: rigid where the joint holds all rotations, else mean. To the ground, fixed "
-                             "and driven joints hold every node, and a hinge along an edge its displacements",
-                             {"rigid", "mean"}))),
+                             "rigid: a place of many nodes moves as one rigid piece; line: as a rigid line, about which "
+                             "each node turns by itself (a hinge along a straight edge); mean: the mean of its nodes is "
+                             "held. Absent: rigid where the joint holds all rotations, line at revolute and cylindrical "
+                             "joints along a straight edge, else mean. To the ground, fixed and driven joints hold every "
+                             "node, and a hinge with edges: mean the displacements of its edge",
+                             {"rigid", "mean", "line"}))),
         only({"driven"}, {"angle", Type::formula, "rad", "",
                           "turn of the second place against the first since the start; 0 at t = 0"}),
         only({"driven_slide"}, {"position", Type::formula, "m", "",

@@ -75,7 +75,7 @@ std::string describe(const Key& key, int dimension) {
     case Type::turning:
       return space ? "three numbers [x, y, z]" : "a number or a formula of the parameters";
     case Type::formula_of_place:
-      return "two formulas of x and y [u, v]";
+      return space ? "three formulas of x, y and z [u, v, w]" : "two formulas of x and y [u, v]";
     case Type::choice:
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
     case Type::derivatives:

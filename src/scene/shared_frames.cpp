@@ -38,6 +38,7 @@ bool moves_with(const InitialSpec& guest, const InitialSpec& host) {
 bool may_be_guest(const Scene& scene, const Body& guest, const Place& at, const Body& host) {
   if (guest.reduced || host.reduced || !host.rigid || joined_to_ground(scene, guest)) return false;
   if (!moves_with(guest.initial, host.initial)) return false;
+  if (guest.initial.spatial_deformation || guest.initial.spatial_deformation_rate) return false;
   return guest.rigid || !guest.frame.given ||
          (guest.frame.kind == FrameSpec::Kind::clamped && same(guest.frame.at, at));
 }

@@ -15,6 +15,7 @@
 #include "floe/mesh/partition.h"
 #include "floe/mesh/pieces.h"
 #include "floe/scene/places.h"
+#include "hinge_lines.h"
 #include "prepare_spatial.h"
 
 namespace floe::scene {
@@ -194,7 +195,9 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
   for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
     places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
-  source.followers = mesh::with_pieces(source.followers, rigid_pieces(scene, body, places));
+  source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
+                                      hinge_lines(scene, body, source.mesh, places, source.notices),
+                                      held_elsewhere(scene, body, places));
   std::vector<std::array<PetscInt, 2>> linked;
   for (const mesh::Follower& f : source.followers)
     if (rank == 0) linked.push_back({f.node, f.leader});
@@ -230,13 +233,17 @@ std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<PetscInt>& no
   std::sort(sorted.begin(), sorted.end());
   struct Carried {
     PetscInt node, leader;
-    double arm[3];
+    double arm[3], axis[3];
   };
   std::vector<Carried> mine, copies;
   for (const fem::Mesh::Follower& f : mesh.followers)
     if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
-      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader];
-      mine.push_back({mesh.global_node(f.node), mesh.global_node(f.leader), {arm.x(), arm.y(), arm.z()}});
+      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader], *line = spin_axis(mesh, f.node),
+                            axis = line ? *line : Eigen::Vector3d::Zero().eval();
+      mine.push_back({mesh.global_node(f.node),
+                      mesh.global_node(f.leader),
+                      {arm.x(), arm.y(), arm.z()},
+                      {axis.x(), axis.y(), axis.z()}});
     }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
@@ -248,15 +255,36 @@ std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<PetscInt>& no
   const double share = 1 / static_cast<double>(nodes.size());
   std::vector<Lever> all;
   std::map<PetscInt, std::size_t> place;
+  const auto lever = [&](PetscInt node) -> Lever& {
+    const auto [at, fresh] = place.emplace(node, all.size());
+    if (fresh) all.push_back({node, 0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()});
+    return all[at->second];
+  };
   for (PetscInt node : nodes) {
     const auto c = carried.find(node);
-    const PetscInt moves = c == carried.end() ? node : c->second.leader;
-    const auto [at, fresh] = place.emplace(moves, all.size());
-    if (fresh) all.push_back({moves, 0, Eigen::Vector3d::Zero()});
-    all[at->second].share += share;
-    if (c != carried.end()) all[at->second].arm += share * Eigen::Map<const Eigen::Vector3d>(c->second.arm);
+    Lever& moves = lever(c == carried.end() ? node : c->second.leader);
+    moves.share += share;
+    moves.turn += share * Eigen::Matrix3d::Identity();
+    if (c == carried.end()) continue;
+    moves.arm += share * Eigen::Map<const Eigen::Vector3d>(c->second.arm);
+    const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
+    if (axis.isZero(0)) continue;
+    moves.turn -= share * axis * axis.transpose();
+    lever(node).turn += share * fem::spin(axis);
   }
   return all;
+}
+
+/// Whether the nodes are those of a hinge line: led by one, and turning about it by themselves. Collective.
+bool on_hinge_line(const fem::Mesh& mesh, const PreparedPlace& place) {
+  int mine = 0;
+  for (const fem::Mesh::Spin& spin : mesh.spins)
+    if (spin.node < mesh.owned_nodes &&
+        std::count(place.nodes.begin(), place.nodes.end(), mesh.global_node(spin.node)) > 0)
+      ++mine;
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, mesh.comm);
+  const auto leads = [](const Lever& lever) { return lever.share > 0; };
+  return place.nodes.size() > 1 && mine > 0 && std::count_if(place.levers.begin(), place.levers.end(), leads) == 1;
 }
 
 }  // namespace
@@ -267,7 +295,8 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
   PreparedPlace found;
   if (place.point && body.rigid) {
     found.x = axes.axes.transpose() * (vector(*place.point) - axes.origin);
-    found.nodes = {0}, found.levers = {{0, 1, Eigen::Vector3d::Zero()}};  // of no account
+    found.nodes = {0};  // of no account
+    found.levers = {{0, 1, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
     return found;
   }
   if (place.point) {
@@ -302,6 +331,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
   const fem::Mesh& m = structure.mesh;
   found.levers = levers(m, found.nodes);
   found.node = found.levers.front().node;
+  found.line = on_hinge_line(m, found);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (PetscInt node : found.nodes)
     if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) sum += m.positions[local];

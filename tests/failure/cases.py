@@ -146,8 +146,11 @@ IN_SPACE = [
            'loads.p.part: plate has no part "skin"'))
       for formulation in ("vm+md", "nlffr")),
     Case("a hinge along an edge at a rigid piece", run(), 2, ("joints.hinge: its edge has nodes of a rigid piece",), lines=1,
-         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom]}\n"
+         check=no_results, scene=HUB + "  hinge: {type: revolute, between: [ground, plate.bottom], edges: mean}\n"
          "motion: {end: 0.002, step: 0.001}\n"),
+    Case("a hinge line that a rigid piece leads", run(), scene=HUB
+         + "  hinge: {type: revolute, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
+         check=files("finished", 3)),
     Case("an edge of a piece that a clamp holds besides", run(), scene=HUB
          + "  clamp: {type: fixed, between: [ground, plate.bottom]}\nmotion: {end: 0.002, step: 0.001}\n",
          check=files("finished", 3)),
@@ -485,6 +488,22 @@ SPACE = [
       for attachment, check in (("joints", space.warns("of the work of load m")), ("all", space.silent))),
     *(Case(f"space: two supports, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1", "--at", "1", "-o", "out"],
            0, lines=0, scene=space.SAGGING, check=space.near("end.z", -1.478073e-4, 3e-7)) for f in ("vm+md", "nlffr")),
+    Case("space: a hinge line across its axis", run(), 2, lines=1,
+         says=("joints.h.edges: is line, but a.left is a straight edge, and the joint's axis is not along it",),
+         scene=space.body(space.PLATE, "h: {type: revolute, between: [ground, a.left], axis: [1, 0, 0], edges: line}", probes="")),
+    Case("space: a hinge line at a clamp", run(), 2, lines=1, says=("joints.h.edges: is line at a joint of type fixed",),
+         scene=space.body(space.PLATE, "h: {type: fixed, between: [ground, a.left], edges: line}", probes="")),
+    Case("space: three hinge lines in a row", run(), 2, lines=1,
+         says=("joints.i: its edge has nodes in common with two others that joints or links hold",),
+         scene=space.THREE_LINES),
+    Case("space: frames of a plate", run(), 2, lines=1, says=("bodies.a.frames: is 2 for a mesh that is no line",),
+         scene=space.body(space.PLATE.replace("{mesh", "{frames: 2, mesh"), probes="")),
+    Case("space: a deformation of two components", run(), 2, lines=1,
+         says=("initial.deformation: has length 2; expected three formulas of x, y and z [u, v, w]",),
+         scene=space.body(space.BEAM % ', initial: {deformation: [0, "x^2"]}')),
+    Case("space: a deformation where the ground clamps", run(), 2, lines=1,
+         says=("initial.deformation: moves or turns body a where the ground clamps it",),
+         scene=space.body(space.BEAM % ', initial: {deformation: [0, "0.01 + x^2/100", 0]}', space.CLAMP)),
     Case("space: motion on two supports", run(), 0, lines=0, scene=space.SAGGING + "motion: {end: 4e-3, step: 2e-4}\n",
          check=files("finished", 21)),
     Case("space: a support that moves", ["static", "scene.yaml", "--steps", "1", "--at", "1", "-o", "out"], 0, lines=0,

@@ -63,6 +63,9 @@ events:
 gravity: [0, 0, -9.81]
 probes: {tip: {at: arm.end}}
 """
+# the hinge swings against a limit and off it again; with an event no error is estimated, as after a restart
+STOPS = (BEAM.replace("beam.start]}", "beam.start], limits: {lower: -0.5, stiffness: 500, damping: 0.1, width: 0.01}}")
+         + "events: {never: {stop: true, when: \"t + 1\"}}\n")
 FIXED, ADAPTIVE = "motion: {end: 1.2, step: 1e-3}", "motion: {end: 1.2, step: 1e-3, tolerance: 1e-5}"
 CASES = {
     "plane, reduced": (BEAM + EVENTS + FIXED, "vm+md"),
@@ -70,6 +73,8 @@ CASES = {
     "plane, full order": (BEAM + EVENTS + FIXED, "nlffr"),
     "space, reduced": (SPACE + FIXED, "vm+md"),
     "space, reduced, adaptive": (SPACE + ADAPTIVE, "vm+md"),
+    "plane, stops": (STOPS + FIXED, "vm+md"),
+    "plane, stops, adaptive": (STOPS + ADAPTIVE, "vm+md"),
     "space, full order": (SPACE.replace("0.6", "0.35") + "motion: {end: 0.4, step: 1e-3}", "nlffr"),
 }
 
@@ -140,6 +145,9 @@ def compare(whole, pieces, repeats):
                 assert x == y, f"{name} differs"
                 continue
             assert x.shape == y.shape, f"{name} has shape {y.shape}, not {x.shape}"
+            if name == "motion/constraints" and not repeats:  # both are round-off
+                assert max(x.max(), y.max()) < 1e-8, f"{name} grows to {max(x.max(), y.max())}"
+                continue
             near = x.dtype.kind == "f" and not repeats and numpy.abs(x - y).max() <= 1e-7 * numpy.abs(x).max()
             assert near or numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
     assert not list(pieces.glob(".*")), "drafts are left"

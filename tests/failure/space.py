@@ -72,6 +72,14 @@ joints:
   weld: {{type: fixed, between: [arm.end, other.end]}}
 motion: {{end: 1, step: 1e-2}}
 """
+THREE_LINES = f"""
+bodies: {{a: {PLATE}, b: {RIGID % ""}}}
+joints:
+  h: {{type: revolute, between: [{{body: b, node: [0, 0.1, 0]}}, a.left]}}
+  i: {{type: revolute, between: [{{body: b, node: [0.5, 0, 0]}}, a.bottom]}}
+  j: {{type: revolute, between: [{{body: b, node: [1, 0.1, 0]}}, a.right]}}
+motion: {{end: 1e-3, step: 1e-3}}
+"""
 CLAMP = "c: {type: fixed, between: [ground, a.start]}"
 TWO_HINGES = ("h: {type: revolute, between: [ground, a.start], axis: [0, 0, 1]}",
               "i: {type: revolute, between: [ground, a.end], axis: [0, 0, 1]}")

@@ -43,7 +43,8 @@ void try_to(const std::function<void()>& read) {
 
 }  // namespace floe::fuzz
 
-/// libFuzzer calls it before the first input. PETSc and Open MPI keep their hands off the signals: libFuzzer wants them.
+/// libFuzzer calls it before the first input. PETSc and Open MPI keep their hands off the signals: libFuzzer wants
+/// them.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   setenv("OMPI_MCA_opal_signal", "", 1);
   char name[] = "fuzz", quiet[] = "-no_signal_handler";

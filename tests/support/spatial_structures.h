@@ -3,6 +3,7 @@
 
 #include "floe/mesh/generate.h"
 #include "floe/mesh/partition.h"
+#include "floe/mesh/pieces.h"
 #include "random.h"
 #include "structures.h"
 
@@ -81,6 +82,28 @@ inline std::vector<mesh::Follower> mixed_links() { return {{2, 5}, {9, 0}, {13, 
 inline fem::Structure linked_structure(MPI_Comm comm, Spread spread) {
   const mesh::RawMesh raw = mixed_mesh(comm);
   return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(), fem::MembraneStrain::averaged};
+}
+
+/// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the floor;
+/// with links, each has a node in common with a piece.
+inline std::vector<mesh::Follower> mixed_lines(bool links) {
+  const mesh::RawMesh raw = mixed_mesh(PETSC_COMM_SELF);
+  const auto on = [&](auto&& where) {
+    std::vector<PetscInt> nodes;
+    for (PetscInt i = 0; i < raw.node_count; ++i)
+      if (where(raw.positions[i])) nodes.push_back(i);
+    return nodes;
+  };
+  const double length = std::hypot(2, 3);
+  return mesh::with_lines(links ? mixed_links() : std::vector<mesh::Follower>{},
+                          {{on([](const auto& x) { return std::hypot(x[0] - 1.8, x[2] - 0.6) < 1e-9; }), {0, 1, 0}},
+                           {on([](const auto& x) { return std::hypot(x[0] + x[1] / 1.5 - 1, x[2]) < 1e-9; }),
+                            {-2 / length, 3 / length, 0}}});
+}
+inline fem::Structure hinged_structure(MPI_Comm comm, Spread spread, bool links) {
+  const mesh::RawMesh raw = mixed_mesh(comm);
+  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links)), mixed_sections(),
+          fem::MembraneStrain::averaged};
 }
 
 /// Values by original dofs, the same on every rank, of a field; and the way back. Collective.

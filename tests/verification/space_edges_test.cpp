@@ -152,3 +152,125 @@ probes: {tip: {at: outer.p3, quantity: position}, bent: {at: outer.p3, quantity:
   CHECK(apart(reduced, full, "tip") < 1e-3);
   CHECK(apart(reduced, full, "bent") < 2e-2);
 }
+
+namespace {
+
+/// A square plate of 1 m, D = 1, mass 1 per area, quadrilaterals.
+std::string square(int n, const std::string& joints, const std::string& bodies = "") {
+  return fill(R"yaml(
+bodies:$bodies
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 1, 0], elements: [$n, $n], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 12*0.91*1e6, nu: 0.3, rho: 100}
+    reduction: {modes: 5}
+joints: {$joints}
+)yaml",
+              {{"n", std::to_string(n)}, {"joints", joints}, {"bodies", bodies}});
+}
+const std::string on_ground =
+    "l: {type: revolute, between: [ground, plate.left]}, r: {type: revolute, between: [ground, plate.right]}";
+const std::string on_posts =
+    "post: {type: driven, between: [ground, hub.end], axis: [0, 0, 1], angle: \"t\"}, "
+    "l: {type: revolute, between: [{body: hub, node: [0, 0.5, 0]}, plate.left], axis: [0, 1, 0]$edges}, "
+    "r: {type: revolute, between: [{body: hub, node: [1, 0.5, 0]}, plate.right]$edges}";
+const std::string rigid_hub = R"yaml(
+  hub:
+    rigid: true
+    mesh: {line: {from: [-0.2, 0.25, 0], to: [0, 0.25, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.5, height: 0.5, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 1000}
+)yaml";
+std::string posts(const std::string& edges) { return fill(on_posts, {{"edges", edges}}); }
+
+}  // namespace
+
+// Two opposite edges simply supported, the others free, nu = 0.3: Levy's solution, in closed form up to a root.
+TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies, on the ground and on a body") {
+  const std::vector<double> levy{9.631385, 16.134777, 36.725642, 38.944959, 46.738147};
+  const auto coarse = omega_of(square(8, on_ground)), fine = omega_of(square(16, on_ground));
+  REQUIRE(coarse.size() == 5);
+  for (std::size_t i = 0; i < levy.size(); ++i) {
+    INFO(i);
+    CHECK((4 * fine[i] - coarse[i]) / 3 == Approx(levy[i]).epsilon(1e-3));
+    CHECK(fine[i] == Approx(levy[i]).epsilon(1e-2));
+  }
+  // every node's displacements held, each node by itself: another way to the same limit
+  const auto apart = omega_of(square(
+      8, "l: {type: revolute, between: [ground, plate.left], edges: mean}, r: {type: revolute, between: [ground, "
+         "plate.right], edges: mean}"));
+  CHECK(off(apart, coarse) < 0.02);
+
+  const auto small = omega_of(square(4, on_ground));
+  const std::vector<double> first(small.begin(), small.begin() + 4);
+  const auto with = [&](const std::string& edges) {
+    std::vector<double> found;
+    app::CampbellRequest request;
+    request.speeds = "0", request.modes = 40, request.about = "0,0,1", request.through = "0,0.25,0";
+    std::exception_ptr fault;
+    const app::CampbellDiagram diagram = app::campbell(
+        scene::parse_scene(square(4, posts(edges), rigid_hub), "scene"), Formulation::nlffr, PETSC_COMM_WORLD, request,
+        fault);
+    if (fault) std::rethrow_exception(fault);
+    REQUIRE(diagram.points.at(0).fault == "");
+    for (const auto& vibration : diagram.points[0].vibrations)
+      if (vibration.omega > 1) found.push_back(vibration.omega);
+    REQUIRE(found.size() >= 4);
+    found.resize(4);
+    return found;
+  };
+  CHECK(off(with(""), first) < 1e-6);
+  CHECK(off(with(", edges: line"), first) < 1e-6);
+  CHECK(off(with(", edges: mean"), first) > 0.05);
+  CHECK(off(with(", edges: rigid"), first) > 0.05);  // each edge clamped to a shaft that turns freely
+}
+
+// Two panels that a free hinge joins along an oblique edge, in a turned body, one of them on a hinge to a free hub.
+TEST_CASE("edges in space: panels on free hinges, reduced as at full order, energy kept") {
+  const Turned turn;
+  const std::string text = fill(R"yaml(
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [-0.2, 0.2, 0], to: [0, 0.2, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.5, height: 0.5, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 100}
+    initial: {rotation: $turn}
+  inner:
+    mesh: {plate: {along: [0.8, 0, 0], across: [0.1, 0.5, 0], elements: [4, 3]}}
+    section: {thickness: 6e-3}
+    material: {E: 2e9, nu: 0.3, rho: 600}
+    reduction: {modes: 5}
+    initial: {rotation: $turn}
+  outer:
+    mesh: {plate: {along: [0.6, 0, 0], across: [0.1, 0.5, 0], elements: [3, 3]}}
+    section: {thickness: 6e-3}
+    material: {E: 2e9, nu: 0.3, rho: 600}
+    reduction: {modes: 5}
+    initial: {position: $there, rotation: $turn}
+joints:
+  root: {type: revolute, between: [{body: hub, node: [0.05, 0.25, 0]}, inner.left]}
+  fold: {type: revolute, between: [inner.right, outer.left]}
+loads:
+  push: {type: force, at: outer.p3, axes: body, force: [0, 0, "2*triangle(t, 0.05, 0.05)"]}
+  twist: {type: force, at: outer.p2, axes: body, force: [0, 0, "-triangle(t, 0.05, 0.05)"]}
+motion: {end: 0.3, step: 1e-3}
+probes:
+  tip: {at: outer.p3, quantity: position}
+  edge: {at: outer.left, quantity: position}
+  other: {at: inner.right, quantity: position}
+  bent: {at: outer.p3, quantity: deflection}
+)yaml",
+                                {{"turn", turn.rotation()}, {"there", turn(0.8, 0)}});
+  const History full = move(text, Formulation::nlffr), reduced = move(text, Formulation::vm_md);
+  CHECK(apart(reduced, full, "tip") < 1e-3);
+  CHECK(apart(reduced, full, "bent") < 5e-2);
+  for (const History* at : {&full, &reduced}) {
+    double open = 0;
+    for (std::size_t i = 0; i < at->t.size(); ++i)
+      open = std::max(open, (vector_at(*at, "edge", i) - vector_at(*at, "other", i)).norm());
+    CHECK(open < 1e-9);
+    const std::size_t begin = 110, end = at->energy.size() - 1;  // after the loads
+    CHECK(total(at->energy[end]) == Approx(total(at->energy[begin])).epsilon(1e-2));
+  }
+}

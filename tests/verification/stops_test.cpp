@@ -134,3 +134,97 @@ probes: {rod: {at: rod.end, quantity: $quantity}}
   CHECK(*std::min_element(x.begin(), x.end()) < -0.39);
   CHECK(x.back() == Approx(-0.3 + 2 * (0.75 - back)).margin(2e-3));
 }
+
+namespace {
+
+/// The steps end at the event, or within a thousandth of one.
+void check_landing(const History& at, double step) {
+  for (const auto& event : at.events) {
+    double nearest = INFINITY;
+    for (const double t : at.t) nearest = std::min(nearest, std::abs(t - event.t));
+    CHECK(nearest <= 1e-3 * step);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("stops: hits and releases are told once each, in order, with times and speeds") {
+  const double there = 0.5, release = there + duration(1), back = release + 1.5;
+  const std::string adaptive = GENERATE("", ", tolerance: 1e-8");
+  std::string text = fill_planar(1, 0, 3);
+  text.replace(text.find("step: 1e-3"), 10, "step: 1e-3" + adaptive);
+  const History at = move(text, Formulation::vm_md);
+  REQUIRE(at.events.size() == 4);
+  const std::vector<std::pair<std::string, double>> expected{{"joint hinge hits its upper limit", there},
+                                                             {"joint hinge leaves its upper limit", release},
+                                                             {"joint hinge hits its lower limit", back},
+                                                             {"joint hinge leaves its lower limit", back + duration(1)}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    INFO(expected[i].first);
+    CHECK(at.events[i].name == (i < 2 ? "hinge.upper" : "hinge.lower"));
+    CHECK(at.events[i].what == expected[i].first);
+    CHECK(at.events[i].t == Approx(expected[i].second).margin(i == 0 ? 1e-9 : 2e-4));
+    CHECK(at.events[i].speed.value() == Approx(1).epsilon(1e-4));
+  }
+  check_landing(at, 1e-3);
+}
+
+// A body thrown up against a limit that is a millionth below where it would turn: soft as nothing, it is hit and left
+// within one step, which begins and ends on one side of it.
+TEST_CASE("stops: a hit and its release within one step") {
+  const double dip = std::sqrt(2 * 1e-6 / 10);
+  const History at = move(R"yaml(
+gravity: [0, -10]
+bodies:
+  ball:
+    rigid: true
+    mesh: {line: {from: [-0.5, 0], to: [0.5, 0], elements: 2}}
+    section: {EA: 1, EI: 1, rhoA: 3}
+    initial: {velocity: [0, 1]}
+joints: {guide: {type: prismatic, between: [ground, ball.middle], axis: [0, 1],
+                 limits: {upper: 0.05 - 1e-6, stiffness: 1e-9, width: 1e-3}}}
+motion: {end: 0.2, step: 0.0123}
+probes: {ball: {at: ball.middle}}
+)yaml",
+                          Formulation::vm_md);
+  REQUIRE(at.events.size() == 2);
+  CHECK(at.events[0].what == "joint guide hits its upper limit");
+  CHECK(at.events[0].t == Approx(0.1 - dip).margin(1e-8));
+  CHECK(at.events[0].speed.value() == Approx(10 * dip).epsilon(1e-4));
+  CHECK(at.events[1].what == "joint guide leaves its upper limit");
+  CHECK(at.events[1].t == Approx(0.1 + dip).margin(1e-8));
+  check_landing(at, 0.0123);
+}
+
+// Many hits: each rebound is told of, and the energy that damping takes makes the speeds fall.
+TEST_CASE("stops in space: a bouncing slide alternates hits and releases") {
+  const Turned turn;
+  const History at = move(fill(R"yaml(
+gravity: $g
+bodies:
+  ball:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 2}}
+    section: {A: 1, Iy: 1e-9, Iz: 1e-9, J: 2e-9, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 3}
+    initial: {rotation: $turn}
+joints: {guide: {type: cylindrical, between: [ground, ball.start], axis: $axis,
+                 limits: {lower: -0.2, stiffness: 1e5, damping: 100, width: 1e-4},
+                 turn_limits: {upper: 1, stiffness: 1, damping: 0}}}
+motion: {end: 1.5, step: 2e-3, tolerance: 1e-6}
+probes: {ball: {at: ball.start}}
+)yaml",
+                               {{"g", turn(-10, 0)}, {"turn", turn.rotation()}, {"axis", turn(1, 0)}}),
+                          Formulation::vm_md);
+  REQUIRE(at.events.size() >= 8);
+  double fastest = INFINITY, last = 0;
+  for (std::size_t i = 0; i < at.events.size(); ++i) {
+    CHECK(at.events[i].name == "guide.lower");
+    CHECK(at.events[i].what == std::string("joint guide ") + (i % 2 == 0 ? "hits" : "leaves") + " its lower limit");
+    CHECK(at.events[i].t > last);
+    CHECK(at.events[i].speed.value() < fastest * 1.001);
+    last = at.events[i].t, fastest = at.events[i].speed.value();
+  }
+  CHECK(at.events[0].t == Approx(0.2).margin(1e-6));
+  CHECK(at.events[0].speed.value() == Approx(2).epsilon(1e-5));
+}

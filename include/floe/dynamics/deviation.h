@@ -21,6 +21,7 @@ State state_of(const System& system, double t, Vec U, Vec V, Vec A);
 /// them. Rank-local.
 void set_state(const System& system, const State& state, Vec U, Vec V, Vec A);
 
+/// What a search for the deviation took.
 struct DeviationReport {
   int steps = 0, factorisations = 0, iterations = 0;
   double end = 0;  ///< reached [s]; short of the last state where Newton's method did not converge

@@ -1,8 +1,10 @@
 #pragma once
 #include <petscvec.h>
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,18 +17,26 @@ struct Latch {
   bool closed = true;
 };
 
-/// What happens once to a mechanism at an instant of its motion: where a step ends there, and the next one starts from
-/// consistent accelerations and multipliers, order 2 is kept.
+/// What happens to a mechanism at an instant of its motion: where a step ends there, and the next one starts from
+/// consistent accelerations and multipliers, order 2 is kept. It happens once, or (`gap`) again and again.
 struct Event {
   std::string name;
   std::string what;  ///< `unlock joint clamp`
   double at = 0;     ///< [s]; of an event without `crosses`
   /// If given, it happens where this changes sign, located within the step by cubic interpolation (error O(h^4)).
   std::function<double(double t, Vec U, Vec V)> crosses = {};
+  /// In place of `crosses`, of a stop: how far it is from being hit, and the rate of that. `what` happens whenever it
+  /// becomes negative, `what_back` when it becomes positive again; nothing is changed there but that a step ends.
+  std::function<std::array<double, 2>(double t, Vec U, Vec V)> gap = {};
+  std::string what_back = {};
   std::shared_ptr<Latch> latch = {};  ///< that it changes, if any
   bool closes = false;                ///< the latch; else it opens it
   int first_row = 0, rows = 0;        ///< local indices of the multipliers of the latch that closes
   bool stops = false;                 ///< the motion ends here
+
+  bool repeats() const { return static_cast<bool>(gap); }
+  /// Whether the motion decides when it happens.
+  bool watched() const { return crosses || gap; }
 };
 
 /// An event that happened. Closing rows on places that move is an impact: velocities go to the nearest ones, in kinetic
@@ -36,6 +46,7 @@ struct EventReport {
   double t = 0;                       ///< [s]
   double lost = 0;                    ///< kinetic energy [J]
   std::vector<double> impulses = {};  ///< on the rows that were closed [N s], [N m s]
+  std::optional<double> speed = {};   ///< at a stop: of the places against one another [m/s], [rad/s]
 };
 
 }  // namespace floe::dynamics

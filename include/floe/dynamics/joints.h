@@ -66,6 +66,7 @@ struct SpringProperties {
   double stiffness = 0, viscosity = 0, length = 0;
   double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
 };
+/// See SpringProperties.
 class Spring final : public Term {
  public:
   Spring(Marker first, Marker second, SpringProperties properties);

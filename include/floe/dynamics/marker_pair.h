@@ -14,6 +14,7 @@ struct MarkerPair {
   std::vector<int> coordinates;  ///< of both, each once; a term may add its own behind
   std::vector<int> where_first, where_second;
   Pose pose_first, pose_second;
+  /// The coordinates of one marker, and their rates.
   struct State {
     Eigen::VectorXd q, v, a;
   };

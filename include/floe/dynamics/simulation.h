@@ -15,7 +15,7 @@ struct Integration {
   double radius = 0.8;              ///< spectral radius at infinite frequency
   std::optional<double> tolerance;  ///< relative local error: adaptive steps
   std::string prefix = "motion_";
-  std::vector<Event> events = {};                         ///< each happens once, in the order of their times
+  std::vector<Event> events = {};                         ///< those that do not repeat happen once, in the order of their times
   std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
   const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };
@@ -34,6 +34,7 @@ struct Instant {
   const std::function<void(double t, Vec U, Vec V)>* between = nullptr;
 };
 
+/// What an integration took, and how far it came.
 struct IntegrationReport {
   PetscInt steps = 0, rejected = 0, newton = 0, solves = 0;
   double end = 0;                ///< reached [s]

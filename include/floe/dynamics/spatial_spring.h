@@ -20,6 +20,7 @@ struct SpatialSpringProperties {
   double stiffness = 0, viscosity = 0, length = 0;
   double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
 };
+/// See SpatialSpringProperties.
 class SpatialSpring final : public Term {
  public:
   SpatialSpring(SpatialMarker first, SpatialMarker second, SpatialSpringProperties properties);
@@ -53,6 +54,7 @@ struct BushingProperties {
   Eigen::Vector3d rest = Eigen::Vector3d::Zero();  ///< from the first place to the second without force [m]
   std::string name = {};                           ///< for messages
 };
+/// See BushingProperties.
 class SpatialBushing final : public Term {
  public:
   SpatialBushing(SpatialMarker first, SpatialMarker second, BushingProperties properties);

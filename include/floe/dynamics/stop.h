@@ -32,6 +32,8 @@ class Stop : public Term {
   const StopLaw& law() const { return law_; }
   /// The coordinate, since the start. [rad], [m]
   virtual double position(const Motion& motion) const = 0;
+  /// Its rate. [rad/s], [m/s]
+  virtual double rate(const Motion& motion) const = 0;
 
  private:
   StopLaw law_;
@@ -47,6 +49,7 @@ class PlanarStop final : public Stop {
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
   double position(const Motion& motion) const override;
+  double rate(const Motion& motion) const override;
 
  private:
   struct Seen;
@@ -67,6 +70,7 @@ class SpatialStop final : public Stop {
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
   double position(const Motion& motion) const override;
+  double rate(const Motion& motion) const override;
   /// Counts turns, as SpatialSpring does.
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }

@@ -18,8 +18,8 @@ struct SectionShape {
 /// J of a rectangle, a >= b:  a b^3 [1/3 - (64/pi^5) (b/a) sum_(n odd) tanh(n pi a / 2b) / n^5], summed to rounding.
 /// Source: Timoshenko & Goodier, Theory of elasticity, 3rd ed., art. 109.
 SectionShape rectangle(double width, double height);
-SectionShape circle(double radius);
-SectionShape tube(double outer_radius, double inner_radius);
+SectionShape circle(double radius);                           ///< full
+SectionShape tube(double outer_radius, double inner_radius);  ///< of any wall
 
 /// Rectangular hollow section with sharp corners; `side` is the thickness of the walls along z, `cover` of those along
 /// y. J = 4 Am^2 / (sum s/t) over the walls' middle lines (Bredt's second formula: thin walls).

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -24,19 +25,30 @@ using mesh::CellKind;
 /// and copies of the foreign nodes that those cells touch. Local node numbers count owned nodes first, then `foreign`.
 ///
 /// Nodes may follow others rigidly: they have a place and no motion of their own, and the cells that touch them act on
-/// the dofs of those that they follow.
+/// the dofs of those that they follow. Nodes of a hinge line follow its leader but for their turn about the line, phi:
+///
+///   u = u_leader + theta_leader x arm,   theta = (1 - e e') theta_leader + e phi;
+///
+/// phi is the one dof of theirs that is left, the rotation `spin_slot`; cells that touch them act on it and on the leader.
 struct Mesh {
+  /// An element: what it is, where it is, and which nodes move it.
   struct Cell {
     CellKind kind = CellKind::line;
     int part = 0;
     std::array<int, 4> corner{};  ///< local nodes where it is; as many as the kind has
-    std::array<int, 4> moved{};   ///< local nodes that move them: the same, or those that they follow
+    /// Local nodes that move them: the same, or those that they follow; then leaders of those that turn by themselves.
+    std::array<int, 8> moved{};
+    int moving = 0;                              ///< how many
+    std::array<int, 4> line{-1, -1, -1, -1};     ///< of each corner on a hinge line: where in `moved` its leader is
     Cell() = default;
-    Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moved(c) {}
+    Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moving(mesh::node_count(k)) {
+      std::copy(c.begin(), c.end(), moved.begin());
+    }
     /// Local nodes whose dofs the cell acts on.
-    std::span<const int> nodes() const { return {moved.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
+    std::span<const int> nodes() const { return {moved.data(), static_cast<std::size_t>(moving)}; }
     std::span<const int> corners() const { return {corner.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
-    bool follows() const { return moved != corner; }
+    bool follows() const { return spins() || !std::equal(corners().begin(), corners().end(), moved.begin()); }
+    bool spins() const { return line != std::array<int, 4>{-1, -1, -1, -1}; }
   };
   /// An owned node that follows another one rigidly: local numbers.
   struct Follower {
@@ -52,8 +64,15 @@ struct Mesh {
   std::vector<Eigen::Vector3d> positions;  ///< of local nodes
   std::vector<Cell> cells;
   std::vector<Follower> followers;  ///< among the owned nodes, ascending
+  /// A local node on a hinge line that it does not lead.
+  struct Spin {
+    int node;
+    Eigen::Vector3d axis;  ///< e
+  };
+  std::vector<Spin> spins;  ///< ascending
   std::vector<PetscInt> original;  ///< of local nodes: a numbering that does not depend on ranks; empty: the global one
 
+  /// From original numbers to global ones.
   struct Renumbering {
     std::vector<PetscInt> starts;  ///< of the ranks' shares of original numbers
     std::vector<PetscInt> global;  ///< of this rank's share
@@ -77,7 +96,15 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments);
 /// Collective.
 Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers = {});
 
-/// Global dofs of all nodes that follow others, ascending, on every rank. Collective.
+/// The axis about which a local node turns by itself; null: none.
+const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local);
+/// The rotation among three that stands for phi: the one whose axis is nearest to e.
+int spin_slot(const Eigen::Vector3d& axis);
+/// theta = spin(e) theta_own + (1 - e e') theta_leader: 3 x 3, e at the slot's column.
+Eigen::Matrix3d spin(const Eigen::Vector3d& axis);
+
+/// Global dofs of all nodes that follow others, but for the turns that are their own, ascending, on every rank.
+/// Collective.
 std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node);
 
 /// Global numbers of nodes given by their original ones. Collective.
@@ -86,6 +113,7 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
 /// x -> R'(x - origin): the mesh in the axes of a frame. Rank-local.
 void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Matrix3d& rotation);
 
+/// A node that was looked for by a point.
 struct NearestNode {
   PetscInt node;  ///< global; of equally near ones the first by original number, followers last
   double distance;

@@ -7,7 +7,7 @@
 namespace floe::fem {
 
 /// A small matrix without heap; rows are on the dofs of a piece, in the order of its nodes.
-using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 24, 24>;
+using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 24, 36>;
 
 /// A strain point with its weight and stiffness in the rows: U = 1/2 |eps|^2, eps(q) = L q + 1/2 e(q, q),
 ///
@@ -16,6 +16,7 @@ struct StrainRows {
   SmallRows L;    ///< s x dofs
   SmallRows G;    ///< g x dofs
   double weight;  ///< that the rows of L hold the root of [m], [m2]
+  /// A product of two slopes in the strain: C of slopes p and q.
   struct Term {
     int p, q;  ///< p <= q
     std::array<double, 3> C;
@@ -29,13 +30,19 @@ struct MassRows {
   double mass;
   bool pair;
   Eigen::Vector3d x;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 24> N;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> N;
 };
 
 /// A cell or, of a quadrilateral, one of its triangles: what products of many columns are made of.
 struct PieceRows {
-  std::array<int, 3> node{};  ///< local
+  std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of hinge lines
   int nodes = 0;
+  /// Nodes that turn by themselves about a hinge line: their rotation is axis (slot . dofs), nothing else of them counts.
+  struct Spin {
+    int at;  ///< among the piece's
+    Eigen::Vector3d axis, slot;
+  };
+  std::vector<Spin> spins;
   SmallRows bending;  ///< U_b = 1/2 |bending q|^2
   std::vector<StrainRows> strain;
   std::vector<MassRows> mass;

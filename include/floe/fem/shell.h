@@ -50,9 +50,9 @@ std::vector<SurfacePoint> shell_triangle_surface(const TriangleNodes& nodes);  /
 
 /// The same in fixed size, without allocation. K = bending + w L'DL, as ElementMaps has it.
 Eigen::Matrix<double, 18, 18> shell_triangle_stiffness(const TriangleNodes& nodes, const ShellSection& section);
-Eigen::Matrix<double, 18, 18> shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section);
-Eigen::Matrix<double, 18, 18> shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& section);
-ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section);
+Eigen::Matrix<double, 18, 18> shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section);  ///< K_b
+Eigen::Matrix<double, 18, 18> shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& section);     ///< M
+ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section);  ///< L, G
 
 /// Quadrilateral: the triangles on either side of each diagonal, at half weight: the mean of two triangulated surfaces.
 /// Passes the patch tests of the triangle, flat or warped (a warped element is the mean of its two folded surfaces, and
@@ -60,9 +60,11 @@ ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection
 /// @throws InputError  as the triangle; it is not convex, or folds by a right angle or more
 ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section);
 std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes);  ///< twelve
+/// K and M in fixed size, as for the triangle.
 Eigen::Matrix<double, 24, 24> shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes,
                                                             const ShellSection& section);
-Eigen::Matrix<double, 24, 24> shell_quadrilateral_mass(const QuadrilateralNodes& nodes, const ShellSection& section);
+Eigen::Matrix<double, 24, 24> shell_quadrilateral_mass(const QuadrilateralNodes& nodes,
+                                                       const ShellSection& section);  ///< M
 
 /// Corners of its four triangles; each counts half.
 inline constexpr std::array<std::array<int, 3>, 4> quadrilateral_triangles{

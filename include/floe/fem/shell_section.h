@@ -12,6 +12,7 @@ struct ShellMaterial {
 /// E1 = E2 = E, G12 = E / (2 + 2 nu).
 ShellMaterial isotropic(double E, double nu, double density);
 
+/// A layer of a laminate.
 struct Ply {
   ShellMaterial material;
   double thickness;  ///< [m]

@@ -3,8 +3,8 @@
 
 namespace floe::fem {
 
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Vector12 = Eigen::Matrix<double, 12, 1>;   ///< dofs of an element
+using Matrix12 = Eigen::Matrix<double, 12, 12>;  ///< on them
 
 /// The averaged spatial beam in arrays of fixed size: no heap is touched, for assembly in large models.
 ///
@@ -30,11 +30,11 @@ Matrix12 spatial_beam_mass(const BeamPlace& place, const SpatialBeamSection& sec
 /// K = K_b + EAl L'L.
 Matrix12 stiffness(const FixedSpatialBeam& beam);
 
-double energy(const FixedSpatialBeam& beam, const Vector12& q);
+double energy(const FixedSpatialBeam& beam, const Vector12& q);  ///< U(q) [J]
 
 /// dU/dq and d2U/dq2, exact.
-Vector12 force(const FixedSpatialBeam& beam, const Vector12& q);
-Matrix12 tangent(const FixedSpatialBeam& beam, const Vector12& q);
+Vector12 force(const FixedSpatialBeam& beam, const Vector12& q);    ///< dU/dq
+Matrix12 tangent(const FixedSpatialBeam& beam, const Vector12& q);  ///< d2U/dq2
 
 /// (dK/deta_b) a = EAl [ L' e(a, b) + e(a, .)' L b + e(b, .)' L a ]; symmetric in a, b.
 Vector12 stiffness_derivative(const FixedSpatialBeam& beam, const Vector12& a, const Vector12& b);

@@ -93,6 +93,9 @@ struct Structure {
   std::vector<body::MassPoint> line(const Mesh::Cell& cell) const;
 };
 
+/// Dofs of the cell's corners from those of the nodes that it acts on, q_corners = T q_nodes.
+Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell);
+
 /// Displacement and rotation of an owned node, of a follower as its leader moves it; zero entries of followers in a
 /// field mean nothing. @param owned  this rank's part of a field. Rank-local.
 Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, int node);
@@ -107,7 +110,8 @@ petsc::VecHandle field(const Structure& structure);
 double extent(const Structure& structure);
 
 /// Rigid motions, linearised: in the plane (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node; in space three translations,
-/// then rotations about x, y, z through the origin. Zero at nodes that follow others. Collective.
+/// then rotations about x, y, z through the origin. Zero at nodes that follow others, but for turns of their own.
+/// Collective.
 std::vector<petsc::VecHandle> rigid_motions(const Structure& structure);
 
 }  // namespace floe::fem

@@ -31,14 +31,14 @@ class Formula {
   /// The constant 0.
   Formula() : Formula(0.0) {}
   Formula(double constant);  // NOLINT: a number is a formula
-  /// @param variables  in the order of the arguments of operator(), at most two
+  /// @param variables  in the order of the arguments of operator(), at most three
   /// @param constants  named numbers (the scene's parameters); pi and e are always known
   /// @throws FormulaError
   Formula(const std::string& text, const std::vector<std::string>& variables,
           const std::map<std::string, double>& constants);
 
   /// @throws FormulaError when the value is not finite (its text names the formula and the arguments)
-  double operator()(double first = 0, double second = 0) const;
+  double operator()(double first = 0, double second = 0, double third = 0) const;
   /// d/dfirst, exact up to round-off (forward-mode differentiation of the text); at a kink or a jump that of the branch
   /// taken, as after the corner of a ramp.
   /// @throws FormulaError as operator()
@@ -51,7 +51,7 @@ class Formula {
   const std::string& text() const;
 
  private:
-  double finite(double value, const char* what, double first, double second) const;
+  double finite(double value, const char* what, double first, double second, double third = 0) const;
   const Expression& tree() const;
   struct Parser;
   std::shared_ptr<Parser> parser_;

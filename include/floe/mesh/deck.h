@@ -27,6 +27,7 @@ struct Orientation {
   double angle = 0;
 };
 
+/// A layer of COMPOSITE.
 struct Ply {
   double thickness = 0;
   std::string material;
@@ -56,6 +57,7 @@ struct BeamSection {
   double youngs = 0, shear = 0, density = 0;  // where `material` is ""
 };
 
+/// *MASS at a node.
 struct PointMass {
   PetscInt node;
   double mass;

@@ -41,6 +41,7 @@ struct Plate {
 /// p1 ... p4 around the plate from the origin along a, and centre where there is a node.
 RawMesh plate(MPI_Comm comm, const Plate& plate);
 
+/// A plate that becomes a part of that name.
 struct NamedPlate {
   std::string name;
   Plate plate;

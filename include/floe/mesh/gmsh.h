@@ -3,6 +3,7 @@
 
 namespace floe::mesh {
 
+/// What a Gmsh file holds.
 struct GmshFile {
   RawMesh mesh;
   std::vector<std::string> notices;  // same on all ranks: what was left out

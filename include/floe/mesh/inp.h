@@ -4,6 +4,7 @@
 
 namespace floe::mesh {
 
+/// What a deck holds.
 struct InpFile {
   RawMesh mesh;
   Deck deck;

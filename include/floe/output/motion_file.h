@@ -16,6 +16,7 @@ struct MotionRequest {
   bool overwrite = false;
 };
 
+/// What was written, for those who asked for it.
 struct MotionWritten {
   std::vector<double> t;  ///< of the frames [s]
   std::vector<std::string> bodies;

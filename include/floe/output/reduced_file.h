@@ -37,6 +37,7 @@ struct ReducedFrame {
   Eigen::MatrixXd axes;    ///< orthonormal columns, d x d
 };
 
+/// How, when and by what a file was made.
 struct MadeBy {
   std::string version, commit, date, command, options;  ///< floe's, UTC in ISO 8601, of the shell, of PETSc
   std::string scene;                                    ///< its whole text
@@ -66,6 +67,7 @@ struct ReducedBodyFile {
 /// The basis at every node, and the mesh, for pictures and for places that are thought of later: this rank's share.
 struct ReducedShapes {
   enum class Kind { vertex = 1, line = 3, triangle = 5, quadrilateral = 9 };  ///< VTK's cell types
+  /// An element of the mesh, for pictures.
   struct Cell {
     Kind kind;
     std::int64_t part;                  ///< index of `parts`

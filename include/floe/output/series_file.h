@@ -9,6 +9,7 @@
 
 namespace floe::output {
 
+/// Name and unit of a column.
 struct SeriesColumn {
   std::string name, unit;
 };

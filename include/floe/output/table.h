@@ -9,6 +9,7 @@ namespace floe::output {
 /// An empty text stands for "not known".
 using Cell = std::variant<std::string, double, std::int64_t>;
 
+/// Name and unit of a column, and how its numbers are printed.
 struct TableColumn {
   std::string name, unit;
   int digits = 4;  ///< significant digits of its numbers

@@ -25,11 +25,12 @@ Formulation formulation_of(const std::string& name);
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
-/// How a node moves a place in space: u += share u_node + theta_node x arm, theta += share theta_node.
+/// How a node moves a place in space: u += share u_node + theta_node x arm, theta += turn theta_node.
 struct Lever {
   PetscInt node;  ///< global
   double share;
   Eigen::Vector3d arm;
+  Eigen::Matrix3d turn;
 };
 
 /// A node that something acts on.
@@ -41,6 +42,7 @@ struct PreparedPlace {
   /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
   /// is the first of them.
   std::vector<Lever> levers = {};
+  bool line = false;                               ///< in space: a hinge line (fem::Mesh), led by `node`
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
@@ -115,6 +117,7 @@ struct SpatialProbe {
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
 };
 
+/// A probe of a planar scene, by the markers that it looks at.
 struct ModelProbe {
   std::string name;
   Probe::Quantity quantity;
@@ -169,8 +172,8 @@ struct Model {
 /// @param keep_offline  of reduced models: with the factors of K, for the estimate of their error (estimate.h)
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool keep_offline = false);
 
-/// The scene's events for a motion of the model until `end`; the model must outlive them. Those whose formula of t does
-/// not change sign until then never happen. @throws InputError  a probe that the model does not have
+/// The scene's events for a motion of the model until `end`, then the hits and releases of its stops; the model must
+/// outlive them. Those whose formula of t does not change sign until then never happen. @throws InputError  a probe that the model does not have
 std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end);
 /// No latch, one, or two for each joint that events name; and whether an event unlocks it.
 std::map<std::string, JointLatches> latches_of(const Scene& scene);
@@ -188,6 +191,14 @@ std::vector<BodyReport> body_modes(const Scene& scene, MPI_Comm comm);
 std::vector<BodyReport> write_modes(const Scene& scene, MPI_Comm comm, const std::filesystem::path& path,
                                     bool overwrite);
 
+/// Stiffness and mass matrix of every flexible body with a mesh, full order, under the conditions that its modes have:
+/// NAME-K.mtx and NAME-M.mtx (output/matrix_market.h) without the rows that are held, NAME-rows.txt with what each row
+/// is.
+/// @return  the bodies' names
+/// @throws InputError  as output::prepare_folder; no body with a mesh. Collective; rank 0 takes a whole matrix.
+std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const std::filesystem::path& folder,
+                                        bool overwrite);
+
 /// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
 Scene split_frames(const Scene& scene);
 
@@ -198,6 +209,8 @@ struct ProbeColumn {
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
 std::vector<double> stop_gaps(const Model& model, Vec U);
+/// One of them, and its rate. Collective.
+std::array<double, 2> stop_gap(const Model& model, std::size_t stop, Vec U, Vec V);
 /// How many bodies have a frame that moves in space.
 int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.

@@ -75,6 +75,7 @@ struct PartSpec {
 
 enum class Strain { averaged, pointwise };
 
+/// Where the floating frame is attached, as the scene gives it.
 struct FrameSpec {
   enum class Kind { pinned, clamped, mean_axis } kind = Kind::pinned;
   bool given = false;
@@ -83,6 +84,7 @@ struct FrameSpec {
   Where where;
 };
 
+/// Which vibration modes, as the scene gives it.
 struct ModesSpec {
   enum class Of { joints, frame } of = Of::joints;
   int count = 6;
@@ -91,6 +93,7 @@ struct ModesSpec {
   Where where;
 };
 
+/// Which modal derivatives, as the scene gives it.
 struct DerivativesSpec {
   enum class Choice { none, all, count, pairs } choice = Choice::all;
   int count = 0;                          ///< choice count: this many, first by maximum modal interaction
@@ -99,6 +102,7 @@ struct DerivativesSpec {
   Where where;
 };
 
+/// The reduced basis, as the scene gives it.
 struct ReductionSpec {
   ModesSpec modes;
   DerivativesSpec derivatives;
@@ -112,6 +116,7 @@ struct ReductionSpec {
   double drop_tolerance = 1e-9;
 };
 
+/// Damping of the elastic coordinates, as the scene gives it.
 struct DampingSpec {
   double mass = 0;            ///< Rayleigh alpha [1/s]
   double stiffness = 0;       ///< Rayleigh beta [s]
@@ -119,6 +124,7 @@ struct DampingSpec {
   Where where;
 };
 
+/// Position, velocity and deformation at the start.
 struct InitialSpec {
   Point position{};                                              ///< of the mesh's origin, world
   double angle = 0;                                              ///< of the mesh's axes [rad]; in the plane
@@ -127,6 +133,8 @@ struct InitialSpec {
   Point angular_velocity{};                                      ///< world; in the plane about z
   std::optional<std::array<math::Formula, 2>> deformation;       ///< (u, v)(x, y) in mesh axes
   std::optional<std::array<math::Formula, 2>> deformation_rate;  ///< likewise, 1/s
+  /// The same in space: (u, v, w)(x, y, z) in mesh axes.
+  std::optional<std::array<math::Formula, 3>> spatial_deformation, spatial_deformation_rate;
   Where where;
 };
 
@@ -164,6 +172,7 @@ struct LimitsSpec {
   Where where;
 };
 
+/// What holds two places together, as the scene gives it.
 struct Joint {
   /// In the plane: fixed to spring.
   enum class Kind {
@@ -190,8 +199,9 @@ struct Joint {
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
-  /// How the joint holds a place of many nodes: as one rigid piece where it holds all rotations, or by their mean.
-  enum class Edges { rigid, mean } edges = Edges::rigid;
+  /// How the joint holds a place of many nodes: as one rigid piece, as a hinge line (hinge_lines), or by their mean.
+  enum class Edges { rigid, mean, line } edges = Edges::rigid;
+  bool edges_given = false;
   Point second_axis{};                                      ///< universal: carried by the second place
   double stiffness = 0;                                     ///< spring [N/m]
   double viscosity = 0;                                     ///< spring [N s/m]
@@ -202,6 +212,7 @@ struct Joint {
   Where where;
 };
 
+/// A force, moment or pressure, as the scene gives it.
 struct Load {
   enum class Kind { force, moment, distributed, pressure } kind = Kind::force;
   std::string name;
@@ -218,6 +229,7 @@ struct Load {
   bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
 };
 
+/// How long, and by what steps.
 struct Motion {
   double end = 0;  ///< 0: the scene has no motion
   double step = 0;
@@ -228,6 +240,7 @@ struct Motion {
   Where where;
 };
 
+/// What is recorded at a place.
 struct Probe {
   std::string name;
   Place at;

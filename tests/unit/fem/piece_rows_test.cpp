@@ -8,9 +8,11 @@ using namespace floe;
 using Eigen::VectorXd;
 
 TEST_CASE("the pieces of a cell have its energies and its mass") {
-  const bool linked = GENERATE(false, true);
-  const fem::Structure s = linked ? testing::linked_structure(PETSC_COMM_WORLD, testing::Spread::shuffled)
-                                  : testing::mixed_structure(PETSC_COMM_WORLD, testing::Spread::shuffled);
+  const std::string kind = GENERATE("mixed", "linked", "hinged");
+  const auto spread = testing::Spread::shuffled;
+  const fem::Structure s = kind == "linked"   ? testing::linked_structure(PETSC_COMM_WORLD, spread)
+                           : kind == "hinged" ? testing::hinged_structure(PETSC_COMM_WORLD, spread, true)
+                                              : testing::mixed_structure(PETSC_COMM_WORLD, spread);
   testing::Random random(91);
   std::vector<fem::PieceRows> pieces;
   for (const auto& cell : s.mesh.cells) {

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "floe/error.h"
+
 using namespace floe::mesh;
 using Pairs = std::vector<std::array<PetscInt, 2>>;
 
@@ -27,4 +29,29 @@ TEST_CASE("a piece that touches a rigid link is led by the link's reference") {
   CHECK(joined(links, {}) == Pairs{{4, 20}, {5, 20}, {6, 21}});
   CHECK(joined(links, {{1, 2, 4}}) == Pairs{{1, 20}, {2, 20}, {4, 20}, {5, 20}, {6, 21}});
   CHECK(joined(links, {{5, 6}}) == Pairs{{4, 20}, {5, 20}, {6, 20}, {21, 20}});
+}
+
+TEST_CASE("a hinge line is led by what it touches, else by a node that is preferred, else by one of its middle") {
+  const std::array<double, 3> x{1, 0, 0}, y{0, 1, 0};
+  const auto led = [](const std::vector<Follower>& links, const std::vector<HingeLine>& lines,
+                      const std::vector<PetscInt>& preferred) {
+    Pairs turning;
+    for (const Follower& f : with_lines(links, lines, preferred))
+      if (f.spins()) turning.push_back({f.node, f.leader});
+    return turning;
+  };
+  CHECK(led({}, {{{9, 3, 5}, x}}, {}) == Pairs{{3, 5}, {9, 5}});
+  CHECK(led({}, {{{9, 3, 5}, x}}, {9, 11}) == Pairs{{3, 9}, {5, 9}});
+  CHECK(led({}, {{{1, 2, 3}, x}, {{3, 4, 5}, y}}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
+  CHECK(led({}, {{{1, 2, 3}, x}, {{2, 3, 4}, x}}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}});
+  const std::vector<Follower> links{{4, 20}, {5, 20}, {6, 21}};
+  CHECK(with_lines(links, {}).size() == 3);
+  CHECK(led(links, {{{1, 2, 4}, x}}, {1}) == Pairs{{1, 20}, {2, 20}});
+  CHECK(led(links, {{{1, 20, 4}, x}}, {}) == Pairs{{1, 20}});
+  CHECK_THROWS_WITH(led(links, {{{1, 4, 6}, x, "s.yaml:3: joints.a"}}, {}),
+                    Catch::StartsWith("s.yaml:3: joints.a: its edge has nodes in common with two others"));
+  CHECK_THROWS_AS(led({}, {{{1, 2, 3}, x}, {{3, 4, 5}, y}, {{5, 6, 7}, x}}, {}), floe::InputError);
+  const HingeLine held{{3, 4, 5}, y, "", true}, apart{{8, 9}, x, "", true};  // by the ground
+  CHECK(led({}, {{{1, 2, 3}, x}, held, {{5, 6, 7}, x}, apart}, {}) == Pairs{{1, 2}, {3, 2}, {5, 6}, {7, 6}, {8, 9}});
+  CHECK(led({}, {{{1, 2, 3}, x}, held}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
 }

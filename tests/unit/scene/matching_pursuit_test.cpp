@@ -25,6 +25,14 @@ TEST_CASE("matching pursuit: groups are taken in all bodies together") {
   REQUIRE(order.size() == 2);
   CHECK(order[0].group == 1);
   CHECK(order[0].share == Approx(10.0 / 14));
+  // Taken for the other's sake, a direction that is spent here takes nothing away here.
+  Directions here{Eigen::MatrixXd(3, 3), Eigen::MatrixXd(3, 1), {0, 1, 2}};
+  here.D << 1, 1 + 1e-12, 0, 1e-12, 0, 1, 0, 1e-12, 1;
+  here.Y << 3, 1, 1;
+  Directions there{Eigen::MatrixXd::Identity(3, 3), (Eigen::MatrixXd(3, 1) << 5, 4, 0.1).finished(), {0, 1, 2}};
+  double carried = 0;
+  for (const Taken& taken : matching_pursuit({here, there}, 3)) carried += taken.share;
+  CHECK(carried == Approx(1));
   CHECK(matching_pursuit({}, 0).empty());
   CHECK(matching_pursuit({{Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Zero(2, 3), {0, 1}}}, 2).empty());
 }
