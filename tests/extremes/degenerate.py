@@ -187,7 +187,10 @@ STUDIES = [
     Study("nearly equal frequencies", "sections off the square by 1e-15 to 1e-6", "the square section",
           [Point(f"{g:g}, {f}, {c}", lambda floe, g=g, f=f, c=c: nearly_square(floe, g, f, c), max(1e-7, 50 * g),
                  quick=(g, f, c) == (1e-9, "vm+md", "run"))
-           for f in ("vm+md", "nlffr") for c in ("static", "run") for g in (1e-15, 1e-12, 1e-9, 1e-8, 1e-6)]),
+           for f in ("vm+md", "nlffr") for c in ("static", "run") for g in (1e-15, 1e-12, 1e-9, 1e-8, 1e-6)] +
+          [Point(f"{g:g}, vm, run", lambda floe, g=g: nearly_square(floe, g, "vm", "run"), max(1e-7, 50 * g),
+                 misses="not looked into; perhaps the count of modes parts a pair" if g == 1e-6 else "")
+           for g in (1e-9, 1e-6)]),
     Study("equal frequencies", "square section turned about its beam", "itself, not turned",
           [Point(f"{a:g} rad, {f}", lambda floe, a=a, f=f: turned(floe, a, f), 1e-7, quick=(a, f) == (0.3, "vm+md"))
            for f in ("vm+md", "nlffr") for a in (1e-9, 0.3, 0.7853981633974483)]),
@@ -209,7 +212,7 @@ STUDIES = [
           [Point(f"m = {m}", lambda floe, m=m: derivatives(floe, m), 1e-1 if m < 3 else 2e-2 if m < 6 else 1e-3, quick=m in (1, 6))
            for m in (1, 2, 3, 4, 6, 8, 12, 16, 20, 21)]),
     Study("derivatives in space", "1 to 20 modes with all their derivatives, p = 1 to 210", "nlffr",
-          [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 2 if m == 1 else 1e-1 if m < 8 else 5e-3, quick=False)
+          [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 1e-1 if m < 8 else 5e-3, quick=False)
            for m in (1, 2, 4, 8, 12, 16, 20)]),
     Study("no modes", "static columns alone, or none at all", "closed form; nothing moves",
           [Point("attachments", lambda floe: no_modes(floe, "vm+md"), 1e-8, quick=True),

@@ -63,6 +63,13 @@ def strip(floe: Floe, width, cells, formulation="nlffr"):
     return abs(tip((8, 8)) / tip((8, 1)) - 1)
 
 
+def spread(floe: Floe, width, cells):
+    """A strip with nu = 0 under its weight, 16 by 4 cells: w = q L^4 / 8 D at its corner, whatever its width."""
+    h = 1e-3
+    scene = plate(1, width, (16, 4), h, cells, nu=0, E=12 / h**3, rho=1 / h, gravity=[0, 0, "1e-6*t"])
+    return abs(floe.static(scene, "nlffr", "--at", "1", "--steps", "1").end("tip.z") / (1e-6 / 8) - 1)
+
+
 def long_frequency(floe: Floe, cells_along, cells):
     """A cantilever plate of so many cells along and four across: its first frequency against 40 along."""
     def first(n):
@@ -79,6 +86,8 @@ DROPPED = ("drop_tolerance 1e-7 drops a derivative of which 1e-7 is new, and the
            "bending; 1e-9 holds it (and keeps noise as a column in other scenes)")
 
 
+SPREAD = ("cells wider than the plate is long leave its edges too little of the load; a silent wrong number, and "
+          "refinement across is the remedy")
 SLENDER = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7]
 STUDIES = [
     Study("slender cantilever", "L/r from 10 to 1e7, EA/EI = (L/r)^2, bent by PL^2/EI = 0.5",
@@ -108,4 +117,8 @@ STUDIES = [
     Study("wide cells", "cells 10 to 1000 times as wide as long, first frequency", "the plate with 40 by 4 cells",
           [Point(f"{n} by 4, {c}", lambda floe, n=n, c=c: long_frequency(floe, n, c), 1e-2, quick=(n, c) == (400, "triangles"))
            for c in ("triangles", "quadrilaterals") for n in (160, 400, 1000, 4000)]),
+    Study("wide cells under spread loads", "cells 4 to 4000 times as wide as long, without a warning",
+          "closed form w = q L^4 / 8 D (nu = 0)",
+          [Point(f"width {w:g}, {c}", lambda floe, w=w, c=c: spread(floe, w, c), 2e-3, misses=SPREAD if w > 1 else "")
+           for c in ("triangles", "quadrilaterals") for w in (1, 10, 100, 1000)]),
 ]

@@ -70,16 +70,19 @@ def linear_warns(floe: Floe, share):
     return 0.0
 
 
+FEWER = "held with drop_tolerance 1e-9 and its further columns, not with 1e-7; not looked into"
 STUDIES = [
     Study("spin, in the plane", "speeds up to 10 first frequencies", "Rayleigh-Ritz in numpy",
-          [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: lagging(floe, s, f), 1e-3 if f == "nlffr" else 2e-2,
-                 quick=s == 10) for f in ("nlffr", "vm+md") for s in FASTER],
+          [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: lagging(floe, s, f), 2e-4 if f == "nlffr" else 2e-3,
+                 quick=(s, f) == (10, "vm+md"), misses=FEWER if (s, f) == (10, "vm+md") else "")
+           for f in ("nlffr", "vm+md") for s in FASTER],
           "lag^2 = flap^2 - gamma^2 is a small difference at high speeds"),
     Study("spin, out of the plane", "speeds up to 10 first frequencies", "Rayleigh-Ritz in numpy",
           [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: flapping(floe, s, f), 2e-4 if f == "nlffr" else 2e-3,
                  quick=(s, f) == (10, "vm+md")) for f in ("nlffr", "vm+md") for s in FASTER]),
     Study("spin-up", "from rest to 10 first frequencies", "closed form of the stretch; nlffr",
-          [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: spun_up(floe, s, f), 1e-3 if f == "nlffr" else 2e-2, quick=(s, f) == (10, "vm+md"))
+          [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: spun_up(floe, s, f), 1e-3 if f == "nlffr" else 1e-2, quick=(s, f) == (10, "vm+md"),
+                 misses=FEWER if (s, f) == (10, "vm+md") else "")
            for f in ("nlffr", "vm+md") for s in (0.5, 2, 10)]),
     Study("spin of a linear body", "beyond its first frequency", "closed form of the growth",
           [Point(f"{s:g}", lambda floe, s=s: linear_fails(floe, s), 1e-3, quick=s == 10) for s in (1.1, 2, 10)]),
