@@ -300,9 +300,8 @@ Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   const auto violation = [&](dynamics::ConstraintLevel level) {
     return dynamics::constraint_violation(*model_.system, t, U, V, level);
   };
-  const Measured all{
-      model_.system->energy(t, U, V),
-      {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)}};
+  const Measured all{model_.system->energy(t, U, V),
+                     {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)}};
   seconds_ += MPI_Wtime() - begin;
   return all;
 }

@@ -61,7 +61,7 @@ class Recorder {
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
-  double kept_at_ = 0, kept_seconds_ = 0;  // wall clock
+  double kept_at_ = 0, kept_seconds_ = 0;   // wall clock
   petsc::VecHandle between_U_, between_V_;  // of instants within a step
 };
 

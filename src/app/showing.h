@@ -24,7 +24,7 @@ struct Showing {
   int frames = 200, pictures = 100, dpi = 150, shapes = 6;  ///< frames: of motion; pictures: of an animation
   double fps = 20;
   bool force = false, with_shapes = false, no_geometric_stiffness = false;
-  std::string columns;  ///< of what is exported
+  std::string columns;           ///< of what is exported
   std::optional<Script> script;  ///< to become, instead of working in a session
 };
 

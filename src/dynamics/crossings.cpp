@@ -79,8 +79,8 @@ std::optional<double> top(double g0, double r0, double g1, double r1, double h) 
 
 }  // namespace
 
-/// Of an event that repeats. A value that is zero but for round-off, where the step before ended at the event, counts as
-/// zero: so it does after a restart there.
+/// Of an event that repeats. A value that is zero but for round-off, where the step before ended at the event, counts
+/// as zero: so it does after a restart there.
 std::optional<double> Crossings::change_of_side(const Step& step, std::size_t i, const Seen& now) const {
   const double side = happened_[i], h = step.end - step.begin;
   double before = side * before_.value[i];
@@ -129,8 +129,9 @@ void Crossings::go_on(const Step& step) {
 
 namespace {
 
-/// An event that repeats and is so near an end of its step, in shares of it, is told of and no step ends there: a stop's
-/// force begins at zero with slope zero, and steps much smaller than their neighbours only spoil Newton's method.
+/// An event that repeats and is so near an end of its step, in shares of it, is told of and no step ends there: a
+/// stop's force begins at zero with slope zero, and steps much smaller than their neighbours only spoil Newton's
+/// method.
 constexpr double close = 1e-3;
 
 }  // namespace
@@ -163,7 +164,7 @@ void Crossings::after_step(TS ts) {
     std::optional<double> at = crossing(step, i, now);
     if (at && events_[i].repeats() && *at - step.begin <= close * h) {
       tell(i, *at, before_.rate[i]);
-      at = crossing(step, i, now);  // it may come back within the step
+      at = crossing(step, i, now);                          // it may come back within the step
       if (at && *at - step.begin <= close * h) at.reset();  // seen in the next one
     }
     if (!at || (searched_ >= 0 && *at >= first)) continue;

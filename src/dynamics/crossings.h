@@ -10,9 +10,9 @@ namespace floe::dynamics {
 
 /// Finds within a step where events happen whose time is not known before: the step is taken back and again, to there.
 ///
-/// Events that repeat are told of here, and the motion goes on: nothing changes at them. Such an event is on one side of
-/// its zero, +1 or -1, and happens where it comes to the other. A step may also begin and end on one side and visit the
-/// other between: by its rates at both ends that is seen, too.
+/// Events that repeat are told of here, and the motion goes on: nothing changes at them. Such an event is on one side
+/// of its zero, +1 or -1, and happens where it comes to the other. A step may also begin and end on one side and visit
+/// the other between: by its rates at both ends that is seen, too.
 class Crossings {
  public:
   /// @param happened  of each event whether it has; of one that repeats its side, 0: not known
@@ -54,10 +54,10 @@ class Crossings {
   std::vector<double>& happened_;
   double step_;
   const std::function<void(const EventReport&)>& tell_;
-  Seen before_;                          // at the end of the last step
-  int searched_ = -1;                    // the event that a step is taken again for
-  double target_ = 0;                    // where it shall end [s]
-  double whole_ = 0;                     // how long it was before it was taken back [s]
+  Seen before_;        // at the end of the last step
+  int searched_ = -1;  // the event that a step is taken again for
+  double target_ = 0;  // where it shall end [s]
+  double whole_ = 0;   // how long it was before it was taken back [s]
   bool back_ = false, arrived_ = false;
 };
 

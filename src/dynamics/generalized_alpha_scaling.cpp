@@ -7,7 +7,8 @@
 
 // Rows are scaled: a dense LU with partial pivoting compares entries of a column, which row scaling gives one unit. A
 // sparse one may compare those of a row (PETSc hands KLU the transpose, and leaves KLU's own scaling out): there the
-// unknowns are scaled likewise, and what it solves for is scaled back. With w_i = |K_ii| + shift_a M_ii (the Jacobian's diagonal, an energy per unit of q_i squared)
+// unknowns are scaled likewise, and what it solves for is scaled back. With w_i = |K_ii| + shift_a M_ii (the Jacobian's
+// diagonal, an energy per unit of q_i squared)
 //   dynamic row     1 / sqrt(w_i)
 //   constraint row  1 / sqrt(sum_j C_j^2 / w_j)
 // the dynamic rows get a unit diagonal in the variables sqrt(w_j) q_j and the constraint rows unit length, at any step
@@ -149,8 +150,8 @@ PetscErrorCode scale_jacobian(TS ts, Mat P) {
   data->two_sided = !dense && knows && !compared ? PETSC_TRUE : PETSC_FALSE;
   if (data->two_sided) PetscCall(VecCopy(data->scale, data->column));
   PetscCall(MatDiagonalScale(P, data->scale, data->two_sided ? data->column : nullptr));
-  PetscCall(PetscObjectCompose((PetscObject)ts->snes, column_scales,
-                               data->two_sided ? (PetscObject)data->column : nullptr));
+  PetscCall(
+      PetscObjectCompose((PetscObject)ts->snes, column_scales, data->two_sided ? (PetscObject)data->column : nullptr));
   PetscFunctionReturn(0);
 }
 

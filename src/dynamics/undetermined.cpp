@@ -51,8 +51,8 @@ std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::
   return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
 }
 
-/// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is held, however
-/// softly, is more.
+/// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is held,
+/// however softly, is more.
 Eigen::Index true_null_vectors(const Eigen::MatrixXd& J, const Eigen::MatrixXd& vectors) {
   constexpr double several = 128 * PETSC_MACHINE_EPSILON;
   Eigen::Index count = 0;

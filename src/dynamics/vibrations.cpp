@@ -104,8 +104,8 @@ Exponents all_exponents(const Quadratic& problem, double shift) {
   return found;
 }
 
-/// Those nearest to `shift` > 0, which for swings are the slowest; solved for s / shift, so that a linearisation's halves
-/// weigh alike.
+/// Those nearest to `shift` > 0, which for swings are the slowest; solved for s / shift, so that a linearisation's
+/// halves weigh alike.
 Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   const PetscInt n = static_cast<PetscInt>(problem.K.rows());
   const petsc::MatHandle K = dense(problem.K), C = dense(shift * problem.C), M = dense(shift * shift * problem.M);

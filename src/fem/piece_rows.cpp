@@ -179,7 +179,8 @@ void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, Pi
   const int led = place_of(leader, piece);
   const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
   each_rows(piece, [&](auto& rows) {
-    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own = rows.template middleCols<6>(6 * spin.at);
+    const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
+        rows.template middleCols<6>(6 * spin.at);
     rows.template middleCols<6>(6 * led) += own * T;
     rows.template middleCols<3>(6 * spin.at).setZero();
     rows.template middleCols<3>(6 * spin.at + 3) = own.template rightCols<3>() * spin.axis * spin.slot.transpose();

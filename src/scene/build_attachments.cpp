@@ -34,9 +34,8 @@ reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& p
     if (dof < values.first || dof >= values.end) continue;
     if (n < 6 || component < 3) values[dof + component] = lever.share;
     if (n < 6) continue;
-    const Eigen::Vector3d moment = component < 3
-                                       ? Eigen::Vector3d(lever.arm.cross(Eigen::Vector3d::Unit(component)))
-                                       : Eigen::Vector3d(lever.turn.row(component - 3));
+    const Eigen::Vector3d moment = component < 3 ? Eigen::Vector3d(lever.arm.cross(Eigen::Vector3d::Unit(component)))
+                                                 : Eigen::Vector3d(lever.turn.row(component - 3));
     for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }
   return attachment;
@@ -159,7 +158,8 @@ std::vector<Support> supports_of(const Prepared& prepared, int index) {
                              6 * (place.line ? place.node : place.nodes.front()) + c))
         support.components.push_back(c);
     // nodes whose displacements are held also hold the turns of their piece: about a line all but one
-    if (place.nodes.size() > 1 && !place.line && support.components == std::vector<int>{0, 1, 2}) support.components = {0, 1, 2, 3, 4};
+    if (place.nodes.size() > 1 && !place.line && support.components == std::vector<int>{0, 1, 2})
+      support.components = {0, 1, 2, 3, 4};
     support.at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
                        std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0;
     if (!support.components.empty()) all.push_back(std::move(support));

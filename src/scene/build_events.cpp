@@ -100,9 +100,10 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
   }
   for (std::size_t i = 0; i < model.stops.size(); ++i) {
     const ModelStop& stop = model.stops[i];
-    const bool second = std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
-      return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
-    });
+    const bool second =
+        std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
+          return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
+        });
     const std::string side = std::string(second ? "turn_" : "") + (stop.upper ? "upper" : "lower");
     dynamics::Event out;
     out.name = fmt::format("{}.{}", stop.joint, side);

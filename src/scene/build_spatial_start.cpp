@@ -41,9 +41,9 @@ struct Moved {
 
 /// A corner of a cell: undeformed, deformed, and the rates, in mesh axes.
 struct Corner {
-  int node;              ///< local
+  int node;  ///< local
   bool shell;
-  Matrix3d cell;         ///< directions undeformed: of a line along it; of a shell two in its plane; normal to them
+  Matrix3d cell;  ///< directions undeformed: of a line along it; of a shell two in its plane; normal to them
   Moved deformed, rate;
 };
 
@@ -108,9 +108,7 @@ Vector3d turn_of_shell(const Matrix3d& cell, const Vector3d& ta, const Vector3d&
   const Vector3d a = cell.col(0), b = cell.col(1), n = cell.col(2);
   return n.dot(ta) * a.cross(n) + n.dot(tb) * b.cross(n) + 0.5 * (b.dot(ta) - a.dot(tb)) * n;
 }
-Vector3d axial(const Matrix3d& M) {
-  return 0.5 * Vector3d(M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1));
-}
+Vector3d axial(const Matrix3d& M) { return 0.5 * Vector3d(M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)); }
 
 /// Nodal values: displacements as given, rotations the mean of the corners'. Followers move with their leaders.
 template <class Displacement, class Rotation>
@@ -210,8 +208,7 @@ Pose frame_pose(const Shape& shape, double size) {
   const PreparedBody& body = shape.body;
   Pose pose{body.origin, body.axes};
   for (int iteration = 0; iteration < 60; ++iteration) {
-    const Eigen::Matrix<double, 6, 1> motion =
-        body.frame.inverse * conditions(body.frame, displacement(shape, pose));
+    const Eigen::Matrix<double, 6, 1> motion = body.frame.inverse * conditions(body.frame, displacement(shape, pose));
     if (!motion.allFinite() || motion.tail<3>().norm() > 1) break;
     pose.place += pose.axes * motion.head<3>();
     pose.axes = pose.axes * math::rotation(motion.tail<3>());

@@ -6,8 +6,8 @@ namespace floe::scene {
 /// Puts a body in space where its scene says at the start: place, attitude and motion of its frame, deformation and its
 /// rate in it; as start_body does in the plane.
 ///
-/// The scene gives displacements d(X) and rates w(X) in the axes of the mesh, which stand at (P, Q) and move with (v, W).
-/// The frame goes with what moves its conditions f:
+/// The scene gives displacements d(X) and rates w(X) in the axes of the mesh, which stand at (P, Q) and move with (v,
+/// W). The frame goes with what moves its conditions f:
 ///
 ///   u'(x)   = B'(X + d - R') - x                      f'u' = 0 for the pose (R', B) in mesh axes, by Newton
 ///   u'_t(x) = B'w - (c + b x (x + u'))                f'u'_t = 0 for the rates (c, b), linear

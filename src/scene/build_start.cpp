@@ -199,7 +199,8 @@ void start_body(PreparedBody& body) {
       fem::to_frame(body.frame, body.deformation);
     }
     if (start.deformation_rate) {
-      body.deformation_rate = deformed.rate(pose, sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate"));
+      body.deformation_rate =
+          deformed.rate(pose, sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate"));
       const petsc::VecHandle rotation = deformed.rotation(pose);
       const Eigen::Vector3d motion = rigid_part(body.frame, rotation, body.deformation_rate).motion;
       rates << turn(pose[2]) * motion.head<2>(), motion[2];

@@ -9,12 +9,13 @@ namespace floe::scene {
 /// Edges of the body that its joints hold as hinge lines (Joint::Edges::line): straight, along the joint's axis.
 ///
 /// A hinge pin is rigid against bending and stretching and hinders no turn about itself: the edge's nodes keep their
-/// places on it, their rotations normal to it are the pin's, those about it their own (fem::Mesh). In Kirchhoff's theory
-/// this is a simply supported edge whose support moves: no moment about the edge at any point of it, and so no mean one.
+/// places on it, their rotations normal to it are the pin's, those about it their own (fem::Mesh). In Kirchhoff's
+/// theory this is a simply supported edge whose support moves: no moment about the edge at any point of it, and so no
+/// mean one.
 ///
-/// An edge that has no such line, and was not told to be one, is left to its mean. Edges that the ground holds are lines
-/// where these lie along an axis of the mesh and have no conflict with others (mesh::with_lines); else every node of
-/// theirs is held by itself.
+/// An edge that has no such line, and was not told to be one, is left to its mean. Edges that the ground holds are
+/// lines where these lie along an axis of the mesh and have no conflict with others (mesh::with_lines); else every node
+/// of theirs is held by itself.
 ///
 /// @param places   nodes by name, the same on all ranks
 /// @param notices  receives straight edges whose joint has another axis

@@ -11,7 +11,7 @@ namespace floe::scene {
 /// @param files   bodies that are read from these instead
 /// @param folder  where the text will stand: paths in it are taken from there; empty: where the scene stands
 std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
-                      const Motion& motion, const std::map<std::string, std::string>& files,
-                      bool share_frames, const std::filesystem::path& folder = {});
+                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
+                      const std::filesystem::path& folder = {});
 
 }  // namespace floe::scene

@@ -222,8 +222,8 @@ Eigen::Matrix3d joint_axes(const Prepared& prepared, const Joint& joint, const s
 }
 
 /// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
-/// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at one
-/// node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
+/// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at
+/// one node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
 bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedBody& body, const PreparedPlace& place,
                    fem::Conditions& held) {
   using Kind = Joint::Kind;

@@ -116,7 +116,8 @@ void read_properties(Document& document, Reading& reading, Joint& joint) {
   joint.edges = holds_rotations ? Edges::rigid : turns ? Edges::line : Edges::mean;
   joint.edges_given = reading.given("edges");
   if (joint.edges_given)
-    joint.edges = reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}, {"line", Edges::line}});
+    joint.edges =
+        reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}, {"line", Edges::line}});
   if (joint.edges == Edges::line && !turns)
     document.fault(reading.where("edges"), fmt::format("is line at a joint of type {}", reading.text("type")),
                    "rigid or mean; line with type revolute or cylindrical");

@@ -54,7 +54,8 @@ class Reading {
   std::optional<std::array<math::Formula, n>> formulas(const std::string& key,
                                                        const std::array<std::string, n>& variables) {
     std::array<math::Formula, n> all;
-    const std::vector<math::Formula> found = formulas(key, std::vector<std::string>(variables.begin(), variables.end()));
+    const std::vector<math::Formula> found =
+        formulas(key, std::vector<std::string>(variables.begin(), variables.end()));
     if (found.size() != n) return {};
     std::copy(found.begin(), found.end(), all.begin());
     return all;

@@ -1,5 +1,4 @@
-#include "schema_spatial.h"
-
+#include "schema_parts.h"
 #include "schema_ranges.h"
 
 namespace floe::scene {

@@ -145,10 +145,9 @@ def compare(whole, pieces, repeats):
                 assert x == y, f"{name} differs"
                 continue
             assert x.shape == y.shape, f"{name} has shape {y.shape}, not {x.shape}"
-            if name == "motion/constraints" and not repeats:  # both are round-off
-                assert max(x.max(), y.max()) < 1e-8, f"{name} grows to {max(x.max(), y.max())}"
-                continue
-            near = x.dtype.kind == "f" and not repeats and numpy.abs(x - y).max() <= 1e-7 * numpy.abs(x).max()
+            # violations are round-off of lengths of 1 m and speeds of some m/s, the others have sizes of their own
+            size = 0.1 if name == "motion/constraints" else numpy.abs(x).max() if x.dtype.kind == "f" and x.size else 0
+            near = x.dtype.kind == "f" and x.size and not repeats and numpy.abs(x - y).max() <= 1e-7 * size
             assert near or numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
     assert not list(pieces.glob(".*")), "drafts are left"
 

@@ -84,8 +84,8 @@ inline fem::Structure linked_structure(MPI_Comm comm, Spread spread) {
   return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(), fem::MembraneStrain::averaged};
 }
 
-/// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the floor;
-/// with links, each has a node in common with a piece.
+/// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the
+/// floor; with links, each has a node in common with a piece.
 inline std::vector<mesh::Follower> mixed_lines(bool links) {
   const mesh::RawMesh raw = mixed_mesh(PETSC_COMM_SELF);
   const auto on = [&](auto&& where) {

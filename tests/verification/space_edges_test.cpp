@@ -196,9 +196,10 @@ TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies
     CHECK(fine[i] == Approx(levy[i]).epsilon(1e-2));
   }
   // every node's displacements held, each node by itself: another way to the same limit
-  const auto apart = omega_of(square(
-      8, "l: {type: revolute, between: [ground, plate.left], edges: mean}, r: {type: revolute, between: [ground, "
-         "plate.right], edges: mean}"));
+  const auto apart = omega_of(
+      square(8,
+             "l: {type: revolute, between: [ground, plate.left], edges: mean}, r: {type: revolute, between: [ground, "
+             "plate.right], edges: mean}"));
   CHECK(off(apart, coarse) < 0.02);
 
   const auto small = omega_of(square(4, on_ground));
@@ -208,9 +209,8 @@ TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies
     app::CampbellRequest request;
     request.speeds = "0", request.modes = 40, request.about = "0,0,1", request.through = "0,0.25,0";
     std::exception_ptr fault;
-    const app::CampbellDiagram diagram = app::campbell(
-        scene::parse_scene(square(4, posts(edges), rigid_hub), "scene"), Formulation::nlffr, PETSC_COMM_WORLD, request,
-        fault);
+    const app::CampbellDiagram diagram = app::campbell(scene::parse_scene(square(4, posts(edges), rigid_hub), "scene"),
+                                                       Formulation::nlffr, PETSC_COMM_WORLD, request, fault);
     if (fault) std::rethrow_exception(fault);
     REQUIRE(diagram.points.at(0).fault == "");
     for (const auto& vibration : diagram.points[0].vibrations)

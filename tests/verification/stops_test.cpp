@@ -155,10 +155,11 @@ TEST_CASE("stops: hits and releases are told once each, in order, with times and
   text.replace(text.find("step: 1e-3"), 10, "step: 1e-3" + adaptive);
   const History at = move(text, Formulation::vm_md);
   REQUIRE(at.events.size() == 4);
-  const std::vector<std::pair<std::string, double>> expected{{"joint hinge hits its upper limit", there},
-                                                             {"joint hinge leaves its upper limit", release},
-                                                             {"joint hinge hits its lower limit", back},
-                                                             {"joint hinge leaves its lower limit", back + duration(1)}};
+  const std::vector<std::pair<std::string, double>> expected{
+      {"joint hinge hits its upper limit", there},
+      {"joint hinge leaves its upper limit", release},
+      {"joint hinge hits its lower limit", back},
+      {"joint hinge leaves its lower limit", back + duration(1)}};
   for (std::size_t i = 0; i < 4; ++i) {
     INFO(expected[i].first);
     CHECK(at.events[i].name == (i < 2 ? "hinge.upper" : "hinge.lower"));

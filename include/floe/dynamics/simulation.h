@@ -15,7 +15,7 @@ struct Integration {
   double radius = 0.8;              ///< spectral radius at infinite frequency
   std::optional<double> tolerance;  ///< relative local error: adaptive steps
   std::string prefix = "motion_";
-  std::vector<Event> events = {};                         ///< those that do not repeat happen once, in the order of their times
+  std::vector<Event> events = {};  ///< those that do not repeat happen once, in the order of their times
   std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
   const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };

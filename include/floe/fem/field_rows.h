@@ -40,12 +40,12 @@ DofRanges dof_ranges(const Structure& structure, const FieldRows& fields);
 ColumnRange multiply(const Structure& structure, const PieceRows& piece, const Eigen::Ref<const SmallRows>& rows,
                      const FieldRows& fields, const DofRanges& ranges, double* out);
 
-/// Fields at the dofs of a piece, less the rigid motion of its first node that has all dofs (take_rigid_motion), for rows
-/// that do not see rigid motions but for round-off.
+/// Fields at the dofs of a piece, less the rigid motion of its first node that has all dofs (take_rigid_motion), for
+/// rows that do not see rigid motions but for round-off.
 struct Strained {
   FieldRows rows;     ///< dofs x columns
   int reference = 0;  ///< that node
-  DofRanges ranges;  ///< of each dof of a node
+  DofRanges ranges;   ///< of each dof of a node
 };
 /// Fills `strained`; its memory is used again.
 void take_strained(const Structure& structure, const PieceRows& piece, const FieldRows& fields, const DofRanges& ranges,

@@ -29,7 +29,8 @@ using mesh::CellKind;
 ///
 ///   u = u_leader + theta_leader x arm,   theta = (1 - e e') theta_leader + e phi;
 ///
-/// phi is the one dof of theirs that is left, the rotation `spin_slot`; cells that touch them act on it and on the leader.
+/// phi is the one dof of theirs that is left, the rotation `spin_slot`; cells that touch them act on it and on the
+/// leader.
 struct Mesh {
   /// An element: what it is, where it is, and which nodes move it.
   struct Cell {
@@ -38,8 +39,8 @@ struct Mesh {
     std::array<int, 4> corner{};  ///< local nodes where it is; as many as the kind has
     /// Local nodes that move them: the same, or those that they follow; then leaders of those that turn by themselves.
     std::array<int, 8> moved{};
-    int moving = 0;                              ///< how many
-    std::array<int, 4> line{-1, -1, -1, -1};     ///< of each corner on a hinge line: where in `moved` its leader is
+    int moving = 0;                           ///< how many
+    std::array<int, 4> line{-1, -1, -1, -1};  ///< of each corner on a hinge line: where in `moved` its leader is
     Cell() = default;
     Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moving(mesh::node_count(k)) {
       std::copy(c.begin(), c.end(), moved.begin());
@@ -69,7 +70,7 @@ struct Mesh {
     int node;
     Eigen::Vector3d axis;  ///< e
   };
-  std::vector<Spin> spins;  ///< ascending
+  std::vector<Spin> spins;         ///< ascending
   std::vector<PetscInt> original;  ///< of local nodes: a numbering that does not depend on ranks; empty: the global one
 
   /// From original numbers to global ones.

@@ -37,7 +37,8 @@ struct MassRows {
 struct PieceRows {
   std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of hinge lines
   int nodes = 0;
-  /// Nodes that turn by themselves about a hinge line: their rotation is axis (slot . dofs), nothing else of them counts.
+  /// Nodes that turn by themselves about a hinge line: their rotation is axis (slot . dofs), nothing else of them
+  /// counts.
   struct Spin {
     int at;  ///< among the piece's
     Eigen::Vector3d axis, slot;

@@ -21,9 +21,9 @@ struct HingeLine {
   bool held = false;             ///< by the ground: may be left out, for its nodes can be held one by one
 };
 
-/// Followers with hinge lines besides. A line is led by the piece or link that it has a node in common with, else by the
-/// node that it shares with another line, else by its first one among `preferred`, else by the node in the middle of its
-/// numbers; lines with two nodes in common are one. Where a line would have two leaders, those that the ground
+/// Followers with hinge lines besides. A line is led by the piece or link that it has a node in common with, else by
+/// the node that it shares with another line, else by its first one among `preferred`, else by the node in the middle
+/// of its numbers; lines with two nodes in common are one. Where a line would have two leaders, those that the ground
 /// holds are left out if they touch another one.
 ///
 /// @param followers  as with_pieces gives them

@@ -173,7 +173,8 @@ struct Model {
 Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool keep_offline = false);
 
 /// The scene's events for a motion of the model until `end`, then the hits and releases of its stops; the model must
-/// outlive them. Those whose formula of t does not change sign until then never happen. @throws InputError  a probe that the model does not have
+/// outlive them. Those whose formula of t does not change sign until then never happen. @throws InputError  a probe
+/// that the model does not have
 std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end);
 /// No latch, one, or two for each joint that events name; and whether an event unlocks it.
 std::map<std::string, JointLatches> latches_of(const Scene& scene);

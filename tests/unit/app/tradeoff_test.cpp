@@ -99,6 +99,5 @@ TEST_CASE("trade-off: the ladder varies one thing at a time and leaves rigid bod
     }
   }
   CHECK(families == std::set<std::string>{"scene", "linear", "rigid", "modes", "modes and derivatives",
-                                          "static columns", "step", "integrator",
-                                          "accuracy"});
+                                          "static columns", "step", "integrator", "accuracy"});
 }

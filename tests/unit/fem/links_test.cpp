@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <memory>
 
 #include "floe/fem/assembly.h"
@@ -107,7 +106,8 @@ TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line an
     const Eigen::VectorXd expected = testing::product_in_originals(s, K, q);
     CHECK((testing::in_original_order(s, by_pieces) - expected).norm() < 1e-11 * expected.norm());
     std::vector<petsc::VecHandle> fields;
-    fields.push_back(testing::field_of_originals(s, q)), fields.push_back(testing::field_of_originals(s, random.vector(s.dofs())));
+    fields.push_back(testing::field_of_originals(s, q)),
+        fields.push_back(testing::field_of_originals(s, random.vector(s.dofs())));
     const Eigen::VectorXd slow = testing::in_original_order(s, fem::stiffness_derivative(s, fields[0], fields[1])),
                           fast = testing::in_original_order(s, fem::stiffness_derivatives(s, fields, {{0, 1}})[0]);
     CHECK((fast - slow).norm() < 1e-11 * slow.norm());

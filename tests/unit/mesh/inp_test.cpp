@@ -86,9 +86,9 @@ TEST_CASE("includes, also of data, and Windows line ends are read") {
   const auto round = testing::written("round.inp", "*INCLUDE, INPUT=round.inp\n");
   CHECK_THAT(testing::fault_of([&] { read(round); }), Contains("20 files deep"));
   const auto outer = testing::written("outer.inp", "*HEADING\n*INCLUDE, INPUT=missing.inp\n");
-  CHECK_THAT(testing::fault_of([&] { read(outer); }),
-             Contains("missing.inp: cannot be opened") && Contains("(included from ") && Contains("outer.inp:2)") &&
-                 !Contains("\n"));
+  CHECK_THAT(testing::fault_of([&] { read(outer); }), Contains("missing.inp: cannot be opened") &&
+                                                          Contains("(included from ") && Contains("outer.inp:2)") &&
+                                                          !Contains("\n"));
 }
 
 TEST_CASE("one part and one instance of Abaqus are looked through") {

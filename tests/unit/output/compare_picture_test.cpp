@@ -39,8 +39,8 @@ struct Outcome {
 
 Outcome draw(const fs::path& folder, const std::string& options = "") {
   const fs::path said = folder / "said";
-  const std::string command = fmt::format("/usr/bin/python3 '{}/plot/compare.py' '{}' {} >'{}' 2>&1", FLOE_SCRIPTS_SOURCE,
-                                          folder.string(), options, said.string());
+  const std::string command = fmt::format("/usr/bin/python3 '{}/plot/compare.py' '{}' {} >'{}' 2>&1",
+                                          FLOE_SCRIPTS_SOURCE, folder.string(), options, said.string());
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(said)};
 }

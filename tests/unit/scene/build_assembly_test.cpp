@@ -141,9 +141,9 @@ joints:
 
 TEST_CASE("a drive is 0 at the start by its own size") {
   const auto told = [](const std::string& angle) {
-    return testing::complaint(beam + "joints: {j: {type: driven, between: [ground, beam.start], angle: \"" + angle +
-                                  "\"}}\n" + motion,
-                              scene::Formulation::nlffr);
+    return testing::complaint(
+        beam + "joints: {j: {type: driven, between: [ground, beam.start], angle: \"" + angle + "\"}}\n" + motion,
+        scene::Formulation::nlffr);
   };
   CHECK(told("1e-12*cos(t)").find("is 1e-12 at t = 0") != std::string::npos);
   CHECK(told("1e-12*sin(t)") == "");

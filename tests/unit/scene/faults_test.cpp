@@ -96,9 +96,10 @@ TEST_CASE("aliases that multiply do not multiply the work") {
 TEST_CASE("numbers whose products are none in double precision are refused") {
   const auto told = [](const std::string& EI) {
     try {
-      scene::parse_scene("bodies:\n  b:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}\n    section: {EA: 1, EI: " +
-                             EI + ", rhoA: 1}\nmotion: {end: 1, step: 0.1}\n",
-                         "s.yaml");
+      scene::parse_scene(
+          "bodies:\n  b:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}\n    section: {EA: 1, EI: " + EI +
+              ", rhoA: 1}\nmotion: {end: 1, step: 0.1}\n",
+          "s.yaml");
     } catch (const InputError& error) {
       return std::string(error.what());
     }
