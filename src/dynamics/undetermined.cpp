@@ -33,22 +33,26 @@ std::vector<char> multiplier_rows(const System& system) {
   return is;
 }
 
+/// Owners whose share, the greatest of any rank, is more than a thousandth.
+std::string names_of(const System& system, std::vector<double> share) {
+  MPI_Allreduce(MPI_IN_PLACE, share.data(), static_cast<int>(share.size()), MPI_DOUBLE, MPI_MAX, system.comm());
+  std::vector<std::string> named;
+  for (std::size_t o = 0; o < share.size(); ++o)
+    if (share[o] > 1e-3) named.push_back(system.coordinates().owners()[o]);
+  return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
+}
+
 /// Who takes part in the null vectors N (orthonormal columns) with unknowns of one kind.
 std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::vector<char>& multiplier, bool kind) {
   const Coordinates& coordinates = system.coordinates();
-  const std::vector<std::string>& owners = coordinates.owners();
-  std::vector<double> share(owners.size(), 0);
+  std::vector<double> share(coordinates.owners().size(), 0);
   const std::vector<int> owner = coordinates.owner_of_local();
   for (std::size_t i = 0; i < owner.size(); ++i) {
     const PetscInt global = coordinates.global()[i];
     if (owner[i] >= 0 && (multiplier[global] != 0) == kind)
       share[owner[i]] = std::max(share[owner[i]], N.row(global).cwiseAbs().maxCoeff());
   }
-  MPI_Allreduce(MPI_IN_PLACE, share.data(), static_cast<int>(share.size()), MPI_DOUBLE, MPI_MAX, system.comm());
-  std::vector<std::string> named;
-  for (std::size_t o = 0; o < owners.size(); ++o)
-    if (share[o] > 1e-3) named.push_back(owners[o]);
-  return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
+  return names_of(system, std::move(share));
 }
 
 /// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is held,
@@ -90,6 +94,21 @@ Undetermined null_vectors(const System& system, Mat J) {
   open.bodies = names_of(system, N, multiplier, false);
   open.joints = names_of(system, N, multiplier, true);
   return open;
+}
+
+std::string names_of_movers(const System& system, Vec step) {
+  const Coordinates& coordinates = system.coordinates();
+  Eigen::VectorXd by;
+  system.gather(step, by);
+  for (std::size_t i = 0; i < coordinates.global().size(); ++i)
+    if (coordinates.multiplier()[i]) by[i] = 0;
+  double greatest = by.size() > 0 ? by.cwiseAbs().maxCoeff() : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
+  std::vector<double> share(coordinates.owners().size(), 0);
+  const std::vector<int> owner = coordinates.owner_of_local();
+  for (std::size_t i = 0; i < owner.size() && greatest > 0; ++i)
+    if (owner[i] >= 0) share[owner[i]] = std::max(share[owner[i]], std::abs(by[i]) / greatest);
+  return names_of(system, std::move(share));
 }
 
 std::string undetermined(const System& system, Mat J) {

@@ -17,6 +17,9 @@ struct Undetermined {
 /// where it has at most 1000 rows: O(n^3).
 Undetermined null_vectors(const System& system, Mat J);
 
+/// The bodies that a step moves most, each coordinate in its own unit, as ` (body arm)`. Collective.
+std::string names_of_movers(const System& system, Vec step);
+
 /// Both names in one, for tangents whose null vectors are of one kind.
 std::string undetermined(const System& system, Mat J);
 

@@ -62,13 +62,19 @@ void Assembly::add_coordinates() {
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
     coordinates_.belongs_to("body " + body.spec.name);
-    if (compact(index) || formulation_ != Formulation::cfr) slot.frame = coordinates_.add_shared(3);
+    if (compact(index) || formulation_ != Formulation::cfr) {
+      slot.frame = coordinates_.add_shared(3);
+      coordinates_.add_angle(slot.frame + 2, true);
+    }
     if (compact(index)) {
       slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
       continue;
     }
     slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh,
                                                               visited_nodes(prepared_, index));
+    if (formulation_ == Formulation::cfr)
+      for (PetscInt node = 0; node < body.structure.mesh.owned_nodes; ++node)
+        coordinates_.add_angle(slot.nodes->first() + 3 * static_cast<int>(node) + 2, false);
     if (formulation_ != Formulation::cfr && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(3, true);
   }

@@ -1,6 +1,8 @@
 """Equal frequencies, mechanisms, columns that repeat one another, many derivatives, nothing at all."""
 import math
 
+import numpy
+
 from contrasts import one_body
 from floe import Floe, relative
 from reference import beam_in_segments
@@ -73,6 +75,45 @@ def mechanism(floe: Floe, formulation):
     scene = pendulum(elements=4, loads={"m": {"type": "moment", "at": "rod.start", "moment": "t"}})
     del scene["gravity"]
     floe.static(scene, formulation, "--at", "1", "--steps", "1")
+    return float("nan")
+
+
+def mechanism_in_space(floe: Floe, formulation, skew):
+    """The same in space, about an axis of the mesh or about none, at the end of the bar."""
+    z = numpy.array([0.36, -0.48, 0.8] if skew else [0.0, 0.0, 1.0])
+    x = numpy.cross([0.0, 1.0, 0.0] if not skew else [0.6, 0.8, 0.0], z)
+    x /= numpy.linalg.norm(x)
+    scene = spatial_cantilever(0.02, 0.02, 8, modes=4, E=7e10, rho=2700, loads={
+        "m": {"type": "moment", "at": "beam.end", "moment": [f"{100 * a!r}*t" for a in z.tolist()]}})
+    scene["bodies"]["beam"]["mesh"]["line"]["to"] = x.tolist()
+    scene["bodies"]["beam"]["section"]["orientation"] = z.tolist()
+    scene["joints"] = {"hinge": {"type": "revolute", "between": ["ground", "beam.start"], "axis": z.tolist()}}
+    floe.static(scene, formulation, "--at", "1", "--steps", "1")
+    return float("nan")
+
+
+def far_bar(arm, k, k_turn, rigid):
+    """A bar on a bushing, its mesh so far from the mesh's origin, under 10 N m about z."""
+    start = [arm, 0.3 * arm, 0.1 * arm]
+    return {
+        "bodies": {"bar": {
+            "mesh": {"line": {"from": start, "to": [arm + 1, *start[1:]], "elements": 2}}, "rigid": rigid,
+            "section": {"shape": "rectangle", "width": 0.02, "height": 0.02, "orientation": [0, 0, 1]},
+            "material": {"E": 7e10, "nu": 0.3, "rho": 2700}, "reduction": {"modes": 4}}},
+        "joints": {"bushing": {"type": "bushing", "between": ["ground", "bar.start"], "translation": [k, k, k],
+                               "rotation": [1e3, 1e3, k_turn]}},
+        "loads": {"m": {"type": "moment", "at": "bar.start", "moment": [0, 0, "10*t"]}},
+        "motion": {"end": 1, "step": 0.1},
+        "probes": {"turn": {"at": "bar.start", "quantity": "rotation"}}}
+
+
+def far_mesh(floe: Floe, arm, k, k_turn, formulation, rigid):
+    moved = floe.static(far_bar(arm, k, k_turn, rigid), formulation, "--at", "1", "--steps", "1")
+    return abs(moved.end("turn.rz") / (10 / k_turn) - 1)
+
+
+def far_and_loose(floe: Floe, arm, k):
+    floe.static(far_bar(arm, k, 0, True), "vm+md", "--at", "1", "--steps", "1")
     return float("nan")
 
 
@@ -201,7 +242,18 @@ STUDIES = [
           [Point(f"{k:g}, {f}", lambda floe, k=k, f=f: flexible_on_spring(floe, k, f), 1e-6, quick=k == 1e-6)
            for f in ("nlffr", "vm+md") for k in (1e-9, 1e-6, 1, 1e3)]),
     Study("a mechanism", "no spring", "a refusal",
-          [Point(f, lambda floe, f=f: mechanism(floe, f), None, "nothing holds", quick=True) for f in ("nlffr", "vm+md")]),
+          [Point(f, lambda floe, f=f: mechanism(floe, f), None, "nothing holds", quick=True)
+           for f in ("nlffr", "vm+md", "cfr")] +
+          [Point(f"in space, {a}, {f}", lambda floe, s=a == "skew", f=f: mechanism_in_space(floe, f, s), None,
+                 "nothing holds", quick=True) for f in ("nlffr", "vm+md") for a in ("along an axis", "skew")]),
+    Study("a mesh far from its origin", "a bar on a bushing, 0 to 1e6 of its lengths away", "closed form M/k",
+          [Point(f"{arm:g}, k = {k:g}, {t:g} N m/rad, {f}, {'rigid' if r else 'flexible'}",
+                 lambda floe, arm=arm, k=k, t=t, f=f, r=r: far_mesh(floe, arm, k, t, f, r), 1e-6,
+                 quick=(arm, k, t) == (1e4, 1e8, 10))
+           for arm in (0, 1e2, 1e4, 1e6) for k in (1e6, 1e8) for t in (10, 100)
+           for f, r in (("vm+md", True), ("vm+md", False), ("nlffr", False))] +
+          [Point(f"{arm:g}, k = {k:g}, free", lambda floe, arm=arm, k=k: far_and_loose(floe, arm, k), None, "nothing holds",
+                 quick=(arm, k) == (1e4, 1e9)) for arm in (0, 1e2, 1e4, 1e6) for k in (1e5, 1e9)]),
     Study("columns that repeat others", "2 to 200 loads with static columns at four places", "nlffr",
           [Point(f"{n}", lambda floe, n=n: repeated(floe, n), 1e-4, quick=n == 20) for n in (2, 20, 200)]),
     Study("nearly dependent columns", "drop_tolerance from 1e-1 to 1e-15", "nlffr",

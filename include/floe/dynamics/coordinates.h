@@ -27,6 +27,10 @@ class Coordinates {
   /// Returns the first local index.
   int add_distributed(PetscInt owned, std::vector<PetscInt> foreign);
 
+  /// Says that a local unknown is an angle in world axes [rad]: of a frame in the plane, whose origin stands before it,
+  /// or of a node.
+  void add_angle(int local, bool of_frame) { angles_.push_back({local, of_frame}); }
+
   /// Fixes the layout. Collective.
   void number();
 
@@ -41,6 +45,12 @@ class Coordinates {
   /// Global indices of the multipliers that this rank owns, ascending.
   const std::vector<PetscInt>& owned_multipliers() const { return owned_multipliers_; }
   PetscInt multiplier_count() const { return multiplier_count_; }
+  struct Angle {
+    int local;
+    bool of_frame;
+  };
+  /// What add_angle() named, in its order: those that this rank sees.
+  const std::vector<Angle>& angles() const { return angles_; }
   /// What belongs_to() named, in its order.
   const std::vector<std::string>& owners() const { return owners_; }
   /// Index of owners() of each local unknown, -1 where none was named.
@@ -58,6 +68,7 @@ class Coordinates {
   MPI_Comm comm_;
   std::vector<Block> blocks_;
   std::vector<std::string> owners_;
+  std::vector<Angle> angles_;
   int local_size_ = 0;
   PetscInt owned_size_ = 0, global_size_ = 0, multiplier_count_ = 0;
   std::vector<PetscInt> global_, owned_multipliers_;

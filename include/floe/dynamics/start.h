@@ -30,7 +30,9 @@ double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec i
 /// |C(q, t)|, or of its rate, greatest over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
 
-/// At the start of the search and after relaxation, nothing holds the configuration in some direction.
+/// Nothing holds the configuration in some direction: at the start of the search and after relaxation; or because the
+/// loads drive it away along a path without stiffness; or where the search ends, where the tangent is no more than its
+/// own round-off there.
 class NothingHolds : public RunError {
   using RunError::RunError;
 };
@@ -46,6 +48,10 @@ class LostInRoundOff : public RunError {
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
 /// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
 /// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
+///
+/// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6 of
+/// 1 rad in every turn, of its size in every body's place, and of the configuration in the norm of |K_ii|; until then
+/// further steps are taken.
 /// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
 /// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V);

@@ -1,0 +1,12 @@
+#pragma once
+#include "floe/dynamics/system.h"
+
+namespace floe::dynamics {
+
+/// Greatest turn of an attitude from one configuration to another with the same bases, as steps added up. [rad]
+double greatest_turn(const System& system, Vec from, Vec to);
+
+/// Greatest turn of an attitude, or of an angle of the plane (Coordinates::angles), by a step. [rad] Collective.
+double turn_by(const System& system, Vec step);
+
+}  // namespace floe::dynamics
