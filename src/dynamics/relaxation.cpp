@@ -95,7 +95,7 @@ Relaxation relax(const System& system, double t, Vec U, Vec V) {
     growth.add(moved_by(system, step));
     const bool round = done.steps > 0 && turn_by(system, step) > 2 * M_PI;  // the first follows the drives
     if (round) done.runs_away = true;
-    done.freely = growth.fourfold >= 4;
+    done.freely = growth.fourfold >= 3;
     if (round || growth.grows()) done.bodies = names_of_movers(system, step);
     if (round) return done;
     check(VecAXPY(U, -1, step));
