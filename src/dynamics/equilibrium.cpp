@@ -152,6 +152,10 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
     if (open <= open_limit && gain < 0.5) return done;
   }
   if (!(gain < 0.5)) throw unheld(t, names_of_movers(system, step));
+  if (open > 1e-2)  // round-off leaves no more than that where the gain is small: smaller steps of the loads may help
+    throw RunError(fmt::format("no equilibrium at t = {:.6g}: further steps of Newton's method do not become short (the "
+                               "last is {:.2g} of the configuration)",
+                               t, open));
   throw LostInRoundOff(
       fmt::format("no equilibrium at t = {:.6g}: round-off of the greatest forces leaves {:.2g} of the configuration "
                   "open (limit {:.0e}); stiffnesses, or the sides of cells, differ too much for double precision",
@@ -164,6 +168,16 @@ void look_for_mechanism(const System& system, double t, Vec before, Vec V) {
   check(VecCopy(before, U));
   const Relaxation relaxed = relax(system, t, U, V);
   if (relaxed.freely) throw driven_away(t, relaxed.bodies);
+}
+
+/// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
+void check_place(const System& system, double t, Vec before, Vec U) {
+  const System::Astray astray = system.astray(t, U);
+  if (!astray.joint.empty()) throw RunError(fmt::format("no equilibrium at t = {:.6g}: {}", t, astray.text()));
+  const double turn = greatest_turn(system, before, U);
+  if (turn < 1.2 * M_PI) return;
+  throw RunError(fmt::format(
+      "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
 }
 
 }  // namespace
@@ -211,13 +225,10 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
     throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
                                iterations));
   }
+  check_place(system, t, before, U);  // where joints are met otherwise, no more steps are of use
   const PetscInt corrections = make_sure(system, t, U, V, before, J);
-  const System::Astray astray = system.astray(t, U);
-  if (!astray.joint.empty()) throw RunError(fmt::format("no equilibrium at t = {:.6g}: {}", t, astray.text()));
-  const double turn = greatest_turn(system, before, U);
-  if (turn < 1.2 * M_PI) return relaxed + iterations + corrections;
-  throw RunError(fmt::format(
-      "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
+  check_place(system, t, before, U);
+  return relaxed + iterations + corrections;
 }
 
 }  // namespace floe::dynamics
