@@ -198,6 +198,39 @@ probes: {tip: {at: rod.end}}
   CHECK(stiff.series.t.size() == 401);
 }
 
+// A shape that stretches the body, so that its pieces end where few columns go.
+TEST_CASE("accuracy: a body of two frames that is stretched at the start") {
+  const std::string stretched = R"yaml(
+bodies:
+  rod:
+    mesh: {line: {from: $from, to: $to, elements: 8}}
+    frames: 2
+    section: $section
+    material: {E: 7e6$nu, rho: 2700}
+    reduction: {modes: 4}
+    initial: {deformation: $shape}
+joints: {h: {type: revolute, between: [ground, rod.start]$axis}}
+motion: {end: 0.04, step: 1e-3}
+probes: {tip: {at: rod.end}}
+)yaml";
+  const Words plane{
+      {"from", "[0, 0]"}, {"to", "[1, 0]"}, {"section", "{A: 1e-4, I: 2e-10}"}, {"shape", "[0, \"0.05*x^2\"]"},
+      {"axis", ""},       {"nu", ""}},
+      space{{"from", "[0, 0, 0]"},
+            {"to", "[1, 0, 0]"},
+            {"section", "{shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 1, 0]}"},
+            {"shape", "[0, 0, \"0.05*x^2\"]"},
+            {"axis", ", axis: [0, 1, 0]"},
+            {"nu", ", nu: 0.3"}};
+  for (const Words& words : {plane, space}) {
+    const scene::Scene scene = scene::parse_scene(fill(stretched, words), "scene");
+    app::Chosen chosen = app::choose(scene, 0.02, PETSC_COMM_WORLD);
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    CHECK(chosen.within());
+    CHECK(app::worst_error(result.series, truth(scene)) <= 0.02);
+  }
+}
+
 TEST_CASE("accuracy: refuses what nothing supports") {
   const auto refused = [](const std::string& text, const std::string& phrase) {
     CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), 0.01, PETSC_COMM_WORLD), Catch::Contains(phrase));
