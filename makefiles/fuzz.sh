@@ -13,7 +13,7 @@ rm -f $build.log
 cmake --build $build -j "$jobs" --target $(printf 'fuzz_%s ' $readers)
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 # The keys of scenes are the words that a scene is made of.
-grep -ohE '"[a-z][A-Za-z_0-9-]*"' src/scene/schema.cpp src/scene/schema_spatial.cpp | sort -u >$build/scene.dict
+grep -ohE '"[a-z][A-Za-z_0-9-]*"' src/scene/schema*.cpp | sort -u >$build/scene.dict
 failed=0
 for reader in $readers; do
   mkdir -p $build/corpus/"$reader"

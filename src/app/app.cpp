@@ -13,6 +13,7 @@
 #include "compare.h"
 #include "drawing.h"
 #include "equilibrium.h"
+#include "floe/petsc/rank.h"
 #include "floe/scene/schema.h"
 #include "floe/version.h"
 #include "restart.h"
@@ -150,6 +151,8 @@ int main(int argc, char** argv) {
         throw InputError("--write-scene: goes with an accuracy, of the scene or --accuracy, in formulation vm+md");
       if (chooses) {
         const double accuracy = choices.accuracy ? scene::accuracy_of(*choices.accuracy) : *scene.accuracy;
+        if (choices.no_estimate)
+          throw InputError("--no-estimate: does not go with an accuracy, which is judged by the estimate");
         if (choices.checkpoint)
           throw InputError("--checkpoint: does not go with an accuracy; expected the scene of --write-scene");
         if (scene.motion.tolerance)
@@ -161,6 +164,8 @@ int main(int argc, char** argv) {
       }
       run_one(scene, formulation, PETSC_COMM_WORLD,
               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force), plan);
+      if (scene.accuracy && petsc::first_rank(PETSC_COMM_WORLD))
+        fmt::print("Note: accuracy goes with formulation vm+md, and was not used\n");
     };
   });
 

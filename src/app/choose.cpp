@@ -213,12 +213,18 @@ class Search {
       if (!pool_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
     Selection all = first_of(plain, plain.size());
     all.linear = true;
-    linear_ = tried(all, step_);
-    if (!(linear_.error <= allowance())) return;
+    const Trial linear = tried(all, step_);
+    linear_ = words(linear);
+    if (!(linear.error <= allowance())) return;
     Selection some = first_of(plain, fewest(plain, plain.size(), step_, allowance(), true));
     some.linear = true;
     const Trial cheaper = tried(some, step_);
-    if (!(cheaper.error <= allowance() && cheaper.seconds < 0.9 * tried(selection_, step_).seconds)) return;
+    linear_ = words(cheaper);
+    if (!(cheaper.error <= allowance())) return;
+    if (!(cheaper.seconds < 0.9 * tried(selection_, step_).seconds)) {
+      linear_ += fmt::format(" with {} columns, and no faster", some.count());
+      return;
+    }
     selection_ = some, order_ = plain, count_ = some.count();
   }
 
@@ -256,7 +262,7 @@ class Search {
                  names(of_body));
         }
         decide("elastic force", selection_.linear ? "linear" : "von Karman",
-               fmt::format("linear: {}", selection_.linear ? words(tried(selection_, step_)) : words(linear_)));
+               "linear: " + (selection_.linear ? words(tried(selection_, step_)) : linear_));
       }
     }
     decide("step", fmt::format("{:.4g} s", step_),
@@ -296,7 +302,7 @@ class Search {
   std::size_t count_ = 0;
   double step_ = 0;
   Selection selection_;
-  Trial linear_;
+  std::string linear_;  ///< what came of a linear elastic force
   std::vector<Decision> decisions_;
   int trials_ = 0;
 };

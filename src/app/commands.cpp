@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,18 +14,14 @@
 
 #include "choose.h"
 #include "floe/output/table.h"
+#include "floe/petsc/rank.h"
+#include "floe/scene/range.h"
 #include "floe/scene/reduced.h"
 #include "run.h"
 
 namespace floe::app {
 
 namespace {
-
-bool first_rank(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank == 0;
-}
 
 std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
   using Choice = scene::DerivativesSpec::Choice;
@@ -114,6 +111,17 @@ std::string estimate_words(const scene::Estimate& estimate) {
   return words;
 }
 
+/// Of modes that bend within single cells; empty if there are none.
+std::string unresolved_words(const scene::BodyReport& body) {
+  std::vector<std::size_t> which;
+  double most = 0;
+  for (std::size_t i = 0; i < body.sag.size(); ++i)
+    if (body.sag[i] > scene::greatest_sag_of_modes) which.push_back(i + 1), most = std::max(most, body.sag[i]);
+  if (which.empty()) return "";
+  const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
+  return fmt::format("Note: {}\n", scene::sag_text(body.name, modes, most, scene::greatest_sag_of_modes));
+}
+
 }  // namespace
 
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
@@ -121,7 +129,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   if (matrices) scene::write_matrices(scene, comm, *matrices, overwrite);
   const std::vector<scene::BodyReport> bodies =
       path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
-  if (!first_rank(comm)) return;
+  if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
   for (const auto& body : bodies)
@@ -129,6 +137,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
+  for (const auto& body : bodies) fmt::print("{}", unresolved_words(body));
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
@@ -150,7 +159,7 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
   std::optional<scene::Model> model;  // at full order
   const scene::Formulation formulation = files ? scene::Formulation::lffr : scene::Formulation::nlffr;
   if (elements < greatest_built) model = scene::build(scene, formulation, comm);
-  if (!first_rank(comm)) return;
+  if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
   for (std::size_t b = 0; b < sizes.size(); ++b)
@@ -177,7 +186,7 @@ void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, c
             bool overwrite) {
   std::vector<std::string> warnings;
   const output::ReducedBodyFile file = scene::reduce_body(scene, body, comm, path, overwrite, warnings);
-  if (!first_rank(comm)) return;
+  if (!petsc::first_rank(comm)) return;
   fmt::print("{}", output::describe(file));
   for (const std::string& warning : warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Reduced body: {}\n", path);
@@ -185,7 +194,7 @@ void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, c
 
 void info(const std::string& path, MPI_Comm comm) {
   const output::ReducedBodyFile file = output::read_reduced_body(comm, path);
-  if (first_rank(comm)) fmt::print("{}", output::describe(file));
+  if (petsc::first_rank(comm)) fmt::print("{}", output::describe(file));
 }
 
 namespace {
@@ -251,7 +260,20 @@ RunResult run_into(const output::ResultFolder& folder, const std::function<RunRe
 void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
              const output::ResultFolder& folder, const RunPlan& plan) {
   const RunResult result = run_into(folder, [&] { return run(scene, formulation, comm, folder, plan); });
-  if (first_rank(comm)) show(scene, formulation, result, folder, plan);
+  if (petsc::first_rank(comm)) show(scene, formulation, result, folder, plan);
+}
+
+/// Of --write-scene, before anything is computed.
+void check_target(const std::filesystem::path& target, const std::filesystem::path& scene, bool overwrite) {
+  const std::string name = "--write-scene " + target.string();
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  if (std::filesystem::is_directory(target)) throw InputError(name + ": is a folder; expected the name of a file");
+  if (!std::filesystem::is_directory(folder) || access(folder.c_str(), W_OK) != 0)
+    throw InputError(name + ": cannot be written there; expected a folder that can");
+  if (!std::filesystem::exists(target)) return;
+  if (std::filesystem::equivalent(target, scene))
+    throw InputError(name + ": is the scene itself; expected another name");
+  if (!overwrite) throw InputError(name + ": exists; expected another name, or --force");
 }
 
 void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const output::ResultFolder& folder,
@@ -259,19 +281,18 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
   std::vector<std::string> written;
   const RunResult result = run_into(folder, [&] {
     petsc::agree(comm, [&] {
-      if (explicit_scene && !overwrite && std::filesystem::exists(*explicit_scene))
-        throw InputError(*explicit_scene + ": exists; expected another name, or --force");
+      if (explicit_scene) check_target(*explicit_scene, scene.file, overwrite);
     });
     Chosen chosen = choose(scene, accuracy, comm);
-    if (first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
+    if (petsc::first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
     RunPlan plan;
     plan.choice = to_json(chosen);
-    plan.check_range = false;  // the choice has measured what a range would warn of
+    plan.measured = true;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
     if (explicit_scene) {
       try {
         written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
-      } catch (const InputError& error) {  // the run stands
+      } catch (const std::runtime_error& error) {  // the run stands
         moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
       }
     }
@@ -280,7 +301,7 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
                                            100 * chosen.asked, 100 * chosen.supported));
     return moved;
   });
-  if (!first_rank(comm)) return;
+  if (!petsc::first_rank(comm)) return;
   show(scene, scene::Formulation::vm_md, result, folder, {});
   if (!written.empty()) fmt::print("Scene: {}\n", fmt::join(written, ", "));
 }

@@ -37,7 +37,7 @@ std::string python() { return readable("/usr/bin/python3") ? "/usr/bin/python3" 
 
 /// Whether mpirun has started this process as another than the first.
 bool later_rank() {
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK"})
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
     if (const char* rank = std::getenv(name)) return std::string(rank) != "0";
   return false;
 }

@@ -8,6 +8,7 @@
 #include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
+#include "floe/petsc/rank.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -70,12 +71,6 @@ std::string start_of_table(const scene::Model& model, const LoadSteps& load, Pet
   return "";
 }
 
-bool first_rank(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank == 0;
-}
-
 }  // namespace
 
 RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
@@ -85,7 +80,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   const double begin = MPI_Wtime();
   scene::Model model = [&] {
     const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
-    return scene::build(scene, formulation, comm);
+    return scene::build(scene, formulation, comm, true);
   }();
   check(VecSet(model.V, 0));
   result.offline_seconds = MPI_Wtime() - begin;
@@ -94,6 +89,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   result.warnings = model.warnings;
   result.series.columns = scene::probe_columns(model);
   Recorder recorder(scene, model, comm, folder, result);
+  scene::KeptMotion kept(model, 100);
   dynamics::IntegrationReport report;
   report.type = "static";
   std::exception_ptr fault;
@@ -112,6 +108,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
       report.steps = step, report.end = t;
       warn_of_instability(model, t, result);
       recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});
+      kept.keep({t, step, model.U, model.V, model.V, step == load.steps});  // at rest
       progress.update(t, step);
       interruption.check(comm);
     }
@@ -120,6 +117,10 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   }
   report.seconds = MPI_Wtime() - started;
   result.steps = report.steps, result.end = report.end, result.motion_seconds = report.seconds - recorder.seconds();
+  if (!fault) {
+    result.out_of_range = scene::shapes_out_of_range(model, kept.states(), comm);
+    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+  }
   recorder.finish(report, why);
   if (fault) std::rethrow_exception(fault);
   return result;
@@ -134,7 +135,7 @@ void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
     output::discard_if_empty(folder);
     throw;
   }
-  if (!first_rank(comm)) return;
+  if (!petsc::first_rank(comm)) return;
   fmt::print("{} as {} ({}): {} coordinates, {} equilibria to t = {}, {} Newton iterations\n",
              scene.title.empty() ? scene.file : scene.title, scene::name_of(formulation), result.label,
              result.coordinates, result.steps, result.end,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/progress.h"
 #include "interruption.h"
 #include "recorder.h"
@@ -145,6 +146,11 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     result.warnings.push_back(
         "-motion_ts_type alpha2: PETSc's type starts with a wrong acceleration before release 3.22, which makes it of "
         "first order; multipliers may oscillate");
+  if (scene.motion.output && report.type != dynamics::generalized_alpha)
+    result.warnings.push_back(
+        fmt::format("motion.output: PETSc's type {} has no values within steps; of the instants that are wanted those "
+                    "are stored at which a step ends",
+                    report.type));
   result.steps = report.steps;
   result.end = report.end;
   result.motion_seconds = report.seconds - recorder.seconds();
@@ -153,6 +159,9 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   if (!fault && plan.check_range) {
     try {
       result.out_of_range = scene::out_of_range(scene, model, kept, comm);
+      if (plan.measured)
+        std::erase_if(result.out_of_range,
+                      [](const scene::OutOfRange& one) { return !scene::also_of_full_order(one); });
       for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
       if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
     } catch (const RunError& error) {  // frequencies that nothing else asked for

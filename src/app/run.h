@@ -43,6 +43,7 @@ struct RunPlan {
   bool estimate = false;                        ///< of the error, of reduced formulations (scene::estimate_error)
   std::optional<double> estimate_seconds = {};  ///< that it may take; else a tenth of all the rest
   bool check_range = true;                      ///< scene::out_of_range
+  bool measured = false;                        ///< against full order: warns only of what full order errs in, too
   nlohmann::ordered_json choice = {};           ///< how the model was chosen, for the summary
   bool keep_states = false;                     ///< RunResult::states
 };

@@ -2,6 +2,7 @@
 
 #include "floe/fem/mesh.h"
 #include "floe/mesh/exchange.h"
+#include "floe/petsc/rank.h"
 
 namespace floe::fem {
 namespace {
@@ -17,12 +18,6 @@ struct NewCell {
   std::array<PetscInt, 4> nodes;  // new global numbers, -1 where unused
 };
 
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
-
 /// Moves the nodes; numbers them on their new ranks in the order of their original numbers. Collective.
 void move_nodes(const mesh::RawMesh& raw, const std::vector<int>& ranks, Mesh& mesh) {
   std::vector<Node> nodes(raw.positions.size());
@@ -34,7 +29,7 @@ void move_nodes(const mesh::RawMesh& raw, const std::vector<int>& ranks, Mesh& m
   const auto arrived = mesh::scatter(mesh.comm, nodes, rank_of_node);  // shares ascend with ranks: in order
   mesh.owned_nodes = static_cast<PetscInt>(arrived.values.size());
   const std::vector<PetscInt> starts = mesh::starts_of(mesh.comm, mesh.owned_nodes);
-  mesh.first_node = starts[rank_of(mesh.comm)];
+  mesh.first_node = starts[petsc::rank_of(mesh.comm)];
   for (const Node& node : arrived.values) {
     mesh.original.push_back(node.original);
     mesh.positions.emplace_back(node.x[0], node.x[1], node.x[2]);
@@ -175,7 +170,7 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector
 std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>& originals) {
   if (!mesh.renumbering) return originals;
   const Mesh::Renumbering& table = *mesh.renumbering;
-  const PetscInt first = table.starts[rank_of(mesh.comm)];
+  const PetscInt first = table.starts[petsc::rank_of(mesh.comm)];
   return mesh::ask<PetscInt>(
       mesh.comm, originals, [&](PetscInt node) { return mesh::owner_of(table.starts, node); },
       [&](PetscInt node) { return table.global[node - first]; });

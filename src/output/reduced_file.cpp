@@ -10,6 +10,7 @@
 #include "floe/output/folder.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
 #include "reduced_file_hdf5.h"
 #include "reduced_file_image.h"
 #include "reduced_file_shapes.h"
@@ -19,12 +20,6 @@
 namespace floe::output {
 namespace fs = std::filesystem;
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& why) {
   throw InputError(fmt::format("reduced body '{}': {}", path.string(), why));
@@ -115,7 +110,7 @@ MadeBy made_here(MPI_Comm comm, std::string scene) {
 
 void check_reduced_path(MPI_Comm comm, const fs::path& path, bool overwrite) {
   petsc::agree(comm, [&] {
-    if (rank_of(comm) != 0) return;
+    if (petsc::rank_of(comm) != 0) return;
     refuse_taken(path, overwrite);
     try {
       write_file_atomically(draft_of(path), "");
@@ -128,7 +123,7 @@ void check_reduced_path(MPI_Comm comm, const fs::path& path, bool overwrite) {
 
 void write_reduced_body(MPI_Comm comm, const fs::path& path, const ReducedBodyFile& file, bool overwrite,
                         const ReducedShapes* shapes) {
-  const bool first = rank_of(comm) == 0;
+  const bool first = petsc::rank_of(comm) == 0;
   petsc::agree(comm, [&] {
     if (first) refuse_taken(path, overwrite);
   });
@@ -157,12 +152,12 @@ ReducedBodyFile read_reduced_body(MPI_Comm comm, const fs::path& path) {
   ReducedBodyFile file;
   Image image;
   petsc::agree(comm, [&] {
-    if (rank_of(comm) != 0) return;
+    if (petsc::rank_of(comm) != 0) return;
     std::tie(file, image) = read_alone(path);
   });
   broadcast(comm, image.bytes);
   petsc::agree(comm, [&] {
-    if (rank_of(comm) != 0) file = parse(open_image(image.bytes));
+    if (petsc::rank_of(comm) != 0) file = parse(open_image(image.bytes));
   });
   return file;
 }

@@ -4,6 +4,7 @@
 
 #include "floe/output/folder.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
 #include "replaceable.h"
 #include "reserve.h"
 #include "writing.h"
@@ -11,12 +12,6 @@
 namespace floe::output {
 namespace fs = std::filesystem;
 namespace {
-
-int rank_of(MPI_Comm comm) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  return rank;
-}
 
 void check_free(const fs::path& path, const std::string& what, bool overwrite, bool ours) {
   const auto refuse = [&](const std::string& why) {
@@ -96,7 +91,7 @@ fs::path XdmfPair::data() const { return fs::path(xdmf).replace_extension(".h5")
 
 void check_pair(MPI_Comm comm, const XdmfPair& pair, bool overwrite) {
   petsc::agree(comm, [&] {
-    if (rank_of(comm) != 0) return;
+    if (petsc::rank_of(comm) != 0) return;
     if (pair.xdmf.extension() != ".xdmf" || pair.xdmf.stem().empty())
       throw InputError(fmt::format("{} '{}': expected a name that ends in .xdmf", pair.what, pair.xdmf.string()));
     check_free(pair.xdmf, pair.what, overwrite, is_own_xdmf(pair.xdmf));
@@ -107,7 +102,7 @@ void check_pair(MPI_Comm comm, const XdmfPair& pair, bool overwrite) {
 void write_pair(MPI_Comm comm, const XdmfPair& pair, std::uint64_t bytes, const std::function<void(hid_t)>& write,
                 const std::function<std::string()>& text) {
   const fs::path &xdmf = pair.xdmf, data = pair.data(), draft = draft_of(data);
-  const bool first = rank_of(comm) == 0;
+  const bool first = petsc::rank_of(comm) == 0;
   const auto alone = [&](const fs::path& path, const auto& work) {
     petsc::agree(comm, [&] {
       if (first) writing(path, work);

@@ -129,6 +129,11 @@ def work():
     for path in options.paths:
         kinds, at = wanted_kinds(path, options.kind)
         chosen += [(kind, at) for kind in kinds]
+    asked = {kind: word for word, kind in (("probes", "probes"), ("times", "deformed"), ("body", "shapes"))
+             if getattr(options, word)}
+    for kind, word in asked.items():
+        if kind not in (one for one, _ in chosen):
+            raise Fault(f"--{word}: goes with --kind {kind}, which is not drawn here")
     several = len(chosen) > 1
     targets = [target(options, path, kind, several) for kind, path in chosen]
     runs, skipped = {}, []
@@ -142,7 +147,7 @@ def work():
             draw(kind, path, out, options, run)
             print(f"Picture: {out}")
         except Fault as fault:  # of a picture that nobody asked for by its name
-            if options.kind or not several:
+            if options.kind or kind in asked or not several:
                 raise
             skipped.append(f"Note: no picture of {kind}: {fault}")
     for line in skipped:

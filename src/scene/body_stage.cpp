@@ -8,6 +8,7 @@
 
 #include "build_attachments.h"
 #include "build_interface.h"
+#include "floe/fem/field_rows.h"
 #include "floe/math/nearest.h"
 
 namespace floe::scene {
@@ -55,6 +56,12 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   }
   report.omega = stage.generators.modes.omega;
   report.residual = stage.generators.modes.residual;
+  report.sag.clear();
+  if (body.structure.dimension() == 3)
+    for (const petsc::VecHandle& shape : stage.generators.modes.shapes)  // one by one, for their memory
+      report.sag.push_back(fem::sags(body.structure, fem::gather(body.structure, 1, [&](Eigen::Index, double* local) {
+                                       body.structure.exchange.gather(shape, local);
+                                     }))[0]);
   report.seconds_modes = MPI_Wtime() - start;
 }
 

@@ -90,11 +90,18 @@ Model assembled(const Prepared& prepared, const ReducedBodies& reduced) {
 
 }  // namespace
 
+void give_structures(const std::shared_ptr<const Offline>& offline, Model& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (const PreparedBody& body = offline->prepared.bodies[b]; !body.spec.rigid && !body.spec.reduced)
+      model.bodies[b].structure = {offline, &body.structure};
+}
+
 Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
   refuse_meshless(whole, formulation);
   const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
   ReducedBodies reduced = reduced_bodies(offline->prepared, formulation, keep_offline);
   Model model = assembled(offline->prepared, reduced);
+  give_structures(offline, model);
   if (!keep_offline || !is_reduced(formulation)) return model;
   offline->reduced = std::move(reduced.bodies);
   model.offline = offline;

@@ -10,6 +10,7 @@
 #include "build_attachments.h"
 #include "build_interface.h"
 #include "floe/reduction/ranking.h"
+#include "floe/scene/range.h"
 
 namespace floe::scene {
 
@@ -252,6 +253,8 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     else if (!stated)
       stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(prepared, b, formulation, warnings);
+    if (const std::vector<double>& sag = all[b].report.sag; !sag.empty() && sag[0] > greatest_sag_of_modes)
+      warnings.push_back(sag_text(body.spec.name, "mode 1", sag[0], greatest_sag_of_modes));
     if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
       warnings.push_back(
           fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",

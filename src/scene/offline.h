@@ -15,4 +15,7 @@ struct Offline {
   Offline& operator=(const Offline&) = delete;
 };
 
+/// BodyReport::structure of a model of these bodies.
+void give_structures(const std::shared_ptr<const Offline>& offline, Model& model);
+
 }  // namespace floe::scene

@@ -262,6 +262,7 @@ Model Pool::model(const Selection& selection, bool keep_offline) const {
     if (selection.linear && !body.spec.rigid) bodies[b].body.elasticity = body::linearised(bodies[b].body.elasticity);
   }
   Model model = assemble(offline->prepared, Formulation::vm_md, bodies);
+  give_structures(offline, model);
   if (!keep_offline) return model;
   offline->reduced = std::move(bodies);
   model.offline = offline;

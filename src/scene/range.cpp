@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floe/fem/field_rows.h"
 #include "floe/petsc/values.h"
 #include "offline.h"
+#include "range_seen.h"
 
 namespace floe::scene {
 
@@ -16,14 +18,7 @@ using petsc::check;
 
 namespace {
 
-constexpr std::size_t samples = 64;
-
-/// Of one body over the motion.
-struct Seen {
-  double slope = 0, spin = 0;        // greatest
-  double bending = 0, membrane = 0;  // energies where membrane's is greatest
-  double rate = 0, size = 0;         // sums of squares of deformations
-};
+constexpr std::size_t most_samples = 64;
 
 double spin_of(const BodyReport& body, const State& state) {
   if (body.first_coordinate < 0) return 0;
@@ -41,15 +36,32 @@ double greatest_rotation(int dimension, const double* values, PetscInt dofs) {
   return most;
 }
 
-/// In the floating frame; bodies from files have no nodes to look at.
-double slope_of(const Model& model, std::size_t b, const State& state) {
-  const BodyReport& body = model.bodies[b];
-  const PetscInt dofs = static_cast<PetscInt>(body.positions.size()) / body.dimension * (body.dimension == 2 ? 3 : 6);
-  if (body.first_dof >= 0) return greatest_rotation(body.dimension, state.q.data() + body.first_dof, dofs);
-  if (!body.basis || body.columns == 0 || !model.offline) return 0;
-  const petsc::VecHandle field = fem::field(model.offline->prepared.bodies[b].structure);
-  VectorXd eta = state.q.segment(body.first_elastic, body.columns);
-  check(BVMultVec(body.basis->V, 1, 0, field, eta.data()));
+/// Of this rank's nodes of a body, three or six each.
+PetscInt own_dofs(const BodyReport& body) {
+  return static_cast<PetscInt>(body.positions.size()) / body.dimension * (body.dimension == 2 ? 3 : 6);
+}
+
+/// Displacements in the floating frame; null where there are no columns, and of bodies from files, which have no nodes
+/// to look at. Collective.
+petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
+  petsc::VecHandle field;
+  if (!body.structure) return field;
+  if (body.first_dof >= 0) {
+    field = fem::field(*body.structure);
+    petsc::Values own(field);
+    std::copy_n(state.q.data() + body.first_dof, own.end - own.first, own.begin());
+  } else if (body.basis && body.columns > 0) {
+    field = fem::field(*body.structure);
+    VectorXd eta = state.q.segment(body.first_elastic, body.columns);
+    check(BVMultVec(body.basis->V, 1, 0, field, eta.data()));
+  }
+  return field;
+}
+
+double slope_of(const BodyReport& body, const State& state) {
+  if (body.first_dof >= 0) return greatest_rotation(body.dimension, state.q.data() + body.first_dof, own_dofs(body));
+  const petsc::VecHandle field = deformation_of(body, state);
+  if (!field.get()) return 0;
   petsc::Values own(field);
   return greatest_rotation(body.dimension, own.begin(), own.end - own.first);
 }
@@ -69,21 +81,36 @@ void see_deformation(const Model& model, std::size_t b, const State& state, Seen
   if (membrane > seen.membrane) seen.membrane = membrane, seen.bending = bending;
 }
 
-std::vector<Seen> look(const Model& model, const KeptMotion& motion, MPI_Comm comm) {
+/// Of the states, evenly.
+std::vector<const State*> samples_of(const std::vector<State>& states) {
+  const std::size_t count = std::min(most_samples, states.size());
+  std::vector<const State*> some;
+  for (std::size_t i = 1; i <= count; ++i) some.push_back(&states[i * states.size() / count - 1]);
+  return some;
+}
+
+double sag_of(const BodyReport& body, const State& state) {
+  if (body.dimension == 2) return 0;
+  std::vector<petsc::VecHandle> fields;
+  fields.push_back(deformation_of(body, state));
+  return fields[0].get() ? fem::sags(*body.structure, fem::gather(*body.structure, fields))[0] : 0;
+}
+
+std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI_Comm comm) {
+  const std::vector<const State*> some = samples_of(states);
   std::vector<Seen> all(model.bodies.size());
-  const std::vector<State>& states = motion.states();
-  const std::size_t count = std::min(samples, states.size());
-  for (std::size_t i = 1; i <= count; ++i) {
-    const State& state = states[i * states.size() / count - 1];
-    for (std::size_t b = 0; b < all.size(); ++b) {
-      if (model.bodies[b].rigid) continue;
-      all[b].spin = std::max(all[b].spin, spin_of(model.bodies[b], state));
-      all[b].slope = std::max(all[b].slope, slope_of(model, b, state));
-      see_deformation(model, b, state, all[b]);
-    }
-  }
   for (std::size_t b = 0; b < all.size(); ++b) {
-    MPI_Allreduce(MPI_IN_PLACE, &all[b].slope, 1, MPI_DOUBLE, MPI_MAX, comm);
+    if (model.bodies[b].rigid) continue;
+    std::vector<double> slopes;
+    for (const State* state : some) {
+      all[b].spin = std::max(all[b].spin, spin_of(model.bodies[b], *state));
+      slopes.push_back(slope_of(model.bodies[b], *state));
+      see_deformation(model, b, *state, all[b]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, slopes.data(), static_cast<int>(slopes.size()), MPI_DOUBLE, MPI_MAX, comm);
+    const auto steepest = std::max_element(slopes.begin(), slopes.end());
+    all[b].slope = *steepest;
+    all[b].sag = sag_of(model.bodies[b], *some[steepest - slopes.begin()]);
     double sums[2] = {all[b].rate, all[b].size};  // of distributed dofs; replicated ones keep their quotient
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
     all[b].rate = sums[0], all[b].size = sums[1];
@@ -119,110 +146,61 @@ void judge_slope(const Model& model, const BodyReport& body, const std::string& 
                      tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)")});
 }
 
-void judge_stretching(const BodyReport& body, const Seen& seen, double omega, bool linear,
-                      std::vector<OutOfRange>& out) {
-  if (!linear && stretches(body)) return;
-  const std::string remedy = linear ? "take vm+md or nlffr" : "give it derivatives";
-  if (omega > 0 && seen.spin > 0.2 * omega)
-    out.push_back({"spin", body.name, seen.spin / omega, 0.2,
-                   fmt::format("body {}: spins at {:.3g} rad/s, {:.2g} of its first frequency (limit 0.2), and nothing "
-                               "stiffens it as it turns: stiffness off by about {:.2g} %; {}",
-                               body.name, seen.spin, seen.spin / omega, 100 * std::pow(seen.spin / omega, 2), remedy)});
-  if (!linear && seen.bending > 0 && seen.membrane > 0.02 * seen.bending)
-    out.push_back({"membrane", body.name, seen.membrane / seen.bending, 0.02,
-                   fmt::format("body {}: stretching holds {:.2g} % of the energy of bending (limit 2 %), and without "
-                               "derivatives nothing gives way to it: too stiff; {}",
-                               body.name, 100 * seen.membrane / seen.bending, remedy)});
+/// Nothing can stretch with the bending: a linear elastic force, or no derivatives.
+bool is_stiff(const BodyReport& body, bool linear) { return linear || !stretches(body); }
+
+void judge_spin(const BodyReport& body, const Seen& seen, double omega, bool linear, std::vector<OutOfRange>& out) {
+  if (!is_stiff(body, linear) || !(omega > 0 && seen.spin > 0.2 * omega)) return;
+  out.push_back({"spin", body.name, seen.spin / omega, 0.2,
+                 fmt::format("body {}: spins at {:.3g} rad/s, {:.2g} of its first frequency (limit 0.2), and nothing "
+                             "stiffens it as it turns: stiffness off by about {:.2g} %; {}",
+                             body.name, seen.spin, seen.spin / omega, 100 * std::pow(seen.spin / omega, 2),
+                             linear ? "take vm+md or nlffr" : "give it derivatives")});
 }
 
-/// What drives bodies by formulas of t.
-struct Excitation {
-  std::string name;  ///< of a load, or the scene's key
-  std::string words;
-  std::string body;  ///< empty: all
-  std::vector<math::Formula> formulas;
-};
-
-std::vector<Excitation> excitations(const Scene& scene) {
-  std::vector<Excitation> all;
-  for (const Load& load : scene.loads) {
-    Excitation one{load.name, "load " + load.name, load.spread() ? load.body : load.at.body, {load.pressure}};
-    one.formulas.insert(one.formulas.end(), load.force.begin(), load.force.end());
-    one.formulas.insert(one.formulas.end(), load.moment.begin(), load.moment.end());
-    all.push_back(std::move(one));
-  }
-  const auto& g = scene.gravity;
-  const auto& a = scene.ground_acceleration;
-  all.push_back({"gravity", "gravity", "", {g.begin(), g.end()}});
-  all.push_back({"ground.acceleration", "ground.acceleration", "", {a.begin(), a.end()}});
-  return all;
+void judge_stretching(const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
+  if (!is_stiff(body, false) || !(seen.bending > 0 && seen.membrane > 0.02 * seen.bending)) return;
+  out.push_back({"membrane", body.name, seen.membrane / seen.bending, 0.02,
+                 fmt::format("body {}: stretching holds {:.2g} % of the energy of bending (limit 2 %), and without "
+                             "derivatives nothing gives way to it: too stiff; give it derivatives",
+                             body.name, 100 * seen.membrane / seen.bending)});
 }
 
-struct LoadRate {
-  Excitation of;
-  double omega = 0;  ///< rms rate over rms value
-};
-
-/// Those that are something. A formula without a finite rate between the steps has none that can be judged.
-std::vector<LoadRate> rates_of_loads(const Scene& scene) {
-  constexpr int points = 2000;
-  std::vector<LoadRate> all;
-  for (Excitation& one : excitations(scene)) {
-    double rate = 0, size = 0;
-    try {
-      for (const math::Formula& formula : one.formulas)
-        for (int i = 0; i < points && !formula.constant(); ++i) {
-          const double t = scene.motion.end * (i + 0.5) / points;
-          rate += std::pow(formula.derivative(t), 2), size += std::pow(formula(t), 2);
-        }
-    } catch (const math::FormulaError&) {
-      continue;
-    }
-    for (const math::Formula& formula : one.formulas)
-      if (formula.constant()) size += points * std::pow(formula(), 2);
-    if (rate > 0 && std::isfinite(rate / size)) all.push_back({std::move(one), std::sqrt(rate / size)});
-  }
-  return all;
-}
-
-void judge_loads(const Scene& scene, const Model& model, std::vector<OutOfRange>& out) {
-  for (const LoadRate& load : rates_of_loads(scene))
-    for (const BodyReport& body : model.bodies) {
-      if ((!load.of.body.empty() && body.name != load.of.body) || body.omega.empty() || body.rigid) continue;
-      const double share = load.omega / body.omega.back();
-      if (share > 0.5)
-        out.push_back({"load", load.of.name, share, 0.5,
-                       fmt::format("{}: changes at {:.3g} rad/s, {:.2g} of the highest kept frequency of body {} "
-                                   "(limit 0.5): give it more modes",
-                                   load.of.words, load.omega, share, body.name)});
-    }
-}
-
-void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>& seen, std::vector<OutOfRange>& out) {
-  if (scene.motion.tolerance) return;
-  double fastest = 0;
-  std::string of;
-  for (std::size_t b = 0; b < seen.size(); ++b)
-    if (seen[b].size > 0 && std::sqrt(seen[b].rate / seen[b].size) > fastest)
-      fastest = std::sqrt(seen[b].rate / seen[b].size), of = "deformations of body " + model.bodies[b].name;
-  for (const LoadRate& load : rates_of_loads(scene))
-    if (load.omega > fastest) fastest = load.omega, of = load.of.words;
-  const double turn = scene.motion.step * fastest;
-  if (turn > 0.25)
-    out.push_back(
-        {"step", of, turn, 0.25,
-         fmt::format("motion.step {:.3g} s: only {:.2g} steps in a period of the {}, {:.3g} s (limit 25): take "
-                     "{:.2g} s or less",
-                     scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
+/// What its deformations alone tell, however they came about.
+void judge_shape(const Model& model, const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
+  judge_slope(model, body, body.frame, seen.slope, out);
+  if (seen.sag > greatest_sag)
+    out.push_back({"mesh", body.name, seen.sag, greatest_sag,
+                   sag_text(body.name, "where it bends most", seen.sag, greatest_sag)});
+  const bool linear = model.formulation == Formulation::lffr;
+  if (model.formulation != Formulation::nlffr && !linear) judge_stretching(body, seen, out);
 }
 
 }  // namespace
+
+bool also_of_full_order(const OutOfRange& one) { return one.what == "slope" || one.what == "mesh"; }
+
+std::string sag_text(const std::string& name, const std::string& what, double sag, double limit) {
+  return fmt::format(
+      "body {}, {}: {:.2g} % of the deflection is within single cells (limit {:.2g} %), which are too soft "
+      "in that: refine the mesh",
+      name, what, 100 * sag, 100 * limit);
+}
+
+std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<State>& states, MPI_Comm comm) {
+  std::vector<OutOfRange> out;
+  if (states.empty() || model.formulation == Formulation::cfr) return out;
+  const std::vector<Seen> seen = look(model, states, comm);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (!model.bodies[b].rigid) judge_shape(model, model.bodies[b], seen[b], out);
+  return out;
+}
 
 std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, const KeptMotion& motion, MPI_Comm comm) {
   std::vector<OutOfRange> out;
   if (motion.states().empty() || model.formulation == Formulation::cfr) return out;
   const Scene scene = split_frames(whole);
-  const std::vector<Seen> seen = look(model, motion, comm);
+  const std::vector<Seen> seen = look(model, motion.states(), comm);
   const bool linear = model.formulation == Formulation::lffr;
   std::vector<BodyReport> modes;
   const bool turns = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.spin > 0; });
@@ -230,10 +208,9 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyReport& body = model.bodies[b];
     if (body.rigid) continue;
-    judge_slope(model, body, body.frame, seen[b].slope, out);
+    judge_shape(model, body, seen[b], out);
     const std::vector<double>& omega = modes.empty() ? body.omega : modes[b].omega;
-    if (model.formulation != Formulation::nlffr)
-      judge_stretching(body, seen[b], omega.empty() ? 0 : omega[0], linear, out);
+    if (model.formulation != Formulation::nlffr) judge_spin(body, seen[b], omega.empty() ? 0 : omega[0], linear, out);
   }
   judge_loads(scene, model, out);
   judge_step(scene, model, seen, out);

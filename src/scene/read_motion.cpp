@@ -5,7 +5,7 @@
 namespace floe::scene {
 
 Motion read_motion(Document& document, const Value& value) {
-  constexpr double most_steps = 1e9;
+  constexpr double most_steps = 1e9, most_between = 100;
   Motion motion;
   motion.where = value.where;
   Reading reading(document, value, "motion");
@@ -25,6 +25,9 @@ Motion read_motion(Document& document, const Value& value) {
                    fmt::format("is {}: {} steps to the end", motion.step, motion.end / motion.step),
                    fmt::format("at most {} steps", most_steps));
   }
+  if (motion.output && *motion.output < motion.step / most_between)
+    document.fault(reading.where("output"), fmt::format("is {}", *motion.output),
+                   fmt::format("at least a {}th of step, {}", most_between, motion.step / most_between));
   return motion;
 }
 

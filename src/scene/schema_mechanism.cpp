@@ -117,7 +117,7 @@ const SchemaSection motion_section{
         {"every", Type::integer, "", "1", "store each so many steps", counts},
         {"output", Type::number, "s", "",
          "store at multiples of this time instead, whatever the steps: between them by the integrator's cubic "
-         "polynomials",
+         "polynomials; at least a hundredth of step",
          positive},
     }};
 

@@ -111,7 +111,8 @@ namespace {
 /// `1 %` or `0.01`; nothing for any other text.
 std::optional<double> plain_share(const std::string& text) {
   if (!text.ends_with('%')) return plain_number(text);
-  const auto number = plain_number(text.substr(0, text.find_last_not_of(" %") + 1));
+  const std::string before = text.substr(0, text.size() - 1);
+  const auto number = plain_number(before.substr(0, before.find_last_not_of(' ') + 1));
   return number ? std::optional(*number / 100) : std::nullopt;
 }
 

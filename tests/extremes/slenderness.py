@@ -1,7 +1,7 @@
 """Slender beams, thin plates, long triangles."""
 from floe import Floe, relative
 from scenes import cantilever, plate, spatial_cantilever, tip_force
-from study import Point, Study
+from study import Answer, Miss, Point, Study
 
 LOAD = 0.5  # P L^2 / EI
 TIP = [-LOAD**2 / 15, LOAD / 3]  # of von Karman's beam in the frame of its root: no stretch, for the load is across
@@ -67,7 +67,9 @@ def spread(floe: Floe, width, cells):
     """A strip with nu = 0 under its weight, 16 by 4 cells: w = q L^4 / 8 D at its corner, whatever its width."""
     h = 1e-3
     scene = plate(1, width, (16, 4), h, cells, nu=0, E=12 / h**3, rho=1 / h, gravity=[0, 0, "1e-6*t"])
-    return abs(floe.static(scene, "nlffr", "--at", "1", "--steps", "1").end("tip.z") / (1e-6 / 8) - 1)
+    rest = floe.static(scene, "nlffr", "--at", "1", "--steps", "1")
+    error = abs(rest.end("tip.z") / (1e-6 / 8) - 1)
+    return Answer(0, f"{100 * error:.2g} %, told") if rest.warned("within single cells") else error
 
 
 def long_frequency(floe: Floe, cells_along, cells):
@@ -79,15 +81,15 @@ def long_frequency(floe: Floe, cells_along, cells):
 
 def ratios(measure, values, formulations, limit, quick=(), misses=None):
     return [Point(f"L/r = {v:g}, {f}", lambda floe, v=v, f=f: measure(floe, v, f), limit(v) if callable(limit) else limit,
-                  quick=(v, f) in quick, misses=(misses or {}).get((v, f), "")) for f in formulations for v in values]
+                  quick=(v, f) in quick, misses=(misses or {}).get((v, f))) for f in formulations for v in values]
 
 
 DROPPED = ("drop_tolerance 1e-7 drops a derivative of which 1e-7 is new, and the axis is (L/r)^2 times as stiff as the "
            "bending; 1e-9 holds it (and keeps noise as a column in other scenes)")
 
 
-SPREAD = ("cells wider than the plate is long leave its edges too little of the load; a silent wrong number, and "
-          "refinement across is the remedy")
+SPREAD = ("cells of DKT sag freely under spread loads; the share of that in the deflection, by which it is told, is below "
+          "5 % yet")
 SLENDER = [1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7]
 STUDIES = [
     Study("slender cantilever", "L/r from 10 to 1e7, EA/EI = (L/r)^2, bent by PL^2/EI = 0.5",
@@ -95,7 +97,7 @@ STUDIES = [
           ratios(bent, SLENDER, ("nlffr", "vm+md"), 1e-5, {(1e1, "nlffr"), (1e5, "nlffr"), (1e5, "vm+md")})),
     Study("slender cantilever in space", "L/r from 10 to 1e7", "the same closed form",
           ratios(bent_in_space, SLENDER, ("nlffr", "vm+md"), 1e-5, {(1e5, "vm+md")},
-                 {(1e6, "vm+md"): DROPPED, (1e7, "vm+md"): DROPPED})),
+                 {(1e6, "vm+md"): Miss(DROPPED, 0.01), (1e7, "vm+md"): Miss(DROPPED, 0.01)})),
     Study("slender cantilever in motion", "L/r from 1e3 to 1e7, tip force 1.5 EI/L^2",
           "the same motion at L/r = 1000, which stretches by a millionth",
           ratios(moving, SLENDER[3:], ("nlffr", "vm+md"), 1e-4, {(1e5, "vm+md")})),
@@ -117,8 +119,8 @@ STUDIES = [
     Study("wide cells", "cells 10 to 1000 times as wide as long, first frequency", "the plate with 40 by 4 cells",
           [Point(f"{n} by 4, {c}", lambda floe, n=n, c=c: long_frequency(floe, n, c), 1e-2, quick=(n, c) == (400, "triangles"))
            for c in ("triangles", "quadrilaterals") for n in (160, 400, 1000, 4000)]),
-    Study("wide cells under spread loads", "cells 4 to 4000 times as wide as long, without a warning",
-          "closed form w = q L^4 / 8 D (nu = 0)",
-          [Point(f"width {w:g}, {c}", lambda floe, w=w, c=c: spread(floe, w, c), 2e-3, misses=SPREAD if w > 1 else "")
-           for c in ("triangles", "quadrilaterals") for w in (1, 10, 100, 1000)]),
+    Study("wide cells under spread loads", "cells 4 to 4000 times as wide as long", "closed form w = q L^4 / 8 D (nu = 0); or a warning",
+          [Point(f"width {w:g}, {c}", lambda floe, w=w, c=c: spread(floe, w, c), 2e-3, quick=(w, c) == (100, "triangles"),
+                 misses={2: Miss(SPREAD, 0.02), 4: Miss(SPREAD, 0.08)}.get(w))
+           for c in ("triangles", "quadrilaterals") for w in (1, 2, 4, 10, 100, 1000)]),
 ]

@@ -55,7 +55,7 @@ def row(study, found):
         words.append(f"{notes[-1].point.label}: {clean(notes[-1].note)}")
     if study.remark:
         words.append(clean(study.remark))
-    words += [f"**missed** at {f.point.label}: {clean(f.miss)}: {f.point.misses}" if f.miss else
+    words += [f"**missed** at {f.point.label}: {clean(f.miss)}: {f.point.misses.cause}" if f.miss else
               f"**failed** at {f.point.label}: {clean(f.fault)}" for f in failed]
     return f"| {study.name} | {clean(study.extreme)} | {clean(study.against)} | {held} | {worst} | {'; '.join(words)} |"
 

@@ -238,3 +238,27 @@ TEST_CASE("accuracy: refuses what nothing supports") {
   refused(pendulum.substr(0, pendulum.find("probes")), "there are none");
   refused(pendulum + "events: {off: {unlock: hinge, at: 0.1}}\n", "events change the joints");
 }
+
+TEST_CASE("accuracy: what full order of the same mesh errs in is warned of") {
+  const scene::Scene scene = scene::parse_scene(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 10}}
+    section: {EA: 1e4, EI: 1, rhoA: 1e-2}
+    frame: {type: clamped, at: start}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "1.5*(1 - cos(pi*t))"]}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: beam.end}}
+)yaml",
+                                                "scene");
+  app::Chosen chosen = app::choose(scene, 0.01, PETSC_COMM_WORLD);
+  CHECK(chosen.within());
+  app::RunPlan plan;
+  plan.quiet = true, plan.measured = true;
+  const auto moved = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, plan);
+  REQUIRE(moved.out_of_range.size() == 1);
+  CHECK(moved.out_of_range[0].what == "slope");
+  CHECK(moved.out_of_range[0].value > 1);
+  CHECK(std::count(moved.warnings.begin(), moved.warnings.end(), moved.out_of_range[0].text) == 1);
+}

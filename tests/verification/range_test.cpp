@@ -159,3 +159,41 @@ motion: {end: 0.5, step: 1e-3}
                                  Formulation::vm_md));
   CHECK(lines.count("load"));
 }
+
+namespace {
+
+/// A plate of 12 by 4 cells, 1 m long and so wide, under its weight. nu = 0: it bends as a beam of unit stiffness.
+std::string wide(double width) {
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, $width, 0], elements: [12, 4]}}
+    section: {thickness: 1e-3}
+    material: {E: 12e9, nu: 0, rho: 1e3}
+    reduction: {modes: 3}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+gravity: [0, 0, "1e-3*t"]
+motion: {end: 1, step: 2e-2}
+probes: {tip: {at: plate.p3}}
+)yaml",
+              {{"width", fmt::format("{}", width)}});
+}
+
+}  // namespace
+
+TEST_CASE("cells that are wider than their plate is long are told, in motion, at rest and by their modes", "[range]") {
+  for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
+    CHECK(said(judged(wide(1), formulation)).count("mesh") == 0);
+    CHECK(said(judged(wide(20), formulation)).at("mesh") > 0.3);
+  }
+  for (const double width : {1, 20}) {
+    const scene::Scene scene = scene::parse_scene(wide(width), "scene");
+    const auto reports = scene::body_modes(scene, PETSC_COMM_WORLD);
+    CHECK((reports[0].sag[0] > scene::greatest_sag_of_modes) == (width > 1));
+    const scene::Model model = scene::build(scene, Formulation::vm_md, PETSC_COMM_WORLD);
+    const bool told = std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& line) {
+      return line.find("mode 1") != std::string::npos && line.find("within single cells") != std::string::npos;
+    });
+    CHECK(told == (width > 1));
+  }
+}

@@ -14,6 +14,10 @@
 #include "floe/reduction/reduce.h"
 #include "floe/scene/scene.h"
 
+namespace floe::fem {
+struct Structure;
+}
+
 namespace floe::scene {
 
 /// What is simulated: corotational full order; full order in floating frames, von Karman or linear; reduced to modes,
@@ -93,19 +97,21 @@ struct BodyReport {
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
+  std::vector<double> sag = {};  ///< of each mode of a body in space: fem::sags
   std::vector<reduction::ColumnOrigin> origins;
   double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;
   int first_coordinate = 0;                                 ///< local index of the frame's R_x; -1: it stands still
   std::shared_ptr<const dynamics::Attitude> attitude = {};  ///< in space, of a frame that moves
   int first_elastic = 0;                                    ///< local index of the first elastic coordinate
   std::shared_ptr<reduction::Basis> basis;
-  PetscInt first_node = 0;                             ///< of this rank
-  int first_dof = -1;                                  ///< full order: local index of the first of this rank's own dofs
-  std::vector<double> positions;                       ///< of this rank's own nodes, x y (z), in the frame
-  std::shared_ptr<const BodyMesh> mesh = {};           ///< body_mesh.h; null: of a body from a file
-  bool shapes_in_file = false;                         ///< whether that file has its mesh and the basis on it
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< of the frame at the start, world
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< of the frame at the start, as columns in world axes
+  PetscInt first_node = 0;                    ///< of this rank
+  int first_dof = -1;                         ///< full order: local index of the first of this rank's own dofs
+  std::vector<double> positions;              ///< of this rank's own nodes, x y (z), in the frame
+  std::shared_ptr<const BodyMesh> mesh = {};  ///< body_mesh.h; null: of a body from a file
+  std::shared_ptr<const fem::Structure> structure = {};  ///< null: rigid, from a file, or moved by a copy of the model
+  bool shapes_in_file = false;                           ///< whether that file has its mesh and the basis on it
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();       ///< of the frame at the start, world
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    ///< of the frame at the start, as columns in world axes
 };
 
 /// A place of a body in space. Its axes at the start are those of the world.

@@ -8,7 +8,7 @@ namespace floe::scene {
 
 /// A model that has left the range in which it is good: one line with the number, the limit and what to do.
 struct OutOfRange {
-  std::string what;  ///< `slope`, `spin`, `shortening`, `membrane`, `load`, `step`
+  std::string what;  ///< `slope`, `mesh`, `spin`, `shortening`, `membrane`, `load`, `step`
   std::string of;    ///< of a body or a load; `gravity`, `ground.acceleration`
   double value = 0, limit = 0;
   std::string text;
@@ -19,6 +19,9 @@ struct OutOfRange {
 ///   slope       of a body's line or surface in its frame, against von Karman's moderate rotations. A beam bent by end
 ///               moments errs, at the greatest slope s, by 0.008 s^4 in a frame through its ends and by 0.04 s^3 in a
 ///               tangent frame; limit 0.5 %
+///   mesh        how far shells bend within single cells, of how far they are bent (fem::sags) where the slope is
+///   greatest;
+///               limit 5 %, a wave of ten cells
 ///   shortening  s^2/2, which a linear elastic force neglects (lffr); limit 1 %
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
 ///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
@@ -30,5 +33,17 @@ struct OutOfRange {
 ///
 /// Collective on the communicator of the scene.
 std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, const KeptMotion& motion, MPI_Comm comm);
+
+/// What the shapes alone say: slope, shortening, mesh, membrane; for equilibria. Collective likewise.
+std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<dynamics::State>& states,
+                                            MPI_Comm comm);
+
+/// Whether the full order of the same mesh errs in it, too: slope, mesh.
+bool also_of_full_order(const OutOfRange& one);
+
+inline constexpr double greatest_sag = 0.05;
+inline constexpr double greatest_sag_of_modes = 0.1;  ///< the frequencies of plates err by half a per cent there
+/// The warning of `mesh`. @param what  `where it bends most`, `mode 1`, `modes 2, 3`
+std::string sag_text(const std::string& body, const std::string& what, double sag, double limit);
 
 }  // namespace floe::scene
