@@ -1,5 +1,6 @@
 #include "floe/mesh/pieces.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -104,24 +105,46 @@ std::set<PetscInt> leaders_of(const HingeLine& line, const std::vector<HingeLine
   return leaders;
 }
 
-/// Without those that the ground holds and that touch others, if some line has two leaders else.
-void leave_out_held(std::vector<HingeLine>& lines, const std::vector<Follower>& followers) {
-  const auto torn = [&](const HingeLine& line) { return leaders_of(line, lines, followers).size() > 1; };
-  if (std::none_of(lines.begin(), lines.end(), torn)) return;
-  std::vector<HingeLine> kept;
+/// Whether the ground holds the line and another one that meets it at an angle.
+bool crosses_held(const HingeLine& line, const std::vector<HingeLine>& all) {
+  const auto angle = [&](const HingeLine& other) {
+    const Eigen::Map<const Eigen::Vector3d> a(line.axis.data()), b(other.axis.data());
+    return a.cross(b).norm();
+  };
+  return line.held && std::any_of(all.begin(), all.end(), [&](const HingeLine& other) {
+           return &other != &line && other.held && angle(other) > 1e-6 && !in_common(line, other).empty();
+         });
+}
+
+/// Without those that the ground holds and that cannot be lines beside others.
+std::vector<HingeLine> without_torn(const std::vector<HingeLine>& lines, const std::vector<Follower>& followers,
+                                    std::vector<std::string>* left_out) {
+  std::vector<HingeLine> apart, kept;
+  const auto leave_out = [&](const HingeLine& line) {
+    if (left_out) left_out->push_back(line.where);
+  };
   for (const HingeLine& line : lines)
-    if (!line.held || leaders_of(line, lines, followers).empty()) kept.push_back(line);
-  lines = std::move(kept);
+    if (crosses_held(line, lines))
+      leave_out(line);
+    else
+      apart.push_back(line);
+  const auto torn = [&](const HingeLine& line) { return leaders_of(line, apart, followers).size() > 1; };
+  if (std::none_of(apart.begin(), apart.end(), torn)) return apart;
+  for (const HingeLine& line : apart)
+    if (!line.held || leaders_of(line, apart, followers).empty())
+      kept.push_back(line);
+    else
+      leave_out(line);
+  return kept;
 }
 
 }  // namespace
 
 std::vector<Follower> with_lines(const std::vector<Follower>& followers, std::vector<HingeLine> lines,
-                                 const std::vector<PetscInt>& preferred) {
+                                 const std::vector<PetscInt>& preferred, std::vector<std::string>* left_out) {
   std::map<PetscInt, Follower> all;
   for (const Follower& f : followers) all.emplace(f.node, f);
-  lines = joined(std::move(lines));
-  leave_out_held(lines, followers);
+  lines = without_torn(joined(std::move(lines)), followers, left_out);
   std::vector<std::string> faults;
   for (const HingeLine& line : lines) {
     std::set<PetscInt> leaders = leaders_of(line, lines, followers);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "build_attachments.h"
 #include "build_interface.h"
@@ -38,6 +38,8 @@ Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& redu
 }
 
 }  // namespace
+
+std::string whole_name(const Body& body) { return body.name.substr(0, body.name.find('#')); }
 
 int count_of_modes(const PreparedBody& body) {
   return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
@@ -94,7 +96,7 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generato
   return pairs;
 }
 
-void keep_named(const PreparedBody& body, Stage& stage) {
+std::vector<std::string> keep_named(const PreparedBody& body, Stage& stage) {
   const ReductionSpec& spec = body.spec.reduction;
   const std::vector<std::string>& wanted = spec.columns;
   const auto take = [&](const std::string& label) {
@@ -111,14 +113,28 @@ void keep_named(const PreparedBody& body, Stage& stage) {
       all.push_back(reduction::derivative_label(stage.generators, pair[turned], pair[1 - turned]));
       if (take(all.back()) && (stage.pairs.empty() || stage.pairs.back() != pair)) stage.pairs.push_back(pair);
     }
+  return all;
+}
+
+void refuse_unknown(const Prepared& prepared, const std::vector<std::vector<std::string>>& labels) {
+  std::map<std::string, std::vector<std::string>> known;  // of all pieces of a body
+  for (std::size_t b = 0; b < labels.size(); ++b) {
+    std::vector<std::string>& all = known[whole_name(prepared.bodies[b].spec)];
+    all.insert(all.end(), labels[b].begin(), labels[b].end());
+  }
   std::vector<std::string> faults;
-  for (const std::string& label : wanted) {
-    if (std::find(all.begin(), all.end(), label) != all.end()) continue;
-    const std::string near = math::nearest(label, all);
-    faults.push_back(
-        fmt::format("{}: body {} has no column \"{}\"; expected one that `floe run` lists in summary.json{}",
-                    spec.columns_where.text(), body.spec.name, label,
-                    near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+  for (std::size_t b = 0; b < labels.size(); ++b) {
+    const ReductionSpec& spec = prepared.bodies[b].spec.reduction;
+    const std::string name = whole_name(prepared.bodies[b].spec);
+    if (labels[b].empty() || (b > 0 && name == whole_name(prepared.bodies[b - 1].spec))) continue;
+    const std::vector<std::string>& all = known[name];
+    for (const std::string& label : spec.columns) {
+      if (std::find(all.begin(), all.end(), label) != all.end()) continue;
+      const std::string near = math::nearest(label, all);
+      faults.push_back(fmt::format(
+          "{}: body {} has no column \"{}\"; expected one that `floe run` lists in summary.json{}",
+          spec.columns_where.text(), name, label, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
   }
   if (!faults.empty()) throw InputError(faults);
 }

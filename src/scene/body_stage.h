@@ -32,9 +32,17 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
 /// @throws InputError  a mode that the body does not have
 reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators);
 
-/// Leaves the stage those generators and pairs that reduction.columns names.
-/// @throws InputError  one that there is not, with the nearest
-void keep_named(const PreparedBody& body, Stage& stage);
+/// Of the body as the user wrote it, which `frames` may have split into pieces (split_frames).
+std::string whole_name(const Body& body);
+
+/// Leaves the stage those generators and pairs that reduction.columns names and that there are. A body's pieces differ
+/// in their static columns: each takes what it has.
+/// @return  the labels of all that there are
+std::vector<std::string> keep_named(const PreparedBody& body, Stage& stage);
+
+/// @param labels  of each body what keep_named gave; none: it has no reduction.columns
+/// @throws InputError  columns that no piece of the body has, with the nearest
+void refuse_unknown(const Prepared& prepared, const std::vector<std::vector<std::string>>& labels);
 
 /// Collective.
 reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stage& stage, const reduction::Pairs& pairs,

@@ -6,6 +6,7 @@
 #include "build_stops.h"
 #include "drive.h"
 #include "floe/petsc/values.h"
+#include "start_shape.h"
 
 namespace floe::scene {
 
@@ -39,8 +40,9 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
   if (meet && apart.norm() > 1e-6 * prepared_.extent)
     throw InputError(
         fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at ({:.6g}, {:.6g}) and "
-                    "({:.6g}, {:.6g}); expected the same point",
-                    joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1]));
+                    "({:.6g}, {:.6g}); expected {}",
+                    joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1],
+                    expected_to_meet(prepared_, formulation_, j)));
   const auto found = latches_.find(joint.name);
   const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
   switch (joint.kind) {

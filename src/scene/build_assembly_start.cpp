@@ -1,6 +1,7 @@
 #include "build_assembly.h"
 #include "build_start.h"
 #include "floe/petsc/values.h"
+#include "start_shape.h"
 
 namespace floe::scene {
 
@@ -44,7 +45,7 @@ void Assembly::set_start(Model& model) {
     Eigen::VectorXd shape, rate;
     const int k = compact(static_cast<int>(b)) ? reduced_[b].body.coordinates() : 0;
     shape.setZero(k), rate.setZero(k);
-    if (k > 0 && body.deformation) check(BVDotVec(reduced_[b].basis->V, body.deformation, shape.data()));
+    if (k > 0 && body.deformation) shape = start_shape(prepared_, static_cast<int>(b), reduced_[b], body.deformation);
     if (k > 0 && body.deformation_rate) check(BVDotVec(reduced_[b].basis->V, body.deformation_rate, rate.data()));
     if (!owner_) continue;
     const auto& global = coordinates_.global();

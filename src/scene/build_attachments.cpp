@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "build_space.h"
 #include "floe/petsc/values.h"
@@ -168,10 +169,12 @@ std::vector<Support> supports_of(const Prepared& prepared, int index) {
 }
 
 /// Without what is not held: constraint modes displace held dofs alone.
-void keep_held(const PreparedBody& body, Vec moved) {
+/// @param small  displacements of no more are none: a line's nodes, turned about it
+void keep_held(const PreparedBody& body, Vec moved, double small) {
   petsc::Values values(moved);
   for (PetscInt dof = values.first; dof < values.end; ++dof)
-    if (!std::binary_search(body.held.begin(), body.held.end(), dof)) values[dof] = 0;
+    if (!std::binary_search(body.held.begin(), body.held.end(), dof) || (dof % 6 < 3 && std::abs(values[dof]) <= small))
+      values[dof] = 0;
 }
 
 void add_spatial_constraint_modes(const Prepared& prepared, int index, Attachments& all) {
@@ -190,7 +193,7 @@ void add_spatial_constraint_modes(const Prepared& prepared, int index, Attachmen
       const bool holds_it = std::count(support.components.begin(), support.components.end(), c) > 0;
       if (!holds_it && !(turns && c >= 3)) continue;
       all.push_back(rigid_displacement(body, *support.place, c, joint.name));
-      keep_held(body, all.back().moved);
+      keep_held(body, all.back().moved, c < 3 ? 0 : 1e-12 * prepared.extent);
     }
   }
 }

@@ -234,6 +234,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
   const bool alone = formulation == Formulation::vm;
   std::vector<Stage> stages(count);
   std::vector<ReducedBody> all(count);
+  std::vector<std::vector<std::string>> labels(count);
   for (int b = 0; b < count; ++b) {
     const PreparedBody& body = prepared.bodies[b];
     const ReductionSpec& spec = body.spec.reduction;
@@ -248,7 +249,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     const bool stated = alone && spec.modes.alone > 0;
     begin_stage(prepared, b, stated ? spec.modes.alone : count_of_modes(body), stages[b], all[b].report);
     if (!spec.columns.empty() && !stated)
-      keep_named(body, stages[b]);
+      labels[b] = keep_named(body, stages[b]);
     else if (!stated)
       stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(prepared, b, formulation, warnings);
@@ -260,6 +261,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
                       body.spec.name, modes.left_out, modes.left_out == 1 ? "mode has" : "modes have",
                       modes.omega.size(), modes.left_out == 1 ? "is" : "are", modes.omega.size() + modes.left_out));
   }
+  refuse_unknown(prepared, labels);
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);
   for (int b = 0; b < count; ++b) {
     const PreparedBody& body = prepared.bodies[b];

@@ -13,6 +13,7 @@
 #include "floe/petsc/values.h"
 #include "mesh_copy.h"
 #include "prepare_reduced.h"
+#include "start_shape.h"
 
 namespace floe::scene {
 
@@ -248,7 +249,10 @@ void SpaceAssembly::set_deformation(int b, Vec shape, Vec into) const {
   const auto set = [&](PetscInt row, double value) { check(VecSetValue(into, row, value, INSERT_VALUES)); };
   if (compact(b)) {
     Eigen::VectorXd eta = Eigen::VectorXd::Zero(reduced_[b].body.coordinates());
-    if (eta.size() > 0) check(BVDotVec(reduced_[b].basis->V, shape, eta.data()));
+    if (shape == body.deformation.get())
+      eta = start_shape(prepared_, b, reduced_[b], shape);
+    else if (eta.size() > 0)
+      check(BVDotVec(reduced_[b].basis->V, shape, eta.data()));
     for (Eigen::Index i = 0; i < eta.size() && owner_; ++i)
       set(coordinates_.global()[slots_[b].elastic + static_cast<int>(i)], eta[i]);
     return;

@@ -9,6 +9,7 @@
 #include "drive.h"
 #include "floe/dynamics/spatial_spring.h"
 #include "floe/petsc/values.h"
+#include "start_shape.h"
 
 namespace floe::scene {
 
@@ -94,8 +95,9 @@ SpaceAssembly::PlacedJoint SpaceAssembly::place(int j) {
   if (meets(joint.kind) && (to - from).norm() > 1e-6 * prepared_.extent)
     throw InputError(
         fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at {} and {}; expected "
-                    "the same point",
-                    joint.where.text(), joint.name, (to - from).norm(), point(from), point(to)));
+                    "{}",
+                    joint.where.text(), joint.name, (to - from).norm(), point(from), point(to),
+                    expected_to_meet(prepared_, formulation_, j)));
   placed.constraint = constraint_of(joint, prepared_.scene.motion, to - from);
   for (dynamics::SpatialRow& row : placed.constraint.rows)
     if (auto* along = std::get_if<dynamics::Along>(&row)) along->offset = W.col(along->axis).dot(to - from);

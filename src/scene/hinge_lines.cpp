@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "floe/error.h"
@@ -62,8 +63,7 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
       const std::optional<Vector3d> line = line_of(positions(mesh, found->second));
       if (line && (!joint.axis_given || (to_mesh * vector(joint.axis).normalized()).cross(*line).norm() < 1e-6)) {
         const bool held = joint.first.ground() || joint.second.ground();
-        if (!held || line->cwiseAbs().maxCoeff() > 1 - 1e-12)
-          lines.push_back({found->second, {line->x(), line->y(), line->z()}, joint.where.text(), held});
+        lines.push_back({found->second, {line->x(), line->y(), line->z()}, joint.where.text(), held});
         continue;
       }
       const std::string why = fmt::format(
@@ -77,6 +77,23 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
     }
   if (!faults.empty()) throw InputError(faults);
   return lines;
+}
+
+void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices) {
+  std::vector<std::string> faults;
+  for (const Joint& joint : scene.joints) {
+    if (std::find(left_out.begin(), left_out.end(), joint.where.text()) == left_out.end()) continue;
+    if (joint.edges_given)
+      faults.push_back(joint.where.text() +
+                       ".edges: is line, but its edge has a node in common with another edge that is held; expected "
+                       "mean, by which the ground holds each node of the edge by itself, or edges that do not meet");
+    else
+      notices.push_back(
+          fmt::format("joint {}: its edge meets another one that is held and is no hinge line; the ground "
+                      "holds each of its nodes by itself (edges: mean)",
+                      joint.name));
+  }
+  if (!faults.empty()) throw InputError(faults);
 }
 
 std::vector<PetscInt> held_elsewhere(const Scene& scene, const Body& body,

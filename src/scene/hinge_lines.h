@@ -14,8 +14,7 @@ namespace floe::scene {
 /// mean one.
 ///
 /// An edge that has no such line, and was not told to be one, is left to its mean. Edges that the ground holds are
-/// lines where these lie along an axis of the mesh and have no conflict with others (mesh::with_lines); else every node
-/// of theirs is held by itself.
+/// lines where they have no conflict with others (mesh::with_lines); else every node of theirs is held by itself.
 ///
 /// @param places   nodes by name, the same on all ranks
 /// @param notices  receives straight edges whose joint has another axis
@@ -23,6 +22,12 @@ namespace floe::scene {
 std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, const mesh::RawMesh& mesh,
                                          const std::map<std::string, std::vector<PetscInt>>& places,
                                          std::vector<std::string>& notices);
+
+/// Says of edges that the ground holds and that could not be lines (mesh::with_lines) what holds them now.
+///
+/// @param left_out  where their joints stand
+/// @throws InputError  told to be a line
+void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices);
 
 /// Nodes of the body's edges that the ground clamps, and those that its frame goes through.
 std::vector<PetscInt> held_elsewhere(const Scene& scene, const Body& body,

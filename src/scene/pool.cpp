@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "body_stage.h"
 #include "floe/dynamics/simulation.h"
@@ -70,7 +71,7 @@ struct Pool::Parts {
   bool flexible(std::size_t b) const { return has_structure(body(b).spec); }
 
   std::size_t group_of(std::size_t b, const std::string& label, bool response) {
-    const std::string name = body(b).spec.name.substr(0, body(b).spec.name.find('#'));
+    const std::string name = whole_name(body(b).spec);
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].body == name && columns[i].label == label) return i;
     columns.push_back({name, label, response});
@@ -104,7 +105,8 @@ struct Pool::Parts {
     return std::find(all.begin(), all.end(), 1) == all.end() ? offline : offline_of(all);
   }
   bool shares_frames(const Selection& selection) const { return offline_of(selection)->scene.share_frames; }
-  void add_derivatives(std::size_t b, const std::vector<Participation>& order);
+  reduction::Pairs leading_pairs(std::size_t b, const std::vector<Participation>& order) const;
+  void add_derivatives(std::size_t b, const std::set<std::string>& offered);
 };
 
 /// The body on those of its columns that are taken, in their order.
@@ -160,8 +162,8 @@ std::shared_ptr<Offline> Pool::Parts::offline_of(const std::vector<char>& made_r
 }
 
 /// Of the generators that take part most.
-void Pool::Parts::add_derivatives(std::size_t b, const std::vector<Participation>& order) {
-  Source& source = sources[b];
+reduction::Pairs Pool::Parts::leading_pairs(std::size_t b, const std::vector<Participation>& order) const {
+  const Source& source = sources[b];
   const std::size_t count = source.stage.generators.fields.size();
   std::vector<int> first;
   for (const Participation& one : order)  // by the places of the groups in this body
@@ -175,6 +177,15 @@ void Pool::Parts::add_derivatives(std::size_t b, const std::vector<Participation
   reduction::Pairs pairs;
   for (std::size_t i = 0; i < first.size(); ++i)
     for (std::size_t j = i; j < first.size(); ++j) pairs.push_back({first[i], first[j]});
+  return pairs;
+}
+
+/// A label stands for a column of every piece of a body that has it: what is offered of one is offered of all.
+void Pool::Parts::add_derivatives(std::size_t b, const std::set<std::string>& offered) {
+  Source& source = sources[b];
+  reduction::Pairs pairs;
+  for (const auto& pair : reduction::all_pairs(static_cast<int>(source.stage.generators.fields.size())))
+    if (offered.contains(reduction::derivative_label(source.stage.generators, pair[0], pair[1]))) pairs.push_back(pair);
   const double start = MPI_Wtime();
   reduction::DerivativeColumns derivatives =
       derivatives_of(body(b), source.stage, pairs, body(b).spec.reduction.derivatives.full);
@@ -216,9 +227,15 @@ Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(s
     }
     order = participation(model, motion.states());
   }
+  std::map<std::string, std::set<std::string>> offered;  // derivatives of a body's pieces
+  for (std::size_t b = 0; b < prepared.bodies.size(); ++b)
+    if (parts.flexible(b))
+      for (const auto& [i, j] : parts.leading_pairs(b, order))
+        offered[whole_name(parts.body(b).spec)].insert(
+            reduction::derivative_label(parts.sources[b].stage.generators, i, j));
   for (std::size_t b = 0; b < prepared.bodies.size(); ++b) {
     if (!parts.flexible(b)) continue;
-    parts.add_derivatives(b, order);
+    parts.add_derivatives(b, offered[whole_name(parts.body(b).spec)]);
     parts.sources[b].statics = std::move(parts.sources[b].stage.statics);
   }
 }
@@ -257,7 +274,6 @@ int Pool::add_responses(const Estimate& estimate) {
   int count = 0;
   for (std::size_t b = 0; b < parts.sources.size() && b < estimate.responses.size(); ++b) {
     if (!estimate.responses[b] || !parts.flexible(b)) continue;
-    const std::string name = parts.body(b).spec.name.substr(0, parts.body(b).spec.name.find('#'));
     const auto before = std::count_if(parts.sources[b].group.begin(), parts.sources[b].group.end(),
                                       [&](std::size_t group) { return parts.columns[group].response; });
     int number = static_cast<int>(before);

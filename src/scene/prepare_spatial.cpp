@@ -9,6 +9,7 @@
 
 #include "build_spatial_start.h"
 #include "floe/math/rotation.h"
+#include "ground_axes.h"
 #include "prepare_reduced.h"
 #include "shared_frames.h"
 
@@ -95,6 +96,8 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
       throw InputError(fmt::format("{}: from and to are one node; expected two", body.frame.where.text()));
     choice = {fem::ReferenceFrame::Kind::pinned, a.node, b.node, a.x, chord_axes(b.x - a.x)};
   }
+  const bool pinned = choice.kind == fem::ReferenceFrame::Kind::pinned;
+  if (!body.rigid) choice.axes = axes_along(choice.axes, pinned ? 0 : -1, ground_axes(scene, body, mesh));
   if (choice.kind == fem::ReferenceFrame::Kind::clamped) {
     const fem::Mesh& m = mesh.structure.mesh;
     choice.origin.setZero();
@@ -178,31 +181,6 @@ PreparedPlace find(const Scene& scene, const std::vector<PreparedBody>& bodies, 
   return found;
 }
 
-/// Whether the nodes lie on one line, and are more than one point. Collective.
-bool on_a_line(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, const Eigen::Vector3d& mean) {
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (PetscInt node : nodes) {
-    const PetscInt local = node - mesh.first_node;
-    if (local < 0 || local >= mesh.owned_nodes) continue;
-    const Eigen::Vector3d d = mesh.positions[local] - mean;
-    spread += d * d.transpose();
-  }
-  MPI_Allreduce(MPI_IN_PLACE, spread.data(), 9, MPI_DOUBLE, MPI_SUM, mesh.comm);
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
-  return principal[2] > 0 && principal[1] <= 1e-12 * principal[2];
-}
-
-/// The line of a place's nodes in the axes of the frame; nothing where they lie on none. Collective.
-std::optional<Eigen::Vector3d> line_of(const PreparedBody& body, const PreparedPlace& place) {
-  const fem::Mesh& mesh = body.structure.mesh;
-  if (place.nodes.size() < 2 || !on_a_line(mesh, place.nodes, place.x)) return {};
-  Eigen::Vector3d line = Eigen::Vector3d::Zero();  // from the first node to the mean
-  if (const PetscInt local = place.nodes.front() - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
-    line = place.x - mesh.positions[local];
-  MPI_Allreduce(MPI_IN_PLACE, line.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return line.normalized();
-}
-
 /// The axis that the joint turns about or slides along, in world axes at the start. @throws InputError  a hinge
 /// without.
 Eigen::Vector3d axis_of(const Prepared& prepared, const Joint& joint, const std::array<PreparedPlace, 2>& places) {
@@ -212,7 +190,7 @@ Eigen::Vector3d axis_of(const Prepared& prepared, const Joint& joint, const std:
   for (const PreparedPlace& place : places) {
     if (place.body < 0 || place.map) continue;
     const PreparedBody& body = prepared.bodies[place.body];
-    if (const auto line = line_of(body, place)) return body.attitude * *line;
+    if (const auto line = line_of(body.structure.mesh, place)) return body.attitude * *line;
   }
   throw InputError(joint.where.text() +
                    ".axis: is missing, and the joint's places are no edges whose line could be it; expected three "
@@ -236,6 +214,25 @@ Eigen::Matrix3d joint_axes(const Prepared& prepared, const Joint& joint, const s
   return W;
 }
 
+double extent_of_mesh(const fem::Mesh& mesh) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  return (high - low).norm();
+}
+
+/// The joint's axis in those of the frame. An edge's own line, where they are one but for rounded numbers or a
+/// deformation at the start.
+Eigen::Vector3d axis_within(const Eigen::Matrix3d& W, const PreparedBody& body,
+                            const std::optional<Eigen::Vector3d>& line) {
+  const Point& r = body.spec.initial.rotation;
+  const Eigen::Matrix3d undeformed = math::rotation({r[0], r[1], r[2]}) * body.axes;
+  for (const Eigen::Matrix3d& frame : {body.attitude, undeformed})
+    if (line && line->cross(frame.transpose() * W.col(2)).norm() < 1e-6) return *line;
+  return body.attitude.transpose() * W.col(2);
+}
+
 /// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
 /// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at
 /// one node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
@@ -250,12 +247,12 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedB
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
-  const Eigen::Vector3d axis = body.attitude.transpose() * W.col(2);
+  const auto line = line_of(body.structure.mesh, place);
+  const Eigen::Vector3d axis = axis_within(W, body, line);
   const Eigen::Vector3d& arm = place.levers.front().arm;
-  const bool carried = pinned ? arm.cross(axis).norm() > 1e-9 * arm.norm()
+  const bool carried = pinned ? arm.cross(axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
                               : place.line || place.levers.size() < place.nodes.size() || !arm.isZero(0);
   if (place.nodes.size() > 1 && !pinned) {
-    const auto line = line_of(body, place);
     if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
       return false;
     if (carried)
@@ -301,14 +298,6 @@ std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
   return bodies;
 }
 
-double extent_of_mesh(const fem::Mesh& mesh) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  return (high - low).norm();
-}
-
 /// Axes of all joints, and what those to the ground hold of their bodies.
 void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const Place&)>& place) {
   for (const Joint& joint : prepared.scene.joints) {
@@ -321,6 +310,11 @@ void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const 
     PreparedBody& body = prepared.bodies[at.body];
     const std::size_t before = body.held.size();
     prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
+    if (at.line && !prepared.joint_held.back() && (joint.first.ground() || joint.second.ground()))
+      body.notices.push_back(fmt::format(
+          "joint {}: its edge is oblique to the other joints that hold body {}, whose modes know that it stays in its "
+          "place but not that it keeps its direction; columns at the joint (attachment: joints) make up for it",
+          joint.name, body.spec.name));
     const bool here =
         body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
     if (clamps(joint) && here && !is_unlocked(prepared.scene, joint.name))

@@ -195,9 +195,11 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
   for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
     places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
+  std::vector<std::string> left_out;
   source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
                                       hinge_lines(scene, body, source.mesh, places, source.notices),
-                                      held_elsewhere(scene, body, places));
+                                      held_elsewhere(scene, body, places), &left_out);
+  tell_left_out(scene, left_out, source.notices);
   std::vector<std::array<PetscInt, 2>> linked;
   for (const mesh::Follower& f : source.followers)
     if (rank == 0) linked.push_back({f.node, f.leader});

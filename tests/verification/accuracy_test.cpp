@@ -149,6 +149,88 @@ probes: {tip: {at: beam.end}}
   }
 }
 
+// The pieces of a body have static columns of their own; a written scene has one list for all of them.
+TEST_CASE("accuracy: scenes of bodies in several frames move as the models that were chosen") {
+  const std::string arm = R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 12}}
+    frames: 3
+    section: {A: 1.2e-4, I: 3.6e-10}
+    material: {E: 7e10, rho: 2700}
+    reduction: {modes: 4}
+joints: {shoulder: {type: driven, between: [ground, arm.start], angle: "pi/4*(1 - cos(2*pi*t))"}}
+motion: {end: 0.4, step: 1e-3}
+probes: {tip: {at: arm.end, quantity: position}, bend: {at: arm.end, relative_to: arm.start}}
+)yaml",
+                    rod = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 9}}
+    frames: 3
+    section: {shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 1, 0]}
+    material: {E: 7e8, nu: 0.3, rho: 2700}
+    reduction: {modes: 4}
+joints: {h: {type: revolute, between: [ground, rod.start], axis: [0, 1, 0]}}
+motion: {end: 0.2, step: 1e-3}
+probes: {tip: {at: rod.end}}
+)yaml";
+  for (const auto& [text, accuracy] : {std::pair{arm, 0.01}, std::pair{rod, 0.02}}) {
+    app::Chosen chosen = app::choose(scene::parse_scene(text, "scene"), accuracy, PETSC_COMM_WORLD);
+    REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
+    const app::RunResult again = app::run(written, Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
+    CHECK(again.coordinates == result.coordinates);
+    CHECK(app::worst_error(again.series, result.series) < 1e-8);
+  }
+  std::string few = arm;
+  few.replace(few.find("modes: 4"), 8,
+              "attachment: all, columns: [mode 1, attachment arm#1-2.moment, attachment arm.fx]");
+  CHECK_THROWS_WITH(
+      app::run(scene::parse_scene(few, "scene"), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet()),
+      Catch::Contains("body arm has no column \"attachment arm.fx\"") && !Catch::Contains("#3"));
+  few.replace(few.find("mode 1, "), 8, "");  // the third piece has none of them
+  few.replace(few.find(", attachment arm.fx"), 19, "");
+  const app::RunResult stiff =
+      app::run(scene::parse_scene(few, "scene"), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
+  CHECK(stiff.series.t.size() == 401);
+}
+
+// A shape that stretches the body, so that its pieces end where few columns go.
+TEST_CASE("accuracy: a body of two frames that is stretched at the start") {
+  const std::string stretched = R"yaml(
+bodies:
+  rod:
+    mesh: {line: {from: $from, to: $to, elements: 8}}
+    frames: 2
+    section: $section
+    material: {E: 7e6$nu, rho: 2700}
+    reduction: {modes: 4}
+    initial: {deformation: $shape}
+joints: {h: {type: revolute, between: [ground, rod.start]$axis}}
+motion: {end: 0.04, step: 1e-3}
+probes: {tip: {at: rod.end}}
+)yaml";
+  const Words plane{
+      {"from", "[0, 0]"}, {"to", "[1, 0]"}, {"section", "{A: 1e-4, I: 2e-10}"}, {"shape", "[0, \"0.05*x^2\"]"},
+      {"axis", ""},       {"nu", ""}},
+      space{{"from", "[0, 0, 0]"},
+            {"to", "[1, 0, 0]"},
+            {"section", "{shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 1, 0]}"},
+            {"shape", "[0, 0, \"0.05*x^2\"]"},
+            {"axis", ", axis: [0, 1, 0]"},
+            {"nu", ", nu: 0.3"}};
+  for (const Words& words : {plane, space}) {
+    const scene::Scene scene = scene::parse_scene(fill(stretched, words), "scene");
+    app::Chosen chosen = app::choose(scene, 0.02, PETSC_COMM_WORLD);
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    CHECK(chosen.within());
+    CHECK(app::worst_error(result.series, truth(scene)) <= 0.02);
+  }
+}
+
 TEST_CASE("accuracy: refuses what nothing supports") {
   const auto refused = [](const std::string& text, const std::string& phrase) {
     CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), 0.01, PETSC_COMM_WORLD), Catch::Contains(phrase));

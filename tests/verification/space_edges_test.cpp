@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "../../src/app/campbell.h"
+#include "estimated.h"
 #include "space_twin.h"
 
 using namespace floe;
@@ -273,4 +274,158 @@ probes:
     const std::size_t begin = 110, end = at->energy.size() - 1;  // after the loads
     CHECK(total(at->energy[end]) == Approx(total(at->energy[begin])).epsilon(1e-2));
   }
+}
+
+namespace {
+
+/// A plate whose mesh is turned, anyhow in space or not at all, hinged to the ground.
+std::string turned_plate(const std::string& joints, bool turned, const std::string& rest = "") {
+  const Turned turn;
+  const auto at = [&](double x, double y, double z = 0) {
+    return turned ? turn(x, y, z) : fmt::format("[{}, {}, {}]", x, y, z);
+  };
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: $along, across: $across, elements: [6, 4]}}
+    section: {thickness: 0.01}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 5}
+joints: {$joints}
+loads: {wind: {type: pressure, body: plate, pressure: "3000*sin(80*t)"}}
+motion: {end: 0.02, step: 1e-3}
+probes: {corner: {at: plate.p3}, bent: {at: plate.p3, quantity: deflection}, inner: {at: {body: plate, node: $inner}}}
+$rest
+)yaml",
+              {{"along", at(1, 0)},
+               {"across", at(0.2, 0.8)},
+               {"inner", at(0.6, 0.4)},
+               {"joints", fill(joints, {{"left", at(0.2, 0.8)}, {"bottom", at(1, 0)}, {"normal", at(0, 0, 1)}})},
+               {"rest", rest}});
+}
+
+const std::vector<std::string> holding_in_part{
+    "l: {type: revolute, between: [ground, plate.left], axis: $left, edges: line}",
+    "l: {type: revolute, between: [ground, plate.left]}, r: {type: revolute, between: [ground, plate.right]}",
+    "l: {type: fixed, between: [ground, plate.left]}, b: {type: revolute, between: [ground, plate.bottom]}",
+    "l: {type: revolute, between: [ground, plate.left], axis: $left, edges: rigid}",
+    "l: {type: prismatic, between: [ground, plate.left], axis: $left}",
+    "p: {type: revolute, between: [ground, plate.p1], axis: $left}, "
+    "q: {type: cylindrical, between: [ground, plate.p2], axis: $left}",
+};
+
+}  // namespace
+
+// What the ground holds along oblique axes it holds as along the mesh's own: the frame has the joints' axes.
+TEST_CASE("edges in space: a plate hinged to the ground, however its mesh is turned") {
+  const Turned turn;
+  for (const std::string& joints : holding_in_part) {
+    INFO(joints);
+    const std::string straight = turned_plate(joints, false), oblique = turned_plate(joints, true);
+    CHECK(off(omega_of(oblique), omega_of(straight)) < 1e-9);
+    for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+      INFO(name_of(formulation));
+      const History as_is = move(straight, formulation), turned = move(oblique, formulation);
+      double worst = 0, size = 0;
+      for (const std::string probe : {"corner", "bent", "inner"})
+        for (std::size_t i = 0; i < as_is.t.size(); ++i) {
+          const Eigen::Vector3d x = vector_at(as_is, probe, i);
+          worst = std::max(worst, (turn.Q.transpose() * vector_at(turned, probe, i) - x).norm());
+          size = std::max(size, x.norm());
+        }
+      CHECK(size > 1e-3);
+      CHECK(worst < 1e-9 * size);
+    }
+  }
+}
+
+TEST_CASE("edges in space: equilibria and estimates of a plate on oblique hinges") {
+  const Turned turn;
+  const std::string straight = turned_plate(holding_in_part[1], false),
+                    oblique = turned_plate(holding_in_part[1], true);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const History as_is = rest(straight, formulation), turned = rest(oblique, formulation);
+    const Eigen::Vector3d x = vector_at(as_is, "inner", 0);
+    CHECK(x.norm() > 1e-4);
+    CHECK((turn.Q.transpose() * vector_at(turned, "inner", 0) - x).norm() < 1e-8 * x.norm());
+  }
+  const Estimated as_is = move_and_estimate(straight, Formulation::vm_md),
+                  turned = move_and_estimate(oblique, Formulation::vm_md);
+  REQUIRE(as_is.estimate.none == "");
+  REQUIRE(turned.estimate.none == "");
+  REQUIRE(as_is.estimate.probes.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i)
+    CHECK(turned.estimate.probes[i] == Approx(as_is.estimate.probes[i]).epsilon(1e-3));
+}
+
+TEST_CASE("edges in space: edges that the ground holds and that meet are no hinge lines") {
+  const std::string meet =
+      "l: {type: revolute, between: [ground, plate.left]}, "
+      "b: {type: revolute, between: [ground, plate.bottom]$edges}";
+  for (const bool turned : {false, true}) {
+    const std::string plate = turned_plate(meet, turned);
+    const scene::Model model = history_of(fill(plate, {{"edges", ""}}), Formulation::vm_md).model;
+    CHECK(std::count_if(model.warnings.begin(), model.warnings.end(), [](const std::string& note) {
+            return note.find("meets another one that is held") != std::string::npos;
+          }) == 2);
+    CHECK_THROWS_WITH(history_of(fill(plate, {{"edges", ", edges: line"}}), Formulation::vm_md),
+                      Catch::Contains("joints.b.edges: is line, but its edge has a node in common"));
+  }
+}
+
+namespace {
+
+/// Six by four cells between two edges at an angle, as a deck.
+std::string trapezoid(const Eigen::Matrix3d& Q) {
+  const int n = 6, m = 4;
+  std::string nodes, cells, left, right;
+  const auto id = [&](int i, int j) { return 1 + i + (n + 1) * j; };
+  for (int j = 0; j <= m; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double y = 0.8 * j / m, x = (1 - 0.4 * y) * i / n + 0.3 * y;
+      const Eigen::Vector3d p = Q * Eigen::Vector3d(x, y, 0);
+      nodes += fmt::format("{}, {:.17g}, {:.17g}, {:.17g}\n", id(i, j), p.x(), p.y(), p.z());
+      if (i < n && j < m)
+        cells +=
+            fmt::format("{}, {}, {}, {}, {}\n", 1 + i + n * j, id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1));
+    }
+  for (int j = 0; j <= m; ++j) left += fmt::format("{},\n", id(0, j)), right += fmt::format("{},\n", id(n, j));
+  return "*NODE\n" + nodes + "*ELEMENT, TYPE=S4, ELSET=skin\n" + cells + "*NSET, NSET=left\n" + left +
+         "*NSET, NSET=right\n" + right + fmt::format("*NSET, NSET=inner\n{}\n", id(3, 2)) +
+         "*MATERIAL, NAME=alloy\n*ELASTIC\n7e10, 0.3\n*DENSITY\n2700\n"
+         "*SHELL SECTION, ELSET=skin, MATERIAL=alloy\n0.01\n";
+}
+
+}  // namespace
+
+// No frame has the axes of both hinges along its own: one of them is held by the joint's rows.
+TEST_CASE("edges in space: two hinges at an angle with one another") {
+  const Turned turn;
+  const Scratch folder;
+  const auto scene = [&](const std::string& deck) {
+    return fill(R"yaml(
+bodies: {plate: {mesh: {file: {path: $deck}}, reduction: {modes: 6}}}
+joints: {l: {type: revolute, between: [ground, plate.left]}, r: {type: revolute, between: [ground, plate.right]}}
+loads: {wind: {type: pressure, body: plate, pressure: "20000*sin(100*t)"}}
+motion: {end: 0.02, step: 4e-4}
+probes: {inner: {at: plate.inner}}
+)yaml",
+                {{"deck", (folder.path / deck).string()}});
+  };
+  write_text((folder.path / "straight.inp").string(), trapezoid(Eigen::Matrix3d::Identity()));
+  write_text((folder.path / "turned.inp").string(), trapezoid(turn.Q));
+  const History full = move(scene("straight.inp"), Formulation::nlffr),
+                reduced = move(scene("straight.inp"), Formulation::vm_md),
+                turned = move(scene("turned.inp"), Formulation::nlffr);
+  CHECK(apart(reduced, full, "inner") < 1e-2);
+  double worst = 0, size = 0;
+  for (std::size_t i = 0; i < full.t.size(); ++i) {
+    const Eigen::Vector3d x = vector_at(full, "inner", i);
+    worst = std::max(worst, (turn.Q.transpose() * vector_at(turned, "inner", i) - x).norm());
+    size = std::max(size, x.norm());
+  }
+  CHECK(size > 1e-3);
+  CHECK(worst < 1e-9 * size);
+  const double first = omega_of(scene("straight.inp")).front();
+  CHECK(omega_of(scene("turned.inp")).front() == Approx(first).epsilon(1e-9));
 }

@@ -54,4 +54,10 @@ TEST_CASE("a hinge line is led by what it touches, else by a node that is prefer
   const HingeLine held{{3, 4, 5}, y, "", true}, apart{{8, 9}, x, "", true};  // by the ground
   CHECK(led({}, {{{1, 2, 3}, x}, held, {{5, 6, 7}, x}, apart}, {}) == Pairs{{1, 2}, {3, 2}, {5, 6}, {7, 6}, {8, 9}});
   CHECK(led({}, {{{1, 2, 3}, x}, held}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
+  const HingeLine first{{1, 2, 3}, x, "s.yaml:3: joints.a", true}, second{{3, 4, 5}, y, "s.yaml:4: joints.b", true},
+      along{{3, 6, 7}, x, "s.yaml:5: joints.c", true};
+  std::vector<std::string> left_out;
+  CHECK(with_lines({}, {first, second}, {}, &left_out).empty());  // that stand at an angle
+  CHECK(left_out == std::vector<std::string>{first.where, second.where});
+  CHECK(led({}, {first, along}, {}) == Pairs{{1, 3}, {2, 3}, {6, 3}, {7, 3}});
 }

@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+
+#include "prepare_spatial.h"
+
+namespace floe::scene {
+
+/// The line of a place's nodes, a unit vector from the first one towards their mean; nothing where they lie on none.
+/// Collective.
+std::optional<Eigen::Vector3d> line_of(const fem::Mesh& mesh, const PreparedPlace& place);
+
+/// A frame's axes turned so that as many directions as can be are along one of them each, those that come first before
+/// others, and each by the least turn.
+/// @param kept  the column that has to stay; -1: none
+Eigen::Matrix3d axes_along(Eigen::Matrix3d axes, int kept, const std::vector<Eigen::Vector3d>& directions);
+
+/// Axes of the joints by which the ground holds the body in some directions only, in mesh axes: of edges, then of
+/// nodes.
+///
+/// Conditions hold single dofs. In a frame with these axes they hold what such a joint does, however the mesh lies.
+/// Collective.
+std::vector<Eigen::Vector3d> ground_axes(const Scene& scene, const Body& body, const SpatialMesh& mesh);
+
+}  // namespace floe::scene
