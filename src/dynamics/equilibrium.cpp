@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floe/dynamics/start.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/values.h"
 #include "relaxation.h"
 #include "resolution.h"
 #include "round_off.h"
@@ -59,6 +61,32 @@ NothingHolds driven_away(double t, const std::string& bodies) {
                                              bodies)));
 }
 
+/// |U|, and where frames could be: turned by 1 rad and moved by their radii. Where joints meet is known to eps of that.
+petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameInertia>& frames, Vec U) {
+  petsc::VecHandle all = system.create_vector();
+  check(VecCopy(U, all));
+  check(VecAbs(all));
+  petsc::Values own(all);
+  for (const FrameInertia& frame : frames) {
+    const int first = frame.first, dimension = static_cast<int>(frame.lever.rows());
+    for (int local = first; local < frame.turns + frame.lever.cols(); ++local) {
+      double& size = own[system.coordinates().global()[local]];
+      size = std::max(size, local < first + dimension ? frame.radius : 1.0);
+    }
+  }
+  return all;
+}
+
+/// Whether nothing but round-off is left of forces and of where joints meet.
+bool is_at_rest(const System& system, double t, Vec U, Vec V) {
+  const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
+  const petsc::MatHandle J = system.create_tangent();
+  const petsc::VecHandle sizes = sizes_of_places(system, frame_inertias(system, t, U, V, J), U);
+  system.residual(t, U, V, A, ConstraintLevel::position, F);
+  system.tangent(t, U, V, A, {1, 0, 0}, J);
+  return is_round_off(J, sizes, F, 4);
+}
+
 /// Refuses what no search can find, and relaxes what nothing holds as it stands. @return  steps
 PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
   const Undetermined open = open_directions(system, t, U, V);
@@ -67,6 +95,7 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
     throw RunError(none_at(t, fmt::format("constraints repeat one another{}: leave out one of these joints, or let it "
                                           "hold less",
                                           open.joints)));
+  if (is_at_rest(system, t, U, V)) throw unheld(t, open.bodies);  // round-off must not set it going
   const petsc::VecHandle before = system.create_vector();
   check(VecCopy(U, before));
   const Relaxation relaxed = relax(system, t, U, V);
@@ -171,11 +200,12 @@ void look_for_mechanism(const System& system, double t, Vec before, Vec V) {
 }
 
 /// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
-void check_place(const System& system, double t, Vec before, Vec U) {
+void check_place(const System& system, double t, Vec before, Vec U, Vec V) {
   const System::Astray astray = system.astray(t, U);
   if (!astray.joint.empty()) throw RunError(fmt::format("no equilibrium at t = {:.6g}: {}", t, astray.text()));
   const double turn = greatest_turn(system, before, U);
   if (turn < 1.2 * M_PI) return;
+  look_for_mechanism(system, t, before, V);
   throw RunError(fmt::format(
       "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
 }
@@ -225,9 +255,9 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
     throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
                                iterations));
   }
-  check_place(system, t, before, U);  // where joints are met otherwise, no more steps are of use
+  check_place(system, t, before, U, V);  // where joints are met otherwise, no more steps are of use
   const PetscInt corrections = make_sure(system, t, U, V, before, J);
-  check_place(system, t, before, U);
+  check_place(system, t, before, U, V);
   return relaxed + iterations + corrections;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <numeric>
 
 #include "everywhere.h"
@@ -38,7 +39,9 @@ std::string names_of(const System& system, std::vector<double> share) {
   MPI_Allreduce(MPI_IN_PLACE, share.data(), static_cast<int>(share.size()), MPI_DOUBLE, MPI_MAX, system.comm());
   std::vector<std::string> named;
   for (std::size_t o = 0; o < share.size(); ++o)
-    if (share[o] > 1e-3) named.push_back(system.coordinates().owners()[o]);
+    if (const std::string& owner = system.coordinates().owners()[o];
+        share[o] > 1e-3 && std::find(named.begin(), named.end(), owner) == named.end())
+      named.push_back(owner);
   return named.empty() ? "" : fmt::format(" ({})", fmt::join(named, ", "));
 }
 
