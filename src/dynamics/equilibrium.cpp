@@ -153,11 +153,12 @@ bool correct(KSP ksp, Vec F, Vec step) {
 }
 
 /// Where the search ended, no norm of the forces bounds the error of the configuration: stiff rows may hide what a soft
-/// direction lacks, and the last step came from a tangent that forces on the way there stiffened. What tells is the next
-/// step, by the tangent of this configuration. Steps are taken until one is short in every direction and neither what
-/// it changes of the tangent nor the tangent's round-off matters.
+/// direction lacks, and the last step came from a tangent that forces on the way there stiffened. What tells is the
+/// next step, by the tangent of this configuration. Steps are taken until one is short in every direction and neither
+/// what it changes of the tangent nor the tangent's round-off matters.
 ///
-/// @return  steps that were needed before the one that told. @throws  NothingHolds: the tangent is round-off in some direction; LostInRoundOff
+/// @return  steps that were needed before the one that told. @throws  NothingHolds: the tangent is round-off in some
+/// direction; LostInRoundOff
 PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat J) {
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector(), step = system.create_vector();
   petsc::MatHandle next;
@@ -182,9 +183,10 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
   }
   if (!(gain < 0.5)) throw unheld(t, names_of_movers(system, step));
   if (open > 1e-2)  // round-off leaves no more than that where the gain is small: smaller steps of the loads may help
-    throw RunError(fmt::format("no equilibrium at t = {:.6g}: further steps of Newton's method do not become short (the "
-                               "last is {:.2g} of the configuration)",
-                               t, open));
+    throw RunError(
+        fmt::format("no equilibrium at t = {:.6g}: further steps of Newton's method do not become short (the "
+                    "last is {:.2g} of the configuration)",
+                    t, open));
   throw LostInRoundOff(
       fmt::format("no equilibrium at t = {:.6g}: round-off of the greatest forces leaves {:.2g} of the configuration "
                   "open (limit {:.0e}); stiffnesses, or the sides of cells, differ too much for double precision",
@@ -252,8 +254,8 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
     look_for_mechanism(system, t, before, V);
     if (!fault.text.empty() && !fault.singular) throw RunError(fault.text);
     if (why.empty()) why = SNESConvergedReasons[reason];
-    throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t, why,
-                               iterations));
+    throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t,
+                               why, iterations));
   }
   check_place(system, t, before, U, V);  // where joints are met otherwise, no more steps are of use
   const PetscInt corrections = make_sure(system, t, U, V, before, J);

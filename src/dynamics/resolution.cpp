@@ -84,13 +84,13 @@ std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, 
     if (attitude.first >= 3 && owns(system, J, attitude.first))
       frames.push_back(inertia_of(system, J, attitude.first - 3, 3, 3));
   for (const Coordinates::Angle& angle : system.coordinates().angles())
-    if (angle.of_frame && owns(system, J, angle.local))
-      frames.push_back(inertia_of(system, J, angle.local - 2, 2, 1));
+    if (angle.of_frame && owns(system, J, angle.local)) frames.push_back(inertia_of(system, J, angle.local - 2, 2, 1));
   return frames;
 }
 
 double plain_size(const System& system, const std::vector<FrameInertia>& frames, Mat J, Vec d, Vec U, Vec before) {
-  const double turn = turn_by(system, d), shift = greatest_shift(system, frames, d, U, before), share = share_of(J, d, U);
+  const double turn = turn_by(system, d), shift = greatest_shift(system, frames, d, U, before),
+               share = share_of(J, d, U);
   const double greatest = std::max({turn, shift, share});
   return std::isfinite(turn + shift + share) ? greatest : INFINITY;
 }

@@ -19,12 +19,13 @@ std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, 
 ///  - turns of frames, attitudes and nodes in world axes [rad],
 ///  - moves of the mass centres of frames over their radii of gyration, or over what the search moved them by, and
 ///  - |d| / |U| in the norm of |J_ii| (share_of), which deformations enter.
-/// Where a mesh lies far from its frame's origin all of its stiffnesses are beside that of the arm in the last norm, and
-/// so are soft springs beside stiff ones: it alone does not tell. @param before  the search began there. Collective.
+/// Where a mesh lies far from its frame's origin all of its stiffnesses are beside that of the arm in the last norm,
+/// and so are soft springs beside stiff ones: it alone does not tell. @param before  the search began there.
+/// Collective.
 double plain_size(const System& system, const std::vector<FrameInertia>& frames, Mat J, Vec d, Vec U, Vec before);
 
-/// By what factor errors of a tangent feed themselves in Newton's steps: an estimate of the spectral radius of J^-1 E, E
-/// what a step changes the tangent by (from J to `next`) and 64 eps |J| of round-off, with signs that change.
+/// By what factor errors of a tangent feed themselves in Newton's steps: an estimate of the spectral radius of J^-1 E,
+/// E what a step changes the tangent by (from J to `next`) and 64 eps |J| of round-off, with signs that change.
 ///
 /// Where it is small, the step tells how far the equilibrium is. At one J says nothing in some direction: there it is
 /// round-off, whose inverse is chance, or stiffness of forces that the step takes away. No scaling of rows or columns

@@ -35,14 +35,14 @@ const SchemaSection joint_section{
          "`ground` alone is the point of the ground that meets the other place at the start"},
         only({"fixed", "revolute", "prismatic", "driven", "cylindrical", "spherical", "universal", "planar",
               "driven_slide"},
-             in_space(
-                 choice("edges", "",
-                        "rigid: a place of many nodes moves as one rigid piece; line: as a rigid line, about which "
-                        "each node turns by itself (a hinge along a straight edge); mean: the mean of its nodes is "
-                        "held. Absent: rigid where the joint holds all rotations, line at revolute and cylindrical "
-                        "joints along a straight edge, else mean. To the ground, fixed and driven joints hold every "
-                        "node, and a hinge with edges: mean the displacements of its edge; so do hinges whose edges meet",
-                        {"rigid", "mean", "line"}))),
+             in_space(choice(
+                 "edges", "",
+                 "rigid: a place of many nodes moves as one rigid piece; line: as a rigid line, about which "
+                 "each node turns by itself (a hinge along a straight edge); mean: the mean of its nodes is "
+                 "held. Absent: rigid where the joint holds all rotations, line at revolute and cylindrical "
+                 "joints along a straight edge, else mean. To the ground, fixed and driven joints hold every "
+                 "node, and a hinge with edges: mean the displacements of its edge; so do hinges whose edges meet",
+                 {"rigid", "mean", "line"}))),
         only({"driven"}, {"angle", Type::formula, "rad", "",
                           "turn of the second place against the first since the start; 0 at t = 0"}),
         only({"driven_slide"}, {"position", Type::formula, "m", "",

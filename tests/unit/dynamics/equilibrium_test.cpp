@@ -36,9 +36,8 @@ struct Held {
     if (!bushing) coordinates.add_shared(5, true);
     coordinates.number();
     testing::Terms terms;
-    terms.push_back(std::make_unique<dynamics::SpatialBody>(std::vector<int>{0, 1, 2, 3, 4, 5}, attitude,
-                                                            testing::rigid(2, {0.1, 0.2, 0.2}),
-                                                            testing::no_elasticity()));
+    terms.push_back(std::make_unique<dynamics::SpatialBody>(
+        std::vector<int>{0, 1, 2, 3, 4, 5}, attitude, testing::rigid(2, {0.1, 0.2, 0.2}), testing::no_elasticity()));
     if (bushing)
       terms.push_back(std::make_unique<dynamics::SpatialBushing>(SpatialMarker::ground(arm), place(arm), *bushing));
     else

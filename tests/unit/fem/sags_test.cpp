@@ -11,7 +11,8 @@ using testing::Spread;
 namespace {
 
 /// Of a plate whose nodes lie on w = c s^2 / 2, s along its side a, turned into the place of `axes`.
-double sag_of_cylinder(mesh::ShellCells cells, Spread spread, const Eigen::Matrix3d& axes, double c, int along, int across) {
+double sag_of_cylinder(mesh::ShellCells cells, Spread spread, const Eigen::Matrix3d& axes, double c, int along,
+                       int across) {
   mesh::Plate plate{{1, 2, 3}, 2 * axes.col(0), 5 * axes.col(1), along, across};
   plate.cells = cells;
   const fem::Structure s = testing::structure_of(mesh::plate(PETSC_COMM_WORLD, plate),
