@@ -263,7 +263,9 @@ STUDIES = [
           [Point(f"m = {m}", lambda floe, m=m: derivatives(floe, m), 1e-1 if m < 3 else 2e-2 if m < 6 else 1e-3, quick=m in (1, 6))
            for m in (1, 2, 3, 4, 6, 8, 12, 16, 20, 21)]),
     Study("derivatives in space", "1 to 20 modes with all their derivatives, p = 1 to 210", "nlffr",
-          [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 1e-1 if m < 8 else 5e-3, quick=False)
+          [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 1e-1 if m < 8 else 5e-3, quick=False,
+                 misses=Miss("one mode bends in one direction and the load asks for two; the estimate says 39 %", 0.5)
+                 if m == 1 else None)
            for m in (1, 2, 4, 8, 12, 16, 20)]),
     Study("no modes", "static columns alone, or none at all", "closed form; nothing moves",
           [Point("attachments", lambda floe: no_modes(floe, "vm+md"), 1e-8, quick=True),
