@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize install package \
+.PHONY: all build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize install package \
 	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
@@ -14,7 +14,10 @@ $(BUILD)/build.ninja: CMakeLists.txt | setup
 build: setup $(BUILD)/build.ninja
 	@cmake --build $(BUILD)
 
-demo: build
+program: setup $(BUILD)/build.ninja
+	@cmake --build $(BUILD) --target floe
+
+demo: program
 	@bash makefiles/demo.sh $(BUILD)
 
 check: build

@@ -106,7 +106,7 @@ void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::C
       if (std::abs(axis.x()) < 1e-9) held.push_back(3 * node);
       break;
     }
-    case Joint::Kind::spring:
+    default:  // springs hold nothing; the other kinds are of space
       break;
   }
 }
