@@ -2,11 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
 #include "floe/error.h"
 #include "floe/fem/point_mass.h"
 #include "floe/fem/shell.h"
 #include "floe/fem/spatial_beam_fixed.h"
 #include "floe/fem/transform.h"
+#include "floe/petsc/error.h"
 
 namespace floe::fem {
 namespace {
@@ -153,6 +159,8 @@ std::vector<body::MassPoint> Structure::line(const Mesh::Cell& cell) const {
   return cell.follows() ? transformed(own, following(mesh, cell)) : own;
 }
 
+namespace {
+
 void check_cell(const Structure& structure, const Mesh::Cell& cell) {
   const Corners at{structure.mesh, cell, structure.strain};
   std::visit(
@@ -165,6 +173,40 @@ void check_cell(const Structure& structure, const Mesh::Cell& cell) {
         check_of(at, section);
       },
       structure.sections[cell.part]);
+}
+
+using Place = std::array<double, 3>;
+constexpr Place nowhere{PETSC_INFINITY, PETSC_INFINITY, PETSC_INFINITY};
+
+/// The first fault of this rank's cells, by place.
+std::pair<Place, std::string> first_fault(const Structure& structure) {
+  std::pair<Place, std::string> first{nowhere, ""};
+  for (const Mesh::Cell& cell : structure.mesh.cells) {
+    try {
+      check_cell(structure, cell);
+    } catch (const InputError& error) {
+      const Eigen::Vector3d& at = structure.mesh.positions[static_cast<std::size_t>(cell.corner[0])];
+      first = std::min(first, {{at.x(), at.y(), at.z()}, error.what()});
+    }
+  }
+  return first;
+}
+
+}  // namespace
+
+void check_cells(const Structure& structure) {
+  std::pair<Place, std::string> found;
+  petsc::agree(structure.mesh.comm, [&] { found = first_fault(structure); });
+  const Place mine = found.first;
+  Place first = mine;  // of all ranks: x first, y among those of this x, then z
+  for (std::size_t i = 0; i < 3; ++i) {
+    double candidate = std::equal(first.begin(), first.begin() + i, mine.begin()) ? mine[i] : PETSC_INFINITY;
+    MPI_Allreduce(MPI_IN_PLACE, &candidate, 1, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
+    first[i] = candidate;
+  }
+  petsc::agree(structure.mesh.comm, [&] {
+    if (!found.second.empty() && found.first == first) throw InputError(found.second);
+  });
 }
 
 namespace {

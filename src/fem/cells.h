@@ -3,7 +3,9 @@
 
 namespace floe::fem {
 
-/// @throws InputError  the section does not belong on a cell of this kind, or its axes do not. Rank-local.
-void check_cell(const Structure& structure, const Mesh::Cell& cell);
+/// Whether the sections belong on the cells that have them. The fault that is told is the one of the cell whose first
+/// corner comes first (by x, then y, then z): the same on any number of ranks. Collective.
+/// @throws InputError  a section does not belong on a cell of this kind, or its axes do not
+void check_cells(const Structure& structure);
 
 }  // namespace floe::fem

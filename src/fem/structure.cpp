@@ -53,9 +53,7 @@ Structure::Structure(Mesh m, std::vector<Section> s, MembraneStrain e)
       exchange(mesh, dofs_per_node),
       graph(std::make_shared<const NodeGraph>(node_graph(mesh))),
       kept(std::make_shared<Kept>()) {
-  petsc::agree(mesh.comm, [&] {
-    for (const Mesh::Cell& cell : mesh.cells) check_cell(*this, cell);
-  });
+  check_cells(*this);
 }
 
 Structure planar_structure(Mesh mesh, const std::vector<BeamSection>& sections, MembraneStrain strain) {

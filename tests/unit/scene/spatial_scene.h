@@ -34,11 +34,25 @@ inline std::vector<std::string> faults_of(const std::string& text, const std::st
 
 /// A folder of this run that goes with it.
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("floe_scene_test_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
+  int rank = 0;
+  std::filesystem::path path;
+  Folder() {
+    int number = static_cast<int>(getpid());  // of the first rank, for all
+    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+    MPI_Bcast(&number, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+    path = std::filesystem::temp_directory_path() / ("floe_scene_test_" + std::to_string(number));
+    if (rank == 0) std::filesystem::create_directories(path);
+    MPI_Barrier(PETSC_COMM_WORLD);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    MPI_Barrier(PETSC_COMM_WORLD);
+    if (rank == 0) std::filesystem::remove_all(path);
+  }
   std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
+    if (rank == 0) std::ofstream(path / name, std::ios::binary) << text;
+    MPI_Barrier(PETSC_COMM_WORLD);
     return (path / name).string();
   }
 };
