@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize install package \
+.PHONY: all build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize valgrind install package \
 	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
@@ -52,6 +52,9 @@ bench-online: build
 
 sanitize: setup
 	@bash makefiles/sanitize.sh
+
+valgrind: program setup-maintain
+	@bash makefiles/valgrind.sh $(BUILD)
 
 setup-manual:
 	@bash makefiles/setup.sh packages_manual.txt
