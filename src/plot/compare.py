@@ -9,7 +9,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import COLOURS, DASHES, Fault, pyplot, read_json, read_series, save, span, with_unit  # noqa: E402
+from style import COLOURS, DASHES, Fault, guarded, pyplot, read_json, read_series, save, span, with_unit  # noqa: E402
 
 PANEL_HEIGHT, WIDTH = 2.1, 7.6  # inches
 
@@ -188,23 +188,12 @@ def main():
     parser.add_argument("--dpi", type=int, default=150, help="of a PNG (default: 150)")
     arguments = parser.parse_args()
     path = arguments.output or os.path.join(arguments.folder, "compare.png")
-    try:
-        if os.path.splitext(path)[1] not in (".png", ".svg", ".pdf"):
-            raise Fault(f"{path}: a picture ends in .png, .svg or .pdf")
-        if arguments.dpi < 1:
-            raise Fault(f"--dpi {arguments.dpi}: must be positive")
-        draw(load(arguments.folder), path, arguments.dpi)
-    except Fault as fault:
-        print(f"compare.py: {fault}", file=sys.stderr)
-        return 2
-    except ImportError as error:
-        print(f"compare.py: {error} (package python3-matplotlib)", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"compare.py: {path}: {error.strerror}", file=sys.stderr)
-        return 1
-    return 0
+    if os.path.splitext(path)[1] not in (".png", ".svg", ".pdf"):
+        raise Fault(f"{path}: a picture ends in .png, .svg or .pdf")
+    if arguments.dpi < 1:
+        raise Fault(f"--dpi {arguments.dpi}: must be positive")
+    draw(load(arguments.folder), path, arguments.dpi)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded("compare", main))

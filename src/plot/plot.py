@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import Fault  # noqa: E402
+from style import Fault, guarded  # noqa: E402
 
 KINDS = ["probes", "energy", "deformed", "animation", "shapes", "campbell", "compare", "tradeoff", "sweep"]
 OF_RUN = ["probes", "energy", "deformed"]  # without being asked
@@ -154,27 +154,6 @@ def work():
         print(line)
     if len(skipped) == len(chosen):
         raise Fault("there is nothing to draw")
-
-
-def guarded(name, attempt):
-    """Runs it; tells what the user should know in one line, with floe's exit codes."""
-    try:
-        attempt()
-        return 0
-    except Fault as fault:
-        print(f"floe: {name}: {fault}", file=sys.stderr)
-        return 2
-    except ImportError as error:
-        package = {"matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "numpy": "python3-numpy",
-                   "PIL": "python3-pil"}.get((error.name or "").split(".")[0], "python3-matplotlib, python3-h5py")
-        print(f"floe: {name}: {error}; install the package {package}", file=sys.stderr)
-        return 1
-    except BrokenPipeError:
-        return 1
-    except OSError as error:
-        print(f"floe: {name}: cannot read or write {error.filename or 'a file'}: {error.strerror or error}",
-              file=sys.stderr)
-        return 1
 
 
 if __name__ == "__main__":

@@ -9,8 +9,8 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-from plot import guarded, kinds_of  # noqa: E402
-from style import Fault, duration, read_json  # noqa: E402
+from plot import kinds_of  # noqa: E402
+from style import Fault, duration, guarded, read_json  # noqa: E402
 
 THREE = ["/usr/share/javascript/three/three.min.js", "/usr/share/nodejs/three/build/three.min.js"]
 HERE = os.path.dirname(os.path.abspath(__file__))

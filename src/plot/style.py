@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import math
+import sys
 
 COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
 DASHES = [(), (6, 2), (2, 1.5), (7, 2, 1.5, 2), (10, 2.5), (4, 1.5, 1, 1.5, 1, 1.5), (1, 1)]
@@ -12,6 +13,27 @@ MAP = "viridis"  # of numbers: even in lightness, also for those who see few col
 
 class Fault(Exception):
     """Something that the user should read, in one line."""
+
+
+def guarded(name, attempt):
+    """Runs it; tells what the user should know in one line, with floe's exit codes."""
+    try:
+        attempt()
+        return 0
+    except Fault as fault:
+        print(f"floe: {name}: {fault}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        package = {"matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "numpy": "python3-numpy",
+                   "PIL": "python3-pil"}.get((error.name or "").split(".")[0], "python3-matplotlib, python3-h5py")
+        print(f"floe: {name}: {error}; install the package {package}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:
+        return 1
+    except OSError as error:
+        print(f"floe: {name}: cannot read or write {error.filename or 'a file'}: {error.strerror or error}",
+              file=sys.stderr)
+        return 1
 
 
 def read_json(path):

@@ -9,7 +9,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import COLOURS, MARKS, Fault, pyplot, save  # noqa: E402
+from style import COLOURS, MARKS, Fault, guarded, pyplot, save  # noqa: E402
 
 PANEL_HEIGHT, WIDTH, MOST_LINES = 2.1, 7.6, 12  # inches
 
@@ -54,7 +54,4 @@ def draw(folder, path, dpi):
 
 
 if __name__ == "__main__":
-    try:
-        draw(sys.argv[1], os.path.join(sys.argv[1], "sweep.png"), 150)
-    except Fault as fault:
-        sys.exit(f"sweep.py: {fault}")
+    sys.exit(guarded("sweep", lambda: draw(sys.argv[1], os.path.join(sys.argv[1], "sweep.png"), 150)))

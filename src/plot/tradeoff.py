@@ -9,7 +9,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import COLOURS, MARKS, Fault, duration, pyplot, read_json, save  # noqa: E402
+from style import COLOURS, MARKS, Fault, duration, guarded, pyplot, read_json, save  # noqa: E402
 
 WIDTH, HEIGHT = 7.6, 4.4  # inches, of the diagram; the key of the front comes below
 LINE = 0.19
@@ -118,21 +118,10 @@ def main():
     parser.add_argument("--dpi", type=int, default=150)
     arguments = parser.parse_args()
     path = arguments.output or os.path.join(arguments.folder, "tradeoff.png")
-    try:
-        if arguments.dpi < 1:
-            raise Fault(f"--dpi {arguments.dpi}: must be positive")
-        draw(*load(arguments.folder), path, arguments.dpi)
-    except Fault as fault:
-        print(f"tradeoff.py: {fault}", file=sys.stderr)
-        return 2
-    except ImportError as error:
-        print(f"tradeoff.py: {error} (package python3-matplotlib)", file=sys.stderr)
-        return 1
-    except OSError as error:
-        print(f"tradeoff.py: {path}: {error.strerror}", file=sys.stderr)
-        return 1
-    return 0
+    if arguments.dpi < 1:
+        raise Fault(f"--dpi {arguments.dpi}: must be positive")
+    draw(*load(arguments.folder), path, arguments.dpi)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(guarded("tradeoff", main))

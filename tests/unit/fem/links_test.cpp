@@ -30,6 +30,25 @@ Eigen::MatrixXd following(const std::vector<mesh::Follower>& followers) {
   return T;
 }
 
+/// K q and M q of a structure with followers are T' K0 T q and T' M0 T q of the free nodes, and its nodes move by T q.
+void check_image(const fem::Structure& s, const fem::Structure& free, const Eigen::MatrixXd& T,
+                 const Eigen::VectorXd& q) {
+  const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
+                         M0 = fem::mass(free, {});
+  for (const auto& [with, without] : {std::pair<Mat, Mat>(K, K0), {M, M0}}) {
+    const Eigen::VectorXd expected = T.transpose() * testing::product_in_originals(free, without, T * q),
+                          found = testing::product_in_originals(s, with, q);
+    CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-11 * expected.cwiseAbs().maxCoeff());
+  }
+  const petsc::VecHandle field = testing::field_of_originals(s, q);
+  petsc::Values own(field);
+  const Eigen::VectorXd all = T * q;
+  for (int node = 0; node < s.mesh.owned_nodes; ++node) {
+    const Eigen::VectorXd at = all.segment<6>(6 * s.mesh.original_node(node));
+    CHECK((fem::nodal_motion(s, own.begin(), node) - at).norm() < 1e-13);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("rigid links: K and M are those of the free nodes, seen by the dofs that move them") {
@@ -37,24 +56,9 @@ TEST_CASE("rigid links: K and M are those of the free nodes, seen by the dofs th
   const fem::Structure s = testing::linked_structure(PETSC_COMM_WORLD, spread),
                        free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
   const Eigen::MatrixXd T = following(testing::mixed_links());
-  const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
-                         M0 = fem::mass(free, {});
   testing::Random random(3);
   for (int trial = 0; trial < 3; ++trial) {
-    Eigen::VectorXd q(s.dofs());
-    for (double& value : q) value = random.number();
-    for (const auto& [with, without] : {std::pair<Mat, Mat>(K, K0), {M, M0}}) {
-      const Eigen::VectorXd expected = T.transpose() * testing::product_in_originals(free, without, T * q),
-                            found = testing::product_in_originals(s, with, q);
-      CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-11 * expected.cwiseAbs().maxCoeff());
-    }
-    const petsc::VecHandle field = testing::field_of_originals(s, q);
-    petsc::Values own(field);
-    const Eigen::VectorXd all = T * q;
-    for (int node = 0; node < s.mesh.owned_nodes; ++node) {
-      const Eigen::VectorXd at = all.segment<6>(6 * s.mesh.original_node(node));
-      CHECK((fem::nodal_motion(s, own.begin(), node) - at).norm() < 1e-13);
-    }
+    check_image(s, free, T, random.vector(s.dofs()));
   }
 }
 
@@ -83,23 +87,12 @@ TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line an
   const std::vector<mesh::Follower> followers = testing::mixed_lines(links);
   CHECK(std::count_if(followers.begin(), followers.end(), [](const auto& f) { return f.spins(); }) == 4);
   const Eigen::MatrixXd T = following(followers);
-  const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
-                         M0 = fem::mass(free, {});
+  const petsc::MatHandle K = fem::stiffness(s, {});
   testing::Random random(3);
   for (int trial = 0; trial < 3; ++trial) {
     const Eigen::VectorXd q = random.vector(s.dofs());
-    for (const auto& [with, without] : {std::pair<Mat, Mat>(K, K0), {M, M0}}) {
-      const Eigen::VectorXd expected = T.transpose() * testing::product_in_originals(free, without, T * q),
-                            found = testing::product_in_originals(s, with, q);
-      CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-11 * expected.cwiseAbs().maxCoeff());
-    }
+    check_image(s, free, T, q);
     const petsc::VecHandle field = testing::field_of_originals(s, q);
-    petsc::Values own(field);
-    const Eigen::VectorXd all = T * q;
-    for (int node = 0; node < s.mesh.owned_nodes; ++node) {
-      const Eigen::VectorXd at = all.segment<6>(6 * s.mesh.original_node(node));
-      CHECK((fem::nodal_motion(s, own.begin(), node) - at).norm() < 1e-13);
-    }
     const auto elements = std::make_shared<fem::ElementStiffness>(s);
     const petsc::VecHandle by_pieces = fem::field(s);
     elements->multiply(field, by_pieces);
