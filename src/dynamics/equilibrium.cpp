@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
+#include "equilibrium_newton.h"
 #include "floe/dynamics/start.h"
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/values.h"
@@ -17,23 +19,6 @@ namespace floe::dynamics {
 using petsc::check;
 
 namespace {
-
-struct EquilibriumContext {
-  const System& system;
-  double t;
-  Vec V, A;
-  petsc::Guard guard;
-};
-
-PetscErrorCode equilibrium_residual(SNES, Vec U, Vec F, void* context) {
-  auto& c = *static_cast<EquilibriumContext*>(context);
-  return c.guard.run([&] { c.system.residual(c.t, U, c.V, c.A, ConstraintLevel::position, F); });
-}
-
-PetscErrorCode equilibrium_tangent(SNES, Vec U, Mat J, Mat, void* context) {
-  auto& c = *static_cast<EquilibriumContext*>(context);
-  return c.guard.run([&] { c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J); });
-}
 
 /// Null vectors of the static tangent.
 Undetermined open_directions(const System& system, double t, Vec U, Vec V) {
@@ -59,22 +44,6 @@ NothingHolds driven_away(double t, const std::string& bodies) {
                                              "it on that way without end; hold it, or start from another one "
                                              "(`initial`)",
                                              bodies)));
-}
-
-/// |U|, and where frames could be: turned by 1 rad and moved by their radii. Where joints meet is known to eps of that.
-petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameInertia>& frames, Vec U) {
-  petsc::VecHandle all = system.create_vector();
-  check(VecCopy(U, all));
-  check(VecAbs(all));
-  petsc::Values own(all);
-  for (const FrameInertia& frame : frames) {
-    const int first = frame.first, dimension = static_cast<int>(frame.lever.rows());
-    for (int local = first; local < frame.turns + frame.lever.cols(); ++local) {
-      double& size = own[system.coordinates().global()[local]];
-      size = std::max(size, local < first + dimension ? frame.radius : 1.0);
-    }
-  }
-  return all;
 }
 
 /// Whether nothing but round-off is left of forces and of where joints meet.
@@ -105,35 +74,8 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
   throw unheld(t, open.bodies);
 }
 
-/// As SNES does it, or where nothing but round-off is left of any row (rows have units of their own, so that no norm of
-/// them all tells): a search may begin there, or arrive because some forces are stiff beside the rest. What it arrives
-/// at is looked at by make_sure.
-PetscErrorCode equilibrium_converged(SNES snes, PetscInt iteration, PetscReal size, PetscReal step, PetscReal residual,
-                                     SNESConvergedReason* reason, void* context) {
-  auto& c = *static_cast<EquilibriumContext*>(context);
-  const PetscErrorCode code = SNESConvergedDefault(snes, iteration, size, step, residual, reason, nullptr);
-  if (code || *reason != SNES_CONVERGED_ITERATING || iteration == 1 || iteration == 2) return code;
-  return c.guard.run([&] {
-    Vec U = nullptr, F = nullptr;
-    check(SNESGetSolution(snes, &U));
-    check(SNESGetFunction(snes, &F, nullptr, nullptr));
-    const petsc::MatHandle J = c.system.create_tangent();
-    c.system.tangent(c.t, U, c.V, c.A, {1, 0, 0}, J);
-    if (is_round_off(J, U, F, iteration == 0 ? 4 : 256)) *reason = SNES_CONVERGED_FNORM_ABS;
-  });
-}
-
 constexpr double open_limit = 1e-6;
 constexpr int most_corrections = 20;
-
-/// A dense LU overwrites its matrix: a copy of a dense one, nothing for a sparse one.
-petsc::MatHandle copy_of_dense(Mat J) {
-  petsc::MatHandle copy;
-  PetscBool dense = PETSC_FALSE;
-  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(J), &dense, MATSEQDENSE, MATDENSE, ""));
-  if (dense) check(MatDuplicate(J, MAT_COPY_VALUES, copy.out()));
-  return copy;
-}
 
 /// J^-1 F into `step`. @return  false where there is none
 bool correct(KSP ksp, Vec F, Vec step) {
@@ -173,7 +115,7 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
     const Mat kept = copy ? copy.get() : J;
     const petsc::KspHandle ksp = tangent_solver(J, "static_");
     if (!correct(ksp, F, step)) throw unheld(t, null_vectors(system, kept).bodies);
-    open = plain_size(system, frames, kept, step, U, before);
+    open = plain_size(system, frames, ksp, kept, step, U, before);
     check(VecAXPY(U, -1, step));
     if (open > open_limit && done + 1 < most_corrections) continue;
     if (!next) next = system.create_tangent();
@@ -193,23 +135,37 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
                   t, open, open_limit));
 }
 
-/// Where Newton's method fails: whether that is because the loads drive it away on a path without any stiffness.
-void look_for_mechanism(const System& system, double t, Vec before, Vec V) {
-  const petsc::VecHandle U = system.create_vector();
-  check(VecCopy(before, U));
-  const Relaxation relaxed = relax(system, t, U, V);
-  if (relaxed.freely) throw driven_away(t, relaxed.bodies);
+/// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
+void check_place(const System& system, double t, Vec before, Vec U) {
+  const System::Astray astray = system.astray(t, U);
+  if (!astray.joint.empty()) throw RunError(none_at(t, astray.text()));
+  if (const double turn = greatest_turn(system, before, U); turn > farthest_turn)
+    throw RunError(fmt::format(
+        "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
 }
 
-/// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
-void check_place(const System& system, double t, Vec before, Vec U, Vec V) {
-  const System::Astray astray = system.astray(t, U);
-  if (!astray.joint.empty()) throw RunError(fmt::format("no equilibrium at t = {:.6g}: {}", t, astray.text()));
-  const double turn = greatest_turn(system, before, U);
-  if (turn < 1.2 * M_PI) return;
-  look_for_mechanism(system, t, before, V);
-  throw RunError(fmt::format(
-      "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
+/// From U to the equilibrium near it. `before`: where all began. @return  Newton's, with the corrections
+NewtonSearch search_from(const System& system, double t, Vec U, Vec V, Vec before) {
+  const petsc::MatHandle J = system.create_tangent();
+  NewtonSearch search = newton(system, t, U, V, before, J);
+  if (!search.fault.empty()) throw RunError(none_at(t, search.fault));
+  check_place(system, t, before, U);  // where joints are met otherwise, no more steps are of use
+  search.iterations += make_sure(system, t, U, V, before, J);
+  check_place(system, t, before, U);
+  return search;
+}
+
+/// Down from `before` as a damped motion would go, and from there to the equilibrium, into U.
+/// @return  steps; none, and U as it was, where that way does not end
+/// @throws NothingHolds  the loads drive it away; RunError  no equilibrium at its end
+PetscInt search_below(const System& system, double t, Vec before, Vec U, Vec V) {
+  const petsc::VecHandle below = system.create_vector();
+  check(VecCopy(before, below));
+  const Relaxation relaxed = relax(system, t, below, V);
+  if (relaxed.freely) throw driven_away(t, relaxed.bodies);
+  if (relaxed.runs_away || relaxed.steps == 0) return 0;
+  check(VecCopy(below, U));
+  return relaxed.steps + search_from(system, t, U, V, before).iterations;
 }
 
 }  // namespace
@@ -218,49 +174,28 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   const petsc::VecHandle before = system.create_vector();
   check(VecCopy(U, before));
   const PetscInt relaxed = prepare_search(system, t, U, V);
-  const petsc::VecHandle A = system.create_vector(), F = system.create_vector();
-  const petsc::MatHandle J = system.create_tangent();
-  EquilibriumContext context{system, t, V, A, {}};
-  petsc::SnesHandle snes;
-  KSP ksp = nullptr;
-  SNESLineSearch search = nullptr;
-  check(SNESCreate(system.comm(), snes.out()));
-  check(SNESSetOptionsPrefix(snes, "static_"));
-  check(SNESSetFunction(snes, F, equilibrium_residual, &context));
-  check(SNESSetJacobian(snes, J, J, equilibrium_tangent, &context));
-  check(SNESSetTolerances(snes, 0, 1e-11, 1e-11, 100, 10000));
-  check(SNESSetConvergenceTest(snes, equilibrium_converged, &context, nullptr));
-  check(SNESSetDivergenceTolerance(snes, -1));  // the first step stretches slender bodies by (L/r)^2
-  check(SNESGetLineSearch(snes, &search));
-  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
-  check(SNESGetKSP(snes, &ksp));
-  set_tangent_solver(ksp, J);
-  petsc::check_options(SNESSetFromOptions(snes), "static_");
-  std::string why;
+  std::exception_ptr fault;
+  NewtonSearch found;
   try {
-    context.guard.check(SNESSolve(snes, nullptr, U));
-  } catch (const petsc::Error& error) {
-    if (!is_singular(error.code())) throw;
-    why = "singular tangent";
+    found = search_from(system, t, U, V, before);
+    if (!found.far) return relaxed + found.iterations;
+  } catch (const LostInRoundOff&) {
+    throw;
+  } catch (const RunError&) {
+    fault = std::current_exception();
   }
-  check(SNESGetKSP(snes, &ksp));
-  const petsc::FactorFault fault = petsc::factor_fault(ksp);
-  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscInt iterations = 0;
-  check(SNESGetConvergedReason(snes, &reason));
-  check(SNESGetIterationNumber(snes, &iterations));
-  snes.out();  // its factor is not needed beside the next
-  if (!why.empty() || reason < 0) {
-    look_for_mechanism(system, t, before, V);
-    if (!fault.text.empty() && !fault.singular) throw RunError(fault.text);
-    if (why.empty()) why = SNESConvergedReasons[reason];
-    throw RunError(fmt::format("no equilibrium at t = {:.6g} (options -static_snes_...): {} after {} iterations", t,
-                               why, iterations));
+  // Steps that turn far may end at any equilibrium: the one below the start is meant.
+  const petsc::VecHandle there = system.create_vector();
+  check(VecCopy(U, there));
+  try {
+    if (const PetscInt steps = search_below(system, t, before, U, V); steps > 0) return relaxed + steps;
+  } catch (const NothingHolds&) {
+    if (fault) throw;
+  } catch (const RunError&) {  // what Newton's method found, or said, stands
   }
-  check_place(system, t, before, U, V);  // where joints are met otherwise, no more steps are of use
-  const PetscInt corrections = make_sure(system, t, U, V, before, J);
-  check_place(system, t, before, U, V);
-  return relaxed + iterations + corrections;
+  if (fault) std::rethrow_exception(fault);
+  check(VecCopy(there, U));
+  return relaxed + found.iterations;
 }
 
 }  // namespace floe::dynamics

@@ -6,6 +6,7 @@
 
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
+#include "round_off.h"
 #include "turns.h"
 #include "undetermined.h"
 
@@ -51,57 +52,75 @@ bool solve(const System& system, Mat J, Vec F, Vec step) {
   return std::isfinite(size);
 }
 
-/// Greatest entry among the coordinates, without the multipliers.
-double moved_by(const System& system, Vec step) {
-  double greatest = 0;
-  {
-    petsc::Values by(step);
-    const auto& rows = system.coordinates().owned_multipliers();  // ascending
-    auto next = rows.begin();
-    for (PetscInt i = by.first; i < by.end; ++i) {
-      if (next != rows.end() && *next == i)
-        ++next;
-      else
-        greatest = std::max(greatest, std::abs(by[i]));
-    }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
-  return greatest;
+/// The step without its multipliers.
+petsc::VecHandle motion_of(const System& system, Vec step) {
+  petsc::VecHandle motion = system.create_vector();
+  check(VecCopy(step, motion));
+  petsc::Values by(motion);
+  for (const PetscInt row : system.coordinates().owned_multipliers()) by[row] = 0;
+  return motion;
+}
+
+/// w'(K + s M) w: not positive where the step w goes uphill.
+double curvature(Mat J, Vec motion) {
+  petsc::VecHandle Jw;
+  double product = 0;
+  check(VecDuplicate(motion, Jw.out()));
+  check(MatMult(J, motion, Jw));
+  check(VecDot(motion, Jw, &product));
+  return product;
 }
 
 /// Sizes of the last steps: whether they grow, and how.
 struct Growth {
-  double last = 0, before = 0, greatest = 0;
+  double last = 0, before = 0, greatest = 0, turned = 0;
   int fourfold = 0;  ///< how many of the last steps were four times the one before
-  void add(double size) {
-    before = last, last = size, greatest = std::max(greatest, size);
+  int alike = 0;     ///< how many of the last steps were as long as the one before
+  void add(double size, double turn) {
+    before = last, last = size, greatest = std::max(greatest, size), turned += turn;
     fourfold = std::abs(last / before - 4) < 0.5 ? fourfold + 1 : 0;  // a first one divides by nothing: none
+    alike = std::abs(last / before - 1) < 0.05 ? alike + 1 : 0;
   }
   bool grows() const { return last > 2 * before && before > 0 && last == greatest; }
+  bool goes_round() const { return turned > 3 * M_PI; }
 };
+
+constexpr double far = 1, near = 0.25;  // rad
+constexpr int most_tries = 300;
 
 }  // namespace
 
 Relaxation relax(const System& system, double t, Vec U, Vec V) {
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector(), step = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
-  const double highest = first_shift(system, t, U, V);
+  const double highest = first_shift(system, t, U, V), least = 1e-14 * highest;
   Relaxation done;
   Growth growth;
-  for (double s = highest; s > 1e-14 * highest; s /= 4, ++done.steps) {
+  double s = highest, turn = 0;
+  const auto ended = [&] { return s <= least && (s <= 1e-10 * least || (turn < 0.01 && !growth.grows())); };
+  for (int tries = 0; tries < most_tries && !ended(); ++tries) {
     system.residual(t, U, V, A, ConstraintLevel::position, F);
     system.tangent(t, U, V, A, {1, 0, s}, J);
+    const petsc::MatHandle copy = copy_of_dense(J);
     if (!solve(system, J, F, step)) break;
-    growth.add(moved_by(system, step));
-    const bool round = done.steps > 0 && turn_by(system, step) > 2 * M_PI;  // the first follows the drives
-    if (round) done.runs_away = true;
-    done.freely = growth.fourfold >= 3;
-    if (round || growth.grows()) done.bodies = names_of_movers(system, step);
-    if (round) return done;
+    const petsc::VecHandle motion = motion_of(system, step);
+    double size = 0;
+    check(VecNorm(motion, NORM_INFINITY, &size));
+    turn = turn_by(system, step);
+    // The first follows the drives.
+    if (done.steps > 0 && s < highest && (turn > far || !(curvature(copy ? copy.get() : J.get(), motion) >= 0))) {
+      s *= 4, turn = far;
+      continue;
+    }
+    growth.add(size, done.steps > 0 ? turn : 0);
+    if (growth.grows() || growth.goes_round()) done.bodies = names_of_movers(system, step);
     check(VecAXPY(U, -1, step));
+    ++done.steps;
+    if (growth.goes_round()) break;
+    if (turn <= near) s /= 4;
   }
-  done.runs_away = growth.grows();
-  done.freely = done.freely && done.runs_away;
+  done.freely = growth.goes_round() ? growth.alike >= 8 : growth.fourfold >= 3 && growth.grows();
+  done.runs_away = growth.goes_round() || growth.grows();
   return done;
 }
 

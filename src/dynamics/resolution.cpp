@@ -74,6 +74,22 @@ double sign_of(std::uint64_t index, std::uint64_t round) {
   return ((z ^ (z >> 31)) & 1) != 0 ? 1 : -1;
 }
 
+/// 64 eps |J| |x| with signs that change, plus what stands in `rows`.
+void add_round_off(Mat J, Vec x, std::uint64_t round, Vec rows) {
+  const petsc::VecHandle terms = sizes_of_terms(J, x);
+  petsc::Values error(rows), term(terms);
+  for (PetscInt i = error.first; i < error.end; ++i)
+    error[i] += 64 * PETSC_MACHINE_EPSILON * sign_of(static_cast<std::uint64_t>(i), round) * term[i];
+}
+
+/// Whether d is no more than what round-off of the frames' places makes of the configuration.
+bool is_of_places(const System& system, const std::vector<FrameInertia>& frames, KSP solver, Mat J, Vec d) {
+  const petsc::VecHandle zero = system.create_vector(), rows = system.create_vector(), made = system.create_vector();
+  add_round_off(J, sizes_of_places(system, frames, zero), 0, rows);
+  check(KSPSolve(solver, rows, made));
+  return share_of(J, d, made) <= 1;
+}
+
 }  // namespace
 
 std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, Vec V, Mat J) {
@@ -88,11 +104,28 @@ std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, 
   return frames;
 }
 
-double plain_size(const System& system, const std::vector<FrameInertia>& frames, Mat J, Vec d, Vec U, Vec before) {
-  const double turn = turn_by(system, d), shift = greatest_shift(system, frames, d, U, before),
-               share = share_of(J, d, U);
-  const double greatest = std::max({turn, shift, share});
-  return std::isfinite(turn + shift + share) ? greatest : INFINITY;
+petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameInertia>& frames, Vec U) {
+  petsc::VecHandle all = system.create_vector();
+  check(VecCopy(U, all));
+  check(VecAbs(all));
+  petsc::Values own(all);
+  for (const FrameInertia& frame : frames) {
+    const int first = frame.first, dimension = static_cast<int>(frame.lever.rows());
+    for (int local = first; local < frame.turns + frame.lever.cols(); ++local) {
+      double& size = own[system.coordinates().global()[local]];
+      size = std::max(size, local < first + dimension ? frame.radius : 1.0);
+    }
+  }
+  return all;
+}
+
+double plain_size(const System& system, const std::vector<FrameInertia>& frames, KSP solver, Mat J, Vec d, Vec U,
+                  Vec before) {
+  const double turn = turn_by(system, d), shift = greatest_shift(system, frames, d, U, before);
+  double share = share_of(J, d, U);
+  if (!std::isfinite(turn + shift)) return INFINITY;
+  if (share > 1e-9 && is_of_places(system, frames, solver, J, d)) share = 0;
+  return std::isfinite(share) ? std::max({turn, shift, share}) : INFINITY;
 }
 
 double gain_of_errors(const System& system, KSP solver, Mat J, Mat next) {
@@ -104,15 +137,10 @@ double gain_of_errors(const System& system, KSP solver, Mat J, Mat next) {
     for (PetscInt i = start.first; i < start.end; ++i) start[i] = start[i] != 0 ? 1 / std::sqrt(std::abs(start[i])) : 1;
   }
   for (int round = 0; round < 4; ++round) {
-    const petsc::VecHandle terms = sizes_of_terms(J, w);
     check(MatMult(next, w, changed));
     check(MatMult(J, w, y));
     check(VecAXPY(changed, -1, y));
-    {
-      petsc::Values error(changed), term(terms);
-      for (PetscInt i = error.first; i < error.end; ++i)
-        error[i] += 64 * PETSC_MACHINE_EPSILON * sign_of(static_cast<std::uint64_t>(i), round) * term[i];
-    }
+    add_round_off(J, w, round, changed);
     check(VecNorm(w, NORM_INFINITY, &size));
     check(KSPSolve(solver, changed, y));
     check(VecNorm(y, NORM_INFINITY, &gain));

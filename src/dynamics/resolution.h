@@ -15,14 +15,20 @@ struct FrameInertia {
 /// Of the frames that this rank owns, from M, which is assembled into J. Collective.
 std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, Vec V, Mat J);
 
+/// |U|, and where frames could be: turned by 1 rad and moved by their radii. Where joints meet and springs end is known
+/// to eps of that. Collective.
+petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameInertia>& frames, Vec U);
+
 /// How far a step d of a configuration U goes, in plain units, the greatest of
 ///  - turns of frames, attitudes and nodes in world axes [rad],
 ///  - moves of the mass centres of frames over their radii of gyration, or over what the search moved them by, and
-///  - |d| / |U| in the norm of |J_ii| (share_of), which deformations enter.
+///  - |d| / |U| in the norm of |J_ii| (share_of), which deformations enter; nothing where d is no more than what 64 eps
+///    of the places of frames make of it, as in a configuration without load.
 /// Where a mesh lies far from its frame's origin all of its stiffnesses are beside that of the arm in the last norm,
-/// and so are soft springs beside stiff ones: it alone does not tell. @param before  the search began there.
-/// Collective.
-double plain_size(const System& system, const std::vector<FrameInertia>& frames, Mat J, Vec d, Vec U, Vec before);
+/// and so are soft springs beside stiff ones: it alone does not tell.
+/// @param before  the search began there;  @param solver  of J. Collective: one solve where d is not short.
+double plain_size(const System& system, const std::vector<FrameInertia>& frames, KSP solver, Mat J, Vec d, Vec U,
+                  Vec before);
 
 /// By what factor errors of a tangent feed themselves in Newton's steps: an estimate of the spectral radius of J^-1 E,
 /// E what a step changes the tangent by (from J to `next`) and 64 eps |J| of round-off, with signs that change.

@@ -59,4 +59,12 @@ double share_of(Mat J, Vec d, Vec x) {
   return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : (sums[0] > 0 ? INFINITY : 0);
 }
 
+petsc::MatHandle copy_of_dense(Mat J) {
+  petsc::MatHandle copy;
+  PetscBool dense = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(J), &dense, MATSEQDENSE, MATDENSE, ""));
+  if (dense) check(MatDuplicate(J, MAT_COPY_VALUES, copy.out()));
+  return copy;
+}
+
 }  // namespace floe::dynamics

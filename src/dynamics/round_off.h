@@ -14,4 +14,7 @@ bool is_round_off(Mat J, Vec x, Vec F, double several);
 /// |d| / |x| in the norm sqrt(sum |J_ii| x_i^2), which no unit enters; multipliers have no weight. Collective.
 double share_of(Mat J, Vec d, Vec x);
 
+/// A dense LU overwrites its matrix: a copy of a dense one, nothing for a sparse one. Collective.
+petsc::MatHandle copy_of_dense(Mat J);
+
 }  // namespace floe::dynamics

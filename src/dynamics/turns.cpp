@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floe/petsc/error.h"
+
 namespace floe::dynamics {
 
 double greatest_turn(const System& system, Vec from, Vec to) {
-  Eigen::VectorXd before, after;
-  system.gather(from, before), system.gather(to, after);
-  double greatest = 0;
-  for (const auto& attitude : system.attitudes())
-    greatest = std::max(greatest, (after - before).segment<3>(attitude.first).norm());
-  return greatest;
+  const petsc::VecHandle by = system.create_vector();
+  petsc::check(VecWAXPY(by, -1, from, to));
+  return turn_by(system, by);
 }
 
 double turn_by(const System& system, Vec step) {

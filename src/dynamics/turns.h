@@ -3,7 +3,8 @@
 
 namespace floe::dynamics {
 
-/// Greatest turn of an attitude from one configuration to another with the same bases, as steps added up. [rad]
+/// Greatest turn of an attitude or angle from one configuration to another with the same bases, as steps added up.
+/// [rad] Collective.
 double greatest_turn(const System& system, Vec from, Vec to);
 
 /// Greatest turn of an attitude, or of an angle of the plane (Coordinates::angles), by a step. [rad] Collective.

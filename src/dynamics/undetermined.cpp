@@ -70,6 +70,20 @@ Eigen::Index true_null_vectors(const Eigen::MatrixXd& J, const Eigen::MatrixXd& 
   return count;
 }
 
+/// Orthonormal l with C'l = 0 among all unknowns: constraints that repeat one another. A null vector (q, l) of the
+/// whole J = [K C'; C 0] need not be of this kind where l is not zero: K q = -C'l, as in a pendulum that is level.
+Eigen::MatrixXd repeated_rows(const Eigen::MatrixXd& J, const std::vector<char>& multiplier) {
+  std::vector<Eigen::Index> rows, columns;
+  for (std::size_t i = 0; i < multiplier.size(); ++i) (multiplier[i] ? rows : columns).push_back(i);
+  if (rows.empty()) return Eigen::MatrixXd(J.rows(), 0);
+  const Eigen::MatrixXd Ct = J(rows, columns).transpose();
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(Ct, Eigen::ComputeFullV);
+  const Eigen::Index count = true_null_vectors(Ct, svd.matrixV());
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(J.rows(), count);
+  found(rows, Eigen::all) = svd.matrixV().rightCols(count);
+  return found;
+}
+
 }  // namespace
 
 Undetermined null_vectors(const System& system, Mat J) {
@@ -88,14 +102,12 @@ Undetermined null_vectors(const System& system, Mat J) {
   if (count == 0) return {};
   const Eigen::MatrixXd N = svd.matrixV().rightCols(count);
   const std::vector<char> multiplier = multiplier_rows(system);
-  double of_multipliers = 0;  // K q = 0 and C'l = 0 go apart: the number of null vectors of the latter kind
-  for (Eigen::Index i = 0; i < N.rows(); ++i)
-    if (multiplier[i]) of_multipliers += N.row(i).squaredNorm();
+  const Eigen::MatrixXd repeated = repeated_rows(J_scaled, multiplier);
   Undetermined open;
-  open.repeated = of_multipliers > 0.5;
-  open.loose = of_multipliers < static_cast<double>(count) - 0.5;
+  open.repeated = repeated.cols() > 0;
+  open.loose = count > repeated.cols();
   open.bodies = names_of(system, N, multiplier, false);
-  open.joints = names_of(system, N, multiplier, true);
+  if (open.repeated) open.joints = names_of(system, repeated, multiplier, true);
   return open;
 }
 

@@ -1,0 +1,25 @@
+#pragma once
+#include <cmath>
+#include <string>
+
+#include "floe/dynamics/system.h"
+
+namespace floe::dynamics {
+
+constexpr double farthest_turn = 1.2 * M_PI;  ///< of a body in one search [rad]
+
+/// What came of Newton's method.
+struct NewtonSearch {
+  PetscInt iterations = 0;
+  bool far = false;  ///< a step turned by more than a right angle
+  std::string
+      fault;  ///< why it failed; empty where it ended, or came no further: the next step tells what that is worth
+};
+
+/// F(t, U, V, 0) = 0 from U by SNES, prefix static_, with full steps. It also ends where nothing but round-off is left
+/// of any row (rows have units of their own, so that no norm of them all tells), and where ten steps gain nothing.
+/// @param before  from where turns count; @param J  is overwritten
+/// @throws RunError  memory, or whatever else is no matter of the search. Collective.
+NewtonSearch newton(const System& system, double t, Vec U, Vec V, Vec before, Mat J);
+
+}  // namespace floe::dynamics
