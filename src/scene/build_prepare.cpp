@@ -74,6 +74,8 @@ FrameNodes frame_nodes(const Body& body, const fem::Mesh& mesh) {
   } else if (body.frame.kind == FrameSpec::Kind::clamped) {
     const fem::NearestNode a = find(body.frame.at);
     nodes = {a.node, a.node, a.position.head<2>(), 0, 0};
+  } else {
+    nodes.origin = fem::near_origin(mesh).head<2>();
   }
   return nodes;
 }

@@ -246,6 +246,14 @@ VectorXd deformations(const Model& model, const VectorXd& q) {
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+/// Squares of deformations that are round-off of where the bodies are: 64 eps of the scene's length, of columns that
+/// are normalised by mass.
+double round_off_of(const Offline& offline) {
+  double mass = 0;
+  for (const ReducedBody& reduced : offline.reduced) mass += reduced.body.inertia.m;
+  return mass * std::pow(64 * PETSC_MACHINE_EPSILON * offline.prepared.extent, 2);
+}
+
 /// Follows the deviation, on every rank alike.
 void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,
             Estimate& estimate) {
@@ -284,10 +292,11 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   if (report.steps == 0) throw RunError("the error cannot be followed from the start");
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
-  const double whole = std::sqrt(size / std::max<double>(1, report.steps));
-  for (double& e : estimate.relative) e = whole > 0 ? e / whole : 0;
   estimate.probes = sums.relative();
-  estimate.deformation = size > 0 ? std::sqrt(error / size) : 0;
+  const auto steps = static_cast<double>(report.steps);
+  const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
+  for (double& e : estimate.relative) e = size > 0 && !nothing ? e / std::sqrt(size / steps) : 0;
+  estimate.deformation = size > 0 && !nothing ? std::sqrt(error / size) : 0;
 }
 
 void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {

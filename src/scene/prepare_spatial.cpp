@@ -63,19 +63,6 @@ Eigen::Matrix3d chord_axes(const Eigen::Vector3d& chord) {
   return axes;
 }
 
-/// The middle of the nodes, where the mesh's own origin is farther from it than ten times the mesh is long; else that
-/// origin. About a far one a body that turns would also travel: its stiffness against turning would stand beside the
-/// arm squared times that of springs that hold it in place, and be round-off of it. Collective.
-Eigen::Vector3d near_origin(const fem::Mesh& mesh) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
-  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  const Eigen::Vector3d middle = (low + high) / 2;
-  if (middle.norm() > 10 * (high - low).norm()) return middle;
-  return Eigen::Vector3d::Zero();
-}
-
 FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh& mesh) {
   FrameChoice choice;
   const auto find = [&](const Place& place) { return spatial_place(body, mesh.structure, mesh.places, place); };
@@ -105,7 +92,7 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
       choice.origin = m.positions[local];
     MPI_Allreduce(MPI_IN_PLACE, choice.origin.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
   }
-  if (choice.kind == fem::ReferenceFrame::Kind::mean_axis) choice.origin = near_origin(mesh.structure.mesh);
+  if (choice.kind == fem::ReferenceFrame::Kind::mean_axis) choice.origin = fem::near_origin(mesh.structure.mesh);
   return choice;
 }
 

@@ -26,13 +26,18 @@ double spin_of(const BodyReport& body, const State& state) {
                              : state.v.segment<3>(body.first_coordinate + 3).norm();
 }
 
-/// Greatest rotation of a node in a field, this rank's part.
-double greatest_rotation(int dimension, const double* values, PetscInt dofs) {
+/// Of a deformation, this rank's part.
+struct Greatest {
+  double turn = 0, shift = 0;  // of a node [rad], [m]
+};
+
+Greatest greatest_of(int dimension, const double* values, PetscInt dofs) {
   const int n = dimension == 2 ? 3 : 6;
-  double most = 0;
-  for (PetscInt i = 0; i + n <= dofs; i += n)
-    most = std::max(
-        most, dimension == 2 ? std::abs(values[i + 2]) : Eigen::Map<const Eigen::Vector3d>(values + i + 3).norm());
+  Greatest most;
+  for (PetscInt i = 0; i + n <= dofs; i += n) {
+    most.shift = std::max(most.shift, Eigen::Map<const VectorXd>(values + i, dimension).norm());
+    most.turn = std::max(most.turn, Eigen::Map<const VectorXd>(values + i + dimension, n - dimension).norm());
+  }
   return most;
 }
 
@@ -58,12 +63,23 @@ petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
   return field;
 }
 
-double slope_of(const BodyReport& body, const State& state) {
-  if (body.first_dof >= 0) return greatest_rotation(body.dimension, state.q.data() + body.first_dof, own_dofs(body));
+Greatest greatest_of(const BodyReport& body, const State& state) {
+  if (body.first_dof >= 0) return greatest_of(body.dimension, state.q.data() + body.first_dof, own_dofs(body));
   const petsc::VecHandle field = deformation_of(body, state);
-  if (!field.get()) return 0;
+  if (!field.get()) return {};
   petsc::Values own(field);
-  return greatest_rotation(body.dimension, own.begin(), own.end - own.first);
+  return greatest_of(body.dimension, own.begin(), own.end - own.first);
+}
+
+/// Diagonal of the box around its nodes. Collective.
+double length_of(const BodyReport& body, MPI_Comm comm) {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(INFINITY), high = -low;
+  for (std::size_t i = 0; i + body.dimension <= body.positions.size(); i += body.dimension)
+    for (int d = 0; d < body.dimension; ++d)
+      low[d] = std::min(low[d], body.positions[i + d]), high[d] = std::max(high[d], body.positions[i + d]);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
+  return body.dimension == 2 ? std::hypot(high[0] - low[0], high[1] - low[1]) : (high - low).norm();
 }
 
 void see_deformation(const Model& model, std::size_t b, const State& state, Seen& seen) {
@@ -102,13 +118,21 @@ std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI
   for (std::size_t b = 0; b < all.size(); ++b) {
     if (model.bodies[b].rigid) continue;
     std::vector<double> slopes;
+    double shift = 0;
     for (const State* state : some) {
       all[b].spin = std::max(all[b].spin, spin_of(model.bodies[b], *state));
-      slopes.push_back(slope_of(model.bodies[b], *state));
+      const Greatest most = greatest_of(model.bodies[b], *state);
+      slopes.push_back(most.turn), shift = std::max(shift, most.shift);
       see_deformation(model, b, *state, all[b]);
     }
+    MPI_Allreduce(MPI_IN_PLACE, &shift, 1, MPI_DOUBLE, MPI_MAX, comm);
     MPI_Allreduce(MPI_IN_PLACE, slopes.data(), static_cast<int>(slopes.size()), MPI_DOUBLE, MPI_MAX, comm);
     const auto steepest = std::max_element(slopes.begin(), slopes.end());
+    constexpr double round_off = 64 * PETSC_MACHINE_EPSILON;
+    if (model.bodies[b].structure && *steepest <= round_off && shift <= round_off * length_of(model.bodies[b], comm)) {
+      all[b] = {0, all[b].spin, 0, 0, 0, 0, 0};  // of where the body is: no deformation
+      continue;
+    }
     all[b].slope = *steepest;
     all[b].sag = sag_of(model.bodies[b], *some[steepest - slopes.begin()]);
     double sums[2] = {all[b].rate, all[b].size};  // of distributed dofs; replicated ones keep their quotient

@@ -102,6 +102,22 @@ TEST_CASE("range: loads against kept frequencies, and the step against what move
   CHECK(said(judged(text_of({.end = "1.5", .step = "5e-2"}), Formulation::vm_md)).count("step"));
 }
 
+// A plate that falls freely does not deform: what its nodes move by in its frame is round-off.
+TEST_CASE("range: nothing is said of deformations that are round-off") {
+  const std::string text = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [8, 4]}}
+    section: {thickness: 1e-3}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 3}
+motion: {end: 0.1, step: 1e-3}
+probes: {tip: {at: plate.p3}}
+)yaml";
+  for (const auto formulation : {Formulation::nlffr, Formulation::vm_md}) CHECK(judged(text, formulation).empty());
+}
+
 TEST_CASE("range: gravity, a shaken ground and pressure have spectra as loads have") {
   // Two modes of a cantilever, to 22.0 rad/s; the excitation at 60 rad/s.
   const auto shaken = [](const std::string& excitation) {

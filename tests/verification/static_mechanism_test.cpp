@@ -116,3 +116,37 @@ probes: {e: {at: b.end}}
     }
   }
 }
+
+// A stiff bar on soft springs, 100 lengths from the origin of its mesh: as at the origin.
+TEST_CASE("equilibrium of a bar in the plane far from its mesh's origin") {
+  const auto bar = [](const std::string& x, Formulation formulation) {
+    const double at = std::stod(x);
+    const History rested = rest(fill(R"yaml(
+bodies:
+  b:
+    mesh: {line: {from: [$at, 30], to: [$end, 30], elements: 4}}
+    section: {A: 4e-4, I: 1.3e-8}
+    material: {E: 7e10, rho: 2700}
+    frame: mean-axis
+    reduction: {modes: 4}
+joints:
+  s1: {type: spring, between: [{body: ground, node: [$at, 29]}, b.start], stiffness: 100}
+  s2: {type: spring, between: [{body: ground, node: [$end, 29]}, b.end], stiffness: 100}
+  s3: {type: spring, between: [{body: ground, node: [$ahead, 30]}, b.start], stiffness: 100}
+loads: {f: {type: force, at: b.end, force: ["1*t", "10*t"]}}
+motion: {end: 1, step: 1}
+probes: {e: {at: b.end}, r: {at: b.start, quantity: rotation}}
+)yaml",
+                                     {{"end", number(at + 1)}, {"ahead", number(at - 1)}, {"at", x}}),
+                                formulation);
+    return std::array{rested["e.x"][0], rested["e.y"][0], rested["r.angle"][0]};
+  };
+  for (const auto formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto near = bar("0", formulation);
+    CHECK(near[1] == Approx(0.0990465).epsilon(1e-5));  // the corotational elements' as well
+    for (const std::string x : {"100", "10000"}) {
+      const auto away = bar(x, formulation);
+      for (int i = 0; i < 3; ++i) CHECK(away[i] == Approx(near[i]).epsilon(1e-7).margin(1e-9));
+    }
+  }
+}
