@@ -34,8 +34,10 @@ Matrix3d axes_along(Matrix3d axes, int kept, const std::vector<Vector3d>& direct
   const auto complete = [&](Eigen::Index i) { axes.col(i) = axes.col((i + 1) % 3).cross(axes.col((i + 2) % 3)); };
   for (const Vector3d& e : directions) {
     const Vector3d within = axes.transpose() * e;
+    const double greatest = within.cwiseAbs().maxCoeff();
     Eigen::Index k = 0;
-    const bool aligned = within.cwiseAbs().maxCoeff(&k) > 1 - 1e-12;
+    while (std::abs(within[k]) < greatest - 1e-9) ++k;  // the first of equal ones, whatever their round-off
+    const bool aligned = greatest > 1 - 1e-12;
     if (aligned && (kept < 0 || kept == k)) kept = static_cast<int>(k);
     if (aligned && kept != k) return axes;
     if (aligned || (kept >= 0 && std::abs(within[kept]) > 1e-6)) continue;
@@ -53,6 +55,23 @@ Matrix3d axes_along(Matrix3d axes, int kept, const std::vector<Vector3d>& direct
     kept = static_cast<int>(k);
   }
   return axes;
+}
+
+std::optional<Vector3d> axis_of_shape(const fem::Mesh& mesh) {
+  Vector3d middle = Vector3d::Zero();
+  for (int i = 0; i < mesh.owned_nodes; ++i) middle += mesh.positions[i];
+  MPI_Allreduce(MPI_IN_PLACE, middle.data(), 3, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  middle /= static_cast<double>(mesh.node_count);
+  Matrix3d spread = Matrix3d::Zero();
+  for (int i = 0; i < mesh.owned_nodes; ++i)
+    spread += (mesh.positions[i] - middle) * (mesh.positions[i] - middle).transpose();
+  MPI_Allreduce(MPI_IN_PLACE, spread.data(), 9, MPI_DOUBLE, MPI_SUM, mesh.comm);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(spread);
+  const Vector3d& moments = principal.eigenvalues();  // ascending
+  if (!(moments[2] > 0)) return {};
+  if (moments[1] <= 1e-12 * moments[2]) return Vector3d(principal.eigenvectors().col(2));
+  if (moments[0] <= 1e-12 * moments[2]) return Vector3d(principal.eigenvectors().col(0));
+  return {};
 }
 
 std::vector<Vector3d> ground_axes(const Scene& scene, const Body& body, const SpatialMesh& mesh) {

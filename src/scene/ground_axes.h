@@ -14,6 +14,13 @@ std::optional<Eigen::Vector3d> line_of(const fem::Mesh& mesh, const PreparedPlac
 /// @param kept  the column that has to stay; -1: none
 Eigen::Matrix3d axes_along(Eigen::Matrix3d axes, int kept, const std::vector<Eigen::Vector3d>& directions);
 
+/// The line of a straight mesh, or the normal of a flat one; nothing for others.
+///
+/// In a frame with this axis what stretches the body and what bends it are forces and moments of their own. In another
+/// one every force of a joint does both, the static responses to three of them differ by the share of stretching alone,
+/// (thickness / length)^2, and so do their derivatives, which are then made of round-off. Collective.
+std::optional<Eigen::Vector3d> axis_of_shape(const fem::Mesh& mesh);
+
 /// Axes of the joints by which the ground holds the body in some directions only, in mesh axes: of edges, then of
 /// nodes.
 ///

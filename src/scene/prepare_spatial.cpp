@@ -84,7 +84,11 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
     choice = {fem::ReferenceFrame::Kind::pinned, a.node, b.node, a.x, chord_axes(b.x - a.x)};
   }
   const bool pinned = choice.kind == fem::ReferenceFrame::Kind::pinned;
-  if (!body.rigid) choice.axes = axes_along(choice.axes, pinned ? 0 : -1, ground_axes(scene, body, mesh));
+  if (!body.rigid) {
+    std::vector<Eigen::Vector3d> directions = ground_axes(scene, body, mesh);
+    if (const auto axis = axis_of_shape(mesh.structure.mesh)) directions.push_back(*axis);
+    choice.axes = axes_along(choice.axes, pinned ? 0 : -1, directions);
+  }
   if (choice.kind == fem::ReferenceFrame::Kind::clamped) {
     const fem::Mesh& m = mesh.structure.mesh;
     choice.origin.setZero();
