@@ -95,27 +95,28 @@ PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal size, PetscRea
   });
 }
 
-/// Solves; what keeps a linear solver from its factor but is not the search's fault is thrown. @return  fault
-std::string solve(SNES snes, Vec U, Context& context) {
-  std::string why;
+/// Solves; what keeps a linear solver from its factor but is not the search's fault is thrown.
+void solve(SNES snes, Vec U, Context& context, NewtonSearch& search) {
   try {
     context.guard.check(SNESSolve(snes, nullptr, U));
   } catch (const petsc::Error& error) {
     if (!is_singular(error.code())) throw;
-    why = "singular tangent";
+    search.singular = true;
   }
   KSP ksp = nullptr;
   SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-  PetscInt iterations = 0;
   check(SNESGetKSP(snes, &ksp));
   check(SNESGetConvergedReason(snes, &reason));
-  check(SNESGetIterationNumber(snes, &iterations));
-  if (const petsc::FactorFault fault = petsc::factor_fault(ksp); !fault.text.empty() && !fault.singular)
-    throw RunError(fault.text);
-  if (context.too_far) return "Newton's method turns a body by more than half a turn";
-  if (why.empty() && reason < 0 && !context.stands && reason != SNES_DIVERGED_MAX_IT)
-    why = SNESConvergedReasons[reason];
-  return why.empty() ? "" : fmt::format("{} after {} iterations (options -static_snes_...)", why, iterations);
+  check(SNESGetIterationNumber(snes, &search.iterations));
+  const petsc::FactorFault fault = petsc::factor_fault(ksp);
+  if (!fault.text.empty() && !fault.singular) throw RunError(fault.text);
+  search.singular = search.singular || fault.singular;
+  search.far = context.far;
+  if (context.too_far)
+    search.fault = "Newton's method turns a body by more than half a turn";
+  else if (search.singular || (reason < 0 && !context.stands && reason != SNES_DIVERGED_MAX_IT))
+    search.fault = fmt::format("{} after {} iterations (options -static_snes_...)",
+                               search.singular ? "singular tangent" : SNESConvergedReasons[reason], search.iterations);
 }
 
 }  // namespace
@@ -127,7 +128,7 @@ NewtonSearch newton(const System& system, double t, Vec U, Vec V, Vec before, Ma
   Context context{system, t, V, A, before, places, terms ? terms.get() : nullptr, {}, {}, false, false, false, {}};
   petsc::SnesHandle snes;
   KSP ksp = nullptr;
-  SNESLineSearch search = nullptr;
+  SNESLineSearch steps = nullptr;
   check(SNESCreate(system.comm(), snes.out()));
   check(SNESSetOptionsPrefix(snes, "static_"));
   check(SNESSetFunction(snes, F, residual, &context));
@@ -135,16 +136,14 @@ NewtonSearch newton(const System& system, double t, Vec U, Vec V, Vec before, Ma
   check(SNESSetTolerances(snes, 0, 1e-11, 1e-11, 100, 10000));
   check(SNESSetConvergenceTest(snes, converged, &context, nullptr));
   check(SNESSetDivergenceTolerance(snes, -1));  // the first step stretches slender bodies by (L/r)^2
-  check(SNESGetLineSearch(snes, &search));
-  check(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+  check(SNESGetLineSearch(snes, &steps));
+  check(SNESLineSearchSetType(steps, SNESLINESEARCHBASIC));
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
   petsc::check_options(SNESSetFromOptions(snes), "static_");
-  NewtonSearch done;
-  done.fault = solve(snes, U, context);
-  done.far = context.far;
-  check(SNESGetIterationNumber(snes, &done.iterations));
-  return done;
+  NewtonSearch search;
+  solve(snes, U, context, search);
+  return search;
 }
 
 }  // namespace floe::dynamics

@@ -11,9 +11,10 @@ constexpr double farthest_turn = 1.2 * M_PI;  ///< of a body in one search [rad]
 /// What came of Newton's method.
 struct NewtonSearch {
   PetscInt iterations = 0;
-  bool far = false;  ///< a step turned by more than a right angle
-  std::string
-      fault;  ///< why it failed; empty where it ended, or came no further: the next step tells what that is worth
+  bool singular = false;  ///< it failed because a tangent has no inverse
+  bool far = false;       ///< a step turned by more than a right angle
+  /// Why it failed; empty where it ended, or came no further: the next step tells what that is worth.
+  std::string fault;
 };
 
 /// F(t, U, V, 0) = 0 from U by SNES, prefix static_, with full steps. It also ends where nothing but round-off is left

@@ -348,6 +348,11 @@ UNUSUAL = [
     *(Case(f"static of a pendulum, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "2", "-o", "out"], 0,
            lines=0, shows=(" -1\n",), never=("unstable", "no equilibrium"), scene=pendulum("-9.81"),
            check=files("finished", 3)) for f in ("vm+md", "nlffr", "cfr")),
+    Case("static of what nothing holds, beyond 1000 unknowns", ["static", "scene.yaml", "--formulation", "nlffr", "-o", "out"],
+         1, ("no equilibrium at t = ", "(body p), and the loads drive it on that way without end"), lines=1, ranks=(1,),
+         scene="bodies: {p: {mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [16, 10]}}, section: {thickness: "
+               "5e-3}, material: {E: 2.1e11, nu: 0.3, rho: 7850}}}\nloads: {f: {type: force, at: p.p3, force: [0, 0, 1]}}\n",
+         check=files("failed", 0, "no equilibrium")),
     Case("static with joints that repeat", ["static", "scene.yaml", "-o", "out"], 1,
          ("constraints repeat one another (joint ",), never=("nothing holds",), lines=1, scene=scene(TRIANGLE)),
     *(Case(f"static of a column beyond its critical load, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1",

@@ -463,7 +463,7 @@ probes: {t: {at: p.p3}}
     return Eigen::MatrixXd(tip * R);
   };
   const Eigen::MatrixXd along = motion(Eigen::Matrix3d::Identity());
-  for (const Eigen::Vector3d turn :
+  for (const Eigen::Vector3d& turn :
        {Eigen::Vector3d(0.9, 1.2, -1.4), Eigen::Vector3d(0, 0, 0.3), Eigen::Vector3d(0.7, 0, 0)}) {
     INFO("turned by " << turn.transpose());
     CHECK((motion(math::rotation(turn)) - along).cwiseAbs().maxCoeff() < 1e-6 * along.cwiseAbs().maxCoeff());
