@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
@@ -117,6 +118,7 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
   pointers.push_back(nullptr);
   int count = static_cast<int>(words.size());
   char** arguments = pointers.data();
+  setenv("OMPI_MCA_sharedfp", "^sm", 0);  // runs without mpirun share its file in /tmp: opening ours failed once
   if (SlepcInitialize(&count, &arguments, nullptr, nullptr)) return 1;
   for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
   const int code = guarded([&] {

@@ -206,8 +206,8 @@ bool also_of_full_order(const OutOfRange& one) { return one.what == "slope" || o
 
 std::string sag_text(const std::string& name, const std::string& what, double sag, double limit) {
   return fmt::format(
-      "body {}, {}: {:.2g} % of the deflection is within single cells (limit {:.2g} %), which are too soft "
-      "in that: refine the mesh",
+      "body {}, {}: {:.2g} % of the deflection is within single cells (limit {:.2g} %), which are wrong in "
+      "that: refine the mesh",
       name, what, 100 * sag, 100 * limit);
 }
 

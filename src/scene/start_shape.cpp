@@ -63,8 +63,8 @@ std::string expected_to_meet(const Prepared& prepared, Formulation formulation, 
   };
   const auto& places = prepared.joints[joint];
   if (!is_reduced(formulation) || std::none_of(places.begin(), places.end(), shaped)) return "the same point";
-  return "the same point, and columns that can take the deformation at the start there (attachment: joints, or more "
-         "modes or derivatives)";
+  return "the same point; the deformation at the start counts there as far as columns can take it (attachment: joints, "
+         "or more modes or derivatives)";
 }
 
 }  // namespace floe::scene
