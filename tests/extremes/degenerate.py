@@ -92,6 +92,49 @@ def mechanism_in_space(floe: Floe, formulation, skew):
     return float("nan")
 
 
+def first_rest(start, k):
+    """Where a pendulum of 4.905 N m weight and a spring that is loose at the start comes to rest if it creeps [rad]."""
+    def torque(angle):
+        return -4.905 * math.cos(angle) - k * (angle - start)
+    way = math.copysign(1e-3, torque(start))
+    low, high = start, start + way
+    while torque(high) * way > 0:
+        low, high = high, high + way
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if torque(middle) * way > 0 else (low, middle)
+    return (low + high) / 2
+
+
+def hanging(floe: Floe, start, k, formulation):
+    """A stiff pendulum, let down from an angle; a spring at its hinge may hold it on the way."""
+    scene = pendulum(elements=4, EA=1e9)
+    scene["bodies"]["rod"]["section"]["EI"] = 1e6
+    scene["bodies"]["rod"]["initial"] = {"angle": start}
+    if k > 0:
+        scene["joints"]["spring"] = {"type": "spring", "between": ["ground", "rod.start"], "torsional_stiffness": k}
+    end = floe.static(scene, formulation, "--at", "1", "--steps", "1").vector("tip")[-1]
+    angle = first_rest(start, k)
+    return float(numpy.hypot(end[0] - math.cos(angle), end[1] - math.sin(angle)))
+
+
+def hanging_in_space(floe: Floe, start, formulation):
+    """The same without a spring, about an axis askew."""
+    z, x = numpy.array([0.36, -0.48, 0.8]), numpy.array([0.8, 0.6, 0.0])
+    y = numpy.cross(z, x)
+    along = math.cos(start) * x + math.sin(start) * y
+    scene = spatial_cantilever(0.02, 0.02, 4, modes=4, E=7e10, rho=2700, gravity=(-9.81 * y).tolist())
+    scene["bodies"]["beam"]["mesh"]["line"]["to"] = along.tolist()
+    scene["bodies"]["beam"]["section"]["orientation"] = z.tolist()
+    scene["joints"] = {"hinge": {"type": "revolute", "between": ["ground", "beam.start"], "axis": z.tolist()}}
+    scene["probes"] = {"tip": {"at": "beam.end", "quantity": "position"}}
+    end = floe.static(scene, formulation, "--at", "1", "--steps", "1").vector("tip")[-1]
+    return float(numpy.linalg.norm(end + y))
+
+
+STARTS = (-3.0, -1.2, -0.3, -0.02, 0.0, 1e-3, 0.02, 0.3)
+
+
 def far_bar(arm, k, k_turn, rigid):
     """A bar on a bushing, its mesh so far from the mesh's origin, under 10 N m about z."""
     start = [arm, 0.3 * arm, 0.1 * arm]
@@ -241,6 +284,12 @@ STUDIES = [
            for k in (1e-30, 1e-12, 1e-6, 1, 1e6, 1e12, 1e30)] +
           [Point(f"{k:g}, {f}", lambda floe, k=k, f=f: flexible_on_spring(floe, k, f), 1e-6, quick=k == 1e-6)
            for f in ("nlffr", "vm+md") for k in (1e-9, 1e-6, 1, 1e3)]),
+    Study("pendulums at rest", "let down from -3 to 0.3 rad, springs of 0 to 100 N m/rad", "where a slow rod comes to rest",
+          [Point(f"{a:g} rad, {k:g} N m/rad, {f}", lambda floe, a=a, k=k, f=f: hanging(floe, a, k, f), 1e-5,
+                 quick=(a, k, f) in ((0.0, 0.0, "nlffr"), (1e-3, 1e-3, "vm+md"), (-0.3, 0.0, "cfr")))
+           for f in ("nlffr", "vm+md", "cfr") for a in STARTS for k in (0.0, 1e-3, 1.0, 100.0)] +
+          [Point(f"in space, {a:g} rad, {f}", lambda floe, a=a, f=f: hanging_in_space(floe, a, f), 1e-6,
+                 quick=(a, f) == (0.0, "nlffr")) for f in ("nlffr", "vm+md") for a in STARTS]),
     Study("a mechanism", "no spring", "a refusal",
           [Point(f, lambda floe, f=f: mechanism(floe, f), None, "nothing holds", quick=True)
            for f in ("nlffr", "vm+md", "cfr")] +
