@@ -46,8 +46,10 @@ class LostInRoundOff : public RunError {
 /// shape of a body that turns at constant speed.
 ///
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
-/// will hold the configuration is not stressed yet, steps with K + s M, s falling to nothing from where a step is
-/// short, come first (pseudo-transient continuation; Kelley and Keyes 1998).
+/// will hold the configuration is not stressed yet, where a step turns by more than a right angle and where the search
+/// fails, steps with K + s M come first, s falling to nothing from where a step is short, none of them beyond a radian
+/// or uphill (pseudo-transient continuation; Kelley and Keyes 1998): of several equilibria the one that a slow damped
+/// motion comes to.
 ///
 /// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6
 /// of 1 rad in every turn, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
