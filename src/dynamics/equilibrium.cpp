@@ -22,6 +22,7 @@ namespace {
 
 /// Null vectors of the static tangent.
 Undetermined open_directions(const System& system, double t, Vec U, Vec V) {
+  if (!can_look(system)) return {};
   const petsc::VecHandle A = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   system.tangent(t, U, V, A, {1, 0, 0}, J);
@@ -148,7 +149,7 @@ void check_place(const System& system, double t, Vec before, Vec U) {
 NewtonSearch search_from(const System& system, double t, Vec U, Vec V, Vec before) {
   const petsc::MatHandle J = system.create_tangent();
   NewtonSearch search = newton(system, t, U, V, before, J);
-  if (search.singular) throw unheld(t, "");
+  if (search.singular && search.iterations == 0) throw unheld(t, "");
   if (!search.fault.empty()) throw RunError(none_at(t, search.fault));
   check_place(system, t, before, U);  // where joints are met otherwise, no more steps are of use
   search.iterations += make_sure(system, t, U, V, before, J);

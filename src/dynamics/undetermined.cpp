@@ -86,9 +86,12 @@ Eigen::MatrixXd repeated_rows(const Eigen::MatrixXd& J, const std::vector<char>&
 
 }  // namespace
 
+bool can_look(const System& system) {
+  return !system.coordinates().owners().empty() && system.coordinates().global_size() <= 1000;
+}
+
 Undetermined null_vectors(const System& system, Mat J) {
-  const Coordinates& coordinates = system.coordinates();
-  if (coordinates.owners().empty() || coordinates.global_size() > 1000) return {};
+  if (!can_look(system)) return {};
   const Eigen::MatrixXd dense = everywhere(system, J);
   if (!dense.allFinite()) return {};
   const Eigen::MatrixXd J_scaled = scaled(dense);

@@ -13,7 +13,10 @@ struct Undetermined {
   bool any() const { return loose || repeated; }
 };
 
-/// Nothing where no unknown was named or the system is too large to look. The same on every rank. Collective. Gathers J
+/// Whether unknowns are named, and not too many for null_vectors().
+bool can_look(const System& system);
+
+/// Nothing where it cannot look. The same on every rank. Collective. Gathers J
 /// where it has at most 1000 rows: O(n^3).
 Undetermined null_vectors(const System& system, Mat J);
 
