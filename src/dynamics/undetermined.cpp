@@ -13,8 +13,6 @@
 namespace floe::dynamics {
 namespace {
 
-using petsc::check;
-
 /// D_1 J D_2 with rows and columns of greatest entry one. Source: Ruiz 2001, RAL-TR-2001-034.
 Eigen::MatrixXd scaled(Eigen::MatrixXd J) {
   const auto root = [](double greatest) { return greatest > 0 ? 1 / std::sqrt(greatest) : 1.0; };

@@ -116,7 +116,7 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
       const Eigen::Index own = 6 * static_cast<Eigen::Index>(i);
       T.block<6, 6>(own, own).setZero();
       T.block<3, 3>(own + 3, own + 3) = spin(axis);
-      T.block<6, 6>(own, 6 * cell.line[i]) =
+      T.block<6, 6>(own, 6 * static_cast<Eigen::Index>(cell.line[i])) =
           line_arm(mesh.positions[corners[i]] - mesh.positions[nodes[cell.line[i]]], axis);
       continue;
     }

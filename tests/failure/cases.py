@@ -29,7 +29,7 @@ class Case:
     prepare: Optional[Callable] = None  # changes the folder before the run
     environment: dict = dataclasses.field(default_factory=dict)
     file_size: Optional[int] = None  # no file grows beyond so many KiB
-    ranks: tuple = (1, 4)
+    ranks: tuple = (1, 2)  # 2: on several
     stdout: str = "stdout"  # where it goes, from the folder
     signal: Optional[int] = None  # is sent when rows are written
     check: Optional[Callable] = None

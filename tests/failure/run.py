@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Every bad input and every fault at the command line: exit code, message (once, on stderr), files, no hang.
 
-run.py FLOE RANKS [NAME...]: runs the cases of cases.py (those whose name contains NAME) on so many ranks.
+run.py FLOE RANKS [NAME...]: runs the cases of cases.py (those whose name contains NAME) on so many ranks. RANKS may be
+4:0/2, the first of every two cases, and 2:1/2, the others: each on one rank and on several, in half the time.
 """
 import concurrent.futures
 import os
@@ -106,8 +107,10 @@ def attempt(case, floe, ranks):
 
 
 def main():
-    floe, ranks, wanted = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), sys.argv[3:]
-    chosen = [c for c in cases.CASES if ranks in c.ranks and (not wanted or any(w in c.name for w in wanted))]
+    floe, wanted = pathlib.Path(sys.argv[1]).resolve(), sys.argv[3:]
+    ranks, _, part = sys.argv[2].partition(":")
+    ranks, (one, of) = int(ranks), map(int, (part or "0/1").split("/"))
+    chosen = [c for c in cases.CASES if min(ranks, 2) in c.ranks and (not wanted or any(w in c.name for w in wanted))][one::of]
     assert len({c.name for c in chosen}) == len(chosen) > 0
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         failed = 0
