@@ -109,9 +109,11 @@ void read_orientation(const InpBlock& block, InpReading& reading) {
   if (lines.size() == 2) {
     const auto turn = numbers(lines[1].second, lines[1].first, 1, 2, "an axis (1, 2, 3) and an angle", faults);
     if (!turn) return;
-    orientation.axis = static_cast<int>((*turn)[0]);
+    const double axis = turn->front();
     orientation.angle = turn->size() > 1 ? (*turn)[1] : 0.0;
-    if (orientation.axis != (*turn)[0] || orientation.axis < 1 || orientation.axis > 3)
+    if (axis == 1 || axis == 2 || axis == 3)
+      orientation.axis = static_cast<int>(axis);
+    else
       faults.add(lines[1].first, "expected an axis (1, 2, 3) and an angle, found " + quoted(lines[1].second));
   }
   reading.deck.orientations.push_back(orientation);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -91,7 +92,9 @@ Extent shape_of(hid_t dataset) {
 
 }  // namespace
 
-void fail(const std::string& dataset, const std::string& expected, const std::string& found) {
+void fail(const std::string& dataset, const std::string& expected, std::string found) {
+  std::replace_if(
+      found.begin(), found.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
   throw Fault(fmt::format("dataset '{}': expected {}, found {}", dataset, expected, found));
 }
 

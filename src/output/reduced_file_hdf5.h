@@ -61,6 +61,6 @@ std::string read_text(hid_t file, const std::string& name);
 /// @throws Fault  there is none
 std::int64_t read_flag(hid_t file, const std::string& name);
 
-[[noreturn]] void fail(const std::string& dataset, const std::string& expected, const std::string& found);
+[[noreturn]] void fail(const std::string& dataset, const std::string& expected, std::string found);
 
 }  // namespace floe::output

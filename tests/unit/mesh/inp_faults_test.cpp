@@ -54,6 +54,12 @@ TEST_CASE("nodes and elements that are wrong are refused with their lines") {
   CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\nm\n" + section), Contains("holds 'm', which is no set"));
 }
 
+TEST_CASE("orientations turn about axis 1, 2 or 3") {
+  for (const std::string axis : {"0", "4", "1.5", "-1", "3e9", "1e300"})
+    CHECK_THAT(said(nodes + elements + section + "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n" + axis + ", 30\n"),
+               Contains("bad.inp:16: expected an axis (1, 2, 3) and an angle, found '" + axis));
+}
+
 TEST_CASE("masses that are none are refused with their lines") {
   const auto with_masses = [](const std::string& list, const std::string& mass) {  // line 14 on
     return said(nodes + elements + section + "*ELEMENT, TYPE=MASS, ELSET=P\n" + list + "*MASS, ELSET=P\n" + mass +

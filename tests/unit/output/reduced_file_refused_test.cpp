@@ -137,6 +137,15 @@ TEST_CASE("a reduced body that was changed by hand is refused by the dataset's n
   }
 }
 
+TEST_CASE("line ends in what a reduced body holds do not break the message") {
+  Scratch scratch;
+  const auto path = scratch / "arm.h5";
+  ReducedBodyFile file = sample_body(2, 5);
+  file.columns.front().kind = "mode\n=";
+  CHECK_THROWS_WITH(write_reduced_body(PETSC_COMM_WORLD, path, file, true),
+                    Catch::EndsWith("expected mode, derivative or attachment, found 'mode?='"));
+}
+
 TEST_CASE("files of another kind are refused") {
   Scratch scratch;
   check_refused(scratch / "missing.h5", "does not exist");
