@@ -15,8 +15,12 @@ using petsc::check;
 
 namespace {
 
-/// Columns whose new part is below this share wait for the next pass: Cholesky of a Gram matrix does not see it well.
-constexpr double weak = 1e-2;
+/// Columns whose new part is below this share wait for the next pass: of a share s, Cholesky of a Gram matrix sees all
+/// but eps / s^2.
+constexpr double weak = 1e-4;
+
+/// A pass that finds columns no further from orthogonal leaves them so to round-off.
+constexpr double nearly = 1e-3;
 
 /// V'MV of all ranks, the same on all.
 Eigen::MatrixXd gram(const fem::Structure& structure, const fem::FieldRows& X) {
@@ -62,7 +66,7 @@ Step orthogonalise(const Eigen::MatrixXd& S, double tolerance, std::vector<Colum
       if (along == 0) continue;
       t -= along * step.T.col(j);
       common += along * along;
-      step.done = step.done && std::abs(along) < 1e-8;
+      step.done = step.done && std::abs(along) < nearly;
     }
     const double share = std::sqrt(std::max(0.0, 1 - common));
     if (share < weak) {
