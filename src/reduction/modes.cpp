@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "block_lanczos.h"
 #include "canonical_modes.h"
 #include "floe/fem/flat_body.h"
 #include "floe/petsc/factorisation.h"
@@ -21,8 +22,8 @@ using petsc::check;
 namespace {
 
 /// A rough field that depends on the dofs' original numbers only, not on ranks, zero at the conditions: the start of
-/// the Krylov space.
-petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& conditions) {
+/// the Krylov space, or one of them.
+petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& conditions, int number = 0) {
   petsc::VecHandle x = fem::field(structure);
   PetscInt first = 0, end = 0;
   double* values = nullptr;
@@ -31,8 +32,9 @@ petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& c
   const double length = fem::extent(structure);  // rotations of the size that displacements give, in any units
   for (PetscInt i = 0; i < end - first; ++i) {
     const bool rotation = i % structure.dofs_per_node >= structure.dimension();
-    values[i] = (std::sin(12.9898 * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5) *
-                (rotation ? 1 / length : 1);
+    values[i] =
+        (std::sin((12.9898 + 1.6180 * number) * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5) *
+        (rotation ? 1 / length : 1);
   }
   check(VecRestoreArrayWrite(x, &values));
   fem::hold(x, conditions);
@@ -117,16 +119,17 @@ void precondition(EPS eps, double shift, const fem::Structure& structure, const 
   check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, held)));
 }
 
-petsc::EpsHandle solver(Mat K, Mat M, double shift) {
+petsc::EpsHandle solver(Mat K, Mat M, double shift, double tolerance) {
   petsc::EpsHandle eps;
   ST st = nullptr;
   KSP ksp = nullptr;
   PC pc = nullptr;
+  register_block_lanczos();
   check(EPSCreate(PetscObjectComm(reinterpret_cast<PetscObject>(K)), eps.out()));
   check(EPSSetOptionsPrefix(eps, "modes_"));
   check(EPSSetOperators(eps, K, M));
   check(EPSSetProblemType(eps, EPS_GHEP));
-  check(EPSSetTolerances(eps, 1e-10, PETSC_DEFAULT));
+  check(EPSSetTolerances(eps, tolerance, PETSC_DEFAULT));
   check(EPSSetTarget(eps, shift));
   check(EPSSetWhichEigenpairs(eps, EPS_TARGET_MAGNITUDE));
   check(EPSSetPurify(eps, PETSC_FALSE));
@@ -141,12 +144,31 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift) {
   return eps;
 }
 
+/// Takes blocks where K - s M is factored, which solves for many right-hand sides at once, and the body is not small;
+/// iterations solve one by one.
+void prefer_blocks(EPS eps, PetscInt count, PetscInt available) {
+  ST st = nullptr;
+  EPSWhich which = EPS_TARGET_MAGNITUDE;
+  PetscBool inverts = PETSC_FALSE, direct = PETSC_FALSE;
+  check(EPSGetST(eps, &st));
+  check(EPSGetWhichEigenpairs(eps, &which));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSINVERT, &inverts));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver_of(eps)), KSPPREONLY, &direct));
+  const bool chosen = user_sets("modes_eps_type") || user_sets("modes_eps_n") || user_sets("modes_eps_mpd");
+  if (chosen || which != EPS_TARGET_MAGNITUDE || !inverts || !direct || !factors(solver_of(eps))) return;
+  if (4 * block_lanczos_space(count) > available) return;
+  check(EPSSetType(eps, block_lanczos));
+  check(EPSMonitorCancel(eps));  // options set them again
+  check(EPSSetFromOptions(eps));
+}
+
 /// How many vectors the Krylov space has: three more than SLEPc's default, each of which makes the last pair's residual
 /// ten times smaller or more, so that no restart is needed (nine solves for a mode more). Other solvers choose
 /// themselves.
 PetscInt subspace_of(EPS eps, PetscInt count, PetscInt available) {
   const PetscInt vectors = std::max(2 * count, count + 15) + 3;
   PetscBool krylov = PETSC_FALSE;
+  if (block_size(eps) > 1) return std::min(block_lanczos_space(count), available);
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(eps), EPSKRYLOVSCHUR, &krylov));
   return krylov && 2 * vectors < available ? vectors : PETSC_DEFAULT;
 }
@@ -227,11 +249,11 @@ void ModeSolver::create(int count) {
   M_ = fem::mass(structure_, holding_.held);
   if (!shares) K_ = fem::stiffness(structure_, holding_.held);
   const double shift = moves ? -low_frequency(structure_, statics_, M_) : 0;
-  eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift);
+  // Pairs of K's factor need not be much better than that is of K.
+  const double tolerance = shares ? std::clamp(1e-2 * statics_.factor_error(), 1e-10, 1e-8) : 1e-10;
+  eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift, tolerance);
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
-  if (!user_sets("modes_eps_n") && !user_sets("modes_eps_mpd"))
-    check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
   exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
   if (!factors(solver_of(eps_)))
     precondition(eps_, shift, structure_, frame_, holding_.held);
@@ -239,16 +261,20 @@ void ModeSolver::create(int count) {
     share_factor(eps_, M_, statics_);
   else if (statics_.refines())
     refine(eps_, exact_, M_, shift, structure_, holding_.held);
+  prefer_blocks(eps_, count, available());
+  if (!user_sets("modes_eps_n") && !user_sets("modes_eps_mpd"))
+    check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
 }
 
 PetscInt ModeSolver::available() const {
+  if (available_ >= 0) return available_;
   const petsc::VecHandle masses = fem::field(structure_);
   check(MatGetDiagonal(fem::mass(structure_, {}), masses));
   fem::hold(masses, holding_.held);
   petsc::Values own(masses);
   PetscInt moving = std::count_if(own.begin(), own.begin() + structure_.owned_dofs(), [](double m) { return m > 0; });
   MPI_Allreduce(MPI_IN_PLACE, &moving, 1, MPIU_INT, MPI_SUM, structure_.mesh.comm);
-  return moving - static_cast<PetscInt>(holding_.left.cols());
+  return available_ = moving - static_cast<PetscInt>(holding_.left.cols());
 }
 
 namespace {
@@ -258,9 +284,10 @@ Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& hel
             const Statics& statics, int count, int wanted) {
   std::vector<Vec> deflated(rigid.begin(), rigid.end());
   if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
-  const petsc::VecHandle first = start(structure, held);
-  Vec initial[1] = {first};
-  check(EPSSetInitialSpace(eps, 1, initial));
+  Columns first;
+  for (int i = 0; i < block_size(eps); ++i) first.push_back(start(structure, held, i));
+  std::vector<Vec> initial(first.begin(), first.end());
+  check(EPSSetInitialSpace(eps, static_cast<PetscInt>(initial.size()), initial.data()));
   solve_pairs(eps, statics);
   check_converged(eps, count);
   PetscInt converged = 0;

@@ -16,13 +16,14 @@ struct Modes {
 /// Finds the lowest modes of the body as `holding.held` holds it; rigid motions that are left free are deflated, not
 /// counted. More modes may be asked for later: the factorisation serves again.
 ///
-/// EPS prefix modes_ (default: Krylov-Schur, shift-invert at 0, or just below it for bodies that can still move
-/// rigidly, Cholesky by MUMPS). At shift 0 under the conditions of `statics`, the solver of `statics` serves with its
-/// factor and its options -derivatives_...; any option -modes_st_... gives the EPS a solver of its own. The sign of
-/// each mode makes the first translation above half the greatest one positive. Where frequencies repeat, all modes of
-/// one are found, and combined by a rule of which neither ranks nor the EPS know (the first, say, moves along y where
-/// the second stands still); then those beyond the count are left out.
-/// Modes of a flat body move in its plane or out of it (fem::separate).
+/// EPS prefix modes_ (default: shift-invert at 0, or just below it for bodies that can still move rigidly, Cholesky by
+/// MUMPS; Lanczos with blocks of eight vectors, -modes_eps_type block-lanczos, or Krylov-Schur where the body is small
+/// or its factor so spoilt by round-off that solves iterate). At shift 0 under the conditions of `statics`, the solver
+/// of `statics` serves with its factor and its options -derivatives_...; any option -modes_st_... gives the EPS a
+/// solver of its own. The sign of each mode makes the first translation above half the greatest one positive. Where
+/// frequencies repeat, all modes of one are found, and combined by a rule of which neither ranks nor the EPS know (the
+/// first, say, moves along y where the second stands still); then those beyond the count are left out. Modes of a flat
+/// body move in its plane or out of it (fem::separate).
 class ModeSolver {
  public:
   /// @param statics  a solver of the same body (also estimates the shift of a free body)
@@ -45,6 +46,7 @@ class ModeSolver {
   const Statics& statics_;
   petsc::MatHandle K_, M_, exact_;  ///< K_ only where the one of `statics` does not serve; exact_ without round-off
   petsc::EpsHandle eps_;
+  mutable PetscInt available_ = -1;  ///< once it is known
 };
 
 /// The modes of a ModeSolver that is asked once. Collective.

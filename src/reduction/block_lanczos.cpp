@@ -1,0 +1,425 @@
+#include "block_lanczos.h"
+
+#include <slepc/private/epsimpl.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/error.h"
+
+namespace floe::reduction {
+namespace {
+
+constexpr PetscInt usual_block = 8;
+constexpr double orthogonal = 1e-12;  // enough for residuals of 1e-10
+
+struct Data {
+  PetscInt block = usual_block;
+  BV W = nullptr;      // the block that comes next
+  BV P = nullptr;      // M times it
+  BV fixed = nullptr;  // what is deflated
+  Mat M = nullptr;
+};
+
+Data* data_of(EPS eps) { return static_cast<Data*>(eps->data); }
+
+// A view of dense numbers that all ranks have alike.
+PetscErrorCode view(Eigen::MatrixXd& A, Mat* matrix) {
+  PetscFunctionBegin;
+  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, A.rows(), A.cols(), A.data(), matrix));
+  PetscFunctionReturn(0);
+}
+
+// Y <- Y + factor X A
+PetscErrorCode add_product(BV Y, double factor, BV X, Eigen::MatrixXd& A) {
+  Mat matrix;
+
+  PetscFunctionBegin;
+  PetscCall(view(A, &matrix));
+  PetscCall(BVMult(Y, factor, 1, X, matrix));
+  PetscCall(MatDestroy(&matrix));
+  PetscFunctionReturn(0);
+}
+
+// W <- W A, A square
+PetscErrorCode multiply(BV W, Eigen::MatrixXd& A) {
+  Mat matrix;
+
+  PetscFunctionBegin;
+  PetscCall(view(A, &matrix));
+  PetscCall(BVMultInPlace(W, matrix, 0, A.cols()));
+  PetscCall(MatDestroy(&matrix));
+  PetscFunctionReturn(0);
+}
+
+// A = X'Y
+PetscErrorCode dot(BV X, BV Y, Eigen::MatrixXd& A) {
+  PetscInt rows, columns;
+  Mat matrix;
+
+  PetscFunctionBegin;
+  PetscCall(BVGetActiveColumns(X, nullptr, &rows));
+  PetscCall(BVGetActiveColumns(Y, nullptr, &columns));
+  A.setZero(rows, columns);
+  if (rows == 0) PetscFunctionReturn(0);
+  PetscCall(view(A, &matrix));
+  PetscCall(BVDot(Y, X, matrix));
+  PetscCall(MatDestroy(&matrix));
+  PetscFunctionReturn(0);
+}
+
+// T with T'G T = 1 up to the round-off of G, and R with T R = 1. Directions that W lacks, up to round-off, have no row
+// in R and a T of their scaled noise.
+struct Normaliser {
+  Eigen::MatrixXd T, R;
+};
+
+Normaliser normaliser(const Eigen::MatrixXd& G) {
+  const Eigen::Index b = G.cols();
+  const Eigen::VectorXd size = G.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd inverse = (size.array() > 0).select(size.cwiseInverse(), 0);
+  const Eigen::MatrixXd scaled = inverse.asDiagonal() * (G + G.transpose()) / 2 * inverse.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(scaled);
+  const double least = 1e-15 * double(b) * std::max(pairs.eigenvalues()[b - 1], 1e-300);
+  const Eigen::VectorXd root = pairs.eigenvalues().cwiseMax(least).cwiseSqrt();
+  const Eigen::MatrixXd& Q = pairs.eigenvectors();
+  return {inverse.asDiagonal() * Q * root.cwiseInverse().asDiagonal(),
+          root.asDiagonal() * Q.transpose() * size.asDiagonal()};
+}
+
+// Columns that are zero become random ones, of which W had nothing: *some, and their rows of R are zero.
+PetscErrorCode replace_zeros(BV W, const Eigen::MatrixXd& G, Eigen::MatrixXd& R, bool* some) {
+  PetscFunctionBegin;
+  *some = false;
+  for (Eigen::Index j = 0; j < G.cols(); ++j) {
+    if (G(j, j) > 0) continue;
+    PetscCall(BVSetRandomColumn(W, static_cast<PetscInt>(j)));
+    R.row(j).setZero();
+    *some = true;
+  }
+  PetscFunctionReturn(0);
+}
+
+// Makes W orthonormal, also to the active columns of V and to what is deflated; P = M W. W before = V ... + W R.
+PetscErrorCode orthonormalise(EPS eps, Eigen::MatrixXd& R) {
+  Data* data = data_of(eps);
+  const PetscInt b = data->block;
+  Eigen::MatrixXd G, H, D;
+
+  PetscFunctionBegin;
+  R.setIdentity(b, b);
+  for (int pass = 0; pass < 8; ++pass) {
+    bool replaced;
+    PetscCall(BVMatMult(data->W, data->M, data->P));
+    PetscCall(dot(data->P, data->W, G));
+    PetscCheck(G.allFinite(), PetscObjectComm((PetscObject)eps), PETSC_ERR_FP, "A block of vectors is not finite");
+    PetscCall(replace_zeros(data->W, G, R, &replaced));
+    if (replaced) continue;
+    PetscCall(dot(eps->V, data->P, H));
+    if (data->fixed) PetscCall(dot(data->fixed, data->P, D));
+    const auto greatest = [](const Eigen::MatrixXd& A) { return A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0; };
+    const double apart = greatest(G - Eigen::MatrixXd::Identity(b, b));
+    const bool last = pass > 0 && std::max(greatest(H), greatest(D)) < orthogonal && apart < 1e-6;
+    if (last && apart < orthogonal) break;
+    if (H.size() > 0) PetscCall(add_product(data->W, -1, eps->V, H));
+    if (D.size() > 0) PetscCall(add_product(data->W, -1, data->fixed, D));
+    G -= H.transpose() * H;
+    if (D.size() > 0) G -= D.transpose() * D;
+    Normaliser by = normaliser(G);
+    PetscCall(multiply(data->W, by.T));
+    R = by.R * R;
+    if (!last) continue;
+    PetscCall(multiply(data->P, by.T));
+    break;
+  }
+  PetscFunctionReturn(0);
+}
+
+// W = (K - s M)^-1 P
+PetscErrorCode solve_block(EPS eps) {
+  Data* data = data_of(eps);
+  Mat P, W;
+  KSP ksp;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(STGetKSP(eps->st, &ksp));
+  PetscCall(BVGetMat(data->P, &P));
+  PetscCall(BVGetMat(data->W, &W));
+  PetscCall(KSPMatSolve(ksp, P, W));
+  PetscCall(BVRestoreMat(data->W, &W));
+  PetscCall(BVRestoreMat(data->P, &P));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)eps), PETSC_ERR_NOT_CONVERGED, "Block solve: %s",
+             KSPConvergedReasons[reason]);
+  PetscFunctionReturn(0);
+}
+
+// The columns of W become those of V from `first` on.
+PetscErrorCode append(EPS eps, PetscInt first) {
+  Data* data = data_of(eps);
+
+  PetscFunctionBegin;
+  PetscCall(BVSetActiveColumns(eps->V, first, first + data->block));
+  PetscCall(BVCopy(data->W, eps->V));
+  PetscFunctionReturn(0);
+}
+
+// V <- V S, the first columns of it
+PetscErrorCode rotate(EPS eps, Eigen::MatrixXd S) {
+  Mat matrix;
+
+  PetscFunctionBegin;
+  PetscCall(BVSetActiveColumns(eps->V, 0, S.rows()));
+  PetscCall(view(S, &matrix));
+  PetscCall(BVMultInPlace(eps->V, matrix, 0, S.cols()));
+  PetscCall(MatDestroy(&matrix));
+  PetscFunctionReturn(0);
+}
+
+// The pairs of the projected matrix, greatest |theta| first.
+struct Ritz {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd S;
+};
+
+Ritz ritz(const Eigen::MatrixXd& T) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(T);
+  std::vector<Eigen::Index> order(T.cols());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) {
+    return std::abs(pairs.eigenvalues()[i]) > std::abs(pairs.eigenvalues()[j]);
+  });
+  Ritz sorted{Eigen::VectorXd(T.cols()), Eigen::MatrixXd(T.rows(), T.cols())};
+  for (Eigen::Index i = 0; i < T.cols(); ++i) {
+    sorted.theta[i] = pairs.eigenvalues()[order[i]];
+    sorted.S.col(i) = pairs.eigenvectors().col(order[i]);
+  }
+  return sorted;
+}
+
+// Error estimates of all pairs; the first that have converged are counted.
+PetscErrorCode count_converged(EPS eps, const Ritz& pairs, const Eigen::MatrixXd& R) {
+  const Eigen::Index m = pairs.theta.size();
+  const Eigen::VectorXd residual = (R * pairs.S.bottomRows(R.cols())).colwise().norm();
+  bool all = true;
+
+  PetscFunctionBegin;
+  eps->nconv = 0;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    eps->eigr[i] = pairs.theta[i], eps->eigi[i] = 0;
+    PetscCall((*eps->converged)(eps, eps->eigr[i], 0, residual[i], &eps->errest[i], eps->convergedctx));
+    all = all && eps->errest[i] < eps->tol;
+    eps->nconv += all;
+  }
+  PetscFunctionReturn(0);
+}
+
+// V <- the first pairs' vectors and the block that comes next; T accordingly. Returns how many pairs are kept.
+PetscErrorCode restart(EPS eps, const Ritz& pairs, const Eigen::MatrixXd& R, Eigen::MatrixXd& T, PetscInt* kept) {
+  const PetscInt b = data_of(eps)->block, m = static_cast<PetscInt>(pairs.theta.size());
+  const PetscInt keep = std::min(eps->nconv + (m - eps->nconv) / 2, m - b);
+
+  PetscFunctionBegin;
+  PetscCall(rotate(eps, pairs.S.leftCols(keep)));
+  T.setZero();
+  T.topLeftCorner(keep, keep).diagonal() = pairs.theta.head(keep);
+  T.block(keep, 0, b, keep) = R * pairs.S.block(m - b, 0, b, keep);
+  T.block(0, keep, keep, b) = T.block(keep, 0, b, keep).transpose();
+  *kept = keep;
+  PetscFunctionReturn(0);
+}
+
+// The first block: the initial space, and random vectors.
+PetscErrorCode start(EPS eps) {
+  Data* data = data_of(eps);
+  Eigen::MatrixXd R;
+
+  PetscFunctionBegin;
+  for (PetscInt j = eps->nini; j < data->block; ++j) PetscCall(BVSetRandomColumn(eps->V, j));
+  PetscCall(BVSetActiveColumns(eps->V, 0, data->block));
+  PetscCall(BVCopy(eps->V, data->W));
+  PetscCall(BVSetActiveColumns(eps->V, 0, 0));
+  PetscCall(orthonormalise(eps, R));
+  PetscCall(append(eps, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode iterate(EPS eps) {
+  Data* data = data_of(eps);
+  const PetscInt b = data->block;
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(eps->ncv + b, eps->ncv + b), A, R;
+  Ritz pairs;
+  PetscInt k = 0, m = b;
+
+  PetscFunctionBegin;
+  PetscCall(start(eps));
+  while (true) {
+    eps->its++;
+    m = k + b;  // V: k columns and the block of b; P = M times the block
+    PetscCall(solve_block(eps));
+    PetscCall(dot(data->P, data->W, A));
+    T.block(k, k, b, b) = (A + A.transpose()) / 2;
+    Eigen::MatrixXd before = T.block(0, k, m, b);
+    PetscCall(BVSetActiveColumns(eps->V, 0, m));
+    PetscCall(add_product(data->W, -1, eps->V, before));
+    PetscCall(orthonormalise(eps, R));
+    pairs = ritz(T.topLeftCorner(m, m));
+    PetscCall(count_converged(eps, pairs, R));
+    PetscCall(EPSMonitor(eps, eps->its, eps->nconv, eps->eigr, eps->eigi, eps->errest, std::min(eps->nconv + 1, m)));
+    PetscCall((*eps->stopping)(eps, eps->its, eps->max_it, eps->nconv, eps->nev, &eps->reason, eps->stoppingctx));
+    if (eps->reason != EPS_CONVERGED_ITERATING) break;
+    k = m;
+    if (m + b > eps->ncv) {
+      PetscCall(restart(eps, pairs, R, T, &k));
+    } else {
+      T.block(m, m - b, b, b) = R;
+      T.block(m - b, m, b, b) = R.transpose();
+    }
+    PetscCall(append(eps, k));
+  }
+  PetscCall(rotate(eps, pairs.S.leftCols(std::max<PetscInt>(eps->nconv, 1))));
+  PetscCall(BVSetActiveColumns(eps->V, 0, eps->nconv));
+  PetscFunctionReturn(0);
+}
+
+// The columns of V before the first, which EPSSetDeflationSpace has filled, in a BV of their own.
+PetscErrorCode take_deflated(EPS eps) {
+  Data* data = data_of(eps);
+
+  PetscFunctionBegin;
+  if (eps->nds <= 0) PetscFunctionReturn(0);
+  PetscCall(BVDuplicateResize(eps->V, eps->nds, &data->fixed));
+  PetscCall(BVSetMatrix(data->fixed, nullptr, PETSC_FALSE));
+  for (PetscInt j = 0; j < eps->nds; ++j) {
+    Vec column;
+    PetscCall(BVGetColumn(eps->V, j - eps->nds, &column));
+    PetscCall(BVInsertVec(data->fixed, j, column));
+    PetscCall(BVRestoreColumn(eps->V, j - eps->nds, &column));
+  }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode reset(EPS eps) {
+  Data* data = data_of(eps);
+
+  PetscFunctionBegin;
+  PetscCall(BVDestroy(&data->W));
+  PetscCall(BVDestroy(&data->P));
+  PetscCall(BVDestroy(&data->fixed));
+  PetscCall(MatDestroy(&data->M));
+  PetscFunctionReturn(0);
+}
+
+// Products of V are plain ones meanwhile: M is multiplied with each block here, once for all.
+PetscErrorCode solve(EPS eps) {
+  Data* data = data_of(eps);
+
+  PetscFunctionBegin;
+  PetscCall(STGetBilinearForm(eps->st, &data->M));
+  PetscCall(BVSetMatrix(eps->V, nullptr, PETSC_FALSE));
+  PetscCall(BVDuplicateResize(eps->V, data->block, &data->W));
+  // MatMatMult of MATSEQSBAIJ with blocks of three is wrong in PETSc 3.18.5, and no faster with those of six.
+  PetscCall(BVSetMatMultMethod(data->W, BV_MATMULT_VECS));
+  PetscCall(BVDuplicateResize(eps->V, data->block, &data->P));
+  PetscCall(take_deflated(eps));
+  PetscCall(iterate(eps));
+  PetscCall(BVSetMatrix(eps->V, data->M, PETSC_FALSE));
+  PetscCall(reset(eps));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_up(EPS eps) {
+  const PetscInt b = data_of(eps)->block;
+
+  PetscFunctionBegin;
+  EPSCheckHermitianDefinite(eps);
+  EPSCheckSinvert(eps);
+  EPSCheckUnsupported(eps, EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION | EPS_FEATURE_EXTRACTION | EPS_FEATURE_TWOSIDED);
+  PetscCheck(eps->which == EPS_TARGET_MAGNITUDE || !eps->which, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
+             "block-lanczos finds the eigenvalues next to the target only (-eps_target_magnitude)");
+  eps->which = EPS_TARGET_MAGNITUDE;
+  if (eps->ncv == PETSC_DEFAULT) eps->ncv = std::min(eps->n, block_lanczos_space(eps->nev));
+  PetscCheck(eps->ncv >= eps->nev + 3 * b, PetscObjectComm((PetscObject)eps), PETSC_ERR_USER_INPUT,
+             "block-lanczos needs room for three blocks beside the eigenvectors: -eps_ncv %" PetscInt_FMT " or more",
+             eps->nev + 3 * b);
+  if (eps->mpd == PETSC_DEFAULT) eps->mpd = eps->ncv;
+  if (eps->max_it == PETSC_DEFAULT) eps->max_it = 500;
+  PetscCall(EPSAllocateSolution(eps, 0));
+  PetscCall(EPS_SetInnerProduct(eps));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_up_sort(EPS eps) {
+  PetscFunctionBegin;
+  eps->sc->comparison = SlepcCompareTargetMagnitude;
+  eps->sc->comparisonctx = &eps->target;
+  eps->sc->map = nullptr;
+  eps->sc->mapobj = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode set_from_options(EPS eps, PetscOptionItems* PetscOptionsObject) {
+  PetscFunctionBegin;
+  PetscOptionsHeadBegin(PetscOptionsObject, "EPS block Lanczos options");
+  PetscCall(PetscOptionsRangeInt("-eps_block_lanczos_size", "How many vectors a block has", "", data_of(eps)->block,
+                                 &data_of(eps)->block, nullptr, 1, 64));
+  PetscOptionsHeadEnd();
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode back_transform(EPS eps) {
+  PetscFunctionBegin;
+  PetscCall(STBackTransform(eps->st, eps->nconv, eps->eigr, eps->eigi));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode compute_vectors(EPS) { return 0; }  // they are there
+
+PetscErrorCode show(EPS eps, PetscViewer viewer) {
+  PetscBool ascii;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
+  if (ascii) PetscCall(PetscViewerASCIIPrintf(viewer, "  blocks of %" PetscInt_FMT " vectors\n", data_of(eps)->block));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode destroy(EPS eps) {
+  PetscFunctionBegin;
+  delete data_of(eps);
+  eps->data = nullptr;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode create(EPS eps) {
+  PetscFunctionBegin;
+  eps->data = new Data;
+  eps->useds = PETSC_FALSE;
+  eps->categ = EPS_CATEGORY_KRYLOV;
+  eps->ops->solve = solve;
+  eps->ops->setup = set_up;
+  eps->ops->setupsort = set_up_sort;
+  eps->ops->setfromoptions = set_from_options;
+  eps->ops->backtransform = back_transform;
+  eps->ops->computevectors = compute_vectors;
+  eps->ops->reset = reset;
+  eps->ops->view = show;
+  eps->ops->destroy = destroy;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+PetscInt block_size(EPS eps) {
+  PetscBool blocks = PETSC_FALSE;
+  petsc::check(PetscObjectTypeCompare((PetscObject)eps, block_lanczos, &blocks));
+  return blocks ? data_of(eps)->block : 1;
+}
+
+void register_block_lanczos() { petsc::check(EPSRegister(block_lanczos, create)); }
+
+PetscInt block_lanczos_space(PetscInt count) { return 2 * count + 10 * usual_block; }
+
+}  // namespace floe::reduction
