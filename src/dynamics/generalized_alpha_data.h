@@ -39,6 +39,7 @@ struct GeneralizedAlpha {
 
   // Newton's updates in the step under way, and what earlier steps taught about their rate.
   PetscReal update = 0, best = 0, first_update = 0;
+  PetscReal whole_update = 0;  // multipliers included
   PetscInt idle = 0, growing = 0;
   PetscReal rate = 1, rate_update = 0;  // the rate seen last, and the first update of that solve
   PetscBool rate_of_old_jacobian = PETSC_FALSE;
