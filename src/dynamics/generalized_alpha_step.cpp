@@ -148,15 +148,21 @@ PetscErrorCode newton(TS ts, PetscBool plain, SNESConvergedReason* reason) {
   PetscFunctionReturn(0);
 }
 
-// What fails with a Jacobian kept from before is tried again with a new one in every iteration.
+// Newton begins with a Jacobian whose lag has passed and does not run into the lag on the way: a new Jacobian at the
+// beginning makes two iterations of a step, one before the last saves none. What fails with a Jacobian kept from before
+// is tried again with a new one in every iteration.
 PetscErrorCode solve(TS ts) {
   const PetscInt lag = ts->snes->lagjacobian;
+  const bool kept = lag > 1 && ts->snes->lagjac_persist;
   SNESConvergedReason reason;
 
   PetscFunctionBegin;
   if (!ts->snes->lagjac_persist) ts->snes->jac_iter = 0;
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
+  if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
+  if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
   PetscCall(newton(ts, PETSC_FALSE, &reason));
+  if (kept) ts->snes->lagjacobian = lag;
   if (reason < 0 && lag != 1) {
     ts->snes->lagjacobian = 1;
     renew_jacobian(ts->snes, 0);

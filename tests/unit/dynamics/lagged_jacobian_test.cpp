@@ -78,3 +78,10 @@ TEST_CASE("generalized-alpha: Newton starts from accelerations that are continue
   const Effort effort = move_smoothly(hardening(), {1}, {0}, 0.002);
   CHECK(effort.iterations < 2.5 * effort.steps);  // 2.7 from a_1 = a_0
 }
+
+TEST_CASE("generalized-alpha: a Jacobian whose lag has passed is made anew where a step begins") {
+  const Pendulum pendulum;
+  const Effort effort = move_smoothly(pendulum.problem(), pendulum.position(1.5), pendulum.velocity(1.5, 0.3), 0.005);
+  CHECK(effort.jacobians > effort.iterations / 30);
+  CHECK(effort.amid == 0);
+}
