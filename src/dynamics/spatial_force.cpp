@@ -17,11 +17,12 @@ Wrench SpatialForce::world(const Motion& motion) const {
 
 void SpatialForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
-  r -= pose_.P.transpose().lazyProduct(world(motion));
+  pull_back(at_, pose_, world(motion), rows_);
+  r -= rows_;
 }
 
 void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::directions);
   const Wrench w = world(motion);
   add_geometric_stiffness(at_, pose_, w, -weights.q, J);
   // the wrench turns by dphi with its axes: dw = -~w dphi

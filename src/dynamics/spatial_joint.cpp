@@ -137,7 +137,7 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);
-  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
+  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::directions : Extent::motion);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   Matrix12 Y = Matrix12::Zero();

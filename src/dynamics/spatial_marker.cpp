@@ -48,10 +48,11 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   }
   const Elastic e = elastic(marker, q);
   out.c = marker.x0 + e.u, out.beta = e.turn;
-  out.bend = math::rotation_tangent(e.turn);
   out.p = marker.mass * R + out.A * out.c;
+  out.D = out.A * marker.D0, out.bend = Matrix3d::Identity();
+  if (e.turn.isZero(0)) return;
   out.D = out.A * math::rotation(e.turn) * marker.D0;
-  fill_directions(marker, out);
+  out.bend = math::rotation_tangent(e.turn);
 }
 
 /// After see_place.
@@ -83,7 +84,19 @@ SpatialMarker SpatialMarker::ground(const Vector3d& point, const Matrix3d& axes)
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
           SpatialPose& out, Extent extent) {
   see_place(marker, q, out);
+  if (extent != Extent::place) fill_directions(marker, out);
   if (extent == Extent::motion) see_motion(marker, v, a, out);
+}
+
+void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, Eigen::VectorXd& rows) {
+  const Index k = marker.S.cols(), frame = marker.framed() ? 6 : 0;
+  rows.resize(frame + k);
+  const Vector3d force = at.A.transpose() * wrench.head<3>(), moment = at.A.transpose() * wrench.tail<3>();
+  if (marker.framed()) rows.head<3>() = marker.mass * wrench.head<3>(), rows.segment<3>(3) = at.c.cross(force) + moment;
+  for (Index j = 0; j < k; ++j) rows[frame + j] = marker.S.col(j).dot(force);
+  if (k == 0 || moment.isZero(0)) return;
+  const Vector3d bending = at.bend * moment;
+  for (Index j = 0; j < k; ++j) rows[frame + j] += marker.psi.col(j).dot(bending);
 }
 
 void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd& out) {

@@ -21,21 +21,18 @@ void SpatialPair::evaluate(const Motion& motion, Extent extent) {
 
 void SpatialPair::add(const Vector12& wrench, Eigen::VectorXd& r) {
   for (int i = 0; i < 2; ++i) {
-    const Wrench w = wrench.segment<6>(6 * i);
-    for (std::size_t row = 0; row < where[i].size(); ++row) r[where[i][row]] += pose[i].P.col(row).dot(w);
+    if (where[i].empty()) continue;
+    pull_back(marker[i], pose[i], wrench.segment<6>(6 * i), rows_);
+    for (std::size_t row = 0; row < where[i].size(); ++row) r[where[i][row]] += rows_[row];
   }
 }
 
 void SpatialPair::add_gradient(const Vector12& gradient, Eigen::VectorXd& r) {
   for (int i = 0; i < 2; ++i) {
-    const Wrench g = gradient.segment<6>(6 * i);
-    const Matrix6Xd& P = pose[i].P;
-    const bool framed = marker[i].framed();
-    for (std::size_t row = 0; row < where[i].size(); ++row)
-      if (!framed || row < 3 || row >= 6) r[where[i][row]] += P.col(row).dot(g);
-    if (!framed) continue;
-    const Eigen::Vector3d by_x = pose[i].T.transpose() * (P.middleCols<3>(3).transpose() * g);
-    for (int row = 0; row < 3; ++row) r[where[i][3 + row]] += by_x[row];
+    if (where[i].empty()) continue;
+    pull_back(marker[i], pose[i], gradient.segment<6>(6 * i), rows_);
+    if (marker[i].framed()) rows_.segment<3>(3) = (pose[i].T.transpose() * rows_.segment<3>(3)).eval();
+    for (std::size_t row = 0; row < where[i].size(); ++row) r[where[i][row]] += rows_[row];
   }
 }
 

@@ -6,8 +6,9 @@
 
 namespace floe::dynamics {
 
-/// What of a pose is wanted: where a place is and its directions, or its rates (and theirs) too.
-enum class Extent { place, motion };
+/// What of a pose is wanted: where a place is; its directions too (in the plane they always come along); its rates (and
+/// theirs) too.
+enum class Extent { place, directions, motion };
 
 /// A place that joints and loads act on: its pose (x, y, angle) as a function of a body's coordinates.
 ///
@@ -38,7 +39,7 @@ struct Pose {
 };
 
 /// @param q, v, a  the marker's coordinates and rates
-/// @param extent   place: y, P and arm alone are filled
+/// @param extent   place or directions: y, P and arm alone are filled
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
           Extent extent = Extent::motion);
 

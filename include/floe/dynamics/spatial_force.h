@@ -29,6 +29,7 @@ class SpatialForce final : public Term {
   Axes axes_;
   mutable SpatialPose pose_;
   mutable Matrix6Xd change_;
+  mutable Eigen::VectorXd rows_;
 };
 
 }  // namespace floe::dynamics

@@ -20,7 +20,7 @@ struct SpatialPair {
   std::array<SpatialPose, 2> pose;
 
   SpatialPair(SpatialMarker first, SpatialMarker second);
-  /// Evaluates both poses.
+  /// Evaluates both poses: add() needs their places, add_gradient() too, add_tangent() directions, with Yd the motion.
   void evaluate(const Motion& motion, Extent extent = Extent::motion);
   /// r += P' wrench: the rows of a wrench.
   void add(const Vector12& wrench, Eigen::VectorXd& r);
@@ -41,6 +41,7 @@ struct SpatialPair {
   };
   // work arrays, one for each place or pair of places so that they keep their sizes
   std::array<State, 2> state_;
+  Eigen::VectorXd rows_;
   std::array<Matrix6Xd, 2> rates_;
   std::array<Eigen::Matrix<double, 12, Eigen::Dynamic>, 2> change_;
   std::array<std::array<Eigen::MatrixXd, 2>, 2> block_;

@@ -111,6 +111,23 @@ TEST_CASE("directions of a place: velocity and spin at unit rates, and the deriv
   }
 }
 
+TEST_CASE("the rows of a wrench, by the place alone, are those of its directions") {
+  Random random(208);
+  for (const SpatialMarker& marker : markers())
+    for (const Vector3d& moment : {Vector3d(0, 0, 0), Vector3d(1, -2, 0.5)}) {
+      const State s(random, size(marker));
+      const dynamics::Wrench w = (dynamics::Wrench() << 0.3, 2, -1, moment).finished();
+      SpatialPose place;
+      VectorXd rows;
+      dynamics::pose(marker, s.q, s.v, s.a, place, dynamics::Extent::place);
+      CHECK(place.P.cols() == 0);
+      dynamics::pull_back(marker, place, w, rows);
+      const VectorXd expected = pose_at(marker, s).P.transpose() * w;
+      CHECK(expected.norm() > 0.1);
+      CHECK((rows - expected).norm() < 1e-14 * expected.norm());
+    }
+}
+
 TEST_CASE("the gradient of velocity and spin at fixed rates") {
   Random random(205);
   for (const SpatialMarker& marker : markers()) {
