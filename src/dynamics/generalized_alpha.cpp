@@ -66,6 +66,7 @@ PetscErrorCode set_up(TS ts) {
   }
   PetscCall(mark_dynamic_rows(data));
   PetscCall(mark_attitudes(ts));
+  PetscCall(set_turn(ts->snes, data->rotations.turn ? turn_kept : nullptr, ts));
   // With a fixed step TS ends at the first failed Newton solve; with an adaptive one it cuts the step, max_reject
   // times.
   PetscCall(TSGetAdapt(ts, &ts->adapt));

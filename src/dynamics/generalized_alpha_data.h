@@ -113,6 +113,9 @@ PetscErrorCode rebase(TS ts);
 /// y += factor [a, b]; W is overwritten.
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 
+/// A Turn (simplified_newton.h) in scaled rows; context: the TS.
+PetscErrorCode turn_kept(SNES snes, Vec U, PetscBool back, Vec y, void* context);
+
 // generalized_alpha_scaling.cpp
 /// Constants of scaling: Jacobians at the state (U0, V0, A0) with shift_a; leaves J(shift_v = 0, shift_a), unscaled.
 ///

@@ -48,6 +48,29 @@ PetscErrorCode mark_attitudes(TS ts) {
   PetscFunctionReturn(0);
 }
 
+namespace {
+
+void scale_rows(GeneralizedAlpha* data, Vec y_vec, bool into) {
+  const Entries scale(data->scale);
+  Changed y(y_vec);
+  for (PetscInt i = 0, n = local_size(y_vec); i < n; ++i) y[i] *= into ? scale[i] : 1 / scale[i];
+}
+
+}  // namespace
+
+// A Jacobian just formed is one of U.
+PetscErrorCode turn_kept(SNES, Vec U, PetscBool back, Vec y, void* context) {
+  TS ts = static_cast<TS>(context);
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (data->new_jacobian) PetscFunctionReturn(0);
+  if (back) scale_rows(data, y, false);
+  PetscCall((*data->rotations.turn)(ts, U, back, y, data->rotations.context));
+  if (back) scale_rows(data, y, true);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 

@@ -142,6 +142,13 @@ void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) c
   }
 }
 
+void Joint::add_corotated(std::vector<Corotated>& corotated) const {
+  const bool whole = standing_.size() >= 2 && standing_[0] == 0 && standing_[1] == 1;
+  const Marker& by = pair_.second.framed ? pair_.second : pair_.first;
+  if (std::holds_alternative<Prismatic>(constraint_) || !whole || !by.framed) return;
+  corotated.push_back({pair_.coordinates[multiplier_], by.coordinates[2]});
+}
+
 void Joint::begin_step(const Motion& motion) {
   if (!captures_) return;
   if (!latch_->closed) captured_ = false;

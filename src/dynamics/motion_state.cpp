@@ -88,8 +88,8 @@ void load_motion(TS ts, const System& system, const MotionState& state) {
     Mat J = nullptr, P = nullptr;
     check(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
     petsc::agree(system.comm(), [&] { system.load(state.carried_of_tangent); });
-    system.tangent(data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
-                   {1, data->tangent_shift_v, data->tangent_shift_a}, P);
+    check(TSComputeI2Jacobian(ts, data->tangent_t, data->tangent_U, data->tangent_V, data->tangent_A,
+                              data->tangent_shift_v, data->tangent_shift_a, J, P));
     check(scale_jacobian(ts, P));
     take();  // set_scales asked for a new Jacobian
     set_step(data, data->h);

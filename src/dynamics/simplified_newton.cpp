@@ -10,6 +10,9 @@ namespace {
 struct Data {
   PetscBool quiet = PETSC_FALSE;       // no option asks for a view or a test in each solve
   PetscBool applies_pc = PETSC_FALSE;  // the KSP does nothing but apply its PC
+  Turn turn = nullptr;
+  void* turn_context = nullptr;
+  Vec turned = nullptr;
 };
 
 Data* data_of(SNES snes) { return static_cast<Data*>(snes->data); }
@@ -59,6 +62,17 @@ PetscErrorCode renew(SNES snes) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode turn_back(SNES snes, Vec* F) {
+  Data* data = data_of(snes);
+
+  PetscFunctionBegin;
+  if (!data->turned) PetscCall(VecDuplicate(*F, &data->turned));
+  PetscCall(VecCopy(*F, data->turned));
+  PetscCall((*data->turn)(snes, snes->vec_sol, PETSC_TRUE, data->turned, data->turn_context));
+  *F = data->turned;
+  PetscFunctionReturn(0);
+}
+
 // Y = J^-1 F with the kept factorisation; *failed instead of an error, as KSPSolve has it.
 PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
   KSPConvergedReason reason;
@@ -67,6 +81,7 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
 
   PetscFunctionBegin;
   *failed = PETSC_FALSE;
+  if (data_of(snes)->turn) PetscCall(turn_back(snes, &F));
   PetscCall(KSPSetOperators(snes->ksp, snes->jacobian, snes->jacobian_pre));
   if (data_of(snes)->applies_pc) {
     PC pc;
@@ -84,6 +99,8 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
   }
   PetscCall(PetscObjectQuery((PetscObject)snes, column_scales, (PetscObject*)&columns));
   if (columns) PetscCall(VecPointwiseMult(Y, Y, columns));
+  if (data_of(snes)->turn)
+    PetscCall((*data_of(snes)->turn)(snes, snes->vec_sol, PETSC_FALSE, Y, data_of(snes)->turn_context));
   snes->linear_its += iterations;
   PetscFunctionReturn(0);
 }
@@ -131,8 +148,15 @@ PetscErrorCode solve(SNES snes) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode reset(SNES snes) {
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&data_of(snes)->turned));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode destroy(SNES snes) {
   PetscFunctionBegin;
+  PetscCall(reset(snes));
   delete data_of(snes);
   snes->data = nullptr;
   PetscFunctionReturn(0);
@@ -144,6 +168,7 @@ PetscErrorCode create(SNES snes) {
   snes->ops->setup = set_up;
   snes->ops->solve = solve;
   snes->ops->setfromoptions = set_from_options;
+  snes->ops->reset = reset;
   snes->ops->destroy = destroy;
   snes->usesksp = PETSC_TRUE;
   snes->usesnpc = PETSC_FALSE;
@@ -154,6 +179,14 @@ PetscErrorCode create(SNES snes) {
 }  // namespace
 
 void register_simplified_newton() { petsc::check(SNESRegister(simplified_newton, create)); }
+
+PetscErrorCode set_turn(SNES snes, Turn turn, void* context) {
+  PetscFunctionBegin;
+  if (snes->ops->solve != solve) PetscFunctionReturn(0);
+  data_of(snes)->turn = turn;
+  data_of(snes)->turn_context = context;
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode solve_again(SNES snes, Vec U) {
   PetscFunctionBegin;

@@ -25,7 +25,8 @@ struct Context {
   bool adaptive = false;
   petsc::Guard guard = {};
   TS ts = nullptr;
-  std::vector<double> carried_of_tangent = {};  ///< as it was when the last tangent was formed
+  std::vector<double> carried_of_tangent = {};        ///< as it was when the last tangent was formed
+  std::vector<Eigen::Matrix3d> axes_of_tangent = {};  ///< of frames, likewise
   std::function<MotionState()> state = {};
   std::function<void(double, Vec, Vec)> between = {};
   std::unique_ptr<Crossings> crossings = {};
@@ -43,6 +44,7 @@ PetscErrorCode tangent(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, 
   return c.guard.run([&] {
     c.system.tangent(t, U, V, A, {1, shift_v, shift_a}, J);
     c.system.save(c.carried_of_tangent);
+    c.system.frame_axes(U, c.axes_of_tangent);
   });
 }
 
@@ -59,6 +61,11 @@ PetscErrorCode rebase(TS, Vec U, void* context) {
 PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] { c.system.bracket(a, b, W); });
+}
+
+PetscErrorCode turn(TS, Vec U, PetscBool back, Vec y, void* context) {
+  auto& c = *static_cast<Context*>(context);
+  return c.guard.run([&] { c.system.turn(c.axes_of_tangent, U, back == PETSC_TRUE, y); });
 }
 
 /// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that turn too far are tried
@@ -160,8 +167,10 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   const petsc::IsHandle multipliers = system.multipliers();
   check(TSGeneralizedAlphaSetMultipliers(ts, multipliers));
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
-  const TSGeneralizedAlphaRotations rotations{rebase, bracket, &context};
-  if (!system.attitudes().empty()) check(TSGeneralizedAlphaSetRotations(ts, &rotations));
+  const bool attitudes = !system.attitudes().empty();
+  const TSGeneralizedAlphaRotations rotations{attitudes ? rebase : nullptr, attitudes ? bracket : nullptr, &context,
+                                              turn};
+  check(TSGeneralizedAlphaSetRotations(ts, &rotations));
   check(TSSetApplicationContext(ts, &context));
   check(TSSetFunctionDomainError(ts, well_met));
   check(TSSetTimeStep(ts, how.step));

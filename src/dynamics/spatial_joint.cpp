@@ -156,6 +156,18 @@ void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
   pair_.add_tangent(wrench, Y, Matrix12::Zero(), weights, J);
 }
 
+void SpatialJoint::add_corotated(std::vector<Corotated>& corotated) const {
+  const auto holds_axis = [&](int row, int axis) {
+    const auto* coincide = row < rows(constraint_) ? std::get_if<Coincide>(&constraint_.rows[row]) : nullptr;
+    return coincide && coincide->axis == axis;
+  };
+  const SpatialMarker& by = pair_.marker[pair_.marker[1].framed() ? 1 : 0];
+  if (!by.framed()) return;
+  for (int row = 0; row < rows(constraint_); ++row)
+    if (holds_axis(row, 0) && holds_axis(row + 1, 1) && holds_axis(row + 2, 2))
+      corotated.push_back({pair_.coordinates[multiplier_ + row], by.coordinates[3]});
+}
+
 void SpatialJoint::begin_step(const Motion& motion) {
   if (!captures_) return;
   if (!latch_->closed) captured_ = false;

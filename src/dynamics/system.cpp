@@ -40,6 +40,7 @@ System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms
   work_.resize(largest + 1);
   sum_.resize(coordinates_.local_size());
   if (!identity_ && !whole_) set_up_scatter();
+  set_up_corotated();
 }
 
 void System::set_up_scatter() {

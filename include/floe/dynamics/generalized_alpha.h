@@ -42,10 +42,15 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 /// beginning of every step, before anything is computed, and not when a step is tried again: until the next beginning
 /// the solution (at the step's end, after a rollback, interpolated) is relative to that base. `bracket` fills W with
 /// a x b in the rows of rotations and zero in all others: what such rates differ by from derivatives. Both or none.
+///
+/// `turn`, if given, is for a Jacobian that is kept while bodies turn: it turns a vector y of rows or of unknowns as
+/// they turned from where TSI2Jacobian was called last to U (or back), so that J(U) is about turn J turn_back. Newton's
+/// updates are made with that.
 struct TSGeneralizedAlphaRotations {
   PetscErrorCode (*rebase)(TS ts, Vec U, void* context) = nullptr;
   PetscErrorCode (*bracket)(TS ts, Vec a, Vec b, Vec W, void* context) = nullptr;
   void* context = nullptr;
+  PetscErrorCode (*turn)(TS ts, Vec U, PetscBool back, Vec y, void* context) = nullptr;
 };
 PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations);
 

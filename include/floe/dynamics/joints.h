@@ -43,6 +43,8 @@ class Joint final : public Term {
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  /// The force of a revolute or a clamp, with the second place's frame (or the first's, where that has none).
+  void add_corotated(std::vector<Corotated>& corotated) const override;
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override;
   void load(std::span<const double> carried) override;

@@ -81,6 +81,8 @@ class SpatialJoint final : public Term {
   /// Axes that Products keep parallel have to point the same way, and rows that are left out to vanish: up to 1e-3 of
   /// a radian and of the length unit.
   Standing standing(const Motion& motion) const override;
+  /// The force that holds a point, with the second place's frame (or the first's, where that has none).
+  void add_corotated(std::vector<Corotated>& corotated) const override;
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override;
   void load(std::span<const double> carried) override;

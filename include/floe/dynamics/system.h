@@ -67,6 +67,12 @@ class System {
   /// @throws RunError  (load) so many numbers are those of another system. Rank-local.
   void save(std::vector<double>& numbers) const;
   void load(std::span<const double> numbers) const;
+  /// The axes that every frame has at U, in columns (in the plane within x, y), of those frames that this rank owns.
+  void frame_axes(Vec U, std::vector<Eigen::Matrix3d>& axes) const;
+  /// What of y is in world axes and belongs to a frame, which turned from axes `from` to those at U, turns likewise, or
+  /// `back`: places of frames (forces on them), and forces that hold points of bodies (gaps). So does a tangent, of a
+  /// free body wholly: J(U) y = turn(J(from) turn_back(y)). No communication.
+  void turn(const std::vector<Eigen::Matrix3d>& from, Vec U, bool back, Vec y) const;
   /// W = a x b in the three rows of every attitude, zero in all others. Collective.
   void bracket(Vec a, Vec b, Vec W) const;
 
@@ -84,6 +90,7 @@ class System {
   };
   TermWork& pick(const Term& term) const;
   void set_up_scatter();
+  void set_up_corotated();
   void begin_terms() const;
   enum class Which { all, constraining };
   /// Rows of local_'s motion into sum_. Collective.
@@ -94,6 +101,17 @@ class System {
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;
   Attitudes attitudes_;
+  /// Frames whose unknowns this rank owns, by global indices, and what turns with them.
+  struct Frame {
+    PetscInt x;
+    const Attitude* attitude;  // null in the plane, where x is the angle
+  };
+  struct Vector {
+    PetscInt first;
+    std::size_t frame;
+  };
+  std::vector<Frame> frames_;
+  std::vector<Vector> corotated_;
   std::vector<char> constrains_;  // of each term: whether it has multipliers
   bool identity_ = false;         // local and global numbering are the same on every rank
   bool whole_ = false;            // one rank holds everything, though perhaps in another order
@@ -104,6 +122,7 @@ class System {
   mutable std::vector<TermWork> work_;  // one for each size of a term, so that nothing is allocated in a step
   mutable Eigen::VectorXd sum_;
   mutable std::vector<PetscInt> rows_;
+  mutable std::vector<Eigen::Matrix3d> axes_;
 };
 
 }  // namespace floe::dynamics

@@ -42,6 +42,12 @@ struct Energy {
   }
 };
 
+/// Unknowns that are the parts of a vector in world axes, and the frame that the vector turns with: the local indices
+/// of the first of three (in the plane two), and of the frame's x (its angle).
+struct Corotated {
+  int vector, frame;
+};
+
 /// One term of the equations of motion: it acts on few coordinates and adds to their rows.
 ///
 /// The equations are sum over terms of r(t, q, v, a) = 0, in the sense inertia + elastic + constraint - applied forces.
@@ -61,6 +67,8 @@ class Term {
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
+  /// Appends which of its multipliers turn with a frame: forces between places (System::turn).
+  virtual void add_corotated(std::vector<Corotated>&) const {}
   /// What the term carries from step to step beside the system's unknowns (begin_step, latches), as numbers: `save`
   /// appends them, `load` takes as many back, in the same order.
   virtual void save(std::vector<double>&) const {}

@@ -23,4 +23,23 @@ class Values {
   double* data_ = nullptr;
 };
 
+/// The same to read only.
+class ConstValues {
+ public:
+  explicit ConstValues(Vec vec) : vec_(vec) {
+    PetscInt end = 0;
+    check(VecGetOwnershipRange(vec, &first_, &end));
+    check(VecGetArrayRead(vec, &data_));
+  }
+  ConstValues(const ConstValues&) = delete;
+  ConstValues& operator=(const ConstValues&) = delete;
+  ~ConstValues() { VecRestoreArrayRead(vec_, &data_); }
+  double operator[](PetscInt global) const { return data_[global - first_]; }
+
+ private:
+  Vec vec_;
+  PetscInt first_ = 0;
+  const double* data_ = nullptr;
+};
+
 }  // namespace floe::petsc

@@ -129,3 +129,32 @@ TEST_CASE("simplified Newton says how it failed") {
   check(SNESGetConvergedReason(solver.snes, &reason));
   CHECK(reason == SNES_DIVERGED_FNORM_NAN);
 }
+
+namespace {
+
+/// Makes J at U of J = 2 diag(x) kept from x = 1.5: half of the ratio before the solve and half after it.
+PetscErrorCode to_present(SNES, Vec U, PetscBool, Vec y, void*) {
+  const double* u;
+  double* entries;
+  VecGetArrayRead(U, &u), VecGetArray(y, &entries);
+  for (int i = 0; i < 3; ++i) entries[i] *= std::sqrt(1.5 / u[i]);
+  VecRestoreArrayRead(U, &u), VecRestoreArray(y, &entries);
+  return 0;
+}
+
+}  // namespace
+
+TEST_CASE("simplified Newton with a kept Jacobian that is turned to U is Newton") {
+  dynamics::register_simplified_newton();
+  Solver newton(dynamics::simplified_newton, 1), kept(dynamics::simplified_newton, 100);
+  check(dynamics::set_turn(kept.snes, to_present, nullptr));
+  PetscInt iterations[2] = {0, 0};
+  for (Solver* solver : {&newton, &kept}) {
+    check(VecSet(solver->U, 1.5));
+    check(dynamics::solve_again(solver->snes, solver->U));
+    CHECK(solver->worst() < 1e-12);
+    check(SNESGetIterationNumber(solver->snes, &iterations[solver == &kept]));
+  }
+  CHECK(kept.count.jacobians == 1);
+  CHECK(iterations[1] == iterations[0]);
+}
