@@ -115,9 +115,21 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   r.segment<3>(3) += moment;
   work.Medd.resize(k);
   math::multiply(in.M, work.edd, work.Medd);
-  for (Index i = 0; i < k; ++i)
-    r[6 + i] += work.Medd[i] + in.S.col(i).dot(u) + spin_rate(work.of_e, i).dot(wd) -
-                0.5 * w.dot(moment_rate(work.of_e, i) * w) + 2 * w.dot(spin_rate(work.of_ed, i));
+  // G_i.alpha - 1/2 omega.J_i omega, column by column
+  const double by_rates[9] = {-0.5 * w[0] * w[0],
+                              -0.5 * w[1] * w[1],
+                              -0.5 * w[2] * w[2],
+                              -w[1] * w[2],
+                              -w[2] * w[0],
+                              -w[0] * w[1],
+                              wd[0],
+                              wd[1],
+                              wd[2]};
+  auto rows = r.tail(k);
+  rows += work.Medd;
+  for (int c = 0; c < 9; ++c) rows += by_rates[c] * work.of_e.col(c);
+  for (int c = 0; c < 3; ++c) rows += 2 * w[c] * work.of_ed.col(6 + c);
+  for (Index i = 0; i < k; ++i) rows[i] += in.S.col(i).dot(u);
 }
 
 void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q,
