@@ -39,11 +39,15 @@ void System::set_up_corotated() {
   PetscInt first = 0, end = 0;
   const petsc::VecHandle layout = create_vector();
   petsc::check(VecGetOwnershipRange(layout, &first, &end));
+  // Shared unknowns have one owner. A vector with parts on another rank than its frame's stays as it is: the Jacobian is
+  // no better there than one that is not turned.
+  const auto own = [&](PetscInt from, int count) { return from >= first && from + count <= end; };
   const auto add_frame = [&](int R, int x, const Attitude* attitude) {
-    if (global[x] < first || global[x] >= end) return;  // shared unknowns have one owner
-    if (R >= 0) corotated_.push_back({global[R], frames_.size()});
+    const int parts = attitude ? 3 : 2;
+    if (!own(global[x], attitude ? 3 : 1)) return;
+    if (R >= 0 && own(global[R], parts)) corotated_.push_back({global[R], frames_.size()});
     for (const auto& [vector, frame] : pairs)
-      if (frame == global[x]) corotated_.push_back({vector, frames_.size()});
+      if (frame == global[x] && own(vector, parts)) corotated_.push_back({vector, frames_.size()});
     frames_.push_back({global[x], attitude});
   };
   for (const auto& [x, attitude] : attitudes_) add_frame(x - 3, x, attitude.get());
