@@ -134,7 +134,8 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
     check_unused();
   });
   silence_options_left();
-  std::fflush(stdout);  // mpirun ends the others when one rank has ended with a code: none ends before all are through here
+  std::fflush(
+      stdout);  // mpirun ends the others when one rank has ended with a code: none ends before all are through here
   SlepcFinalize();
   return code != 0 ? code : flushed();
 }

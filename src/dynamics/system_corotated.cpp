@@ -39,8 +39,8 @@ void System::set_up_corotated() {
   PetscInt first = 0, end = 0;
   const petsc::VecHandle layout = create_vector();
   petsc::check(VecGetOwnershipRange(layout, &first, &end));
-  // Shared unknowns have one owner. A vector with parts on another rank than its frame's stays as it is: the Jacobian is
-  // no better there than one that is not turned.
+  // Shared unknowns have one owner. A vector with parts on another rank than its frame's stays as it is: the Jacobian
+  // is no better there than one that is not turned.
   const auto own = [&](PetscInt from, int count) { return from >= first && from + count <= end; };
   const auto add_frame = [&](int R, int x, const Attitude* attitude) {
     const int parts = attitude ? 3 : 2;

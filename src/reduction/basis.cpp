@@ -1,9 +1,11 @@
 #include "floe/reduction/basis.h"
 
 #include <petscblaslapack.h>
+#include <petscsf.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
@@ -107,10 +109,43 @@ void multiply(const fem::Structure& structure, fem::FieldRows& X, const Eigen::M
   }
 }
 
+/// Takes the rows of foreign nodes from their owners: what a pass makes of almost dependent columns is round-off of
+/// theirs, in which the copies would differ.
+class ForeignRows {
+ public:
+  explicit ForeignRows(const fem::Structure& structure, Eigen::Index columns) {
+    const fem::Mesh& mesh = structure.mesh;
+    const PetscInt first = mesh.owned_nodes;
+    std::vector<PetscInt> rows(mesh.foreign.size());
+    std::iota(rows.begin(), rows.end(), first);
+    PetscLayout layout = nullptr;
+    check(PetscLayoutCreateFromSizes(mesh.comm, first, PETSC_DECIDE, 1, &layout));
+    check(PetscSFCreate(mesh.comm, owners_.out()));
+    check(PetscSFSetGraphLayout(owners_, layout, static_cast<PetscInt>(rows.size()), rows.data(), PETSC_COPY_VALUES,
+                                mesh.foreign.data()));
+    check(PetscLayoutDestroy(&layout));
+    MPI_Type_contiguous(static_cast<int>(structure.dofs_per_node * columns), MPI_DOUBLE, &row_);
+    MPI_Type_commit(&row_);
+  }
+  ForeignRows(const ForeignRows&) = delete;
+  ForeignRows& operator=(const ForeignRows&) = delete;
+  ~ForeignRows() { MPI_Type_free(&row_); }
+
+  void update(fem::FieldRows& X) const {
+    check(PetscSFBcastBegin(owners_, row_, X.data(), X.data(), MPI_REPLACE));
+    check(PetscSFBcastEnd(owners_, row_, X.data(), X.data(), MPI_REPLACE));
+  }
+
+ private:
+  petsc::ScatterHandle owners_;
+  MPI_Datatype row_ = MPI_DATATYPE_NULL;
+};
+
 /// Makes the columns of X orthonormal; those that are not kept become zero.
 std::vector<Column> orthonormalise(const fem::Structure& structure, double tolerance, fem::FieldRows& X,
                                    Eigen::VectorXd& norms) {
   std::vector<Column> columns(X.cols());
+  const ForeignRows foreign(structure, X.cols());
   norms = Eigen::VectorXd::Zero(X.cols());
   for (bool first = true, done = X.cols() == 0; !done; first = false) {
     const Eigen::MatrixXd G = gram(structure, X);
@@ -124,6 +159,7 @@ std::vector<Column> orthonormalise(const fem::Structure& structure, double toler
     Step step = orthogonalise(scaled(G, sizes), tolerance, columns);
     const Eigen::VectorXd inverse = (sizes.array() > 0).select(sizes.cwiseInverse(), 0);
     multiply(structure, X, inverse.asDiagonal() * step.T);
+    foreign.update(X);
     done = step.done;
   }
   return columns;

@@ -117,14 +117,14 @@ TEST_CASE("block Lanczos finds the lowest pairs of a chain of masses, with and w
 
 TEST_CASE("block Lanczos finds eigenvalues as often as they repeat") {
   const PetscInt side = 30, n = side * side;  // a membrane of side x side masses: i and j may be exchanged
-  const petsc::MatHandle M = diagonal(n, [](PetscInt) { return 2; }), K = matrix(n, [&](PetscInt at, auto&& set) {
-                           const PetscInt i = at / side, j = at % side;
-                           set(at, 4);
-                           if (i > 0) set(at - side, -1);
-                           if (i < side - 1) set(at + side, -1);
-                           if (j > 0) set(at - 1, -1);
-                           if (j < side - 1) set(at + 1, -1);
-                         });
+  const petsc::MatHandle M = diagonal(n, [](PetscInt) { return 2; }), K = matrix(n, [&](PetscInt at, auto&&set) {
+                                                                        const PetscInt i = at / side, j = at % side;
+                                                                        set(at, 4);
+                                                                        if (i > 0) set(at - side, -1);
+                                                                        if (i < side - 1) set(at + side, -1);
+                                                                        if (j > 0) set(at - 1, -1);
+                                                                        if (j < side - 1) set(at + 1, -1);
+                                                                      });
   std::vector<double> expected;
   for (int i = 1; i <= 10; ++i)
     for (int j = 1; j <= 10; ++j) expected.push_back((of_chain(side, i, true) + of_chain(side, j, true)) / 2);
