@@ -166,14 +166,18 @@ PetscErrorCode append(EPS eps, PetscInt first) {
   PetscFunctionReturn(0);
 }
 
-// V <- V S, the first columns of it
-PetscErrorCode rotate(EPS eps, Eigen::MatrixXd S) {
+// The columns of V from `locked` on, times S.
+PetscErrorCode rotate(EPS eps, PetscInt locked, const Eigen::MatrixXd& S) {
   Mat matrix;
+  const PetscInt m = locked + static_cast<PetscInt>(S.rows()), end = locked + static_cast<PetscInt>(S.cols());
+  Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(m, end);
+  Q.bottomRightCorner(S.rows(), S.cols()) = S;
 
   PetscFunctionBegin;
-  PetscCall(BVSetActiveColumns(eps->V, 0, S.rows()));
-  PetscCall(view(S, &matrix));
-  PetscCall(BVMultInPlace(eps->V, matrix, 0, S.cols()));
+  if (S.cols() == 0) PetscFunctionReturn(0);
+  PetscCall(BVSetActiveColumns(eps->V, 0, m));
+  PetscCall(view(Q, &matrix));
+  PetscCall(BVMultInPlace(eps->V, matrix, locked, end));
   PetscCall(MatDestroy(&matrix));
   PetscFunctionReturn(0);
 }
@@ -199,35 +203,38 @@ Ritz ritz(const Eigen::MatrixXd& T) {
   return sorted;
 }
 
-// Error estimates of all pairs; the first that have converged are counted.
-PetscErrorCode count_converged(EPS eps, const Ritz& pairs, const Eigen::MatrixXd& R) {
-  const Eigen::Index m = pairs.theta.size();
+// Error estimates of the pairs behind those that are locked; the first that have converged are counted.
+PetscErrorCode count_converged(EPS eps, PetscInt locked, const Ritz& pairs, const Eigen::MatrixXd& R) {
   const Eigen::VectorXd residual = (R * pairs.S.bottomRows(R.cols())).colwise().norm();
   bool all = true;
 
   PetscFunctionBegin;
-  eps->nconv = 0;
-  for (Eigen::Index i = 0; i < m; ++i) {
-    eps->eigr[i] = pairs.theta[i], eps->eigi[i] = 0;
-    PetscCall((*eps->converged)(eps, eps->eigr[i], 0, residual[i], &eps->errest[i], eps->convergedctx));
-    all = all && eps->errest[i] < eps->tol;
+  eps->nconv = locked;
+  for (PetscInt i = 0; i < pairs.theta.size(); ++i) {
+    const PetscInt at = locked + i;
+    eps->eigr[at] = pairs.theta[i], eps->eigi[at] = 0;
+    PetscCall((*eps->converged)(eps, eps->eigr[at], 0, residual[i], &eps->errest[at], eps->convergedctx));
+    all = all && eps->errest[at] < eps->tol;
     eps->nconv += all;
   }
   PetscFunctionReturn(0);
 }
 
-// V <- the first pairs' vectors and the block that comes next; T accordingly. Returns how many pairs are kept.
-PetscErrorCode restart(EPS eps, const Ritz& pairs, const Eigen::MatrixXd& R, Eigen::MatrixXd& T, PetscInt* kept) {
-  const PetscInt b = data_of(eps)->block, m = static_cast<PetscInt>(pairs.theta.size());
-  const PetscInt keep = std::min(eps->nconv + (m - eps->nconv) / 2, m - b);
+// V <- the first pairs' vectors; T accordingly. Those that have converged are locked: their coupling to what comes is
+// below the tolerance and taken for nothing, else those of one frequency would mix with ones that have not.
+PetscErrorCode restart(EPS eps, const Ritz& pairs, const Eigen::MatrixXd& R, Eigen::MatrixXd& T, PetscInt* locked,
+                       PetscInt* kept) {
+  const PetscInt b = data_of(eps)->block, m = static_cast<PetscInt>(pairs.theta.size()), done = eps->nconv - *locked;
+  const PetscInt keep = std::min(done + (m - done) / 2, m - b), open = std::max<PetscInt>(keep - done, 0);
 
   PetscFunctionBegin;
-  PetscCall(rotate(eps, pairs.S.leftCols(keep)));
+  PetscCall(rotate(eps, *locked, pairs.S.leftCols(keep)));
+  *kept = *locked + keep;
+  *locked = *kept - open;
   T.setZero();
-  T.topLeftCorner(keep, keep).diagonal() = pairs.theta.head(keep);
-  T.block(keep, 0, b, keep) = R * pairs.S.block(m - b, 0, b, keep);
-  T.block(0, keep, keep, b) = T.block(keep, 0, b, keep).transpose();
-  *kept = keep;
+  T.block(*locked, *locked, open, open).diagonal() = pairs.theta.segment(keep - open, open);
+  T.block(*kept, *locked, b, open) = R * pairs.S.block(m - b, keep - open, b, open);
+  T.block(*locked, *kept, open, b) = T.block(*kept, *locked, b, open).transpose();
   PetscFunctionReturn(0);
 }
 
@@ -251,7 +258,7 @@ PetscErrorCode iterate(EPS eps) {
   const PetscInt b = data->block;
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(eps->ncv + b, eps->ncv + b), A, R;
   Ritz pairs;
-  PetscInt k = 0, m = b;
+  PetscInt k = 0, m = b, locked = 0;
 
   PetscFunctionBegin;
   PetscCall(start(eps));
@@ -265,21 +272,21 @@ PetscErrorCode iterate(EPS eps) {
     PetscCall(BVSetActiveColumns(eps->V, 0, m));
     PetscCall(add_product(data->W, -1, eps->V, before));
     PetscCall(orthonormalise(eps, R));
-    pairs = ritz(T.topLeftCorner(m, m));
-    PetscCall(count_converged(eps, pairs, R));
+    pairs = ritz(T.block(locked, locked, m - locked, m - locked));
+    PetscCall(count_converged(eps, locked, pairs, R));
     PetscCall(EPSMonitor(eps, eps->its, eps->nconv, eps->eigr, eps->eigi, eps->errest, std::min(eps->nconv + 1, m)));
     PetscCall((*eps->stopping)(eps, eps->its, eps->max_it, eps->nconv, eps->nev, &eps->reason, eps->stoppingctx));
     if (eps->reason != EPS_CONVERGED_ITERATING) break;
     k = m;
     if (m + b > eps->ncv) {
-      PetscCall(restart(eps, pairs, R, T, &k));
+      PetscCall(restart(eps, pairs, R, T, &locked, &k));
     } else {
       T.block(m, m - b, b, b) = R;
       T.block(m - b, m, b, b) = R.transpose();
     }
     PetscCall(append(eps, k));
   }
-  PetscCall(rotate(eps, pairs.S.leftCols(std::max<PetscInt>(eps->nconv, 1))));
+  PetscCall(rotate(eps, locked, pairs.S.leftCols(eps->nconv - locked)));
   PetscCall(BVSetActiveColumns(eps->V, 0, eps->nconv));
   PetscFunctionReturn(0);
 }
@@ -338,12 +345,13 @@ PetscErrorCode set_up(EPS eps) {
   EPSCheckSinvert(eps);
   EPSCheckUnsupported(eps, EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION | EPS_FEATURE_EXTRACTION | EPS_FEATURE_TWOSIDED);
   PetscCheck(eps->which == EPS_TARGET_MAGNITUDE || !eps->which, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-             "block-lanczos finds the eigenvalues next to the target only (-eps_target_magnitude)");
+             "block-lanczos finds the eigenvalues next to the target only (-%seps_target_magnitude)",
+             ((PetscObject)eps)->prefix ? ((PetscObject)eps)->prefix : "");
   eps->which = EPS_TARGET_MAGNITUDE;
   if (eps->ncv == PETSC_DEFAULT) eps->ncv = std::min(eps->n, block_lanczos_space(eps->nev));
   PetscCheck(eps->ncv >= eps->nev + 3 * b, PetscObjectComm((PetscObject)eps), PETSC_ERR_USER_INPUT,
-             "block-lanczos needs room for three blocks beside the eigenvectors: -eps_ncv %" PetscInt_FMT " or more",
-             eps->nev + 3 * b);
+             "block-lanczos needs room for three blocks beside the eigenvectors: -%seps_ncv %" PetscInt_FMT " or more",
+             ((PetscObject)eps)->prefix ? ((PetscObject)eps)->prefix : "", eps->nev + 3 * b);
   if (eps->mpd == PETSC_DEFAULT) eps->mpd = eps->ncv;
   if (eps->max_it == PETSC_DEFAULT) eps->max_it = 500;
   PetscCall(EPSAllocateSolution(eps, 0));

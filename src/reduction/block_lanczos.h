@@ -15,7 +15,8 @@ inline constexpr char block_lanczos[] = "block-lanczos";
 /// b single solves read it b times: a direct solver takes a fifth of the time for each of eight. About two and a half
 /// times as many solves are needed as by single vectors. Each block is made orthogonal to all before it, as often as
 /// it takes; the pairs are those of the projected matrix; it restarts with the best of them where the space is full
-/// (thick restart). Frequencies repeated up to b times are found together.
+/// (thick restart), those that have converged locked. Frequencies repeated up to b times are found together; of more,
+/// some may be passed over.
 ///
 /// Options: -eps_block_lanczos_size <8> (b), -eps_ncv (most vectors), -eps_tol, -eps_max_it (steps of a block each),
 /// monitors, deflation and initial spaces as of any EPS. Of the ST types sinvert only.

@@ -65,12 +65,6 @@ std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, c
   return found;
 }
 
-std::vector<double> relative_errors(EPS eps, int count) {
-  std::vector<double> errors(count);
-  for (int i = 0; i < count; ++i) check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &errors[i]));
-  return errors;
-}
-
 std::vector<double> exact_values(const fem::ElementStiffness& K, Mat M, bool mix, const Columns& phi) {
   const fem::Structure& structure = K.structure();
   const Eigen::Index count = static_cast<Eigen::Index>(phi.size());

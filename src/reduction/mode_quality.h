@@ -20,6 +20,12 @@ struct Transformation {
 struct Found {
   std::vector<double> lambda;
   Columns raw;
+  std::vector<double> error;  ///< of lambda, relative, as SLEPc tells it, where it was asked to
+
+  void add(double value, petsc::VecHandle x, double off) {
+    lambda.push_back(value), raw.push_back(std::move(x)), error.push_back(off);
+  }
+  void resize(std::size_t count) { lambda.resize(count), raw.resize(count), error.resize(count); }
 };
 
 /// phi <- (lambda - s) (K - s M)^-1 M phi, all in one block: takes out what M does not see (rotations without mass) and
@@ -32,9 +38,6 @@ std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Cond
 /// Collective.
 std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, const fem::Conditions& held,
                               const Columns& phi, const std::vector<double>& lambda);
-
-/// What SLEPc says of its pairs, where nobody solves with K - s M. Collective.
-std::vector<double> relative_errors(EPS eps, int count);
 
 /// Rayleigh's quotients with the strain energy of the elements. Collective.
 /// @param mix  whether modes are combined until they are stationary (Ritz): what K's round-off has turned them, the

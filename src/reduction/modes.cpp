@@ -12,7 +12,7 @@
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
-#include "mode_quality.h"
+#include "mode_pairs.h"
 #include "multigrid.h"
 
 namespace floe::reduction {
@@ -20,26 +20,6 @@ namespace floe::reduction {
 using petsc::check;
 
 namespace {
-
-/// A rough field that depends on the dofs' original numbers only, not on ranks, zero at the conditions: the start of
-/// the Krylov space, or one of them.
-petsc::VecHandle start(const fem::Structure& structure, const fem::Conditions& conditions, int number = 0) {
-  petsc::VecHandle x = fem::field(structure);
-  PetscInt first = 0, end = 0;
-  double* values = nullptr;
-  check(VecGetOwnershipRange(x, &first, &end));
-  check(VecGetArrayWrite(x, &values));
-  const double length = fem::extent(structure);  // rotations of the size that displacements give, in any units
-  for (PetscInt i = 0; i < end - first; ++i) {
-    const bool rotation = i % structure.dofs_per_node >= structure.dimension();
-    values[i] =
-        (std::sin((12.9898 + 1.6180 * number) * double(structure.original_dof(static_cast<int>(i)) + 1)) + 0.5) *
-        (rotation ? 1 / length : 1);
-  }
-  check(VecRestoreArrayWrite(x, &values));
-  fem::hold(x, conditions);
-  return x;
-}
 
 /// q'K q / q'M q with the strain energy of the elements.
 double rayleigh(const fem::ElementStiffness& K, Mat M, Vec q) {
@@ -54,19 +34,11 @@ double rayleigh(const fem::ElementStiffness& K, Mat M, Vec q) {
 /// deflection.
 double low_frequency(const fem::Structure& structure, const Statics& statics, Mat M) {
   petsc::VecHandle load = fem::field(structure);
-  check(MatMult(M, start(structure, {}), load));
+  check(MatMult(M, rough_field(structure, {}), load));
   Columns loads;
   loads.push_back(std::move(load));
   const Columns u = statics.solve(loads);
   return rayleigh(*statics.elements(), M, u[0]);
-}
-
-bool user_sets(const std::string& prefix) {
-  char* all = nullptr;
-  check(PetscOptionsGetAll(nullptr, &all));
-  const bool found = (" " + std::string(all)).find(" -" + prefix) != std::string::npos;
-  check(PetscFree(all));
-  return found;
 }
 
 bool own_transformation(EPS eps, double shift) {
@@ -99,14 +71,6 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   check(STSetPreconditionerMat(st, factored));
   check(STGetKSP(st, &ksp));
   iterate(ksp, KSPCG);
-}
-
-KSP solver_of(EPS eps) {
-  ST st = nullptr;
-  KSP ksp = nullptr;
-  check(EPSGetST(eps, &st));
-  check(STGetKSP(st, &ksp));
-  return ksp;
 }
 
 /// Where the user's options iterate: the assembled K - shift M as multigrid takes it, for the preconditioner.
@@ -162,15 +126,13 @@ void prefer_blocks(EPS eps, PetscInt count, PetscInt available) {
   check(EPSSetFromOptions(eps));
 }
 
-/// How many vectors the Krylov space has: three more than SLEPc's default, each of which makes the last pair's residual
-/// ten times smaller or more, so that no restart is needed (nine solves for a mode more). Other solvers choose
-/// themselves.
-PetscInt subspace_of(EPS eps, PetscInt count, PetscInt available) {
-  const PetscInt vectors = std::max(2 * count, count + 15) + 3;
-  PetscBool krylov = PETSC_FALSE;
-  if (block_size(eps) > 1) return std::min(block_lanczos_space(count), available);
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(eps), EPSKRYLOVSCHUR, &krylov));
-  return krylov && 2 * vectors < available ? vectors : PETSC_DEFAULT;
+/// Whether no option chooses other pairs than those next to the shift.
+bool finds_lowest(EPS eps, double shift) {
+  double target = 0;
+  EPSWhich which = EPS_TARGET_MAGNITUDE;
+  check(EPSGetTarget(eps, &target));
+  check(EPSGetWhichEigenpairs(eps, &which));
+  return which == EPS_TARGET_MAGNITUDE && target == shift;
 }
 
 /// The rigid motions that are left free, under the conditions.
@@ -183,46 +145,6 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
     fem::hold(rigid.back(), holding.held);
   }
   return rigid;
-}
-
-/// EPSSolve, where a linear solve within it that fails is told by its factor, its options, or its mesh.
-void solve_pairs(EPS eps, const Statics& statics) {
-  try {
-    check(EPSSolve(eps));
-  } catch (const petsc::Error& error) {
-    ST st = nullptr;
-    KSP ksp = nullptr;
-    const char* prefix = nullptr;
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check(EPSGetST(eps, &st));
-    check(STGetKSP(st, &ksp));
-    const petsc::FactorFault fault = petsc::factor_fault(ksp);
-    PetscBool inverts_mass = PETSC_FALSE;
-    check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSHIFT, &inverts_mass));
-    if (inverts_mass && !fault.text.empty())
-      throw InputError(
-          "option -modes_st_type shift: inverts the mass matrix, in which rotations may have no mass; expected "
-          "sinvert");
-    if (!fault.text.empty()) throw RunError(fault.text);
-    if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
-    if (statics.refines()) throw too_fine(statics.elements()->structure(), "its modes do not converge");
-    check(KSPGetOptionsPrefix(ksp, &prefix));
-    check(KSPGetConvergedReason(ksp, &reason));
-    throw RunError(fmt::format("a linear solve for the modes (options -{}ksp_...) did not converge: {}",
-                               prefix ? prefix : "", KSPConvergedReasons[reason]));
-  }
-}
-
-void check_converged(EPS eps, int count) {
-  PetscInt converged = 0, iterations = 0;
-  EPSConvergedReason reason = EPS_CONVERGED_ITERATING;
-  check(EPSGetConverged(eps, &converged));
-  check(EPSGetConvergedReason(eps, &reason));
-  check(EPSGetIterationNumber(eps, &iterations));
-  if (converged < count)
-    throw RunError(
-        fmt::format("the eigenvalue solver (options -modes_eps_...) found {} of {} modes in {} iterations: {}",
-                    converged, count, iterations, EPSConvergedReasons[reason]));
 }
 
 }  // namespace
@@ -251,6 +173,7 @@ void ModeSolver::create(int count) {
   const double shift = moves ? -low_frequency(structure_, statics_, M_) : 0;
   // Pairs of K's factor need not be much better than that is of K.
   const double tolerance = shares ? std::clamp(1e-2 * statics_.factor_error(), 1e-10, 1e-8) : 1e-10;
+  shift_ = shift;
   eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift, tolerance);
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
@@ -277,61 +200,6 @@ PetscInt ModeSolver::available() const {
   return available_ = moving - static_cast<PetscInt>(holding_.left.cols());
 }
 
-namespace {
-
-/// `count` pairs at least, and those that have converged of `wanted`.
-Found pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
-            const Statics& statics, int count, int wanted) {
-  std::vector<Vec> deflated(rigid.begin(), rigid.end());
-  if (!deflated.empty()) check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
-  Columns first;
-  for (int i = 0; i < block_size(eps); ++i) first.push_back(start(structure, held, i));
-  std::vector<Vec> initial(first.begin(), first.end());
-  check(EPSSetInitialSpace(eps, static_cast<PetscInt>(initial.size()), initial.data()));
-  solve_pairs(eps, statics);
-  check_converged(eps, count);
-  PetscInt converged = 0;
-  check(EPSGetConverged(eps, &converged));
-  Found found;
-  found.lambda.resize(std::min<PetscInt>(converged, wanted));
-  for (int i = 0; i < std::ssize(found.lambda); ++i) {
-    found.raw.push_back(fem::field(structure));
-    check(EPSGetEigenpair(eps, i, &found.lambda[i], nullptr, found.raw.back(), nullptr));
-    fem::hold(found.raw.back(), held);
-  }
-  return found;
-}
-
-/// How many of the pairs have the frequency of the last one counted, but come after it.
-int left_out(const std::vector<double>& lambda, int count) {
-  for (const auto& [first, end] : clusters(lambda))
-    if (first < count && count <= end) return end - count;
-  return 0;
-}
-
-/// The pairs, with all of the last one's frequency. One more than counted shows whether there are some.
-Found complete_pairs(EPS eps, const fem::Structure& structure, const fem::Conditions& held, const Columns& rigid,
-                     const Statics& statics, int count, int available) {
-  const bool bounded = user_sets("modes_eps_ncv");  // the user's subspace holds one vector more than is asked for
-  PetscInt asked = 0, subspace = 0;
-  check(EPSGetDimensions(eps, &asked, &subspace, nullptr));
-  if (bounded) available = std::min(available, std::max<int>(count, subspace - 1));
-  for (int more = 1;; more *= 2) {
-    const int wanted = std::min(count + more, available);
-    check(EPSGetDimensions(eps, &asked, nullptr, nullptr));
-    if (asked < wanted || asked > available)
-      check(EPSSetDimensions(eps, wanted, bounded ? subspace : subspace_of(eps, wanted, available), PETSC_DEFAULT));
-    Found found = pairs(eps, structure, held, rigid, statics, count, wanted);
-    const int have = static_cast<int>(found.lambda.size()), equal = left_out(found.lambda, count);
-    if (count + equal == have && have == wanted && wanted < available && more < 16) continue;
-    found.lambda.resize(count + equal);
-    found.raw.resize(count + equal);
-    return found;
-  }
-}
-
-}  // namespace
-
 Modes ModeSolver::solve(int count) {
   Modes modes;
   if (count <= 0) return modes;
@@ -342,8 +210,16 @@ Modes ModeSolver::solve(int count) {
   const petsc::Stage stage("modes");
   const Transformation inverse(eps_, statics_, holding_.held);
   const bool shares = statics_.owns(inverse.ksp);
-  Found found = complete_pairs(eps_, structure_, holding_.held, rigid_motions(structure_, frame_, holding_), statics_,
-                               count, static_cast<int>(available()));
+  const Columns rigid = rigid_motions(structure_, frame_, holding_);
+  const PairSearch search{eps_,
+                          structure_,
+                          holding_.held,
+                          rigid,
+                          statics_,
+                          static_cast<int>(available()),
+                          finds_lowest(eps_, shift_),
+                          !inverse.ksp};
+  Found found = lowest_pairs(search, M_, count);
   std::vector<double> errors;
   if (inverse.ksp) errors = purify(inverse, M_, holding_.held, found);
   modes.raw = std::move(found.raw);
@@ -369,7 +245,7 @@ Modes ModeSolver::solve(int count) {
   else if (inverse.ksp)
     modes.residual = residuals(inverse, exact_, M_, holding_.held, modes.raw, lambda);
   else
-    modes.residual = relative_errors(eps_, count);
+    modes.residual.assign(found.error.begin(), found.error.begin() + count);
   for (int i = 0; i < count; ++i) {
     if (modes.residual[i] <= 1e-2 || std::abs(found.lambda[i] / lambda[i] - 1) <= 1e-3) continue;
     if (!statics_.refines())

@@ -21,9 +21,9 @@ struct Modes {
 /// or its factor so spoilt by round-off that solves iterate). At shift 0 under the conditions of `statics`, the solver
 /// of `statics` serves with its factor and its options -derivatives_...; any option -modes_st_... gives the EPS a
 /// solver of its own. The sign of each mode makes the first translation above half the greatest one positive. Where
-/// frequencies repeat, all modes of one are found, and combined by a rule of which neither ranks nor the EPS know (the
-/// first, say, moves along y where the second stands still); then those beyond the count are left out. Modes of a flat
-/// body move in its plane or out of it (fem::separate).
+/// frequencies repeat, all modes of one are found (lowest_pairs counts them), and combined by a rule of which neither
+/// ranks nor the EPS know (the first, say, moves along y where the second stands still); then those beyond the count
+/// are left out. Modes of a flat body move in its plane or out of it (fem::separate).
 class ModeSolver {
  public:
   /// @param statics  a solver of the same body (also estimates the shift of a free body)
@@ -46,6 +46,7 @@ class ModeSolver {
   const Statics& statics_;
   petsc::MatHandle K_, M_, exact_;  ///< K_ only where the one of `statics` does not serve; exact_ without round-off
   petsc::EpsHandle eps_;
+  double shift_ = 0;                 ///< where it looks
   mutable PetscInt available_ = -1;  ///< once it is known
 };
 

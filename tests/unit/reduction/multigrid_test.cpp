@@ -5,23 +5,12 @@
 #include <string>
 
 #include "bodies_in_space.h"
+#include "options.h"
 
 using namespace floe;
 using namespace floe::testing;
 
 namespace {
-
-/// PETSc's options for as long as it lives.
-struct Options {
-  std::map<std::string, std::string> all;
-  explicit Options(std::map<std::string, std::string> given) : all(std::move(given)) {
-    for (const auto& [name, value] : all) petsc::check(PetscOptionsSetValue(nullptr, name.c_str(), value.c_str()));
-  }
-  Options(const Options&) = delete;
-  ~Options() {
-    for (const auto& [name, value] : all) PetscOptionsClearValue(nullptr, name.c_str());
-  }
-};
 
 /// Those of examples/blade/options/iterative.opts, for a solver with a prefix.
 std::map<std::string, std::string> multigrid(const std::string& prefix) {

@@ -1,0 +1,91 @@
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <numbers>
+
+#include "bodies_in_space.h"
+#include "options.h"
+
+using namespace floe;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::Kind;
+using testing::SpatiallyHeld;
+using testing::Spread;
+
+namespace {
+
+/// Equal round beams of length one that stick out of a hub, original node 0, in the plane z = 0. Held at the hub, the
+/// body has each frequency of one of them twice as often as there are beams.
+fem::Structure hub(MPI_Comm comm, int beams, int elements) {
+  mesh::Polyline lines{{{0, 0, 0}}, {}, {}, {}};
+  for (int i = 0; i < beams; ++i) {
+    const double angle = 2 * std::numbers::pi * i / beams;
+    lines.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+    lines.segments.push_back({0, i + 1});
+    lines.elements.push_back(elements);
+  }
+  const fem::SpatialBeam beam{{1e5, 1, 1, 0, 1e3, 1, 1e-5, 1e-5, 0, {0, 0}, {0, 0}}, {0, 0, 1}, {}};
+  return testing::structure_of(mesh::polyline(comm, lines), {beam}, Spread::shuffled);
+}
+
+/// All eigenvalues but those of rigid motions, from dense matrices under conditions.
+std::vector<double> dense_values(const SpatiallyHeld& body) {
+  const fem::Conditions& held = body.holding.held;
+  const MatrixXd M = testing::dense(body.structure, fem::mass(body.structure, held)),
+                 K = testing::dense(body.structure, fem::stiffness(body.structure, held)) + M;  // shifted by one
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(M, K, Eigen::EigenvaluesOnly);
+  std::vector<double> lambda;
+  for (Eigen::Index i = K.cols(); i-- > 0;)
+    if (const double theta = pairs.eigenvalues()[i]; theta > 1e-12 && theta < 1 - 1e-6) lambda.push_back(1 / theta - 1);
+  return lambda;
+}
+
+void check_modes(const SpatiallyHeld& body, int count, const std::vector<double>& lambda) {
+  const reduction::Modes modes = body.modes(count);
+  const petsc::MatHandle M = fem::mass(body.structure, body.holding.held);
+  REQUIRE(std::ssize(modes.raw) == count);
+  for (int i = 0; i < count; ++i) {
+    CHECK(modes.omega[i] == Approx(std::sqrt(lambda[i])).epsilon(1e-7));
+    CHECK(modes.residual[i] < 1e-6);
+    for (int j = 0; j <= i; ++j)
+      CHECK(testing::form(M, modes.raw[i], modes.raw[j]) == Approx(i == j ? 1 : 0).margin(1e-6));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("no mode is passed over where many have one frequency") {
+  const auto [beams, elements] = GENERATE(std::pair{12, 3}, std::pair{16, 2});
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, beams, elements), Kind::clamped, {0});
+  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, elements), Kind::clamped, {0});
+  std::vector<double> lambda;
+  for (double value : dense_values(one)) lambda.insert(lambda.end(), beams, value);
+  for (const int count : {4, beams, 2 * beams + 4, 3 * beams}) {
+    INFO(beams << " beams, " << count);
+    check_modes(body, count, lambda);
+  }
+}
+
+TEST_CASE("no mode of a free body is passed over, its rigid motions are not counted") {
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 12, 2), Kind::mean_axis, {});
+  const std::vector<double> lambda = dense_values(body);
+  for (const int count : {6, 20, 40}) check_modes(body, count, lambda);
+}
+
+using Given = std::map<std::string, std::string>;
+
+TEST_CASE("no mode is passed over where a cluster has more than a block, or the user's solver takes one by one") {
+  const testing::Options options(GENERATE(as<Given>(), Given{}, Given{{"-modes_eps_type", "krylovschur"}},
+                                          Given{{"-modes_eps_block_lanczos_size", "3"}}));
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 30, 5), Kind::clamped, {0});
+  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, 5), Kind::clamped, {0});
+  std::vector<double> lambda;
+  for (double value : dense_values(one)) lambda.insert(lambda.end(), 30, value);
+  check_modes(body, 36, lambda);
+}
+
+TEST_CASE("an eigenvalue solver that finds rigid motions is refused") {
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 4, 2), Kind::mean_axis, {});
+  const testing::Options options(Given{{"-modes_eps_type", "lapack"}});
+  CHECK_THROWS_WITH(body.modes(6), Catch::Contains("rigid motions"));
+}
