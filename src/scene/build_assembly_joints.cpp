@@ -80,6 +80,8 @@ void Assembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eig
           dynamics::SpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart.norm()),
                                      joint.torsional_stiffness, joint.torsional_viscosity, offset}));
       break;
+    default:  // those of space
+      break;
   }
 }
 
