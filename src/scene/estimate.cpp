@@ -52,6 +52,12 @@ class Allowance {
 
 bool has_structure(const PreparedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
 
+bool keeps_factors(const Offline& offline) {
+  for (std::size_t b = 0; b < offline.reduced.size(); ++b)
+    if (has_structure(offline.prepared.bodies[b]) && !offline.reduced[b].statics) return false;
+  return true;
+}
+
 PetscInt elements_of(const Offline& offline) {
   PetscInt count = 0;
   for (const PreparedBody& body : offline.prepared.bodies)
@@ -324,6 +330,8 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   else if (const PetscInt elements = elements_of(offline); elements >= most_elements)
     estimate.none =
         fmt::format("its full order of {} elements would take too long; it is made below {}", elements, most_elements);
+  else if (!keeps_factors(offline))
+    estimate.none = "the factors of the stiffness were not kept";
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;
