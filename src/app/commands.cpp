@@ -13,6 +13,7 @@
 #include <set>
 
 #include "choose.h"
+#include "estimate_words.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
 #include "floe/scene/range.h"
@@ -100,15 +101,6 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
     for (const scene::BodyReport& body : scene::body_sizes(scene, comm))
       sizes.push_back({body.elements, body.dofs, body.frame});
   return sizes;
-}
-
-std::string estimate_words(const scene::Estimate& estimate) {
-  if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
-  std::string words =
-      fmt::format("estimated error {:.2g} % (deformations, against the full order of the same mesh; {:.2g} s)\n",
-                  100 * estimate.deformation, estimate.seconds);
-  for (const std::string& note : estimate.notes) words += "Note (estimate): " + note + "\n";
-  return words;
 }
 
 /// Of modes that bend within single cells; empty if there are none.

@@ -8,7 +8,7 @@ from typing import Callable, Optional, Union
 import reduced
 import runtime
 import space
-from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
+from results import absent, estimated, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
@@ -338,6 +338,11 @@ UNUSUAL = [
                    "joints.clamp": {"type": "revolute", "between": ["ground", "beam.start"]}}),
     *(Case(f"static, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], shows=("5 equilibria",),
            check=files("finished", 6)) for f in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"estimate of equilibria, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], lines=0,
+           shows=("probe  estimated error", "estimated error ", "against the full order of the same mesh"),
+           check=lambda folder: (files("finished", 6)(folder), estimated(5, "tip")(folder))) for f in ("vm", "vm+md")),
+    Case("no estimate of equilibria", ["static", "scene.yaml", "--no-estimate", "-o", "out"], lines=0,
+         never=("estimated error", "No estimate"), check=files("finished", 11)),
     *(Case(f"static of what nothing holds, {f}", ["static", "scene.yaml", "--formulation", f, "-o", "out"], 1,
            ("no equilibrium at t = ", "nothing holds the configuration in some direction (body beam)"), lines=1,
            scene=scene({"joints": None}), check=files("failed", 0, "no equilibrium")) for f in ("vm+md", "nlffr", "cfr")),
@@ -417,6 +422,8 @@ UNUSUAL = [
 ]
 
 REDUCED = [
+    Case("equilibria of a reduced body", ["static", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
+         prepare=reduced.made(), shows=("No estimate of the error: no body has a mesh",), check=files("finished", 11)),
     Case("reduced body", run(), scene=reduced.from_file(), prepare=reduced.made(), check=files("finished", 51)),
     Case("reduced body, compared", ["compare", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
          prepare=reduced.made(), check=stands("out/compare.csv"), shows=("lffr", "vm+md"), lines=0),
