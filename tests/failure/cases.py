@@ -390,6 +390,14 @@ UNUSUAL = [
           ("start", "motion_start_", run("nlffr", "-motion_start_mat_mumps_icntl_23", "1"), MANY),
           ("equilibrium", "static_", ["static", "scene.yaml", "--formulation", "nlffr", "-static_mat_mumps_icntl_23", "1",
                                       "-o", "out"], MANY))),
+    *(Case(f"work space of the {what}", words, 0, never=("INFOG",), lines=0, scene=big)
+      for what, words, big in (
+          ("statics", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_14", "-50"], PLATE),
+          ("modes", ["modes", "scene.yaml", "-modes_st_mat_mumps_icntl_14", "-50"], PLATE),
+          ("start", run("nlffr", "-motion_start_mat_mumps_icntl_14", "-50"), MANY),
+          ("motion", run("nlffr", "-motion_mat_mumps_icntl_14", "-50", "-motion_pc_factor_mat_solver_type", "mumps"), MANY),
+          ("equilibrium", ["static", "scene.yaml", "--formulation", "nlffr", "--steps", "1", "--at", "0.01",
+                           "-static_mat_mumps_icntl_14", "-50", "-o", "out"], MANY))),
     Case("modes by another transformation", ["modes", "scene.yaml", "-modes_st_type", "shift"], (1, 2),
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
