@@ -323,7 +323,7 @@ int main(int argc, char** argv) {
 
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
-  check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
+  check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
   schema_command->add_flag("--markdown", choices.markdown, "as Markdown, for the manual");

@@ -16,6 +16,7 @@
 #include "estimate_words.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
+#include "floe/scene/check.h"
 #include "floe/scene/range.h"
 #include "floe/scene/reduced.h"
 #include "run.h"
@@ -140,6 +141,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
 void check(const scene::Scene& scene, MPI_Comm comm) {
   const scene::Scene split = scene::split_frames(scene);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
+  scene::check_modes(scene, comm);
   std::int64_t elements = 0;
   bool files = false;  // their bodies have no full order, but a linear one
   for (std::size_t b = 0; b < sizes.size(); ++b) {
@@ -164,10 +166,14 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
                files ? "as lffr" : "at full order");
   else
     fmt::print("the full-order system is not built here, from {} elements on\n", greatest_built);
-  fmt::print("motion to t = {} s, ", scene.motion.end);
-  if (scene.motion.tolerance)
-    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
+  const bool moves = scene.motion.end > 0;
+  if (moves)
+    fmt::print("motion to t = {} s, ", scene.motion.end);
   else
+    fmt::print("no motion: fit for modes, reduce, static and campbell; run, compare, tradeoff and sweep need one\n");
+  if (moves && scene.motion.tolerance)
+    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
+  else if (moves)
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
   if (model && model->velocity_correction > 1e-9)
     fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",

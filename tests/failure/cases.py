@@ -60,6 +60,13 @@ COMMANDS = [
     Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
     Case("check of many elements", ["check", "scene.yaml"], shows=("300003", "is not built"),
          scene=scene({"bodies.beam.mesh.line.elements": 100000})),
+    Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
+         shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),
+    Case("check of too many modes", ["check", "scene.yaml"], 2,
+         ("bodies.f.reduction.modes: 40 modes are asked of a body that has 18 elastic dofs under its conditions",), lines=1,
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 40}}}\n"
+               "joints: {root: {type: fixed, between: [ground, f.start]}}\nmotion: {end: 1, step: 1e-2}\n"),
     Case("modes", ["modes", "scene.yaml"], shows=("rad/s",)),
     *(Case(f"full standard output of {words[0]}", words, 1, ("cannot write to ",),
            lines=1, stdout="/dev/full", ranks=(1,))
