@@ -115,6 +115,33 @@ std::string unresolved_words(const scene::BodyReport& body) {
   return fmt::format("Note: {}\n", scene::sag_text(body.name, modes, most, scene::greatest_sag_of_modes));
 }
 
+/// Numbers from 1, ascending, as `3, 7 to 9`.
+std::string ranges_of(const std::vector<std::size_t>& numbers) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0, end = 0; i < numbers.size(); i = end) {
+    for (end = i + 1; end < numbers.size() && numbers[end] == numbers[end - 1] + 1;) ++end;
+    if (end - i > 2)
+      words.push_back(fmt::format("{} to {}", numbers[i], numbers[end - 1]));
+    else
+      for (std::size_t k = i; k < end; ++k) words.push_back(std::to_string(numbers[k]));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Of modes whose equations are not met; empty if there are none.
+std::string unsolved_words(const scene::BodyReport& body) {
+  constexpr double greatest = 1e-4;
+  std::vector<std::size_t> which;
+  double most = 0;
+  for (std::size_t i = 0; i < body.residual.size(); ++i)
+    if (!(body.residual[i] <= greatest)) which.push_back(i + 1), most = std::max(most, body.residual[i]);
+  if (which.empty()) return "";
+  return fmt::format(
+      "Note: body {}: mode{} {} {} residuals up to {:.2g} (limit {:.0e}): the equations of the mesh are met no better; "
+      "ask for fewer modes\n",
+      body.name, which.size() > 1 ? "s" : "", ranges_of(which), which.size() > 1 ? "have" : "has", most, greatest);
+}
+
 }  // namespace
 
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
@@ -130,7 +157,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
-  for (const auto& body : bodies) fmt::print("{}", unresolved_words(body));
+  for (const auto& body : bodies) fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)

@@ -60,6 +60,11 @@ COMMANDS = [
     Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
     Case("check of many elements", ["check", "scene.yaml"], shows=("300003", "is not built"),
          scene=scene({"bodies.beam.mesh.line.elements": 100000})),
+    Case("modes of nearly all dofs", ["modes", "scene.yaml"], lines=0, shows=("Note: body f: mode", "(limit 1e-04)"),
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 60}}, section: {shape: rectangle, "
+               "width: 0.01, height: 0.02, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, "
+               "reduction: {modes: 355, derivatives: none}}}\n"),
+    Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),
     Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
          shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),
     Case("check of too many modes", ["check", "scene.yaml"], 2,
