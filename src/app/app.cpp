@@ -229,6 +229,8 @@ int main(int argc, char** argv) {
   static_command->add_option("--steps", choices.steps, "equilibria on the way, at equal distances in t")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  static_command->add_flag("--no-estimate", choices.no_estimate,
+                           "spare the estimate of the error against full order (vm, vm+md)");
   add_folder(static_command, choices);
   static_command->callback([&] {
     work = [&] {
@@ -236,7 +238,8 @@ int main(int argc, char** argv) {
       const scene::Scene scene = read(choices.scene);
       const double at = choices.at.value_or(scene.motion.end > 0 ? scene.motion.end : 1);
       rest_one(scene, formulation, PETSC_COMM_WORLD, {at, choices.steps},
-               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "static"), choices.force));
+               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "static"), choices.force),
+               !choices.no_estimate && scene::is_reduced(formulation));
     };
   });
 
@@ -320,7 +323,7 @@ int main(int argc, char** argv) {
 
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
-  check_command->callback([&] { work = [&] { check(read_moving(choices.scene), PETSC_COMM_WORLD); }; });
+  check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
   schema_command->add_flag("--markdown", choices.markdown, "as Markdown, for the manual");

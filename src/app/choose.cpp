@@ -325,6 +325,11 @@ Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
   const double begin = MPI_Wtime();
   if (scene.probes.empty())
     throw InputError(scene.file + ": accuracy: is that of the probes, and there are none; expected `probes: {...}`");
+  if (!scene.events.empty())
+    throw InputError(
+        scene.file +
+        ": accuracy: nothing supports a choice: events change the joints, or end the motion when the model "
+        "has them do so; expected a scene without");
   const output::Waiting waiting(comm, "choosing the model");
   Chosen chosen = Search(scene, accuracy, comm).result();
   chosen.seconds = MPI_Wtime() - begin;

@@ -13,8 +13,10 @@
 #include <set>
 
 #include "choose.h"
+#include "estimate_words.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
+#include "floe/scene/check.h"
 #include "floe/scene/range.h"
 #include "floe/scene/reduced.h"
 #include "run.h"
@@ -102,15 +104,6 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
   return sizes;
 }
 
-std::string estimate_words(const scene::Estimate& estimate) {
-  if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
-  std::string words =
-      fmt::format("estimated error {:.2g} % (deformations, against the full order of the same mesh; {:.2g} s)\n",
-                  100 * estimate.deformation, estimate.seconds);
-  for (const std::string& note : estimate.notes) words += "Note (estimate): " + note + "\n";
-  return words;
-}
-
 /// Of modes that bend within single cells; empty if there are none.
 std::string unresolved_words(const scene::BodyReport& body) {
   std::vector<std::size_t> which;
@@ -120,6 +113,33 @@ std::string unresolved_words(const scene::BodyReport& body) {
   if (which.empty()) return "";
   const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
   return fmt::format("Note: {}\n", scene::sag_text(body.name, modes, most, scene::greatest_sag_of_modes));
+}
+
+/// Numbers from 1, ascending, as `3, 7 to 9`.
+std::string ranges_of(const std::vector<std::size_t>& numbers) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0, end = 0; i < numbers.size(); i = end) {
+    for (end = i + 1; end < numbers.size() && numbers[end] == numbers[end - 1] + 1;) ++end;
+    if (end - i > 2)
+      words.push_back(fmt::format("{} to {}", numbers[i], numbers[end - 1]));
+    else
+      for (std::size_t k = i; k < end; ++k) words.push_back(std::to_string(numbers[k]));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Of modes whose equations are not met; empty if there are none.
+std::string unsolved_words(const scene::BodyReport& body) {
+  constexpr double greatest = 1e-4;
+  std::vector<std::size_t> which;
+  double most = 0;
+  for (std::size_t i = 0; i < body.residual.size(); ++i)
+    if (!(body.residual[i] <= greatest)) which.push_back(i + 1), most = std::max(most, body.residual[i]);
+  if (which.empty()) return "";
+  return fmt::format(
+      "Note: body {}: mode{} {} {} residuals up to {:.2g} (limit {:.0e}): the equations of the mesh are met no better; "
+      "ask for fewer modes\n",
+      body.name, which.size() > 1 ? "s" : "", ranges_of(which), which.size() > 1 ? "have" : "has", most, greatest);
 }
 
 }  // namespace
@@ -137,7 +157,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
-  for (const auto& body : bodies) fmt::print("{}", unresolved_words(body));
+  for (const auto& body : bodies) fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
@@ -148,6 +168,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
 void check(const scene::Scene& scene, MPI_Comm comm) {
   const scene::Scene split = scene::split_frames(scene);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
+  scene::check_modes(scene, comm);
   std::int64_t elements = 0;
   bool files = false;  // their bodies have no full order, but a linear one
   for (std::size_t b = 0; b < sizes.size(); ++b) {
@@ -172,10 +193,14 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
                files ? "as lffr" : "at full order");
   else
     fmt::print("the full-order system is not built here, from {} elements on\n", greatest_built);
-  fmt::print("motion to t = {} s, ", scene.motion.end);
-  if (scene.motion.tolerance)
-    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
+  const bool moves = scene.motion.end > 0;
+  if (moves)
+    fmt::print("motion to t = {} s, ", scene.motion.end);
   else
+    fmt::print("no motion: fit for modes, reduce, static and campbell; run, compare, tradeoff and sweep need one\n");
+  if (moves && scene.motion.tolerance)
+    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
+  else if (moves)
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
   if (model && model->velocity_correction > 1e-9)
     fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "estimate_words.h"
 #include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
@@ -71,10 +72,20 @@ std::string start_of_table(const scene::Model& model, const LoadSteps& load, Pet
   return "";
 }
 
+/// A table of the probes' errors; empty: there are none.
+std::string probes_estimate(const RunResult& result) {
+  if (!result.estimate.none.empty() || result.estimate.probes.empty()) return "";
+  output::Table table;
+  table.columns = {{"probe", ""}, {"estimated error", "%", 2}};
+  for (const auto& [probe, error] : result.summary["estimate"]["probes"].items())
+    table.rows.push_back({probe, 100 * error.get<double>()});
+  return "\n" + output::to_text(table);
+}
+
 }  // namespace
 
 RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-               const std::optional<output::ResultFolder>& folder) {
+               const std::optional<output::ResultFolder>& folder, bool estimate) {
   const scene::Scene scene = in_steps(given, load);
   RunResult result;
   const double begin = MPI_Wtime();
@@ -121,16 +132,22 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
     result.out_of_range = scene::shapes_out_of_range(model, kept.states(), comm);
     for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
   }
+  if (estimate && !fault) {
+    const output::Waiting waiting(comm, "estimating the error");
+    result.estimate = scene::estimate_error_at_rest(
+        model, kept.states(),
+        std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+  }
   recorder.finish(report, why);
   if (fault) std::rethrow_exception(fault);
   return result;
 }
 
 void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-              const output::ResultFolder& folder) {
+              const output::ResultFolder& folder, bool estimate) {
   RunResult result;
   try {
-    result = rest(scene, formulation, comm, load, folder);
+    result = rest(scene, formulation, comm, load, folder, estimate);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;
@@ -154,6 +171,7 @@ void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   fmt::print("{}", output::to_text(table));
   if (shown < result.series.columns.size())
     fmt::print("{} more columns are in {}\n", result.series.columns.size() - shown, folder.probes().string());
+  if (estimate) fmt::print("{}{}", probes_estimate(result), estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

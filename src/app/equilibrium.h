@@ -12,13 +12,14 @@ struct LoadSteps {
 /// Builds one scene in one formulation and finds its equilibria: `floe static`. That at t = 0 is the first row of the
 /// probes, then one row for each step; a step that finds none is halved, down to a thousandth of `at`.
 ///
-/// @param folder  none: nothing is written
+/// @param folder    none: nothing is written
+/// @param estimate  of the error, of reduced formulations (scene::estimate_error_at_rest)
 /// @throws InputError; RunError: no equilibrium, with the t. What was reached before is written. Collective.
 RunResult rest(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-               const std::optional<output::ResultFolder>& folder);
+               const std::optional<output::ResultFolder>& folder, bool estimate);
 
 /// `floe static`: the search, and its table. Collective.
 void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-              const output::ResultFolder& folder);
+              const output::ResultFolder& folder, bool estimate);
 
 }  // namespace floe::app

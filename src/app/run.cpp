@@ -39,6 +39,12 @@ std::string offline_words(const scene::Scene& scene, scene::Formulation formulat
   return fmt::format("reducing {} bodies", names.size());
 }
 
+/// Whether events do more than end the motion.
+bool changes_joints(const scene::Scene& scene) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [](const scene::Event& event) { return event.kind != scene::Event::Kind::stop; });
+}
+
 std::exception_ptr fault_of(const std::function<void()>& work) {
   try {
     work();
@@ -168,7 +174,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
       result.warnings.push_back(std::string("the model's range was not checked: ") + error.what());
     }
   }
-  if (plan.estimate && (plan.from || !scene.events.empty())) {
+  if (plan.estimate && (plan.from || changes_joints(scene))) {
     result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
   } else if (plan.estimate && !fault) {
     const output::Waiting waiting(comm, "estimating the error");

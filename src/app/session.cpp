@@ -13,6 +13,7 @@
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/factorisation.h"
 #include "options.h"
 
 namespace floe::app {
@@ -123,6 +124,7 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
   for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
   const int code = guarded([&] {
     petsc::collect_errors();
+    petsc::give_factors_room();
     dynamics::register_generalized_alpha();
     if (!unreadable.empty()) throw InputError(unreadable);
     check_options();

@@ -81,6 +81,7 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
       row.insert(row.end(), result.series.values[i].begin(), result.series.values[i].end());
     }
     measure(member, result.series.columns.size());
+    member.warnings = result.warnings;
   } catch (const RunError& error) {
     member = {.fault = error.what()};
   } catch (const InputError& error) {
@@ -89,13 +90,18 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
   return member;
 }
 
-/// A member as numbers, the text of its fault last.
+/// A member as numbers, the texts of its fault and of its warnings last, each ended by a zero.
 std::vector<double> packed(std::size_t number, const Member& member) {
   const std::size_t columns = member.rows.empty() ? 0 : member.rows.front().size();
   std::vector<double> numbers{static_cast<double>(number), static_cast<double>(member.steps), member.end,
                               static_cast<double>(member.rows.size()), static_cast<double>(columns)};
   for (const auto& row : member.rows) numbers.insert(numbers.end(), row.begin(), row.end());
-  for (const char c : member.fault) numbers.push_back(static_cast<unsigned char>(c));
+  const auto put = [&](const std::string& text) {
+    for (const char c : text) numbers.push_back(static_cast<unsigned char>(c));
+    numbers.push_back(0);
+  };
+  put(member.fault);
+  for (const std::string& warning : member.warnings) put(warning);
   return numbers;
 }
 
@@ -107,7 +113,15 @@ Member unpacked(const std::vector<double>& numbers, std::size_t& number) {
   auto next = numbers.begin() + 5;
   for (std::size_t i = 0; i < rows; ++i, next += static_cast<std::ptrdiff_t>(columns))
     member.rows.emplace_back(next, next + static_cast<std::ptrdiff_t>(columns));
-  for (; next != numbers.end(); ++next) member.fault += static_cast<char>(static_cast<unsigned char>(*next));
+  std::vector<std::string> texts(1);
+  for (; next != numbers.end(); ++next) {
+    if (*next == 0)
+      texts.emplace_back();
+    else
+      texts.back() += static_cast<char>(static_cast<unsigned char>(*next));
+  }
+  member.fault = texts.front();
+  member.warnings.assign(texts.begin() + 1, texts.end() - 1);  // after the last zero nothing follows
   if (rows > 0) measure(member, columns - 1);
   return member;
 }
@@ -216,6 +230,7 @@ ordered_json summary_of(const Plan& plan, const std::vector<Varied>& varied, MPI
   for (const Varied& each : varied) j["varied"].push_back({{"path", each.path}, {"values", each.values}});
   j["members"] = plan.members.size();
   j["failures"] = ordered_json::array();
+  j["warnings"] = ordered_json::array();
   return j;
 }
 
@@ -270,10 +285,12 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
   MPI_Bcast(numbers, 1, MPI_INT64_T, 0, comm);
   MPI_Allreduce(&offline.reductions, &numbers[1], 1, MPI_INT64_T, MPI_SUM, comm);
   const double seconds = MPI_Wtime() - begin;
-  if (rank == 0)
-    fmt::print("{} members ({} failed) in {:.3g} s; bodies were reduced {} times\nResults: {}\nPicture: {}\n",
-               plan.members.size(), numbers[0], seconds, numbers[1], folder.path.string(),
-               draw("sweep", folder.path.string()));
+  if (rank == 0) {
+    fmt::print("{} members ({} failed) in {:.3g} s; bodies were reduced {} times\n", plan.members.size(), numbers[0],
+               seconds, numbers[1]);
+    for (const SweepWarning& warning : file->warnings()) fmt::print("Note: {}\n", words_of(warning));
+    fmt::print("Results: {}\nPicture: {}\n", folder.path.string(), draw("sweep", folder.path.string()));
+  }
   interruption.check(comm);
   if (numbers[0] > 0) throw RunError(fmt::format("{} of {} members failed", numbers[0], plan.members.size()));
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -27,14 +28,27 @@ struct Member {
   double end = 0;                                          ///< reached [s]
   std::vector<std::vector<double>> rows = {};              ///< time and probes
   std::vector<double> greatest = {}, rms = {}, last = {};  ///< of each probe: greatest absolute value, over time; end
+  std::vector<std::string> warnings = {};                  ///< what floe run would note
 };
+
+/// A warning of some members: the same words for all of them, whatever numbers stand in it.
+struct SweepWarning {
+  std::string text;                   ///< as the first of them has it
+  std::vector<std::int64_t> members;  ///< their numbers, from 1, ascending
+  std::vector<scene::Variation> of;   ///< what the first one was moved with
+};
+/// A warning's words, with # in place of each number that stands alone ("slopes to 2.7": "slopes to #"; "beam2" stays).
+std::string without_numbers(const std::string& text);
+/// In the terminal's words: text, the first member and what was varied in it, how many more.
+std::string words_of(const SweepWarning& warning);
 
 /// `floe sweep`: moves a reduced scene with some of its numbers varied.
 ///
 /// Each rank prepares and moves members of its own: member i on rank i mod N, so that neighbours, which cost alike, go
 /// to different ranks, and nothing depends on who is faster. Bodies are reduced anew only where what they are made of
-/// changes (scene::offline_inputs). A member that fails is told of and spares the others. Rank 0 writes members in
-/// their order into sweep.h5 and sweep.csv, as they come in: a sweep that is killed leaves whole files.
+/// changes (scene::offline_inputs). A member that fails is told of and spares the others; what members warn of is told
+/// at the end, once for all that have it. Rank 0 writes members in their order into sweep.h5 and sweep.csv, as they
+/// come in: a sweep that is killed leaves whole files.
 /// @throws InputError  before anything is moved: a path that the scene does not have, a folder in use
 /// @throws RunError    members failed, how many and the first reason; it was interrupted. Collective.
 void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,

@@ -68,15 +68,29 @@ void SweepFile::add(const std::vector<scene::Variation>& variations, const Membe
   for (std::size_t i = 0; i < row.size(); ++i)
     table_ += (i == 0 ? "" : ",") + (std::isnan(row[i]) ? std::string() : fmt::format("{}", row[i]));
   table_ += "," + cell(member.fault) + "\n";
+  for (const std::string& warning : member.warnings) note(variations, warning);
   if (!failed) return;
   ++failed_;
   summary_["failures"].push_back({{"member", members_}, {"reason", member.fault}});
+}
+
+void SweepFile::note(const std::vector<scene::Variation>& variations, const std::string& warning) {
+  const auto [at, is_new] = warning_of_.emplace(without_numbers(warning), warnings_.size());
+  if (is_new) warnings_.push_back({warning, {}, variations});
+  std::vector<std::int64_t>& members = warnings_[at->second].members;
+  if (members.empty() || members.back() != members_) members.push_back(members_);
 }
 
 void SweepFile::save(const std::string& status) {
   summary_["status"] = status;
   summary_["done"] = members_;
   summary_["failed"] = failed_;
+  summary_["warnings"] = ordered_json::array();
+  for (const SweepWarning& warning : warnings_) {
+    ordered_json& j = summary_["warnings"].emplace_back(ordered_json{{"text", warning.text}});
+    for (const scene::Variation& each : warning.of) j["first"][each.path] = each.value;
+    j["members"] = warning.members;
+  }
   output::write_file_atomically(folder_.sweep_table(), table_);
   output::write_summary(PETSC_COMM_SELF, folder_, summary_);
 }

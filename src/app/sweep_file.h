@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -21,14 +22,20 @@ class SweepFile {
   /// The last of it.
   void finish(const std::string& status);
   std::int64_t failed() const { return failed_; }
+  /// Of the members so far, in the order in which they came up.
+  const std::vector<SweepWarning>& warnings() const { return warnings_; }
 
  private:
+  void note(const std::vector<scene::Variation>& variations, const std::string& warning);
+
   output::ResultFolder folder_;
   nlohmann::ordered_json summary_;
   std::vector<scene::ProbeColumn> columns_;
   std::unique_ptr<output::ResultFile> file_;
   std::string table_;  // of sweep.csv
   std::int64_t members_ = 0, failed_ = 0;
+  std::vector<SweepWarning> warnings_;
+  std::map<std::string, std::size_t> warning_of_;  // by words, without their numbers
 };
 
 }  // namespace floe::app

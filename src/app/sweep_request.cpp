@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include "campbell.h"
@@ -43,6 +45,20 @@ std::vector<std::vector<scene::Variation>> members_of(const std::vector<Varied>&
     }
   }
   return members;
+}
+
+std::string without_numbers(const std::string& text) {
+  static const std::regex number(
+      R"((^|[^A-Za-z0-9_.])[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?(?![A-Za-z0-9_]))");
+  return std::regex_replace(text, number, "$1#");
+}
+
+std::string words_of(const SweepWarning& warning) {
+  std::vector<std::string> values;
+  for (const scene::Variation& each : warning.of) values.push_back(fmt::format("{} = {:.6g}", each.path, each.value));
+  const std::size_t more = warning.members.size() - 1;
+  return fmt::format("{} (member {}: {}{})", warning.text, warning.members.front(), fmt::join(values, ", "),
+                     more > 0 ? fmt::format("; likewise {} more", more) : "");
 }
 
 }  // namespace floe::app

@@ -42,7 +42,8 @@ std::optional<std::vector<double>> one_line(const InpBlock& block, std::size_t c
   if (!values) return std::nullopt;
   values->resize(count);
   if (positive(*values, moduli)) return values;
-  reading.faults.add(lines[0].first, std::string("moduli must be greater than 0 in ") + what);
+  reading.faults.add(lines[0].first, block.name + ": " + (count > 1 ? "moduli among " : "") + what +
+                                         " must be greater than 0, found " + quoted(lines[0].second));
   return std::nullopt;
 }
 

@@ -147,6 +147,9 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   if (!shape.empty() && upper(shape) != "GENERAL")
     return faults.add(block.where, block.name + " is read with SECTION=GENERAL only");
   section.density = number_of(block, "DENSITY", reading);
+  if (block.parameters.contains("DENSITY") && section.density < 0)
+    faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
+                                quoted(value_of(block, "DENSITY")));
   const bool own = section.material.empty();
   const auto lines =
       data_lines(block, own ? 3 : 1, own ? 3 : 2,

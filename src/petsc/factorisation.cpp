@@ -26,8 +26,8 @@ std::string mumps_words(PetscInt infog, PetscInt detail, const std::string& pref
     case -17:
     case -20:
       return fmt::format(
-          "its work space is too small: give it more (-{0}mat_mumps_icntl_14 100, or less bound by "
-          "-{0}mat_mumps_icntl_23), or {1}",
+          "its work space is too small, and was enlarged as far as floe does by itself: give it more "
+          "(-{0}mat_mumps_icntl_14 1000, or less bound by -{0}mat_mumps_icntl_23), or {1}",
           prefix, less);
     case -6:
     case -10:

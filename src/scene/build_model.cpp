@@ -115,8 +115,13 @@ std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation
 }
 
 Model build_on(const ReducedBodies& bodies, const Scene& whole) {
-  const Scene scene = in_parts(whole, bodies.formulation);
-  return assembled(prepare(scene, bodies.comm), bodies);
+  const auto offline = std::make_shared<Offline>(in_parts(whole, bodies.formulation), bodies.comm);
+  Model model = assembled(offline->prepared, bodies);
+  give_structures(offline, model);
+  if (!is_reduced(bodies.formulation)) return model;
+  offline->reduced = bodies.bodies;
+  model.offline = offline;
+  return model;
 }
 
 }  // namespace floe::scene

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "estimate_columns.h"
 #include "estimate_lift.h"
+#include "estimate_parts.h"
 #include "floe/petsc/values.h"
 
 namespace floe::scene {
@@ -30,67 +30,10 @@ namespace {
 
 constexpr int most_samples = 32;  // of the full-order residual
 constexpr int most_columns = 8;   // for each body
-/// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
-constexpr PetscInt most_elements = 20000;
-
-/// Processor time that is left, as rank 0 sees it: all ranks decide alike, and not by what else the machine does.
-class Allowance {
- public:
-  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(now()), allowed_(of_first(seconds)) {}
-  double spent() const { return of_first(now() - begin_); }
-  double left() const { return std::max(0.0, allowed_ - spent()); }
-  double of_first(double value) const {
-    MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm_);
-    return value;
-  }
-
- private:
-  static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-  MPI_Comm comm_;
-  double begin_, allowed_;
-};
-
-bool has_structure(const PreparedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
-
-PetscInt elements_of(const Offline& offline) {
-  PetscInt count = 0;
-  for (const PreparedBody& body : offline.prepared.bodies)
-    if (has_structure(body)) count += body.structure.mesh.cell_count;
-  return count;
-}
-
-/// Of full order; modal damping, which it does not know, is taken out of the residual by those who know V.
-Model full_order(Offline& offline) {
-  std::vector<ReducedBody> compact(offline.reduced.size());
-  std::vector<std::vector<double>> modal;
-  for (std::size_t b = 0; b < compact.size(); ++b) {
-    PreparedBody& body = offline.prepared.bodies[b];
-    if (!has_structure(body)) compact[b] = offline.reduced[b];
-    modal.push_back(std::exchange(body.spec.damping.modal, {}));
-  }
-  const auto restore = [&] {
-    for (std::size_t b = 0; b < modal.size(); ++b) offline.prepared.bodies[b].spec.damping.modal = modal[b];
-  };
-  try {
-    Model model = assemble(offline.prepared, Formulation::nlffr, compact);
-    restore();
-    return model;
-  } catch (...) {
-    restore();
-    throw;
-  }
-}
-
-/// V'r by plain products.
-VectorXd products(const reduction::Basis& basis, Vec r) {
-  VectorXd all(basis.columns);
-  for (int i = 0; i < basis.columns; ++i) {
-    Vec column = nullptr;
-    check(BVGetColumn(basis.V, i, &column));
-    check(VecDot(column, r, &all[i]));
-    check(BVRestoreColumn(basis.V, i, &column));
-  }
-  return all;
+bool keeps_factors(const Offline& offline) {
+  for (std::size_t b = 0; b < offline.reduced.size(); ++b)
+    if (has_structure(offline.prepared.bodies[b]) && !offline.reduced[b].statics) return false;
+  return true;
 }
 
 /// Residuals of full order at lifted states, body by body.
@@ -153,15 +96,6 @@ class Residuals {
   double unbalanced_ = 0, forces_ = 0;
 };
 
-/// Every so many of them, `count` in all, the last one among them.
-template <class Value>
-std::vector<Value> spread(const std::vector<Value>& all, std::size_t count) {
-  if (count >= all.size()) return all;
-  std::vector<Value> some;
-  for (std::size_t i = 1; i <= count; ++i) some.push_back(all[i * all.size() / count - 1]);
-  return some;
-}
-
 void sample(const KeptMotion& motion, const Allowance& time, Residuals& residuals, Estimate& estimate) {
   const std::vector<State> states = spread(motion.states(), most_samples);
   const double before = time.spent();
@@ -186,15 +120,13 @@ int columns_in(double seconds, const ReducedBody& reduced) {
 std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const Allowance& time,
                                   Estimate& estimate) {
   std::vector<ReducedBody> bodies;
+  note_files(offline, estimate);
   const double all = static_cast<double>(offline.reduced.size());
   for (std::size_t b = 0; b < offline.reduced.size(); ++b) {
     const PreparedBody& body = offline.prepared.bodies[b];
     const ReducedBody& reduced = offline.reduced[b];
     bodies.push_back(reduced);
     estimate.responses.emplace_back();
-    if (body.spec.reduced)
-      estimate.notes.push_back(
-          fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
     if (!has_structure(body)) continue;
     const int most =
         static_cast<int>(time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
@@ -211,47 +143,11 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
   return bodies;
 }
 
-std::vector<int> sizes_of_probes(const Model& model) {
-  std::vector<int> sizes;
-  for (const ModelProbe& probe : model.probes)
-    sizes.push_back(probe.spatial ? 3 : probe.quantity == Probe::Quantity::rotation ? 1 : 2);
-  return sizes;
-}
-
-/// Sums squares over the instants, for the relative errors.
-class Sums {
- public:
-  explicit Sums(const Model& model) : sizes_(sizes_of_probes(model)), error_(sizes_.size()), size_(sizes_.size()) {}
-  void add(const std::vector<double>& error, const std::vector<double>& value) {
-    std::size_t column = 0;
-    for (std::size_t p = 0; p < sizes_.size(); ++p)
-      for (int i = 0; i < sizes_[p]; ++i, ++column)
-        error_[p] += error[column] * error[column], size_[p] += value[column] * value[column];
-  }
-  std::vector<double> relative() const {
-    std::vector<double> all;
-    for (std::size_t p = 0; p < sizes_.size(); ++p) all.push_back(size_[p] > 0 ? std::sqrt(error_[p] / size_[p]) : 0);
-    return all;
-  }
-
- private:
-  std::vector<int> sizes_;
-  std::vector<double> error_, size_;
-};
-
 VectorXd deformations(const Model& model, const VectorXd& q) {
   std::vector<double> all;
   for (const BodyReport& body : model.bodies)
     all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
-}
-
-/// Squares of deformations that are round-off of where the bodies are: 64 eps of the scene's length, of columns that
-/// are normalised by mass.
-double round_off_of(const Offline& offline) {
-  double mass = 0;
-  for (const ReducedBody& reduced : offline.reduced) mass += reduced.body.inertia.m;
-  return mass * std::pow(64 * PETSC_MACHINE_EPSILON * offline.prepared.extent, 2);
 }
 
 /// Follows the deviation, on every rank alike.
@@ -319,11 +215,10 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   }
   const Offline& offline = *model.offline;
   const Allowance time(offline.prepared.comm, seconds);
-  if (std::none_of(offline.prepared.bodies.begin(), offline.prepared.bodies.end(), has_structure))
-    estimate.none = "no body has a mesh: those from files, or rigid, have no structure to compare with";
-  else if (const PetscInt elements = elements_of(offline); elements >= most_elements)
-    estimate.none =
-        fmt::format("its full order of {} elements would take too long; it is made below {}", elements, most_elements);
+  estimate.none = without_estimate(offline);
+  if (!estimate.none.empty()) return estimate;
+  if (!keeps_factors(offline))
+    estimate.none = "the factors of the stiffness were not kept";
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;

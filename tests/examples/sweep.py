@@ -69,6 +69,21 @@ def main():
         assert done.returncode == 0 and "bodies were reduced 2 times" in done.stdout, done.stdout + done.stderr
         done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "--together", "-o", "pairs")
         assert done.returncode == 0 and len(table(folder / "pairs")) == 3, done.stdout + done.stderr
+        # what floe run would note of a member is told once, with the first that has it and how many more
+        notes = []
+        for ranks in (1, 2):
+            done = run(floe, ranks, folder, "sweep", "scene.yaml", "--vary", "F=0.01,3,10,11", "-o", f"warned{ranks}")
+            told = [line for line in done.stdout.splitlines() if line.startswith("Note: ")]
+            assert done.returncode == 0 and len(told) == 1, done.stdout + done.stderr
+            assert "body beam: slopes to " in told[0] and "(member " in told[0] and "F = " in told[0], told
+            notes.append((told, json.loads((folder / f"warned{ranks}/summary.json").read_text())["warnings"]))
+        assert notes[0] == notes[1], "warnings differ between ranks"
+        warning = notes[0][1][0]
+        assert len(notes[0][1]) == 1 and 1 not in warning["members"] and len(warning["members"]) >= 2, warning
+        assert warning["first"]["F"] == [0.01, 3, 10, 11][warning["members"][0] - 1]
+        (folder / "one.yaml").write_text(SCENE.replace("F: 1,", f"F: {warning['first']['F']},"))
+        assert run(floe, 1, folder, "run", "one.yaml", "--no-estimate", "-o", "one").returncode == 0
+        assert warning["text"] in json.loads((folder / "one/summary.json").read_text())["warnings"]
     print("sweeps agree")
 
 

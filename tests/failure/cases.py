@@ -8,7 +8,7 @@ from typing import Callable, Optional, Union
 import reduced
 import runtime
 import space
-from results import absent, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
+from results import absent, estimated, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
 from scenes import GAP, PLATE, RIGID, scene
 
 ENVIRONMENT = dict(os.environ)
@@ -60,6 +60,18 @@ COMMANDS = [
     Case("check", ["check", "scene.yaml"], shows=("1 joints",)),
     Case("check of many elements", ["check", "scene.yaml"], shows=("300003", "is not built"),
          scene=scene({"bodies.beam.mesh.line.elements": 100000})),
+    Case("modes of nearly all dofs", ["modes", "scene.yaml"], lines=0, shows=("Note: body f: mode", "(limit 1e-04)"),
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 60}}, section: {shape: rectangle, "
+               "width: 0.01, height: 0.02, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, "
+               "reduction: {modes: 355, derivatives: none}}}\n"),
+    Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),
+    Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
+         shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),
+    Case("check of too many modes", ["check", "scene.yaml"], 2,
+         ("bodies.f.reduction.modes: 40 modes are asked of a body that has 18 elastic dofs under its conditions",), lines=1,
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 40}}}\n"
+               "joints: {root: {type: fixed, between: [ground, f.start]}}\nmotion: {end: 1, step: 1e-2}\n"),
     Case("modes", ["modes", "scene.yaml"], shows=("rad/s",)),
     *(Case(f"full standard output of {words[0]}", words, 1, ("cannot write to ",),
            lines=1, stdout="/dev/full", ranks=(1,))
@@ -338,6 +350,20 @@ UNUSUAL = [
                    "joints.clamp": {"type": "revolute", "between": ["ground", "beam.start"]}}),
     *(Case(f"static, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], shows=("5 equilibria",),
            check=files("finished", 6)) for f in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"estimate of a motion that an event ends, {name}", run(), lines=0, shows=("event enough at t = 0.0", "estimated error "),
+           never=("No estimate",), check=lambda folder: estimated((10, 40), "tip")(folder),
+           scene=scene({"events": {"enough": {"stop": True, **when}}}))
+      for name, when in (("at a time", {"at": 0.02}), ("by a formula", {"when": "t - 0.0222"}),
+                         ("by a probe", {"probe": "tip.y", "crosses": 2e-4}))),
+    Case("no estimate of a motion whose joints change", run(), lines=0, shows=("No estimate of the error: events change the joints",),
+         scene=scene({"events": {"off": {"unlock": "clamp", "at": 0.02}}})),
+    Case("accuracy of a motion that an event ends", run("vm+md", "--accuracy", "1%"), 2, ("nothing supports a choice: events",),
+         lines=1, scene=scene({"events": {"enough": {"stop": True, "at": 0.02}}})),
+    *(Case(f"estimate of equilibria, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], lines=0,
+           shows=("probe  estimated error", "estimated error ", "against the full order of the same mesh"),
+           check=lambda folder: (files("finished", 6)(folder), estimated((5, 5), "tip")(folder))) for f in ("vm", "vm+md")),
+    Case("no estimate of equilibria", ["static", "scene.yaml", "--no-estimate", "-o", "out"], lines=0,
+         never=("estimated error", "No estimate"), check=files("finished", 11)),
     *(Case(f"static of what nothing holds, {f}", ["static", "scene.yaml", "--formulation", f, "-o", "out"], 1,
            ("no equilibrium at t = ", "nothing holds the configuration in some direction (body beam)"), lines=1,
            scene=scene({"joints": None}), check=files("failed", 0, "no equilibrium")) for f in ("vm+md", "nlffr", "cfr")),
@@ -385,6 +411,14 @@ UNUSUAL = [
           ("start", "motion_start_", run("nlffr", "-motion_start_mat_mumps_icntl_23", "1"), MANY),
           ("equilibrium", "static_", ["static", "scene.yaml", "--formulation", "nlffr", "-static_mat_mumps_icntl_23", "1",
                                       "-o", "out"], MANY))),
+    *(Case(f"work space of the {what}", words, 0, never=("INFOG",), lines=0, scene=big)
+      for what, words, big in (
+          ("statics", ["modes", "scene.yaml", "-derivatives_mat_mumps_icntl_14", "-50"], PLATE),
+          ("modes", ["modes", "scene.yaml", "-modes_st_mat_mumps_icntl_14", "-50"], PLATE),
+          ("start", run("nlffr", "-motion_start_mat_mumps_icntl_14", "-50"), MANY),
+          ("motion", run("nlffr", "-motion_mat_mumps_icntl_14", "-50", "-motion_pc_factor_mat_solver_type", "mumps"), MANY),
+          ("equilibrium", ["static", "scene.yaml", "--formulation", "nlffr", "--steps", "1", "--at", "0.01",
+                           "-static_mat_mumps_icntl_14", "-50", "-o", "out"], MANY))),
     Case("modes by another transformation", ["modes", "scene.yaml", "-modes_st_type", "shift"], (1, 2),
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
@@ -417,6 +451,8 @@ UNUSUAL = [
 ]
 
 REDUCED = [
+    Case("equilibria of a reduced body", ["static", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
+         prepare=reduced.made(), shows=("No estimate of the error: no body has a mesh",), check=files("finished", 11)),
     Case("reduced body", run(), scene=reduced.from_file(), prepare=reduced.made(), check=files("finished", 51)),
     Case("reduced body, compared", ["compare", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
          prepare=reduced.made(), check=stands("out/compare.csv"), shows=("lffr", "vm+md"), lines=0),

@@ -31,6 +31,18 @@ def files(status, rows=None, reason=None, end=None, out="out"):
     return check
 
 
+def estimated(instants, probe, out="out"):
+    """A run whose summary and result have an estimate of its error, at so many instants (least, most)."""
+    def check(folder):
+        estimate = json.loads((folder / out / "summary.json").read_text())["estimate"]
+        assert 0 < estimate["probes"][probe] < 1 and 0 < estimate["deformation"] < 1, estimate
+        assert instants[0] <= estimate["steps"] <= instants[1], f"{estimate['steps']} instants, not {instants}"
+        with h5py.File(folder / out / "result.h5") as result:
+            times = list(result["estimate/t"][:])
+            assert len(times) == len(result["estimate/probes"]) == estimate["steps"] and times == sorted(set(times)), times
+    return check
+
+
 def probe_times(path):
     text = path.read_text()
     assert text.endswith("\n"), "probes.csv ends within a line"

@@ -10,6 +10,7 @@
 
 #include "floe/error.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/factorisation.h"
 
 namespace floe::fuzz {
 
@@ -53,5 +54,6 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
   int count = 2;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr)) std::abort();
   floe::petsc::collect_errors();
+  floe::petsc::give_factors_room();
   return 0;
 }

@@ -5,6 +5,7 @@
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/factorisation.h"
 
 int main(int argc, char** argv) {
   int none = 1;
@@ -12,6 +13,7 @@ int main(int argc, char** argv) {
   char** arguments = name;
   if (SlepcInitialize(&none, &arguments, nullptr, nullptr)) return 1;
   floe::petsc::collect_errors();
+  floe::petsc::give_factors_room();
   floe::dynamics::register_generalized_alpha();
   const int failures = Catch::Session().run(argc, argv);
   int any = 0;

@@ -60,4 +60,17 @@ struct Estimate {
 /// Collective on the communicator of the offline stage.
 Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds);
 
+/// The same of equilibria: from some of the lifted states Newton's method goes towards the equilibrium of full order,
+///
+///   (dF/dU) x = -F(t, U, 0, 0),   U += x     F of the whole scene at full order, KSP prefix estimate_
+///
+/// and what it adds is the error. A first step is the response of the full tangent to the residual; it stops where the
+/// next step would be short, or when its time is over. Errors are relative to what it arrives at, here; `samples` are
+/// residuals, there are no columns. Of the last equilibrium there is a step at least; others as time allows.
+///
+/// @param model   reduced, with its offline stage kept (build); factors of K are not needed
+/// @param states  in ascending order of t, at rest
+/// Collective on the communicator of the offline stage.
+Estimate estimate_error_at_rest(const Model& model, const std::vector<dynamics::State>& states, double seconds);
+
 }  // namespace floe::scene

@@ -72,6 +72,17 @@ TEST_CASE("masses that are none are refused with their lines") {
   CHECK(with_masses("8, 3\n9, 3\n", "1") == "nothing was thrown");
 }
 
+TEST_CASE("materials without mass or stiffness are refused with their lines and keywords") {
+  for (const std::string density : {"0", "-7.8e-9"})
+    CHECK(said(nodes + elements + section + "*MATERIAL, NAME=N\n*ELASTIC\n1, 0.3\n*DENSITY\n" + density + "\n") ==
+          "bad.inp:18: *DENSITY: a density must be greater than 0, found '" + density + "'");
+  CHECK(said(nodes + elements + section + "*MATERIAL, NAME=N\n*ELASTIC\n0, 0.3\n") ==
+        "bad.inp:16: *ELASTIC: moduli among E, nu must be greater than 0, found '0, 0.3'");
+  CHECK_THAT(said(nodes + elements + section +
+                  "*BEAM GENERAL SECTION, ELSET=E, SECTION=GENERAL, MATERIAL=M, DENSITY=-1\n1, 1, 0, 1, 1\n1, 0, 0\n"),
+             Contains("bad.inp:14: *BEAM GENERAL SECTION expects 0 or a positive number after DENSITY=, found '-1'"));
+}
+
 TEST_CASE("sections that do not fit the elements are refused") {
   CHECK_THAT(said(nodes + elements), Contains("bad.inp:7: element 1 has no section"));
   CHECK_THAT(said(nodes + elements + section + "*ELSET, ELSET=F\n2\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"),

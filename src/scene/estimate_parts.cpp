@@ -1,0 +1,103 @@
+#include "estimate_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace floe::scene {
+
+using Eigen::VectorXd;
+using petsc::check;
+
+namespace {
+
+/// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
+constexpr PetscInt most_elements = 20000;
+
+PetscInt elements_of(const Offline& offline) {
+  PetscInt count = 0;
+  for (const PreparedBody& body : offline.prepared.bodies)
+    if (has_structure(body)) count += body.structure.mesh.cell_count;
+  return count;
+}
+
+std::vector<int> sizes_of_probes(const Model& model) {
+  std::vector<int> sizes;
+  for (const ModelProbe& probe : model.probes)
+    sizes.push_back(probe.spatial ? 3 : probe.quantity == Probe::Quantity::rotation ? 1 : 2);
+  return sizes;
+}
+
+}  // namespace
+
+std::string without_estimate(const Offline& offline) {
+  if (std::none_of(offline.prepared.bodies.begin(), offline.prepared.bodies.end(), has_structure))
+    return "no body has a mesh: those from files, or rigid, have no structure to compare with";
+  if (const PetscInt elements = elements_of(offline); elements >= most_elements)
+    return fmt::format("its full order of {} elements would take too long; it is made below {}", elements,
+                       most_elements);
+  return "";
+}
+
+Model full_order(Offline& offline) {
+  std::vector<ReducedBody> compact(offline.reduced.size());
+  std::vector<std::vector<double>> modal;
+  for (std::size_t b = 0; b < compact.size(); ++b) {
+    PreparedBody& body = offline.prepared.bodies[b];
+    if (!has_structure(body)) compact[b] = offline.reduced[b];
+    modal.push_back(std::exchange(body.spec.damping.modal, {}));
+  }
+  const auto restore = [&] {
+    for (std::size_t b = 0; b < modal.size(); ++b) offline.prepared.bodies[b].spec.damping.modal = modal[b];
+  };
+  try {
+    Model model = assemble(offline.prepared, Formulation::nlffr, compact);
+    restore();
+    return model;
+  } catch (...) {
+    restore();
+    throw;
+  }
+}
+
+VectorXd products(const reduction::Basis& basis, Vec r) {
+  VectorXd all(basis.columns);
+  for (int i = 0; i < basis.columns; ++i) {
+    Vec column = nullptr;
+    check(BVGetColumn(basis.V, i, &column));
+    check(VecDot(column, r, &all[i]));
+    check(BVRestoreColumn(basis.V, i, &column));
+  }
+  return all;
+}
+
+Sums::Sums(const Model& model) : sizes_(sizes_of_probes(model)), error_(sizes_.size()), size_(sizes_.size()) {}
+
+void Sums::add(const std::vector<double>& error, const std::vector<double>& value) {
+  std::size_t column = 0;
+  for (std::size_t p = 0; p < sizes_.size(); ++p)
+    for (int i = 0; i < sizes_[p]; ++i, ++column)
+      error_[p] += error[column] * error[column], size_[p] += value[column] * value[column];
+}
+
+std::vector<double> Sums::relative(double smallest) const {
+  std::vector<double> all;
+  for (std::size_t p = 0; p < sizes_.size(); ++p)
+    all.push_back(size_[p] > 0 && std::max(error_[p], size_[p]) > smallest ? std::sqrt(error_[p] / size_[p]) : 0);
+  return all;
+}
+
+double round_off_of(const Offline& offline) {
+  double mass = 0;
+  for (const ReducedBody& reduced : offline.reduced) mass += reduced.body.inertia.m;
+  return mass * std::pow(64 * PETSC_MACHINE_EPSILON * offline.prepared.extent, 2);
+}
+
+void note_files(const Offline& offline, Estimate& estimate) {
+  for (const PreparedBody& body : offline.prepared.bodies)
+    if (body.spec.reduced)
+      estimate.notes.push_back(
+          fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
+}
+
+}  // namespace floe::scene
