@@ -157,7 +157,10 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
   fmt::print("{}", output::to_text(table));
-  for (const auto& body : bodies) fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
+  for (const auto& body : bodies) {
+    fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
+    if (body.left_out > 0) fmt::print("Note: {}\n", scene::left_out_text(body));
+  }
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)

@@ -255,11 +255,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     warn(prepared, b, formulation, warnings);
     if (const std::vector<double>& sag = all[b].report.sag; !sag.empty() && sag[0] > greatest_sag_of_modes)
       warnings.push_back(sag_text(body.spec.name, "mode 1", sag[0], greatest_sag_of_modes));
-    if (const reduction::Modes& modes = stages[b].generators.modes; modes.left_out > 0)
-      warnings.push_back(
-          fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",
-                      body.spec.name, modes.left_out, modes.left_out == 1 ? "mode has" : "modes have",
-                      modes.omega.size(), modes.left_out == 1 ? "is" : "are", modes.omega.size() + modes.left_out));
+    if (all[b].report.left_out > 0) warnings.push_back(left_out_text(all[b].report));
   }
   refuse_unknown(prepared, labels);
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);

@@ -211,6 +211,13 @@ std::string sag_text(const std::string& name, const std::string& what, double sa
       name, what, 100 * sag, 100 * limit);
 }
 
+std::string left_out_text(const BodyReport& body) {
+  const bool one = body.left_out == 1;
+  return fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",
+                     body.name, body.left_out, one ? "mode has" : "modes have", body.omega.size(), one ? "is" : "are",
+                     body.omega.size() + body.left_out);
+}
+
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<State>& states, MPI_Comm comm) {
   std::vector<OutOfRange> out;
   if (states.empty() || model.formulation == Formulation::cfr) return out;

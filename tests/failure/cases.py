@@ -64,6 +64,11 @@ COMMANDS = [
          scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 60}}, section: {shape: rectangle, "
                "width: 0.01, height: 0.02, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, "
                "reduction: {modes: 355, derivatives: none}}}\n"),
+    Case("modes cut among equal ones", ["modes", "scene.yaml"], lines=0,
+         shows=("Note: body f: 1 more mode has the frequency of mode 1, the last one, and is left out: ask for 2",),
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
+               "joints: {root: {type: fixed, between: [ground, f.start]}}\n"),
     Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),
     Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
          shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),

@@ -97,6 +97,7 @@ struct BodyReport {
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
+  int left_out = 0;              ///< reduction::Modes::left_out
   std::vector<double> sag = {};  ///< of each mode of a body in space: fem::sags
   std::vector<reduction::ColumnOrigin> origins;
   double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;

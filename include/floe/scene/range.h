@@ -46,4 +46,7 @@ inline constexpr double greatest_sag_of_modes = 0.1;  ///< the frequencies of pl
 /// The warning of `mesh`. @param what  `where it bends most`, `mode 1`, `modes 2, 3`
 std::string sag_text(const std::string& body, const std::string& what, double sag, double limit);
 
+/// Of modes that have the last one's frequency, but are beyond the count (BodyReport::left_out > 0).
+std::string left_out_text(const BodyReport& body);
+
 }  // namespace floe::scene
