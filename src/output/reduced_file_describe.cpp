@@ -47,6 +47,22 @@ Table columns(const ReducedBodyFile& file) {
   return table;
 }
 
+/// `attachment tip.fx (repeats root.fx)`: static columns that the basis lacks, the first of them.
+std::string left_out(const ReducedBodyFile& file) {
+  constexpr std::size_t shown = 10;
+  std::vector<std::string> all;
+  for (const auto& column : file.columns)
+    if (column.kind == "attachment" && !column.kept)
+      all.push_back(fmt::format("{} ({})", column.label,
+                                column.dropped.empty()
+                                    ? fmt::format("those before it hold all but {:.2g} of it", column.new_part)
+                                    : column.dropped));
+  if (all.empty()) return {};
+  const std::size_t more = all.size() - std::min(all.size(), shown);
+  all.resize(all.size() - more);
+  return fmt::format("left out    {}{}\n", fmt::join(all, ", "), more > 0 ? fmt::format(", and {} more", more) : "");
+}
+
 Table places(const ReducedBodyFile& file) {
   Table table{{{"place", ""}}, {}};
   for (int i = 0; i < file.dimension; ++i) table.columns.push_back({fmt::format("{} in frame", "xyz"[i]), "m", 6});
@@ -90,6 +106,7 @@ std::string describe(const ReducedBodyFile& file) {
   text += fmt::format("mesh        {} dofs, {} nodes, {} cells\n", file.dofs, file.nodes, file.cells);
   text += fmt::format("frame       {}\n", frame_text(file.frame));
   text += fmt::format("basis       {} coordinates of {} columns\n", kept, file.columns.size());
+  text += left_out(file);
   text += fmt::format("energy      {} squares of {} coordinates and {} products\n", elasticity.F.rows(),
                       elasticity.bending.rows(), elasticity.pairs.size());
   text += fmt::format("damping     {}\n", file.damping.size() ? "yes" : "none");
