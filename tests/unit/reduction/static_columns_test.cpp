@@ -127,3 +127,15 @@ TEST_CASE("loads that repeat others, or do nothing, are told with their reason")
   CHECK(g.dropped[2].dropped == "does not deform the body");
   for (const reduction::ColumnOrigin& origin : g.dropped) CHECK(!origin.kept);
 }
+
+TEST_CASE("numbers that do not suffice: the words say whether the mesh is too fine or the body too thin") {
+  const fem::Structure thin = bent(PETSC_COMM_WORLD, oblique());
+  CHECK_THAT(reduction::too_fine(thin, "so it is").what(),
+             Catch::StartsWith("the body is thinner than double precision resolves: so it is") &&
+                 Catch::Contains("an element of 0.26 m with the radius of gyration 5e-05 m") &&
+                 Catch::Contains("take a thicker section"));
+  const fem::Structure straight = testing::straight(PETSC_COMM_WORLD, 20, 1, {1e10, 1, 1, 0});
+  CHECK_THAT(
+      reduction::too_fine(straight, "so it is").what(),
+      Catch::Equals("the mesh of 20 elements is finer than double precision resolves: so it is; take fewer elements"));
+}
