@@ -32,15 +32,17 @@ Table frequencies(const ReducedBodyFile& file) {
   return table;
 }
 
+std::string name_of(const ReducedColumn& column) {
+  return column.label.starts_with(column.kind) ? column.label : column.kind + " " + column.label;
+}
+
 Table columns(const ReducedBodyFile& file) {
   Table table{{{"column", ""}, {"frequency", "Hz", 6}, {"new part", "", 3}, {"kept", ""}}, {}};
   const bool ranked =
       std::any_of(file.columns.begin(), file.columns.end(), [](const auto& each) { return each.interaction > 0; });
   if (ranked) table.columns.push_back({"interaction", "", 3});
   for (const auto& column : file.columns) {
-    const bool named = column.label.starts_with(column.kind);
-    table.rows.push_back({named ? column.label : column.kind + " " + column.label,
-                          known(column.kind == "mode", hertz(column.omega)), column.new_part,
+    table.rows.push_back({name_of(column), known(column.kind == "mode", hertz(column.omega)), column.new_part,
                           column.kept ? "yes" : "no"});
     if (ranked) table.rows.back().push_back(known(column.interaction > 0, column.interaction));
   }
@@ -53,7 +55,7 @@ std::string left_out(const ReducedBodyFile& file) {
   std::vector<std::string> all;
   for (const auto& column : file.columns)
     if (column.kind == "attachment" && !column.kept)
-      all.push_back(fmt::format("{} ({})", column.label,
+      all.push_back(fmt::format("{} ({})", name_of(column),
                                 column.dropped.empty()
                                     ? fmt::format("those before it hold all but {:.2g} of it", column.new_part)
                                     : column.dropped));

@@ -44,6 +44,10 @@ class Writer {
     add(name);
     for (const auto& each : all) add(each);
   }
+  /// Left out of the sum, so that a floe that does not know them finds its sum, too.
+  void remarks(const std::string& name, const std::vector<std::string>& all, const std::string& description) {
+    write_texts(file_, name, all, {"", description});
+  }
   void text(const std::string& name, const std::string& one) {
     write_text(file_, name, one);
     add(name), add(one);
@@ -124,7 +128,7 @@ void put(Writer& to, const std::vector<ReducedColumn>& columns) {
   to.numbers("columns/interaction", shape, interaction, "1", "against the greatest");
   to.integers("columns/kept", shape, kept, "1: in the basis");
   if (std::any_of(dropped.begin(), dropped.end(), [](const std::string& each) { return !each.empty(); }))
-    to.texts("columns/dropped", dropped, "why a static column was no candidate");
+    to.remarks("columns/dropped", dropped, "why a static column was no candidate");
 }
 
 void put(Writer& to, const MadeBy& made) {

@@ -77,6 +77,20 @@ TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced a
   }
 }
 
+TEST_CASE("an oblique pull that no column follows is told, though columns follow each of its components") {
+  const auto notes = [](const std::string& scene) {
+    const scene::Model model = scene::build(scene::parse_scene(scene, "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
+    return std::count_if(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
+      return warning.find("of the work of load pull on its static response") != std::string::npos;
+    });
+  };
+  const std::string with = members(turned_by(1), 1e-3, {1, 0, 0});
+  std::string without = with;
+  without.replace(without.find("attachment: loads"), 17, "attachment: none, derivatives: none");
+  CHECK(notes(with) == 0);
+  CHECK(notes(without) == 1);
+}
+
 // K's factor misses 1e-4 of a static response there, and even the forces of its elements round it to 1e-5.
 TEST_CASE("an oblique frame at the limit of double precision, r/L = 4e-6") {
   const double r = 1e-5, EA = 7e10 * M_PI * r * r;
