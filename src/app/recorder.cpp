@@ -48,6 +48,7 @@ ordered_json body_json(const scene::BodyReport& body) {
                         {"kept", origin.kept},
                         {"new_part", origin.new_part}};
     if (origin.interaction > 0) column["interaction"] = origin.interaction;
+    if (!origin.dropped.empty()) column["dropped"] = origin.dropped;
     j["basis"].push_back(column);
   }
   j["seconds"] = {{"modes", body.seconds_modes},

@@ -32,19 +32,37 @@ Table frequencies(const ReducedBodyFile& file) {
   return table;
 }
 
+std::string name_of(const ReducedColumn& column) {
+  return column.label.starts_with(column.kind) ? column.label : column.kind + " " + column.label;
+}
+
 Table columns(const ReducedBodyFile& file) {
   Table table{{{"column", ""}, {"frequency", "Hz", 6}, {"new part", "", 3}, {"kept", ""}}, {}};
   const bool ranked =
       std::any_of(file.columns.begin(), file.columns.end(), [](const auto& each) { return each.interaction > 0; });
   if (ranked) table.columns.push_back({"interaction", "", 3});
   for (const auto& column : file.columns) {
-    const bool named = column.label.starts_with(column.kind);
-    table.rows.push_back({named ? column.label : column.kind + " " + column.label,
-                          known(column.kind == "mode", hertz(column.omega)), column.new_part,
+    table.rows.push_back({name_of(column), known(column.kind == "mode", hertz(column.omega)), column.new_part,
                           column.kept ? "yes" : "no"});
     if (ranked) table.rows.back().push_back(known(column.interaction > 0, column.interaction));
   }
   return table;
+}
+
+/// `attachment tip.fx (repeats root.fx)`: static columns that the basis lacks, the first of them.
+std::string left_out(const ReducedBodyFile& file) {
+  constexpr std::size_t shown = 10;
+  std::vector<std::string> all;
+  for (const auto& column : file.columns)
+    if (column.kind == "attachment" && !column.kept)
+      all.push_back(fmt::format("{} ({})", name_of(column),
+                                column.dropped.empty()
+                                    ? fmt::format("those before it hold all but {:.2g} of it", column.new_part)
+                                    : column.dropped));
+  if (all.empty()) return {};
+  const std::size_t more = all.size() - std::min(all.size(), shown);
+  all.resize(all.size() - more);
+  return fmt::format("left out    {}{}\n", fmt::join(all, ", "), more > 0 ? fmt::format(", and {} more", more) : "");
 }
 
 Table places(const ReducedBodyFile& file) {
@@ -90,6 +108,7 @@ std::string describe(const ReducedBodyFile& file) {
   text += fmt::format("mesh        {} dofs, {} nodes, {} cells\n", file.dofs, file.nodes, file.cells);
   text += fmt::format("frame       {}\n", frame_text(file.frame));
   text += fmt::format("basis       {} coordinates of {} columns\n", kept, file.columns.size());
+  text += left_out(file);
   text += fmt::format("energy      {} squares of {} coordinates and {} products\n", elasticity.F.rows(),
                       elasticity.bending.rows(), elasticity.pairs.size());
   text += fmt::format("damping     {}\n", file.damping.size() ? "yes" : "none");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reduced_file_hdf5.h"
 
 namespace floe::output {
@@ -41,6 +43,10 @@ class Writer {
     write_texts(file_, name, all, {"", description});
     add(name);
     for (const auto& each : all) add(each);
+  }
+  /// Left out of the sum, so that a floe that does not know them finds its sum, too.
+  void remarks(const std::string& name, const std::vector<std::string>& all, const std::string& description) {
+    write_texts(file_, name, all, {"", description});
   }
   void text(const std::string& name, const std::string& one) {
     write_text(file_, name, one);
@@ -102,7 +108,7 @@ void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t
 }
 
 void put(Writer& to, const std::vector<ReducedColumn>& columns) {
-  std::vector<std::string> kinds, labels;
+  std::vector<std::string> kinds, labels, dropped;
   Numbers omega, new_part, interaction;
   std::vector<std::int64_t> kept;
   for (const auto& column : columns) {
@@ -112,6 +118,7 @@ void put(Writer& to, const std::vector<ReducedColumn>& columns) {
     new_part.push_back(column.new_part);
     interaction.push_back(column.interaction);
     kept.push_back(column.kept);
+    dropped.push_back(column.dropped);
   }
   const Extent shape{columns.size()};
   to.texts("columns/kind", kinds, "mode, derivative or attachment");
@@ -120,6 +127,8 @@ void put(Writer& to, const std::vector<ReducedColumn>& columns) {
   to.numbers("columns/new_part", shape, new_part, "1", "share that the columns before it lack");
   to.numbers("columns/interaction", shape, interaction, "1", "against the greatest");
   to.integers("columns/kept", shape, kept, "1: in the basis");
+  if (std::any_of(dropped.begin(), dropped.end(), [](const std::string& each) { return !each.empty(); }))
+    to.remarks("columns/dropped", dropped, "why a static column was no candidate");
 }
 
 void put(Writer& to, const MadeBy& made) {

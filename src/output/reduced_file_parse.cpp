@@ -99,10 +99,12 @@ std::vector<ReducedColumn> read_columns(hid_t file) {
   const auto new_part = read_whole<double>(file, "columns/new_part", {n});
   const auto interaction = read_whole<double>(file, "columns/interaction", {n});
   const auto kept = read_whole<std::int64_t>(file, "columns/kept", {n});
+  const bool told = H5Lexists(file, "columns/dropped", H5P_DEFAULT) > 0;
+  const auto dropped = told ? read_list(file, "columns/dropped", n) : std::vector<std::string>(n);
   std::vector<ReducedColumn> columns;
   for (hsize_t i = 0; i < n; ++i) {
     if (kept[i] != 0 && kept[i] != 1) fail("columns/kept", "0 or 1", fmt::format("{}", kept[i]));
-    columns.push_back({kind[i], label[i], omega[i], new_part[i], kept[i] == 1, interaction[i]});
+    columns.push_back({kind[i], label[i], omega[i], new_part[i], kept[i] == 1, interaction[i], dropped[i]});
   }
   return columns;
 }

@@ -58,12 +58,6 @@ void iterate(KSP ksp, KSPType type) {
   check(KSPSetTolerances(ksp, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 30));
 }
 
-RunError too_fine(const fem::Structure& structure, const std::string& what) {
-  return RunError(
-      fmt::format("the mesh of {} elements is finer than double precision resolves: {}; take fewer elements",
-                  structure.mesh.cell_count, what));
-}
-
 petsc::MatHandle dense_like(Vec column, std::size_t count) {
   PetscInt local = 0, global = 0;
   petsc::MatHandle dense;

@@ -7,6 +7,7 @@
 
 #include "floe/fem/field_rows.h"
 #include "floe/petsc/values.h"
+#include "static_columns.h"
 
 namespace floe::reduction {
 
@@ -27,46 +28,9 @@ Generators generators(const fem::Structure& structure, const fem::ReferenceFrame
                     tolerance);
 }
 
-namespace {
-
-/// Of a load, where a moment counts as the force that has it over the body's extent. [N] Collective.
-double size_of_load(const fem::Structure& structure, Vec load) {
-  const int n = structure.dofs_per_node;
-  const double length = fem::extent(structure);
-  double square = 0;
-  {
-    petsc::Values own(load);
-    for (PetscInt i = own.first; i < own.end; ++i)
-      square += std::pow(i % n < structure.dimension() ? own[i] : own[i] / length, 2);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &square, 1, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
-  return std::sqrt(square);
-}
-
-/// Responses to all attachments, in their order.
-Columns static_columns(const fem::Structure& structure, const Statics& statics,
-                       const std::vector<Attachment>& attachments) {
-  Columns loads, all, moved;
-  for (const Attachment& attachment : attachments)
-    if (attachment.load)
-      loads.push_back(copy(attachment.load));
-    else
-      moved.push_back(copy(attachment.moved));
-  Columns responses = statics.solve(loads);
-  for (const auto& response : responses) fem::separate(structure, response, 1e-9);
-  Columns constrained = statics.constraint_modes(moved);
-  auto response = responses.begin(), constraint = constrained.begin();
-  for (const Attachment& attachment : attachments)
-    all.push_back(std::move(attachment.load ? *response++ : *constraint++));
-  return all;
-}
-
-}  // namespace
-
 Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
                       const std::vector<Attachment>& attachments, double tolerance) {
   Generators result;
-  const petsc::MatHandle M = fem::mass(structure, {});
   result.modes = std::move(modes);
   Columns candidates;
   std::vector<ColumnOrigin> origins;
@@ -74,26 +38,15 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
     candidates.push_back(copy(result.modes.shapes[i]));
     origins.push_back({ColumnOrigin::Kind::mode, fmt::format("mode {}", i + 1), result.modes.omega[i]});
   }
-  Columns responses = static_columns(structure, statics, attachments);
-  double greatest = 0;
-  std::vector<double> norms;
-  for (const auto& response : responses) norms.push_back(mass_norm(M, response));
-  for (std::size_t i = 0; i < norms.size(); ++i) {  // of loads: those of displacements have a scale of their own
-    if (!attachments[i].load) continue;
-    const double size = size_of_load(structure, attachments[i].load);
-    if (size > 0) norms[i] /= size;
-    greatest = std::max(greatest, norms[i]);
-  }
-  for (std::size_t i = 0; i < responses.size(); ++i) {
-    ColumnOrigin origin{ColumnOrigin::Kind::attachment, "attachment " + attachments[i].label};
-    if (norms[i] <= (attachments[i].load ? 1e-10 * greatest : 0)) {
-      origin.kept = false, origin.new_part = 0;
-      result.dropped.push_back(origin);
+  StaticColumns statically = static_columns(structure, statics, attachments);
+  for (std::size_t i = 0; i < attachments.size(); ++i) {
+    if (!statically.origins[i].kept) {
+      result.dropped.push_back(statically.origins[i]);
       continue;
     }
-    fix_sign(structure, responses[i]);
-    candidates.push_back(std::move(responses[i]));
-    origins.push_back(origin);
+    fix_sign(structure, statically.columns[i]);
+    candidates.push_back(std::move(statically.columns[i]));
+    origins.push_back(statically.origins[i]);
   }
   const Basis independent = orthonormal_basis(structure, candidates, std::move(origins), tolerance);
   for (std::size_t i = 0; i < candidates.size(); ++i) {

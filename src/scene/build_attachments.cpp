@@ -237,6 +237,24 @@ void add_joints(const Prepared& prepared, int index, Attachments& all) {
     add_spatial_constraint_modes(prepared, index, all);
 }
 
+/// In which a load acts: its axes, and besides its own directions at five times of the motion, as an oblique body may
+/// be soft along every axis and stiff between them.
+std::vector<Eigen::Vector3d> directions(const std::array<math::Formula, 3>& values, double end) {
+  std::vector<Eigen::Vector3d> all;
+  for (int c = 0; c < 3; ++c)
+    if (!values[c].constant() || values[c]() != 0) all.push_back(Eigen::Vector3d::Unit(c));
+  for (int k = 0; k <= 4; ++k) {
+    const double t = (end > 0 ? end : 1) * k / 4;
+    const Eigen::Vector3d value(values[0](t), values[1](t), values[2](t));
+    if (value.stableNorm() == 0) continue;
+    const Eigen::Vector3d direction = value.stableNormalized();
+    if (std::all_of(all.begin(), all.end(),
+                    [&](const Eigen::Vector3d& each) { return each.cross(direction).norm() > 1e-9; }))
+      all.push_back(direction);
+  }
+  return all;
+}
+
 }  // namespace
 
 Attachments attachments(const Prepared& prepared, int index) {
@@ -273,12 +291,12 @@ std::vector<reduction::Attachment> loads_on(const Prepared& prepared, int index)
     if (place.body != index || load.kind == Load::Kind::distributed) continue;
     const bool moment = load.kind == Load::Kind::moment;
     const Eigen::Matrix3d to_frame = load.axes == Load::Axes::world ? body.attitude.transpose() : body.axes.transpose();
-    for (int c = 0; c < 3; ++c) {
-      const math::Formula& value = (moment ? load.moment : load.force)[c];
-      if (value.constant() && value() == 0) continue;
+    const auto& values = moment ? load.moment : load.force;
+    for (const Eigen::Vector3d& direction : directions(values, prepared.scene.motion.end)) {
+      const Eigen::Vector3d in_frame = to_frame * direction;
       reduction::Attachment along{load.name, fem::field(body.structure), {}};
       for (int i = 0; i < 3; ++i)
-        check(VecAXPY(along.load, to_frame(i, c), unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
+        check(VecAXPY(along.load, in_frame[i], unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
       all.push_back(std::move(along));
     }
   }

@@ -30,8 +30,8 @@ bool of_frame(const PreparedBody& body);
 ///   - the body stands still, and the joint drives it.
 std::vector<reduction::Attachment> attachments(const Prepared& prepared, int index);
 
-/// In space: of every load at a place of the body, the directions in which it acts, by one unit, in the frame's axes at
-/// the start. Collective.
+/// In space: of every load at a place of the body, the directions in which it acts (its axes, and its own direction at
+/// some times), by one unit, in the frame's axes at the start. Collective.
 std::vector<reduction::Attachment> loads_on(const Prepared& prepared, int index);
 
 }  // namespace floe::scene

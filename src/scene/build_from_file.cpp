@@ -63,7 +63,7 @@ std::vector<reduction::ColumnOrigin> origins_of(const output::ReducedBodyFile& f
                       : column.kind == "derivative" ? Kind::derivative
                                                     : Kind::attachment;
     const bool kept = column.kept && (formulation != Formulation::vm || kind != Kind::derivative);
-    origins.push_back({kind, column.label, column.omega, column.new_part, kept, column.interaction});
+    origins.push_back({kind, column.label, column.omega, column.new_part, kept, column.interaction, column.dropped});
   }
   return origins;
 }

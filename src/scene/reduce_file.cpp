@@ -106,7 +106,7 @@ std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
     columns.push_back({o.kind == Kind::mode         ? "mode"
                        : o.kind == Kind::derivative ? "derivative"
                                                     : "attachment",
-                       o.label, o.omega, o.new_part, o.kept, o.interaction});
+                       o.label, o.omega, o.new_part, o.kept, o.interaction, o.dropped});
   return columns;
 }
 

@@ -21,7 +21,8 @@ struct ReducedColumn {
   double omega = 0;     ///< modes [rad/s]
   double new_part = 1;  ///< share of the scaled column that the columns before it lack
   bool kept = true;
-  double interaction = 0;  ///< derivatives chosen by count: modal interaction against the greatest
+  double interaction = 0;    ///< derivatives chosen by count: modal interaction against the greatest
+  std::string dropped = {};  ///< static columns: why they were no candidates, `repeats tip.fx`
 };
 
 /// A named place of the body; of a set of nodes, the mean. psi has one row in the plane, three in space.

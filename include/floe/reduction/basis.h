@@ -12,7 +12,8 @@ struct ColumnOrigin {
   double omega = 0;     ///< modes [rad/s]
   double new_part = 1;  ///< share of the scaled column that the columns before it lack
   bool kept = true;
-  double interaction = 0;  ///< derivatives chosen by count: modal interaction against the greatest
+  double interaction = 0;    ///< derivatives chosen by count: modal interaction against the greatest
+  std::string dropped = {};  ///< static columns that are not even candidates: why, `repeats tip.fx`
 };
 
 /// V = [phi theta ...], M-orthonormal: V' M V = 1. k columns.

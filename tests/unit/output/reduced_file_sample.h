@@ -37,7 +37,7 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
     file.places.push_back({name, {matrix(d, 1), matrix(d, k), matrix(d == 2 ? 1 : 3, k)}});
   for (int i = 0; i < k; ++i) file.columns.push_back({"mode", "mode " + std::to_string(i + 1), 10.0 + i, 0.5, true, 0});
   file.columns.push_back({"derivative", "derivative 1,1", 0, 1e-12, false, 0.25});
-  file.columns.push_back({"attachment", "root.moment", 0, 0, false, 0});
+  file.columns.push_back({"attachment", "root.moment", 0, 0, false, 0, "repeats tip.moment"});
   file.omega = {10, 11, 1e5 / 3};
   file.residual = {1e-12, 2e-12, 1e-9 / 3};
   file.frame = {"chord", matrix(d, 1), Eigen::MatrixXd::Identity(d, d)};
@@ -86,6 +86,7 @@ inline void check_same(const floe::output::ReducedBodyFile& a, const floe::outpu
     const auto &left = a.columns[i], &right = b.columns[i];
     CHECK((left.kind == right.kind && left.label == right.label && left.kept == right.kept));
     CHECK((left.omega == right.omega && left.new_part == right.new_part && left.interaction == right.interaction));
+    CHECK(left.dropped == right.dropped);
   }
   CHECK((a.omega == b.omega && a.residual == b.residual));
   CHECK((a.frame.kind == b.frame.kind && same(a.frame.origin, b.frame.origin) && same(a.frame.axes, b.frame.axes)));
