@@ -185,7 +185,7 @@ FOLDERS = [
     Case("folder not empty", run(), 2, ("out': is not empty", "--force"), lines=1, files={"out/mine.txt": "mine"},
          check=kept("out/mine.txt", "mine")),
     Case("folder without a name", ["run", "scene.yaml", "-o", ""], 2, ("needs a name",), lines=1, check=nothing),
-    *case("folder that nothing came into", codes=1, lines=1, says=("PETSc error", "in EPSSetDimensions_Default", "EPSSolve"),
+    *case("folder that nothing came into", codes=2, lines=1, says=("an option -modes_... cannot be taken", "in EPSSetDimensions_Default", "EPSSolve"),
           never=("epssetup.c", "epsdefault.c"), options=("-modes_eps_ncv", "1"), check=nothing),
     Case("folder forced", run("vm+md", "--force"), 0, files={"out/mine.txt": "mine", "out/summary.json": OWN},
          check=lambda folder: (kept("out/mine.txt", "mine")(folder), files("finished", 51)(folder))),
@@ -293,7 +293,7 @@ OPTIONS = [
     *(c for value in ("-1", "0", "nan") for option in ("-motion_ts_dt", "-motion_ts_max_time")
       for c in case(f"{option} {value}", codes=2, lines=1, options=(option, value), ranks=(1,), check=nothing,
                     says=(f"option {option} {value}: is not a positive number",))),
-    *case("modes by a solver that needs more", codes=1, lines=1, options=("-modes_eps_type", "lanczos"), check=nothing,
+    *case("modes by a solver that needs more", codes=2, lines=1, options=("-modes_eps_type", "lanczos"), check=nothing,
           says=("reorthogonalization type", "in EPSSetUp_Lanczos, called by EPSSolve"), never=("lanczos.c",)),
     *case("factors of a package that has none", codes=1, lines=1, check=nothing, never=("matrix.c",),
           options=("-derivatives_pc_factor_mat_solver_type", "superlu"), says=("MatSolverType superlu does not",)),

@@ -43,12 +43,16 @@ std::vector<double> dense_values(const SpatiallyHeld& body) {
 void check_modes(const SpatiallyHeld& body, int count, const std::vector<double>& lambda) {
   const reduction::Modes modes = body.modes(count);
   const petsc::MatHandle M = fem::mass(body.structure, body.holding.held);
+  const petsc::VecHandle product = fem::field(body.structure);
   REQUIRE(std::ssize(modes.raw) == count);
   for (int i = 0; i < count; ++i) {
     CHECK(modes.omega[i] == Approx(std::sqrt(lambda[i])).epsilon(1e-7));
     CHECK(modes.residual[i] < 1e-6);
-    for (int j = 0; j <= i; ++j)
-      CHECK(testing::form(M, modes.raw[i], modes.raw[j]) == Approx(i == j ? 1 : 0).margin(1e-6));
+    std::vector<double> products(i + 1);
+    const std::vector<Vec> others(modes.raw.begin(), modes.raw.begin() + i + 1);
+    petsc::check(MatMult(M, modes.raw[i], product));
+    petsc::check(VecMDot(product, i + 1, others.data(), products.data()));
+    for (int j = 0; j <= i; ++j) CHECK(products[j] == Approx(i == j ? 1 : 0).margin(1e-6));
   }
 }
 
@@ -77,11 +81,11 @@ using Given = std::map<std::string, std::string>;
 TEST_CASE("no mode is passed over where a cluster has more than a block, or the user's solver takes one by one") {
   const testing::Options options(GENERATE(as<Given>(), Given{}, Given{{"-modes_eps_type", "krylovschur"}},
                                           Given{{"-modes_eps_block_lanczos_size", "3"}}));
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 30, 5), Kind::clamped, {0});
-  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, 5), Kind::clamped, {0});
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 20, 6), Kind::clamped, {0});
+  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, 6), Kind::clamped, {0});
   std::vector<double> lambda;
-  for (double value : dense_values(one)) lambda.insert(lambda.end(), 30, value);
-  check_modes(body, 36, lambda);
+  for (double value : dense_values(one)) lambda.insert(lambda.end(), 20, value);
+  check_modes(body, 30, lambda);
 }
 
 TEST_CASE("an eigenvalue solver that finds rigid motions is refused") {
