@@ -35,6 +35,7 @@ bench-planar: build
 	@bash makefiles/bench_planar.sh $(BUILD)
 
 bench-offline: build
+	@bash makefiles/setup.sh packages_benchmark.txt
 	@bash makefiles/bench_offline.sh $(BUILD)
 
 check64:
