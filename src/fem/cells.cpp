@@ -71,8 +71,8 @@ Eigen::MatrixXd matrix_of(const Corners& at, const ShellSection& section, double
              at.quadrilateral());
 }
 
-std::vector<body::MassPoint> line_of(const Corners& at, const BeamSection&) {
-  return planar_beam_line(at.planar(0), at.planar(1));
+std::vector<body::MassPoint> line_of(const Corners& at, const BeamSection& section) {
+  return planar_beam_line(at.planar(0), at.planar(1), section);
 }
 std::vector<body::MassPoint> line_of(const Corners& at, const SpatialBeam& beam) {
   return spatial_beam_line(place_of(at, beam), beam.section);

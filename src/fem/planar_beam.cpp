@@ -40,15 +40,26 @@ Row6 deflection(double s, double l) {
 Row6 slope(double s, double l) {
   return (Row6() << 0, 6 * s * (s - 1) / l, 1 - 4 * s + 3 * s * s, 0, 6 * s * (1 - s) / l, s * (3 * s - 2)).finished();
 }
+/// What shear adds to them, on gamma.
+double sway(double s, double l) { return l * s * (1 - s) * (1 - 2 * s); }
+double sway_slope(double s) { return 1 - 6 * s + 6 * s * s; }
+Row6 antisymmetric(double l) { return (Row6() << 0, -1, -l / 2, 0, 1, -l / 2).finished(); }
+
 Row6 stretch(double s) { return (Row6() << 1 - s, 0, 0, s, 0, 0).finished(); }
 
 struct Axes {
   double length;
   Eigen::Matrix2d turn;                  // element axes in body axes
   Eigen::Matrix<double, 6, 6> to_local;  // dofs
+  Row6 shear = Row6::Zero();             // gamma on local dofs
 };
 
-Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+Row6 slope(double s, const Axes& axes) { return slope(s, axes.length) + sway_slope(s) * axes.shear; }
+
+/// 12 EI / (GA l^2).
+double softness(const BeamSection& section, double l) { return 12 * section.EI / (section.GA * l * l); }
+
+Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamSection& section) {
   Axes axes;
   const Eigen::Vector2d d = to - from;
   axes.length = d.norm();
@@ -59,10 +70,13 @@ Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
     axes.to_local.block<2, 2>(3 * node, 3 * node) = axes.turn.transpose();
     axes.to_local(3 * node + 2, 3 * node + 2) = 1;
   }
+  const double phi = softness(section, axes.length);
+  if (phi > 0) axes.shear = phi / (1 + phi) / axes.length * antisymmetric(axes.length);
   return axes;
 }
 
-Eigen::Matrix<double, 6, 6> bending_stiffness(double EI, double l) {
+Eigen::Matrix<double, 6, 6> bending_stiffness(const BeamSection& section, double l) {
+  const double EI = section.EI, phi = softness(section, l);
   Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
   const int v[4] = {1, 2, 4, 5};
   const double k[4][4] = {{12, 6 * l, -12, 6 * l},
@@ -71,13 +85,15 @@ Eigen::Matrix<double, 6, 6> bending_stiffness(double EI, double l) {
                           {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) K(v[i], v[j]) = EI / (l * l * l) * k[i][j];
+  const Row6 D = antisymmetric(l);
+  if (phi > 0) K -= 12 * EI / (l * l * l) * phi / (1 + phi) * D.transpose() * D;
   return K;
 }
 
 body::MassPoint sample(double mass, double s, double y, const Eigen::Vector2d& from, const Axes& axes) {
   const double l = axes.length;
   Eigen::Matrix<double, 2, 6> N;
-  N << stretch(s) - y * slope(s, l), deflection(s, l);
+  N << stretch(s) - y * (slope(s, axes) - axes.shear), deflection(s, l) + sway(s, l) * axes.shear;
   return {mass, from + axes.turn * Eigen::Vector2d(s * l, y), axes.turn * N * axes.to_local};
 }
 
@@ -85,10 +101,10 @@ body::MassPoint sample(double mass, double s, double y, const Eigen::Vector2d& f
 
 ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamSection& section,
                         MembraneStrain strain) {
-  const Axes axes = axes_of(from, to);
+  const Axes axes = axes_of(from, to, section);
   const double l = axes.length;
   ElementMaps maps;
-  maps.bending = axes.to_local.transpose() * bending_stiffness(section.EI, l) * axes.to_local;
+  maps.bending = axes.to_local.transpose() * bending_stiffness(section, l) * axes.to_local;
 
   const Row6 linear = (Row6() << -1 / l, 0, 0, 1 / l, 0, 0).finished();
   const Eigen::MatrixXd L = linear * axes.to_local, D = Eigen::MatrixXd::Constant(1, 1, section.EA);
@@ -96,14 +112,14 @@ ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
     StrainPoint whole{l, D, L, Eigen::MatrixXd(3, 6), {Eigen::MatrixXd::Zero(3, 3)}};
     int row = 0;
     for (const GaussPoint& g : gauss3()) {
-      whole.G.row(row) = slope(g.at, l) * axes.to_local;
+      whole.G.row(row) = slope(g.at, axes) * axes.to_local;
       whole.P[0](row, row) = g.weight;
       ++row;
     }
     maps.membrane.push_back(std::move(whole));
   } else {
     for (const GaussPoint& g : gauss5())  // v'^4 has degree 8
-      maps.membrane.push_back({g.weight * l, D, L, slope(g.at, l) * axes.to_local, {Eigen::MatrixXd::Ones(1, 1)}});
+      maps.membrane.push_back({g.weight * l, D, L, slope(g.at, axes) * axes.to_local, {Eigen::MatrixXd::Ones(1, 1)}});
   }
 
   const double radius = section.rhoA > 0 ? std::sqrt(section.rhoI / section.rhoA) : 0;
@@ -119,8 +135,9 @@ ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   return maps;
 }
 
-std::vector<body::MassPoint> planar_beam_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
-  const Axes axes = axes_of(from, to);
+std::vector<body::MassPoint> planar_beam_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                              const BeamSection& section) {
+  const Axes axes = axes_of(from, to, section);
   std::vector<body::MassPoint> line;
   for (const GaussPoint& g : gauss4()) line.push_back(sample(g.weight * axes.length, g.at, 0, from, axes));
   return line;

@@ -96,6 +96,7 @@ void check(const SpatialBeamSection& s) {
   const double sum = s.EA + s.EIy + s.EIz + s.EIyz + s.GJ + s.rhoA + s.rhoIy + s.rhoIz + s.rhoIyz;
   expect(std::isfinite(sum) && s.centroid.allFinite() && s.shear_centre.allFinite(), "a value is not finite");
   expect(s.EA > 0, "axial stiffness must be positive");
+  expect(s.GA.minCoeff() > 0, "shear stiffness must be positive");
   expect(s.EIy >= 0 && s.EIz >= 0 && s.GJ >= 0, "bending and torsional stiffness must not be negative");
   expect(s.rhoA >= 0 && s.rhoIy >= 0 && s.rhoIz >= 0, "mass and rotary inertia must not be negative");
   constexpr double rounding = 1 + 1e-9;

@@ -41,7 +41,31 @@ Row12 in_z(const Row4& h) {
   return row;
 }
 
+/// l (s - 3 s^2 + 2 s^3) and its derivative with respect to x, on gamma.
+double sway(double s, double l) { return l * s * (1 - s) * (1 - 2 * s); }
+double sway_slope(double s) { return 1 - 6 * s + 6 * s * s; }
+
+Eigen::Matrix2d bending_of(const SpatialBeamSection& section) {
+  return (Eigen::Matrix2d() << section.EIz, section.EIyz, section.EIyz, section.EIy).finished();
+}
+
+/// 1 + 12/l^2 GA^-1 B.
+Eigen::Matrix2d softening(const SpatialBeamSection& section, double l) {
+  return Eigen::Matrix2d::Identity() + 12 / (l * l) * section.GA.cwiseInverse().asDiagonal() * bending_of(section);
+}
+
 }  // namespace
+
+ShearRows antisymmetric(double l) {
+  ShearRows D;
+  D << in_y({-1, -l / 2, 1, -l / 2}), in_z({-1, -l / 2, 1, -l / 2});
+  return D;
+}
+
+Eigen::Matrix2d antisymmetric_stiffness(const SpatialBeamSection& section, double l) {
+  const Eigen::Matrix2d K = 12 / (l * l * l) * bending_of(section) * softening(section, l).inverse();
+  return (K + K.transpose()) / 2;
+}
 
 BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section) {
   check(section);
@@ -56,6 +80,12 @@ BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section) 
   Eigen::Matrix3d arms;  // u_C = u + z_C ry - y_C rz,  v_S = v - z_S rx,  w_S = w + y_S rx
   arms << 0, frame.C[1], -frame.C[0], -frame.S[1], 0, 0, frame.S[0], 0, 0;
   frame.node.topRightCorner<3, 3>() = arms * turn;
+  frame.shear.setZero();
+  if (section.shears()) {
+    const double l = frame.length;
+    const Eigen::Matrix2d B = 12 / (l * l * l) * section.GA.cwiseInverse().asDiagonal() * bending_of(section);
+    frame.shear = softening(section, l).inverse() * B * antisymmetric(l);
+  }
   return frame;
 }
 
@@ -69,10 +99,14 @@ Row12 twist(double s) {
   row[3] = 1 - s, row[9] = s;
   return row;
 }
-Row12 deflection_y(double s, double l) { return in_y(cubics(s, l)); }
-Row12 deflection_z(double s, double l) { return in_z(cubics(s, l)); }
-Row12 slope_y(double s, double l) { return in_y(cubic_slopes(s, l)); }
-Row12 slope_z(double s, double l) { return in_z(cubic_slopes(s, l)); }
+Row12 deflection_y(double s, const BeamFrame& f) {
+  return in_y(cubics(s, f.length)) + sway(s, f.length) * f.shear.row(0);
+}
+Row12 deflection_z(double s, const BeamFrame& f) {
+  return in_z(cubics(s, f.length)) + sway(s, f.length) * f.shear.row(1);
+}
+Row12 slope_y(double s, const BeamFrame& f) { return in_y(cubic_slopes(s, f.length)) + sway_slope(s) * f.shear.row(0); }
+Row12 slope_z(double s, const BeamFrame& f) { return in_z(cubic_slopes(s, f.length)) + sway_slope(s) * f.shear.row(1); }
 
 Row12 stretch_rate(double l) {
   Row12 row = Row12::Zero();
@@ -85,20 +119,19 @@ Row12 twist_rate(double l) {
   return row;
 }
 Row12 centroid_slope_y(double s, const BeamFrame& f) {
-  return slope_y(s, f.length) - (f.C[1] - f.S[1]) * twist_rate(f.length);
+  return slope_y(s, f) - (f.C[1] - f.S[1]) * twist_rate(f.length);
 }
 Row12 centroid_slope_z(double s, const BeamFrame& f) {
-  return slope_z(s, f.length) + (f.C[0] - f.S[0]) * twist_rate(f.length);
+  return slope_z(s, f) + (f.C[0] - f.S[0]) * twist_rate(f.length);
 }
 
 SectionMotion section_motion(double s, const BeamFrame& f) {
-  const double l = f.length;
   const Row12 turn = twist(s), none = Row12::Zero();
   SectionMotion motion;
-  motion.centre << stretch(s), deflection_y(s, l) - (f.C[1] - f.S[1]) * turn,
-      deflection_z(s, l) + (f.C[0] - f.S[0]) * turn;
-  motion.along_y << -slope_y(s, l), none, turn;
-  motion.along_z << -slope_z(s, l), -turn, none;
+  motion.centre << stretch(s), deflection_y(s, f) - (f.C[1] - f.S[1]) * turn,
+      deflection_z(s, f) + (f.C[0] - f.S[0]) * turn;
+  motion.along_y << f.shear.row(0) - slope_y(s, f), none, turn;  // sections turn by what is no shear
+  motion.along_z << f.shear.row(1) - slope_z(s, f), -turn, none;
   return motion;
 }
 

@@ -24,6 +24,7 @@ inline constexpr std::array<BeamStation, 5> beam_gauss5{{{0.5 - 0.45308992296933
 
 using Row12 = Eigen::Matrix<double, 1, 12>;
 using Rows3x12 = Eigen::Matrix<double, 3, 12>;
+using ShearRows = Eigen::Matrix<double, 2, 12>;
 
 /// The element's own dofs are (u_C, v_S, w_S, rx, ry, rz) at two nodes, element axes.
 struct BeamFrame {
@@ -31,16 +32,30 @@ struct BeamFrame {
   Eigen::Matrix3d axes;              // columns x, y, z in body axes
   Eigen::Matrix<double, 6, 6> node;  // own dofs of a node from its body dofs
   Eigen::Vector2d C, S;              // centroid and shear centre from the line of the nodes
+  ShearRows shear;                   // gamma_y, gamma_z on own dofs; zero where the section is rigid in shear
 };
 BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section);
+
+/// With shear the line turns by rz + gamma_y and -ry + gamma_z where sections turn by rz and ry. Gamma is constant, from
+/// the equilibrium of an element without load, GA gamma = EI d3v/dx3:
+///
+///   (1 + 12/l^2 GA^-1 B) gamma = 12/l^3 GA^-1 B D,   D = (v_2 - v_1 - l (rz_1 + rz_2)/2, w_2 - w_1 + l (ry_1 + ry_2)/2),
+///   v = cubic + l (s - 3 s^2 + 2 s^3) gamma_y,       B = [EIz EIyz; EIyz EIy]
+///
+/// which are Timoshenko's exact shapes. What bends with constant curvature has no shear.
+/// Source: Przemieniecki, Theory of matrix structural analysis, ch. 5; Friedman & Kosmatka, Comput. Struct. 47 (1993)
+/// 473.
+ShearRows antisymmetric(double l);  // D on own dofs
+/// 12/l^3 B (1 + 12/l^2 GA^-1 B)^-1: what D costs.
+Eigen::Matrix2d antisymmetric_stiffness(const SpatialBeamSection& section, double l);
 
 /// Fields at s = x / l on the element's own dofs.
 Row12 stretch(double s);
 Row12 twist(double s);
-Row12 deflection_y(double s, double l);
-Row12 deflection_z(double s, double l);
-Row12 slope_y(double s, double l);  // v_S'
-Row12 slope_z(double s, double l);  // w_S'
+Row12 deflection_y(double s, const BeamFrame& frame);
+Row12 deflection_z(double s, const BeamFrame& frame);
+Row12 slope_y(double s, const BeamFrame& frame);  // v_S'
+Row12 slope_z(double s, const BeamFrame& frame);  // w_S'
 
 /// u_C', v_C', w_C', rx'.
 Row12 stretch_rate(double l);

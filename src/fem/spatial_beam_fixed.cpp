@@ -1,5 +1,7 @@
 #include "floe/fem/spatial_beam_fixed.h"
 
+#include <limits>
+
 #include "spatial_beam_fields.h"
 
 namespace floe::fem {
@@ -35,6 +37,12 @@ Matrix12 bending_and_torsion(const SpatialBeamSection& section, double l) {
     }
   K(3, 3) = K(9, 9) = section.GJ / l;
   K(3, 9) = K(9, 3) = -section.GJ / l;
+  if (!section.shears()) return K;
+  SpatialBeamSection rigid = section;
+  rigid.GA.setConstant(std::numeric_limits<double>::infinity());
+  const ShearRows D = antisymmetric(l);
+  const Eigen::Matrix2d change = antisymmetric_stiffness(section, l) - antisymmetric_stiffness(rigid, l);
+  K += D.transpose() * change * D;
   return K;
 }
 

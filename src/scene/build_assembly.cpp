@@ -118,6 +118,9 @@ void Assembly::add_body_terms(int b) {
   }
   if (damping.mass != 0 || damping.stiffness != 0)
     throw InputError(damping.where.text() + ": formulation cfr has no Rayleigh damping (it would damp rigid motion)");
+  if (body.spec.section.GA)
+    throw InputError(body.spec.section.where.text() +
+                     ": formulation cfr has no shear (GA); expected vm, vm+md, lffr or nlffr, or a section without GA");
   const fem::Structure& s = body.structure;
   const Weight weight(prepared_.scene);
   const Eigen::Vector2d gravity = weight.constant() ? Eigen::Vector2d(weight(0).head<2>()) : Eigen::Vector2d::Zero();

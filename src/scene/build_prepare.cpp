@@ -119,8 +119,9 @@ PreparedBody prepare_body(const Body& spec, MPI_Comm comm) {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   rotation.topLeftCorner<2, 2>() = turn(nodes.angle);
   fem::express_in_frame(mesh, Eigen::Vector3d(nodes.origin.x(), nodes.origin.y(), 0), rotation);
-  const fem::BeamSection section{spec.section.EA, spec.section.EI, spec.section.rhoA,
-                                 spec.rotary_inertia ? spec.section.rhoI : 0};
+  fem::BeamSection section{spec.section.EA, spec.section.EI, spec.section.rhoA,
+                           spec.rotary_inertia ? spec.section.rhoI : 0};
+  if (spec.section.GA) section.GA = *spec.section.GA;
   fem::Structure structure = fem::planar_structure(
       std::move(mesh), std::vector<fem::BeamSection>(spec.mesh.segments.size(), section),
       spec.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise);

@@ -49,6 +49,7 @@ Section read_section(Document& document, Reading& body, bool rigid) {
     section.EI = material->E * I;
     section.rhoA = material->rho * A;
   }
+  section.GA = reading.optional_number("GA");
   section.rhoI = reading.optional_number("rhoI").value_or(material ? material->rho * I : 0.0);
   return section;
 }

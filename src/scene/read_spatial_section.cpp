@@ -83,6 +83,9 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
   const fem::SectionShape shape = shape_of(document, reading);
   const auto centroid = reading.numbers("centroid");
   if (centroid.size() != 2) document.fault(reading.where("centroid"), "has not two numbers", "[y, z]");
+  const auto factors = reading.given("shear_factor") ? reading.numbers("shear_factor") : std::vector<double>{};
+  if (reading.given("shear_factor") && (factors.size() != 2 || !(std::min(factors[0], factors[1]) > 0)))
+    document.fault(reading.where("shear_factor"), "is not two numbers greater than 0", "[y, z]");
   if (!reading.given("orientation"))
     document.fault(reading.where(), "has no orientation", "a vector that turns the section of beams");
   const Point y = reading.given("orientation") ? reading.point("orientation") : Point{};
@@ -92,13 +95,14 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
                         Eigen::Vector3d(y[0], y[1], y[2]),
                         {}};
   beam.strain.wagner = reading.flag("wagner");
+  if (!factors.empty()) beam.section.GA = G * shape.A * Eigen::Vector2d(factors[0], factors[1]);
   return beam;
 }
 
 /// Keys of the section that belong to what it describes: shells, a shape of beams, or beams by their constants ("A").
 std::vector<std::string> keys_of(const std::string& kind) {
   if (kind == "shells") return {"thickness", "plies", "offset", "axis"};
-  std::vector<std::string> keys{"orientation", "centroid", "wagner"};
+  std::vector<std::string> keys{"orientation", "centroid", "shear_factor", "wagner"};
   const auto add = [&](std::initializer_list<const char*> more) {
     keys.insert(keys.begin(), more.begin(), more.end());
   };

@@ -45,6 +45,41 @@ TEST_CASE("linear frequencies of beams") {
   }
 }
 
+// Timoshenko beam, hinged: of (rhoA rhoI / GA) omega^4 - (rhoA + k^2 (rhoI + rhoA EI / GA)) omega^2 + EI k^4 = 0, k = n
+// pi / L, the lesser root. Timoshenko, Vibration problems in engineering, 3rd ed., art. 55.
+TEST_CASE("linear frequencies with shear and rotary inertia") {
+  const double EI = 1, rhoA = 1, rhoI = 0.01, GA = 40;
+  const std::string plane = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 32}}
+    section: {EA: 1e6, EI: 1, rhoA: 1, rhoI: 0.01, GA: 40}
+    reduction: {modes: 3}
+joints: {a: {type: revolute, between: [ground, beam.start]}, b: {type: revolute, between: [ground, beam.end]}}
+motion: {end: 1, step: 1}
+)yaml";
+  // E A = 1e4, E I = 1 along y and 1e4 along z, rho A = 1, rho I = 1e-4; kappa G A = 40 along y
+  const std::string space = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 32}}
+    section: {A: 1, Iy: 100, Iz: 0.01, J: 100, orientation: [0, 1, 0], shear_factor: [8e-3, 1]}
+    material: {E: 100, G: 5000, rho: 1}
+    reduction: {modes: 3}
+joints:
+  a: {type: revolute, between: [ground, beam.start], axis: [0, 0, 1]}
+  b: {type: revolute, between: [ground, beam.end], axis: [0, 0, 1]}
+motion: {end: 1, step: 1}
+)yaml";
+  for (const std::string& text : {plane, space}) {
+    const auto omega = scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+    for (int n = 1; n <= (text == plane ? 3 : 1); ++n) {
+      const double k = n * M_PI, a = rhoA * rhoI / GA, b = rhoA + k * k * (rhoI + rhoA * EI / GA), c = EI * k * k * k * k;
+      CHECK(omega[n - 1] * omega[n - 1] == Approx(2 * c / (b + std::sqrt(b * b - 4 * a * c))).epsilon(1e-4));
+    }
+  }
+}
+
 // Rayleigh beam (no shear), hinged: omega^2 = beta^4 EI / (rhoA + beta^2 rhoI), beta = n pi / L.
 TEST_CASE("linear frequencies with rotary inertia") {
   const std::string text = R"yaml(

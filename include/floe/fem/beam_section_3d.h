@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Dense>
+#include <limits>
 
 namespace floe::fem {
 
@@ -50,6 +51,10 @@ struct SpatialBeamSection {
   double rhoA = 0, rhoIy = 0, rhoIz = 0, rhoIyz = 0;       ///< [kg/m], [kg m]
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();      ///< [y, z] from the line between the nodes [m]
   Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< [y, z] from the line between the nodes [m]
+  /// Shear stiffness kappa G A along [y, z] [N]; infinite: sections stay normal to the line (Euler-Bernoulli).
+  Eigen::Vector2d GA = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+
+  bool shears() const { return GA.minCoeff() < std::numeric_limits<double>::infinity(); }
 };
 
 /// @param centroid  [y, z] of the centroid from the line between the nodes
@@ -57,7 +62,7 @@ struct SpatialBeamSection {
 SpatialBeamSection spatial_section(const SectionShape& shape, const BeamMaterial& material,
                                    const Eigen::Vector2d& centroid = Eigen::Vector2d::Zero());
 
-/// @throws floe::InputError  EA <= 0, a negative stiffness or mass, EIyz^2 > EIy EIz, rotary inertia without mass, or a
+/// @throws floe::InputError  EA or GA <= 0, a negative stiffness or mass, EIyz^2 > EIy EIz, rotary inertia without mass, or a
 ///                           value that is not finite. Zero bending or torsional stiffness is admitted.
 void check(const SpatialBeamSection& section);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "floe/fem/element.h"
 
 namespace floe::fem {
@@ -6,6 +8,7 @@ namespace floe::fem {
 /// Per unit length: axial and bending stiffness [N], [N m2], mass and rotary inertia [kg/m], [kg m].
 struct BeamSection {
   double EA = 0, EI = 0, rhoA = 0, rhoI = 0;
+  double GA = std::numeric_limits<double>::infinity();  ///< shear stiffness kappa G A [N]; infinite: Euler-Bernoulli
 };
 
 /// How the membrane strain of a beam element is taken. `pointwise` is the paper's and locks in membrane (its cubic v
@@ -13,10 +16,15 @@ struct BeamSection {
 /// slenderness.
 enum class MembraneStrain { averaged, pointwise };
 
-/// Planar Euler-Bernoulli element with von Karman strain: u linear, v cubic, dofs (u, v, rotation) at two nodes, body
+/// Planar beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is finite: u linear, v cubic, dofs (u, v, rotation) at two nodes, body
 /// axes.
 ///
-///   eps = u' + 1/2 v'^2,   kappa = v'',   r(x, y) = (x + u - y v', y + v)
+///   eps = u' + 1/2 v'^2,   kappa = psi',   r(x, y) = (x + u - y psi, y + v),   psi = v' - gamma
+///
+/// gamma is constant in the element, from its equilibrium without load, GA gamma = EI d3v/dx3:
+///   (1 + Phi) gamma = Phi ((v_2 - v_1)/l - (psi_1 + psi_2)/2),   Phi = 12 EI / (GA l^2)
+/// Source: Przemieniecki, Theory of matrix structural analysis, ch. 5; Friedman & Kosmatka, Comput. Struct. 47 (1993)
+/// 473.
 ///
 /// Mass points stand at y = +-sqrt(rhoI/rhoA), so that rotary inertia is exact; on the axis if rhoI = 0.
 /// @param from, to  positions of the nodes in body axes, apart from each other
@@ -24,6 +32,8 @@ ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
                         MembraneStrain strain);
 
 /// Uniform line samples of the element (weight per length 1, on the axis): what distributed loads act on.
-std::vector<body::MassPoint> planar_beam_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+/// @param section  whose shear its shapes have
+std::vector<body::MassPoint> planar_beam_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                              const BeamSection& section = {});
 
 }  // namespace floe::fem

@@ -24,16 +24,18 @@ struct SpatialBeamStrain {
   bool wagner = false;
 };
 
-/// Spatial Euler-Bernoulli element with von Karman strain: u and twist linear, v and w cubic; dofs (u, v, w, rx, ry,
-/// rz) at two nodes, body axes, rotations about the axes by the right hand: v' = rz, w' = -ry.
+/// Spatial beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is given: u and twist linear, v and w cubic; dofs (u, v, w, rx, ry,
+/// rz) at two nodes, body axes, rotations about the axes by the right hand: v' = rz, w' = -ry (with shear: + gamma, which
+/// is constant in the element and makes its shapes those of a beam without load).
 ///
 /// C the centroid and S the shear centre, carried by the nodes through rigid arms; (y, z) from the line of the nodes:
 ///   eps = u_C' + 1/2 (v_C'^2 + w_C'^2) [+ 1/2 (Ip/A) rx'^2, wagner]           Ip/A = (EIy + EIz)/EA
 ///   2 U = int EA eps^2 + EIz v_S''^2 + EIy w_S''^2 + 2 EIyz v_S'' w_S'' + GJ rx'^2
 ///   displacement of (y, z):  u_C - (y - y_C) v_S' - (z - z_C) w_S',   v_S - (z - z_S) rx,   w_S + (y - y_S) rx
+/// With shear sections turn by v_S' - gamma_y and w_S' - gamma_z, and 2 U has + int GAy gamma_y^2 + GAz gamma_z^2.
 /// The slopes in eps are those of the line of centroids, v_C = v_S - (z_C - z_S) rx and w_C = w_S + (y_C - y_S) rx, so
 /// that an offset stays inside the square. `averaged` takes the mean of eps over the element (no membrane locking).
-/// Not in the model: warping, shear flexibility, and strains of second order that vary over the section (of these,
+/// Not in the model: warping, and strains of second order that vary over the section (of these,
 /// wagner keeps the mean: its rx'^4 term has Ip^2/A where the section has int r^4 dA >= Ip^2/A).
 ///
 /// Mass points stand at four Gauss stations, in each at +-sqrt(n s/rhoA) along the n = 2 principal axes of the section

@@ -63,6 +63,7 @@ struct MeshSpec {
 /// Per unit length: axial and bending stiffness [N], [N m2], mass and rotary inertia [kg/m], [kg m].
 struct Section {
   double EA = 0, EI = 0, rhoA = 0, rhoI = 0;
+  std::optional<double> GA;  ///< absent: rigid in shear
   Where where;
 };
 

@@ -160,6 +160,25 @@ TEST_CASE("the line of an element has its length and its centre") {
   CHECK(testing::relative_error(across, (VectorXd(6) << -0.3, 0.4, 1. / 12, -0.3, 0.4, -1. / 12).finished()) < 1e-13);
 }
 
+TEST_CASE("an element with shear: Timoshenko's cantilever, no strain and the same inertia in rigid motions") {
+  const double l = 1.3, EI = 0.7, GA = 2;
+  const fem::BeamSection shears{50, EI, 3, 0.2, GA}, stays{50, EI, 3, 0.2};
+  const fem::ElementMaps beam = along_x(l, shears), normal = along_x(l, stays);
+  const Eigen::Matrix3d tip = beam.stiffness().bottomRightCorner<3, 3>().inverse();
+  CHECK(tip(1, 1) == Approx(l * l * l / (3 * EI) + l / GA).epsilon(1e-13));
+  CHECK(tip(2, 1) == Approx(l * l / (2 * EI)).epsilon(1e-13));
+  CHECK(tip(2, 2) == Approx(l / EI).epsilon(1e-13));
+  MatrixXd rigid(6, 3);
+  rigid << 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, l, 0, 0, 1;
+  CHECK((beam.stiffness() * rigid).norm() < 1e-13 * beam.stiffness().norm());
+  const MatrixXd M = rigid.transpose() * beam.mass_matrix() * rigid;
+  CHECK(testing::relative_error(M, rigid.transpose() * normal.mass_matrix() * rigid) < 1e-13);
+  const body::Elasticity e = fem::elasticity(beam, MatrixXd::Identity(6, 6));
+  const VectorXd a = Random(26).vector(6), b = Random(27).vector(6);
+  const auto K_a = [&](double eta) { return VectorXd(tangent(e, eta * b) * a); };
+  CHECK(testing::relative_error(fem::stiffness_derivative(beam, a, b), testing::derivative(K_a, 0, 0.1)) < 1e-12);
+}
+
 TEST_CASE("stiffness derivative is that of the tangent, and symmetric in its two fields") {
   const MembraneStrain strain = GENERATE(MembraneStrain::averaged, MembraneStrain::pointwise);
   const fem::ElementMaps maps = oblique(strain);

@@ -17,6 +17,7 @@ TEST_CASE("the arrays of fixed size give what the maps give") {
   fem::SpatialBeamSection s{50, 0.9, 0.7, 0.3, 0.4, 3, 0.25, 0.2, -0.08};
   s.centroid << 0.1, -0.2;
   s.shear_centre << -0.05, 0.15;
+  if (GENERATE(false, true)) s.GA << 4, 7;
   const fem::ElementMaps maps = fem::spatial_beam(place, s, {fem::MembraneStrain::averaged, wagner});
   const body::Elasticity e = fem::elasticity(maps, MatrixXd::Identity(12, 12));
   const fem::FixedSpatialBeam beam = fem::fixed_spatial_beam(place, s, wagner);

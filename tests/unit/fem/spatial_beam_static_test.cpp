@@ -46,6 +46,35 @@ TEST_CASE("cantilever of one element: Gere's tip deflections, turns by the right
   CHECK((answer(load(0, 0, 0, 0, 0, 1)) - load(0, d / 0.7, 0, 0, 0, L / 0.7)).norm() < 1e-12);
 }
 
+TEST_CASE("cantilever with shear: Timoshenko's tip deflections, whatever the number of elements") {
+  // Timoshenko, Strength of materials I, art. 39: v = F L^3/3EI + F L/GA; the section turns by F L^2/2EI as without shear.
+  // In general axes E [Iz Iyz; Iyz Iy] takes the place of EI, [GAy 0; 0 GAz] that of GA.
+  fem::SpatialBeamSection s{50, 0.9, 0.7, 0.3, 0.4, 0, 0, 0, 0};
+  s.GA << 2, 0.5;
+  const int n = GENERATE(1, 2, 5);
+  const BeamChain beam = beam_chain(n, L, s, clamped_root, {}, testing::some_rotation());
+  const Matrix2d soft = (Matrix2d() << 0.7, 0.3, 0.3, 0.9).finished().inverse();
+  for (const Vector2d F : {Vector2d(1, 0), Vector2d(0, 1)}) {
+    const Vector6 q = tip(linear_deflection(beam, tip_load(beam, load(0, F[0], F[1]))));
+    const Vector2d deflection = L * L * L / 3 * soft * F + L * F.cwiseQuotient(s.GA), turn = L * L / 2 * soft * F;
+    CHECK((q - load(0, deflection[0], deflection[1], 0, -turn[1], turn[0])).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("a uniform load on a cantilever with shear: q L^4/8EI + q L^2/2GA, whatever the number of elements") {
+  fem::SpatialBeamSection s{50, 0.9, 0.7, 0, 0.4, 0, 0, 0, 0};
+  s.GA << 2, 0.5;
+  const int n = GENERATE(1, 3);
+  const BeamChain beam = beam_chain(n, L, s, clamped_root);
+  VectorXd f = VectorXd::Zero(beam.dofs());
+  for (int e = 0; e < n; ++e)
+    for (const body::MassPoint& point : fem::spatial_beam_line(beam.places[e], s))
+      f.segment<12>(6 * e) += point.mass * point.N.transpose() * Eigen::Vector3d(0, 1, 1);
+  const Vector6 q = tip(linear_deflection(beam, f));
+  CHECK(q[1] == Approx(std::pow(L, 4) / 8 / 0.7 + L * L / 2 / 2).epsilon(1e-12));
+  CHECK(q[2] == Approx(std::pow(L, 4) / 8 / 0.9 + L * L / 2 / 0.5).epsilon(1e-12));
+}
+
 TEST_CASE("unsymmetrical bending of a Z section: a load down moves the tip sideways") {
   // Z of walls t, flanges b to either side, height 2a (middle lines): the flange at z = +a points to y > 0.
   // Timoshenko, Strength of materials I, unsymmetrical bending: E [Iz Iyz; Iyz Iy] (v, w)'' = moments of (F_y, F_z)

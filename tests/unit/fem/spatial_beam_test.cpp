@@ -45,8 +45,10 @@ TEST_CASE("a planar beam in space has the matrices of the planar element, in any
   const bool turned = GENERATE(false, true);
   const Matrix3d Q = turned ? testing::some_rotation() : Matrix3d::Identity();
   const Vector2d from(0.3, -0.2), to(1.1, 0.4);
-  const fem::ElementMaps planar = fem::planar_beam(from, to, {50, 0.7, 3, 0.2}, strain);
-  const fem::SpatialBeamSection section{50, 0.9, 0.7, 0, 0.4, 3, 0.25, 0.2};
+  const double GA = GENERATE(std::numeric_limits<double>::infinity(), 6.);
+  const fem::ElementMaps planar = fem::planar_beam(from, to, {50, 0.7, 3, 0.2, GA}, strain);
+  fem::SpatialBeamSection section{50, 0.9, 0.7, 0, 0.4, 3, 0.25, 0.2};
+  section.GA << GA, 2 * GA;
   const auto lifted = [&](double x, double y) { return Vector3d(Q * Vector3d(x, y, 0)); };
   const fem::BeamPlace place{lifted(from.x(), from.y()), lifted(to.x(), to.y()), lifted(-1, 1.5)};
   const fem::ElementMaps maps = fem::transformed(fem::spatial_beam(place, section, {strain}), testing::turn_dofs(Q, 2));
@@ -69,9 +71,11 @@ TEST_CASE("a planar beam in space has the matrices of the planar element, in any
 
 TEST_CASE("bending about y has the signs of w' = -ry: the matrices of the plane x-z") {
   const double l = 1.7;  // the plane x-z seen along -y: (u, w, -ry) are planar (u, v, rotation)
-  const fem::SpatialBeamSection section{50, 0.9, 0.7, 0, 0.4, 3, 0.25, 0.2};
+  const double GA = GENERATE(std::numeric_limits<double>::infinity(), 6.);
+  fem::SpatialBeamSection section{50, 0.9, 0.7, 0, 0.4, 3, 0.25, 0.2};
+  section.GA << 3 * GA, GA;
   const fem::ElementMaps maps = fem::spatial_beam({{0, 0, 0}, {l, 0, 0}, {0, 1, 0}}, section);
-  const fem::ElementMaps planar = fem::planar_beam({0, 0}, {l, 0}, {50, 0.9, 3, 0.25}, MembraneStrain::averaged);
+  const fem::ElementMaps planar = fem::planar_beam({0, 0}, {l, 0}, {50, 0.9, 3, 0.25, GA}, MembraneStrain::averaged);
   const std::vector<int> in{0, 2, 4, 6, 8, 10};
   const VectorXd sign = (VectorXd(6) << 1, 1, -1, 1, 1, -1).finished();
   const MatrixXd K = maps.stiffness()(in, in), M = maps.mass_matrix()(in, in);
