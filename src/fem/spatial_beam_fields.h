@@ -36,11 +36,11 @@ struct BeamFrame {
 };
 BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section);
 
-/// With shear the line turns by rz + gamma_y and -ry + gamma_z where sections turn by rz and ry. Gamma is constant, from
-/// the equilibrium of an element without load, GA gamma = EI d3v/dx3:
+/// With shear the line turns by rz + gamma_y and -ry + gamma_z where sections turn by rz and ry. Gamma is constant,
+/// from the equilibrium of an element without load, GA gamma = EI d3v/dx3:
 ///
-///   (1 + 12/l^2 GA^-1 B) gamma = 12/l^3 GA^-1 B D,   D = (v_2 - v_1 - l (rz_1 + rz_2)/2, w_2 - w_1 + l (ry_1 + ry_2)/2),
-///   v = cubic + l (s - 3 s^2 + 2 s^3) gamma_y,       B = [EIz EIyz; EIyz EIy]
+///   (1 + 12/l^2 GA^-1 B) gamma = 12/l^3 GA^-1 B D,   D = (v_2 - v_1 - l (rz_1 + rz_2)/2, w_2 - w_1 + l (ry_1 +
+///   ry_2)/2), v = cubic + l (s - 3 s^2 + 2 s^3) gamma_y,       B = [EIz EIyz; EIyz EIy]
 ///
 /// which are Timoshenko's exact shapes. What bends with constant curvature has no shear.
 /// Source: Przemieniecki, Theory of matrix structural analysis, ch. 5; Friedman & Kosmatka, Comput. Struct. 47 (1993)

@@ -70,7 +70,8 @@ const SchemaSection spatial_section_section{
         {"J", Type::number, "m4", "", "torsion constant", positive},
         {"orientation", Type::point, "", "", "beams: the local y axis lies in the plane of the line and this vector"},
         {"centroid", Type::numbers, "m", "[0, 0]", "beams: [y, z] of the centroid from the line of the nodes"},
-        {"shear_factor", Type::numbers, "", "", "beams: kappa of kappa G A (Timoshenko) along [y, z]; absent: sections stay normal"},
+        {"shear_factor", Type::numbers, "", "",
+         "beams: kappa of kappa G A (Timoshenko) along [y, z]; absent: sections stay normal"},
         {"wagner", Type::flag, "", "false", "beams: tension stiffens torsion"},
     }};
 

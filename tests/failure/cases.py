@@ -69,6 +69,11 @@ COMMANDS = [
          scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
                "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
                "joints: {root: {type: fixed, between: [ground, f.start]}}\n"),
+    Case("shear of one direction", ["modes", "scene.yaml"], 2, ("shear_factor", "is not two numbers greater than 0"), lines=1,
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0], shear_factor: [0.9]}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),
+    Case("shear of corotational beams", run("cfr"), 2, ("formulation cfr has no shear (GA)",), lines=1,
+         scene=scene({"bodies.beam.section.GA": 1e6})),
     Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),
     Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
          shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),

@@ -58,7 +58,7 @@ bodies:
 joints: {a: {type: revolute, between: [ground, beam.start]}, b: {type: revolute, between: [ground, beam.end]}}
 motion: {end: 1, step: 1}
 )yaml";
-  // E A = 1e4, E I = 1 along y and 1e4 along z, rho A = 1, rho I = 1e-4; kappa G A = 40 along y
+  // EA = 100, EIz = 1, rho A = 1, rho Iz = 0.01, kappa G A = 40 along y
   const std::string space = R"yaml(
 bodies:
   beam:
@@ -74,7 +74,8 @@ motion: {end: 1, step: 1}
   for (const std::string& text : {plane, space}) {
     const auto omega = scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
     for (int n = 1; n <= (text == plane ? 3 : 1); ++n) {
-      const double k = n * M_PI, a = rhoA * rhoI / GA, b = rhoA + k * k * (rhoI + rhoA * EI / GA), c = EI * k * k * k * k;
+      const double k = n * M_PI, a = rhoA * rhoI / GA, b = rhoA + k * k * (rhoI + rhoA * EI / GA),
+                   c = EI * k * k * k * k;
       CHECK(omega[n - 1] * omega[n - 1] == Approx(2 * c / (b + std::sqrt(b * b - 4 * a * c))).epsilon(1e-4));
     }
   }

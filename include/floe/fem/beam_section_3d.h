@@ -62,7 +62,8 @@ struct SpatialBeamSection {
 SpatialBeamSection spatial_section(const SectionShape& shape, const BeamMaterial& material,
                                    const Eigen::Vector2d& centroid = Eigen::Vector2d::Zero());
 
-/// @throws floe::InputError  EA or GA <= 0, a negative stiffness or mass, EIyz^2 > EIy EIz, rotary inertia without mass, or a
+/// @throws floe::InputError  EA or GA <= 0, a negative stiffness or mass, EIyz^2 > EIy EIz, rotary inertia without
+/// mass, or a
 ///                           value that is not finite. Zero bending or torsional stiffness is admitted.
 void check(const SpatialBeamSection& section);
 

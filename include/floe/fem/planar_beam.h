@@ -16,8 +16,8 @@ struct BeamSection {
 /// slenderness.
 enum class MembraneStrain { averaged, pointwise };
 
-/// Planar beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is finite: u linear, v cubic, dofs (u, v, rotation) at two nodes, body
-/// axes.
+/// Planar beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is finite: u linear, v
+/// cubic, dofs (u, v, rotation) at two nodes, body axes.
 ///
 ///   eps = u' + 1/2 v'^2,   kappa = psi',   r(x, y) = (x + u - y psi, y + v),   psi = v' - gamma
 ///

@@ -24,9 +24,10 @@ struct SpatialBeamStrain {
   bool wagner = false;
 };
 
-/// Spatial beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is given: u and twist linear, v and w cubic; dofs (u, v, w, rx, ry,
-/// rz) at two nodes, body axes, rotations about the axes by the right hand: v' = rz, w' = -ry (with shear: + gamma, which
-/// is constant in the element and makes its shapes those of a beam without load).
+/// Spatial beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is given: u and twist
+/// linear, v and w cubic; dofs (u, v, w, rx, ry, rz) at two nodes, body axes, rotations about the axes by the right
+/// hand: v' = rz, w' = -ry (with shear: + gamma, which is constant in the element and makes its shapes those of a beam
+/// without load).
 ///
 /// C the centroid and S the shear centre, carried by the nodes through rigid arms; (y, z) from the line of the nodes:
 ///   eps = u_C' + 1/2 (v_C'^2 + w_C'^2) [+ 1/2 (Ip/A) rx'^2, wagner]           Ip/A = (EIy + EIz)/EA

@@ -47,8 +47,8 @@ TEST_CASE("cantilever of one element: Gere's tip deflections, turns by the right
 }
 
 TEST_CASE("cantilever with shear: Timoshenko's tip deflections, whatever the number of elements") {
-  // Timoshenko, Strength of materials I, art. 39: v = F L^3/3EI + F L/GA; the section turns by F L^2/2EI as without shear.
-  // In general axes E [Iz Iyz; Iyz Iy] takes the place of EI, [GAy 0; 0 GAz] that of GA.
+  // Timoshenko, Strength of materials I, art. 39: v = F L^3/3EI + F L/GA; the section turns by F L^2/2EI as without
+  // shear. In general axes E [Iz Iyz; Iyz Iy] takes the place of EI, [GAy 0; 0 GAz] that of GA.
   fem::SpatialBeamSection s{50, 0.9, 0.7, 0.3, 0.4, 0, 0, 0, 0};
   s.GA << 2, 0.5;
   const int n = GENERATE(1, 2, 5);
