@@ -91,9 +91,9 @@ const SchemaSection section_section{
         {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
         {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
         {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},
-        {"GA", Type::number, "N", "", "shear stiffness kappa G A (Timoshenko); absent: sections stay normal", positive},
         {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I, or 0 without material",
          nonnegative},
+        {"GA", Type::number, "N", "", "shear stiffness kappa G A (Timoshenko); absent: sections stay normal", positive},
     }};
 
 const SchemaSection material_section{"material",
