@@ -45,7 +45,7 @@ struct Choices {
 std::string stem(const std::string& path) {
   const auto slash = path.find_last_of('/');
   const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-  const std::string file = name.substr(0, name.find_last_of('.'));
+  std::string file = name.substr(0, name.find_last_of('.'));
   if (file != "scene" || slash == std::string::npos) return file;
   const std::string folder = path.substr(0, slash);  // examples/cantilever/scene.yaml: cantilever
   const auto before = folder.find_last_of('/');
@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
   add_scene(compare_command, choices);
   compare_command
       ->add_option("--formulations", choices.formulations,
-                   "which, separated by commas (bodies from files: lffr,vm,vm+md; in space without cfr)")
+                   "which, separated by commas (bodies from files: lffr,vm,vm+md; in space and with shear without cfr)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,
@@ -184,9 +184,11 @@ int main(int argc, char** argv) {
       const scene::Scene scene = read_moving(choices.scene);
       const bool files = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                      [](const scene::Body& body) { return body.reduced.has_value(); });
+      const bool shears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                      [](const scene::Body& body) { return body.section.GA.has_value(); });
       if (files && given->count() == 0)
         choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
-      else if (scene.dimension == 3 && given->count() == 0)
+      else if (given->count() == 0 && (scene.dimension == 3 || shears))
         choices.formulations = {"nlffr", "lffr", "vm", "vm+md"};
       std::vector<scene::Formulation> formulations;
       for (const std::string& name : choices.formulations) {

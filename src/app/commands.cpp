@@ -159,7 +159,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   fmt::print("{}", output::to_text(table));
   for (const auto& body : bodies) {
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
-    if (body.left_out > 0) fmt::print("Note: {}\n", scene::left_out_text(body));
+    if (body.left_out > 0) fmt::print("Note: {}\n", scene::left_out_text(body.name, body));
   }
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "block_vectors.h"
 #include "floe/petsc/error.h"
 
 namespace floe::reduction {
 namespace {
+
+using namespace block_vectors;
 
 constexpr PetscInt usual_block = 8;
 constexpr double orthogonal = 1e-12;  // enough for residuals of 1e-10
@@ -23,83 +26,6 @@ struct Data {
 };
 
 Data* data_of(EPS eps) { return static_cast<Data*>(eps->data); }
-
-// A view of dense numbers that all ranks have alike.
-PetscErrorCode view(Eigen::MatrixXd& A, Mat* matrix) {
-  PetscFunctionBegin;
-  PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, A.rows(), A.cols(), A.data(), matrix));
-  PetscFunctionReturn(0);
-}
-
-// Y <- Y + factor X A
-PetscErrorCode add_product(BV Y, double factor, BV X, Eigen::MatrixXd& A) {
-  Mat matrix;
-
-  PetscFunctionBegin;
-  PetscCall(view(A, &matrix));
-  PetscCall(BVMult(Y, factor, 1, X, matrix));
-  PetscCall(MatDestroy(&matrix));
-  PetscFunctionReturn(0);
-}
-
-// W <- W A, A square
-PetscErrorCode multiply(BV W, Eigen::MatrixXd& A) {
-  Mat matrix;
-
-  PetscFunctionBegin;
-  PetscCall(view(A, &matrix));
-  PetscCall(BVMultInPlace(W, matrix, 0, A.cols()));
-  PetscCall(MatDestroy(&matrix));
-  PetscFunctionReturn(0);
-}
-
-// A = X'Y
-PetscErrorCode dot(BV X, BV Y, Eigen::MatrixXd& A) {
-  PetscInt rows, columns;
-  Mat matrix;
-
-  PetscFunctionBegin;
-  PetscCall(BVGetActiveColumns(X, nullptr, &rows));
-  PetscCall(BVGetActiveColumns(Y, nullptr, &columns));
-  A.setZero(rows, columns);
-  if (rows == 0) PetscFunctionReturn(0);
-  PetscCall(view(A, &matrix));
-  PetscCall(BVDot(Y, X, matrix));
-  PetscCall(MatDestroy(&matrix));
-  PetscFunctionReturn(0);
-}
-
-// T with T'G T = 1 up to the round-off of G, and R with T R = 1. Directions that W lacks, up to round-off, have no row
-// in R and a T of their scaled noise.
-struct Normaliser {
-  Eigen::MatrixXd T, R;
-};
-
-Normaliser normaliser(const Eigen::MatrixXd& G) {
-  const Eigen::Index b = G.cols();
-  const Eigen::VectorXd size = G.diagonal().cwiseMax(0).cwiseSqrt();
-  const Eigen::VectorXd inverse = (size.array() > 0).select(size.cwiseInverse(), 0);
-  const Eigen::MatrixXd scaled = inverse.asDiagonal() * (G + G.transpose()) / 2 * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> pairs(scaled);
-  const double least = 1e-15 * double(b) * std::max(pairs.eigenvalues()[b - 1], 1e-300);
-  const Eigen::VectorXd root = pairs.eigenvalues().cwiseMax(least).cwiseSqrt();
-  const Eigen::MatrixXd& Q = pairs.eigenvectors();
-  return {inverse.asDiagonal() * Q * root.cwiseInverse().asDiagonal(),
-          root.asDiagonal() * Q.transpose() * size.asDiagonal()};
-}
-
-// Columns that are zero become random ones, of which W had nothing: *some, and their rows of R are zero.
-PetscErrorCode replace_zeros(BV W, const Eigen::MatrixXd& G, Eigen::MatrixXd& R, bool* some) {
-  PetscFunctionBegin;
-  *some = false;
-  for (Eigen::Index j = 0; j < G.cols(); ++j) {
-    if (G(j, j) > 0) continue;
-    PetscCall(BVSetRandomColumn(W, static_cast<PetscInt>(j)));
-    R.row(j).setZero();
-    *some = true;
-  }
-  PetscFunctionReturn(0);
-}
 
 // Makes W orthonormal, also to the active columns of V and to what is deflated; P = M W. W before = V ... + W R.
 PetscErrorCode orthonormalise(EPS eps, Eigen::MatrixXd& R) {
@@ -168,7 +94,6 @@ PetscErrorCode append(EPS eps, PetscInt first) {
 
 // The columns of V from `locked` on, times S.
 PetscErrorCode rotate(EPS eps, PetscInt locked, const Eigen::MatrixXd& S) {
-  Mat matrix;
   const PetscInt m = locked + static_cast<PetscInt>(S.rows()), end = locked + static_cast<PetscInt>(S.cols());
   Eigen::MatrixXd Q = Eigen::MatrixXd::Identity(m, end);
   Q.bottomRightCorner(S.rows(), S.cols()) = S;
@@ -176,9 +101,7 @@ PetscErrorCode rotate(EPS eps, PetscInt locked, const Eigen::MatrixXd& S) {
   PetscFunctionBegin;
   if (S.cols() == 0) PetscFunctionReturn(0);
   PetscCall(BVSetActiveColumns(eps->V, 0, m));
-  PetscCall(view(Q, &matrix));
-  PetscCall(BVMultInPlace(eps->V, matrix, locked, end));
-  PetscCall(MatDestroy(&matrix));
+  PetscCall(multiply(eps->V, Q, locked));
   PetscFunctionReturn(0);
 }
 

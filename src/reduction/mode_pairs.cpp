@@ -201,23 +201,25 @@ double bound_of(const std::vector<double>& lambda, int count) {
 
 /// Looks for what lies below the bound and is not found.
 /// @param missing  how many; nothing: until none is found
-void find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, Found& found) {
+/// @return         how many of them are still not found
+PetscInt find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, Found& found) {
   int seed = 0;
   while (!missing || *missing > 0) {
     const int left = search.available - static_cast<int>(found.raw.size());
     const int wanted = std::min<int>(left, missing ? std::min<int>(*missing, block_size(search.eps)) : 1);
-    if (wanted <= 0) return;
+    if (wanted <= 0) break;
     std::vector<Vec> deflated(search.rigid.begin(), search.rigid.end());
     deflated.insert(deflated.end(), found.raw.begin(), found.raw.end());
     if (!user_subspace(search.eps))
       check(EPSSetDimensions(search.eps, wanted, subspace_of(search.eps, wanted, left), PETSC_DEFAULT));
     Found more = pairs(search, deflated, seed += 64, 1, left);
     const auto below = std::count_if(more.lambda.begin(), more.lambda.end(), [&](double l) { return l < bound; });
-    if (below == 0) return;
+    if (below == 0) break;
     more.resize(std::size_t(below));
     if (missing) *missing -= static_cast<PetscInt>(below);
     merge(found, std::move(more));
   }
+  return missing ? std::max<PetscInt>(*missing, 0) : 0;
 }
 
 /// Bodies of which a factorisation is no expense.
@@ -232,7 +234,15 @@ void complete(const PairSearch& search, int count, Found& found) {
   std::optional<PetscInt> missing;
   if (factored) missing = eigenvalues_below(search.structure, search.held, bound);
   if (missing) *missing -= static_cast<PetscInt>(below) + static_cast<PetscInt>(search.rigid.size());
-  find_missing(search, bound, missing, found);
+  const PetscInt left = find_missing(search, bound, missing, found);
+  // Round-off of the factor moves eigenvalues that are as near to the bound as it is great.
+  const auto near = [&](double l) { return std::abs(l / bound - 1) < 1e-5; };
+  if (left == 0 || search.statics.refines() || std::any_of(found.lambda.begin(), found.lambda.end(), near)) return;
+  throw RunError(
+      fmt::format("{} of the modes below {:.6g} Hz are not found, of which the negative pivots of K - s M tell; other "
+                  "vectors may find "
+                  "them (-modes_eps_block_lanczos_size, -modes_eps_ncv), or another number of modes",
+                  left, std::sqrt(bound) / (2 * M_PI)));
 }
 
 /// @throws InputError  the EPS finds rigid motions

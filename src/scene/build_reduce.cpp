@@ -255,7 +255,7 @@ std::vector<ReducedBody> reduce_bodies(const Prepared& prepared, Formulation for
     warn(prepared, b, formulation, warnings);
     if (const std::vector<double>& sag = all[b].report.sag; !sag.empty() && sag[0] > greatest_sag_of_modes)
       warnings.push_back(sag_text(body.spec.name, "mode 1", sag[0], greatest_sag_of_modes));
-    if (all[b].report.left_out > 0) warnings.push_back(left_out_text(all[b].report));
+    if (all[b].report.left_out > 0) warnings.push_back(left_out_text(body.spec.name, all[b].report));
   }
   refuse_unknown(prepared, labels);
   const std::vector<std::vector<double>> weights = choose_by_count(prepared, formulation, linear_run, stages, all);

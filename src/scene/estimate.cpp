@@ -222,14 +222,7 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;
-  try {
-    make(model, motion, time, estimate);
-  } catch (const RunError& error) {  // the motion stands without it
-    estimate.none = error.what();
-  } catch (const InputError& error) {  // what is not known at full order
-    estimate.none = error.what();
-  }
-  estimate.seconds = time.spent(), estimate.allowed = seconds;
+  fill_in(estimate, time, seconds, [&] { make(model, motion, time, estimate); });
   return estimate;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "floe/error.h"
 #include "floe/scene/estimate.h"
 #include "offline.h"
 
@@ -35,6 +36,20 @@ std::string without_estimate(const Offline& offline);
 /// Of full order; modal damping, which it does not know, is taken out of the residual by those who know V.
 /// Collective.
 Model full_order(Offline& offline);
+
+/// Runs `make`, which fills the estimate in within the time; where it cannot, the estimate says why and the result
+/// stands without it.
+template <class Make>
+void fill_in(Estimate& estimate, const Allowance& time, double seconds, const Make& make) {
+  try {
+    make();
+  } catch (const RunError& error) {
+    estimate.none = error.what();
+  } catch (const InputError& error) {  // what is not known at full order
+    estimate.none = error.what();
+  }
+  estimate.seconds = time.spent(), estimate.allowed = seconds;
+}
 
 /// V'r by plain products.
 Eigen::VectorXd products(const reduction::Basis& basis, Vec r);

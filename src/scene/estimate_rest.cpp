@@ -246,14 +246,7 @@ Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& st
   estimate.none = states.empty() ? "there is no equilibrium" : without_estimate(*model.offline);
   if (!estimate.none.empty()) return estimate;
   note_files(*model.offline, estimate);
-  try {
-    make(model, states, time, estimate);
-  } catch (const RunError& error) {  // the equilibria stand without it
-    estimate.none = error.what();
-  } catch (const InputError& error) {  // what is not known at full order
-    estimate.none = error.what();
-  }
-  estimate.seconds = time.spent(), estimate.allowed = seconds;
+  fill_in(estimate, time, seconds, [&] { make(model, states, time, estimate); });
   return estimate;
 }
 

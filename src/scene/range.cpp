@@ -211,11 +211,11 @@ std::string sag_text(const std::string& name, const std::string& what, double sa
       name, what, 100 * sag, 100 * limit);
 }
 
-std::string left_out_text(const BodyReport& body) {
-  const bool one = body.left_out == 1;
-  return fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}",
-                     body.name, body.left_out, one ? "mode has" : "modes have", body.omega.size(), one ? "is" : "are",
-                     body.omega.size() + body.left_out);
+std::string left_out_text(const std::string& body, const BodyReport& report) {
+  const bool one = report.left_out == 1;
+  return fmt::format("body {}: {} more {} the frequency of mode {}, the last one, and {} left out: ask for {}", body,
+                     report.left_out, one ? "mode has" : "modes have", report.omega.size(), one ? "is" : "are",
+                     report.omega.size() + report.left_out);
 }
 
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<State>& states, MPI_Comm comm) {

@@ -72,6 +72,14 @@ COMMANDS = [
     Case("shear of one direction", ["modes", "scene.yaml"], 2, ("shear_factor", "is not two numbers greater than 0"), lines=1,
          scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
                "0.01, orientation: [0, 1, 0], shear_factor: [0.9]}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),
+    Case("equilibria with modes cut among equal ones", ["static", "scene.yaml", "-o", "out"], 0, lines=0,
+         shows=("Note: body f: 1 more mode has the frequency of mode 1",),
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
+               "joints: {root: {type: fixed, between: [ground, f.start]}}\nloads: {tip: {type: force, at: f.end, "
+               "force: [0, t, 0]}}\nprobes: {tip: {at: f.end}}\n"),
+    Case("a comparison with shear, which leaves corotational beams out", ["compare", "scene.yaml", "-o", "out"], 0, lines=0,
+         never=("CFR",), shows=("NLFFR",), scene=scene({"bodies.beam.section.GA": 1e6})),
     Case("shear of corotational beams", run("cfr"), 2, ("formulation cfr has no shear (GA)",), lines=1,
          scene=scene({"bodies.beam.section.GA": 1e6})),
     Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),

@@ -47,6 +47,6 @@ inline constexpr double greatest_sag_of_modes = 0.1;  ///< the frequencies of pl
 std::string sag_text(const std::string& body, const std::string& what, double sag, double limit);
 
 /// Of modes that have the last one's frequency, but are beyond the count (BodyReport::left_out > 0).
-std::string left_out_text(const BodyReport& body);
+std::string left_out_text(const std::string& body, const BodyReport& report);
 
 }  // namespace floe::scene
