@@ -63,7 +63,7 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
 
 namespace {
 
-std::string words(std::exception_ptr fault) {
+std::string words(const std::exception_ptr& fault) {
   try {
     std::rethrow_exception(fault);
   } catch (const std::exception& error) {

@@ -30,7 +30,7 @@ constexpr int most = 10000;
 std::vector<double> parse_values(const std::string& text,
                                  const std::function<InputError(const std::string& what)>& fault) {
   if (text.find(':') == std::string::npos) {
-    const std::vector<double> list = numbers(text, ',');
+    std::vector<double> list = numbers(text, ',');
     if (list.empty()) throw fault("is no list of numbers");
     if (list.size() > most) throw fault(fmt::format("has more than {} numbers", most));
     return list;

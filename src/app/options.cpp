@@ -48,7 +48,7 @@ bool begins(const std::string& name, const Words& with) {
 std::string meant(const std::string& name) {
   for (const auto& [family, prefix] : homes)
     if (begins(name, family)) return prefix + name;
-  const std::string global = math::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
+  std::string global = math::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
                                                   "malloc_dump", "malloc_view", "memory_view", "help"});
   if (!global.empty()) return global;
   const auto end = name.find('_');

@@ -14,7 +14,6 @@
 namespace floe::app {
 
 using nlohmann::ordered_json;
-using petsc::check;
 
 namespace {
 

@@ -110,7 +110,7 @@ Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers
   for (std::size_t i = 0; i < standing_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
 }
 
-Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers)
+Joint::Joint(Marker first, Marker second, const Constraint& constraint, int multipliers)
     : Joint(std::move(first), std::move(second), constraint, multipliers, all_rows(constraint)) {}
 
 Eigen::Vector3d Joint::multipliers(const Motion& motion) const {

@@ -39,7 +39,7 @@ class Joint final : public Term {
   Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
         std::shared_ptr<Latch> latch = {}, bool captures = false);
   /// All rows stand.
-  Joint(Marker first, Marker second, Constraint constraint, int multipliers);
+  Joint(Marker first, Marker second, const Constraint& constraint, int multipliers);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
