@@ -49,7 +49,7 @@ std::string meant(const std::string& name) {
   for (const auto& [family, prefix] : homes)
     if (begins(name, family)) return prefix + name;
   std::string global = math::nearest(name, {"options_left", "options_view", "options_file", "log_view", "info",
-                                                  "malloc_dump", "malloc_view", "memory_view", "help"});
+                                            "malloc_dump", "malloc_view", "memory_view", "help"});
   if (!global.empty()) return global;
   const auto end = name.find('_');
   if (end == std::string::npos) return "";

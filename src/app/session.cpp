@@ -124,7 +124,7 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
   for (const int number : {SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);  // PETSc's handler prints a page, aborts
   const int code = guarded([&] {
     petsc::collect_errors();
-    petsc::give_factors_room();
+    petsc::prepare_mumps();
     dynamics::register_generalized_alpha();
     if (!unreadable.empty()) throw InputError(unreadable);
     check_options();

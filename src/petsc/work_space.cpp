@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "block_solve.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
 
@@ -73,6 +74,7 @@ PetscErrorCode analyse(Mat F, Mat A, Operations& operations, const MatFactorInfo
     operations.numeric = F->ops->choleskyfactornumeric;
     F->ops->choleskyfactornumeric = numeric;
   }
+  PetscCall(keep_block_scatter(F));
   PetscFunctionReturn(0);
 }
 
@@ -201,7 +203,7 @@ PetscErrorCode make(Mat A, MatFactorType type, Mat* F) {
 
 }  // namespace
 
-void give_factors_room() {
+void prepare_mumps() {
   check(MatInitializePackage());
   for (const MatType kind : kinds)
     for (const MatFactorType type : factors) {

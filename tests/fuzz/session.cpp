@@ -54,6 +54,6 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
   int count = 2;
   if (PetscInitialize(&count, &arguments, nullptr, nullptr)) std::abort();
   floe::petsc::collect_errors();
-  floe::petsc::give_factors_room();
+  floe::petsc::prepare_mumps();
   return 0;
 }

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   char** arguments = name;
   if (SlepcInitialize(&none, &arguments, nullptr, nullptr)) return 1;
   floe::petsc::collect_errors();
-  floe::petsc::give_factors_room();
+  floe::petsc::prepare_mumps();
   floe::dynamics::register_generalized_alpha();
   const int failures = Catch::Session().run(argc, argv);
   int any = 0;
