@@ -95,13 +95,8 @@ petsc::MatHandle mass(const Structure& structure, const Conditions& conditions) 
     check(PetscObjectReference(reinterpret_cast<PetscObject>(shared)));
     return petsc::MatHandle(shared);
   }
-  petsc::MatHandle M;
-  const petsc::VecHandle free = field(structure);
-  check(MatDuplicate(shared, MAT_COPY_VALUES, M.out()));
-  check(VecSet(free, 1));
-  hold(free, conditions);
-  check(MatDiagonalScale(M, free, free));
-  return M;
+  // A MatDuplicate of MATSBAIJ would multiply half as fast: it forgets the kernel for its size of blocks (PETSc 3.18.5).
+  return assemble(structure, conditions, 0, 0, 1);
 }
 
 petsc::VecHandle stiffness_derivative(const Structure& structure, Vec phi_i, Vec phi_j) {
