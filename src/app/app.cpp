@@ -184,8 +184,9 @@ int main(int argc, char** argv) {
       const scene::Scene scene = read_moving(choices.scene);
       const bool files = std::any_of(scene.bodies.begin(), scene.bodies.end(),
                                      [](const scene::Body& body) { return body.reduced.has_value(); });
-      const bool shears = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                      [](const scene::Body& body) { return body.section.GA.has_value(); });
+      const bool shears = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& body) {
+        return !body.rigid && body.section.GA.has_value();
+      });
       if (files && given->count() == 0)
         choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
       else if (given->count() == 0 && (scene.dimension == 3 || shears))

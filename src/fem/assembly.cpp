@@ -95,7 +95,8 @@ petsc::MatHandle mass(const Structure& structure, const Conditions& conditions) 
     check(PetscObjectReference(reinterpret_cast<PetscObject>(shared)));
     return petsc::MatHandle(shared);
   }
-  // A MatDuplicate of MATSBAIJ would multiply half as fast: it forgets the kernel for its size of blocks (PETSc 3.18.5).
+  // A MatDuplicate of MATSBAIJ would multiply half as fast: it forgets the kernel for its size of blocks
+  // (PETSc 3.18.5).
   return assemble(structure, conditions, 0, 0, 1);
 }
 

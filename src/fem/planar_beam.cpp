@@ -75,18 +75,11 @@ Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamS
   return axes;
 }
 
+/// Of an even bending, and of one against which shear gives way; never as a difference of two.
 Eigen::Matrix<double, 6, 6> bending_stiffness(const BeamSection& section, double l) {
-  const double EI = section.EI, phi = softness(section, l);
-  Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
-  const int v[4] = {1, 2, 4, 5};
-  const double k[4][4] = {{12, 6 * l, -12, 6 * l},
-                          {6 * l, 4 * l * l, -6 * l, 2 * l * l},
-                          {-12, -6 * l, 12, -6 * l},
-                          {6 * l, 2 * l * l, -6 * l, 4 * l * l}};
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) K(v[i], v[j]) = EI / (l * l * l) * k[i][j];
-  const Row6 D = antisymmetric(l);
-  if (phi > 0) K -= 12 * EI / (l * l * l) * phi / (1 + phi) * D.transpose() * D;
+  const Row6 even = (Row6() << 0, 0, -1, 0, 0, 1).finished(), odd = antisymmetric(l);
+  Eigen::Matrix<double, 6, 6> K = section.EI / l * even.transpose() * even;
+  K += 12 * section.EI / (l * l * l) / (1 + softness(section, l)) * odd.transpose() * odd;
   return K;
 }
 

@@ -72,8 +72,8 @@ PetscErrorCode aim(Kept* kept, MPI_Comm comm, PetscLayout layout, std::vector<MU
   std::transform(found.begin(), found.end(), rows.begin(), [](MUMPS_INT row) { return PetscInt(row) - 1; });
   PetscCall(PetscSFDestroy(&kept->scatter));
   PetscCall(PetscSFCreate(comm, &kept->scatter));
-  PetscCall(PetscSFSetGraphLayout(kept->scatter, layout, static_cast<PetscInt>(rows.size()), nullptr,
-                                  PETSC_OWN_POINTER, rows.data()));
+  PetscCall(PetscSFSetGraphLayout(kept->scatter, layout, static_cast<PetscInt>(rows.size()), nullptr, PETSC_OWN_POINTER,
+                                  rows.data()));
   PetscCall(PetscSFSetUp(kept->scatter));
   kept->found = std::move(found);
   PetscFunctionReturn(0);

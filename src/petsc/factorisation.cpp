@@ -31,7 +31,7 @@ std::string mumps_words(PetscInt infog, PetscInt detail, const std::string& pref
           prefix, less);
     case -6:
     case -10:
-      return "the matrix is singular: something is not held";
+      return "the matrix is singular: something is not held, or has next to no stiffness";
     case -90:
       return "the factor cannot be written to disk (MUMPS_OOC_TMPDIR names the folder)";
     default:

@@ -190,21 +190,30 @@ bool may_lack(EPS eps, const std::vector<double>& lambda) {
   return false;
 }
 
-/// Between the last pair that counts and the next one; where that is not known, or nearly the same, below the last
-/// ones.
-double bound_of(const std::vector<double>& lambda, int count) {
+/// The run of equal frequencies to which the last pair that counts belongs.
+std::pair<int, int> last_cluster(const std::vector<double>& lambda, int count) {
   const auto all = clusters(lambda);
-  const auto last = std::find_if(all.begin(), all.end(), [&](const auto& run) { return count <= run.second; });
-  if (last->second < static_cast<int>(lambda.size())) return std::sqrt(lambda[last->second - 1] * lambda[last->second]);
-  return lambda[last->first] * (1 - 1e-6);
+  return *std::find_if(all.begin(), all.end(), [&](const auto& run) { return count <= run.second; });
 }
+
+/// Behind all pairs of the last one's frequency, found or not: halfway to the next one, if that is known.
+double bound_of(const std::vector<double>& lambda, int count) {
+  const int end = last_cluster(lambda, count).second;
+  if (end < static_cast<int>(lambda.size())) return std::sqrt(lambda[end - 1] * lambda[end]);
+  return lambda[end - 1] * (1 + 1e-6);
+}
+
+/// Most pairs of the last one's frequency that are looked for: make_canonical() needs all of them.
+int most_equal(int count) { return 4 * count + 256; }
 
 /// Looks for what lies below the bound and is not found.
 /// @param missing  how many; nothing: until none is found
+/// @param most     pairs in all
 /// @return         how many of them are still not found
-PetscInt find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, Found& found) {
+PetscInt find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, std::size_t most,
+                      Found& found) {
   int seed = 0;
-  while (!missing || *missing > 0) {
+  while ((!missing || *missing > 0) && found.raw.size() <= most) {
     const int left = search.available - static_cast<int>(found.raw.size());
     const int wanted = std::min<int>(left, missing ? std::min<int>(*missing, block_size(search.eps)) : 1);
     if (wanted <= 0) break;
@@ -230,18 +239,27 @@ void complete(const PairSearch& search, int count, Found& found) {
   const bool factored = factors(solver_of(search.eps));
   if (factored && search.structure.dofs() > cheap_dofs && !may_lack(search.eps, found.lambda)) return;
   const double bound = bound_of(found.lambda, count);
-  const auto below = std::count_if(found.lambda.begin(), found.lambda.end(), [&](double l) { return l < bound; });
+  const auto below = [&] {
+    return std::count_if(found.lambda.begin(), found.lambda.end(), [&](double l) { return l < bound; });
+  };
   std::optional<PetscInt> missing;
   if (factored) missing = eigenvalues_below(search.structure, search.held, bound);
-  if (missing) *missing -= static_cast<PetscInt>(below) + static_cast<PetscInt>(search.rigid.size());
-  const PetscInt left = find_missing(search, bound, missing, found);
+  if (missing) *missing -= static_cast<PetscInt>(below()) + static_cast<PetscInt>(search.rigid.size());
+  const auto refuse_equal = [&](PetscInt more) {
+    const int first = last_cluster(found.lambda, count).first;
+    throw RunError(fmt::format("modes {} to {}{} have one frequency: ask for {}as many", first + 1,
+                               factored ? "" : "more than ", below() + more,
+                               first > 0 ? fmt::format("{}, or for ", first) : ""));
+  };
+  if (missing.value_or(0) > most_equal(count)) refuse_equal(*missing);
+  const PetscInt left = find_missing(search, bound, missing, count + most_equal(count), found);
+  if (!missing && below() > count + most_equal(count)) refuse_equal(0);
   // Round-off of the factor moves eigenvalues that are as near to the bound as it is great.
   const auto near = [&](double l) { return std::abs(l / bound - 1) < 1e-5; };
   if (left == 0 || search.statics.refines() || std::any_of(found.lambda.begin(), found.lambda.end(), near)) return;
   throw RunError(
       fmt::format("{} of the modes below {:.6g} Hz are not found, of which the negative pivots of K - s M tell; other "
-                  "vectors may find "
-                  "them (-modes_eps_block_lanczos_size, -modes_eps_ncv), or another number of modes",
+                  "vectors may find them (-modes_eps_block_lanczos_size, -modes_eps_ncv), or another number of modes",
                   left, std::sqrt(bound) / (2 * M_PI)));
 }
 

@@ -157,13 +157,16 @@ struct Gap {
   double t = 0;
   std::vector<double> error, value;   // of each probe column: full order less reduced; full order
   double deformation = 0, whole = 0;  // squares
-  bool open = false;                  // Newton's method did not come to its end
+  bool open = false, late = false;    // Newton's method did not come to its end, or not in time
 };
 
-/// From a reduced equilibrium towards that of full order, at least one step. @return  whether it came there
-bool approach(FullOrder& full, const State& state, const Allowance& time, VectorXd& d, Estimate& estimate) {
+/// From a reduced equilibrium towards that of full order, at least one step.
+void approach(FullOrder& full, const State& state, const Allowance& time, VectorXd& d, Gap& gap, Estimate& estimate) {
   for (int i = 0; i < most_steps; ++i) {
-    if (i > 0 && time.left() == 0) return false;
+    if (i > 0 && time.left() == 0) {
+      gap.late = true;
+      return;
+    }
     full.residual();
     ++estimate.samples;
     if (i == 0) estimate.unbalanced = std::max(estimate.unbalanced, full.unbalanced(state));
@@ -171,9 +174,9 @@ bool approach(FullOrder& full, const State& state, const Allowance& time, Vector
     d = i == 0 ? x : d + x;
     const double size = full.square(x);
     if (size <= std::pow(short_step, 2) * full.square(d) || size <= std::pow(round_off, 2) * full.square(full.state()))
-      return true;
+      return;
   }
-  return false;
+  gap.open = true;
 }
 
 Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& turns, const Allowance& time,
@@ -184,7 +187,7 @@ Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& turns
   Gap gap;
   VectorXd d;
   gap.t = state.t;
-  gap.open = !approach(full, state, time, d, estimate);
+  approach(full, state, time, d, gap, estimate);
   gap.error = gap.value = full.values();
   for (std::size_t i = 0; i < was.size(); ++i) gap.error[i] -= was[i];
   gap.deformation = full.square(d), gap.whole = full.square(full.state());
@@ -215,13 +218,15 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   const double smallest = count * round_off_of(*model.offline);
   Sums sums(full.model());
   double error = 0, whole = 0;
-  std::string open;
+  std::string open, late;
+  const auto add = [](std::string& times, double t) { times += fmt::format("{}{:.6g}", times.empty() ? "" : ", ", t); };
   for (const Gap& gap : all) {
     sums.add(gap.error, gap.value);
     error += gap.deformation, whole += gap.whole;
     estimate.t.push_back(gap.t);
     estimate.errors.push_back(gap.error);
-    if (gap.open) open += fmt::format("{}{:.6g}", open.empty() ? "" : ", ", gap.t);
+    if (gap.open) add(open, gap.t);
+    if (gap.late) add(late, gap.t);
   }
   const bool nothing = std::max(error, whole) <= smallest;
   for (const Gap& gap : all)
@@ -231,6 +236,9 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   if (!open.empty())
     estimate.notes.push_back(fmt::format(
         "Newton's method at full order did not come to its end at t = {}: the error is of this order", open));
+  if (!late.empty())
+    estimate.notes.push_back(fmt::format(
+        "one or a few of Newton's steps at full order at t = {}, to save time: the error is of this order", late));
 }
 
 }  // namespace

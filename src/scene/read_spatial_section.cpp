@@ -83,8 +83,10 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
   const fem::SectionShape shape = shape_of(document, reading);
   const auto centroid = reading.numbers("centroid");
   if (centroid.size() != 2) document.fault(reading.where("centroid"), "has not two numbers", "[y, z]");
+  const std::size_t read = document.fault_count();
   const auto factors = reading.given("shear_factor") ? reading.numbers("shear_factor") : std::vector<double>{};
-  if (reading.given("shear_factor") && (factors.size() != 2 || !(std::min(factors[0], factors[1]) > 0)))
+  const bool positive = factors.size() == 2 && std::min(factors[0], factors[1]) > 0;
+  if (reading.given("shear_factor") && !positive && document.fault_count() == read)
     document.fault(reading.where("shear_factor"), "is not two numbers greater than 0", "[y, z]");
   if (!reading.given("orientation"))
     document.fault(reading.where(), "has no orientation", "a vector that turns the section of beams");

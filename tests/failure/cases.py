@@ -69,6 +69,16 @@ COMMANDS = [
          scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
                "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
                "joints: {root: {type: fixed, between: [ground, f.start]}}\n"),
+    Case("shear that is no list", ["modes", "scene.yaml"], 2, ("shear_factor",), lines=1,
+         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
+               "0.01, orientation: [0, 1, 0], shear_factor: 0.9}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),
+    Case("a comparison where a rigid body alone has shear", ["compare", "scene.yaml", "-o", "out"], 0, lines=0,
+         shows=("CFR",),
+         scene="bodies:\n  beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {EA: 1e6, EI: 1, rhoA: 1}, "
+               "reduction: {modes: 2}}\n  hub: {rigid: true, mesh: {line: {from: [1, 0], to: [2, 0], elements: 1}}, section: "
+               "{rhoA: 1, GA: 4}}\njoints: {root: {type: fixed, between: [ground, beam.start]}, h: {type: fixed, between: "
+               "[beam.end, hub.start]}}\nloads: {tip: {type: force, at: beam.end, force: [0, t]}}\nprobes: {tip: {at: "
+               "beam.end}}\nmotion: {end: 0.02, step: 0.01}\n"),
     Case("shear of one direction", ["modes", "scene.yaml"], 2, ("shear_factor", "is not two numbers greater than 0"), lines=1,
          scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
                "0.01, orientation: [0, 1, 0], shear_factor: [0.9]}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),

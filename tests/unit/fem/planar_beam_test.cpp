@@ -179,6 +179,12 @@ TEST_CASE("an element with shear: Timoshenko's cantilever, no strain and the sam
   CHECK(testing::relative_error(fem::stiffness_derivative(beam, a, b), testing::derivative(K_a, 0, 0.1)) < 1e-12);
 }
 
+TEST_CASE("a short element that is soft in shear keeps all digits of its stiffness") {
+  const double l = 1e-4, GA = 1e-3;  // a trillion times softer than it bends
+  const fem::ElementMaps beam = along_x(l, {50, 1, 3, 0.2, GA});
+  CHECK(beam.stiffness()(1, 1) == Approx(GA / l / (1 + GA * l * l / 12)).epsilon(1e-14));
+}
+
 TEST_CASE("stiffness derivative is that of the tangent, and symmetric in its two fields") {
   const MembraneStrain strain = GENERATE(MembraneStrain::averaged, MembraneStrain::pointwise);
   const fem::ElementMaps maps = oblique(strain);

@@ -35,3 +35,13 @@ TEST_CASE("the arrays of fixed size give what the maps give") {
   CHECK(relative_error(fem::tangent(beam, q), K) < 1e-13);
   CHECK(relative_error(fem::stiffness_derivative(beam, a, q), fem::stiffness_derivative(maps, a, q)) < 1e-13);
 }
+
+TEST_CASE("a short element in space that is soft in shear keeps all digits of its stiffness") {
+  const double l = 1e-4;
+  const fem::BeamPlace place{{0, 0, 0}, {l, 0, 0}, {0, 1, 0}};
+  fem::SpatialBeamSection s{50, 0.9, 0.7, 0, 0.4, 3, 0.25, 0.2, 0};
+  s.GA << 1e-3, 2e-3;
+  const fem::Matrix12 K = fem::stiffness(fem::fixed_spatial_beam(place, s, false));
+  CHECK(K(1, 1) == Approx(s.GA[0] / l / (1 + s.GA[0] * l * l / (12 * s.EIz))).epsilon(1e-14));
+  CHECK(K(2, 2) == Approx(s.GA[1] / l / (1 + s.GA[1] * l * l / (12 * s.EIy))).epsilon(1e-14));
+}

@@ -88,6 +88,27 @@ TEST_CASE("no mode is passed over where a cluster has more than a block, or the 
   check_modes(body, 30, lambda);
 }
 
+TEST_CASE("modes of one frequency are the same whether all of them are asked for or a few") {
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 30, 2), Kind::clamped, {0});
+  const reduction::Modes all = body.modes(120), some = body.modes(70);  // of 60 and 60
+  CHECK(all.left_out == 0);
+  CHECK(some.left_out == 50);
+  const petsc::VecHandle difference = fem::field(body.structure);
+  for (int i = 0; i < 70; ++i) {
+    double size = 0, whole = 0;
+    petsc::check(VecWAXPY(difference, -1, all.raw[i], some.raw[i]));
+    petsc::check(VecNorm(difference, NORM_2, &size));
+    petsc::check(VecNorm(all.raw[i], NORM_2, &whole));
+    INFO(i);
+    CHECK(size < 1e-6 * whole);
+  }
+}
+
+TEST_CASE("more modes of one frequency than are looked for are refused") {
+  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 160, 1), Kind::clamped, {0});
+  CHECK_THROWS_WITH(body.modes(3), Catch::Contains("modes 1 to 320 have one frequency: ask for as many"));
+}
+
 TEST_CASE("an eigenvalue solver that finds rigid motions is refused") {
   const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 4, 2), Kind::mean_axis, {});
   const testing::Options options(Given{{"-modes_eps_type", "lapack"}});
