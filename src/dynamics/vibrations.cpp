@@ -6,6 +6,7 @@
 #include <complex>
 #include <limits>
 
+#include "exponents.h"
 #include "floe/dynamics/steady_rotation.h"
 #include "null_space.h"
 
@@ -15,15 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using petsc::check;
-using Exponents = std::vector<std::complex<double>>;
 
 namespace {
 
 using PepHandle = petsc::Handle<PEP, PEPDestroy>;
-
-struct Quadratic {
-  MatrixXd M, C, K;
-};
 
 petsc::MatHandle dense(const MatrixXd& X) {
   petsc::MatHandle mat;
@@ -176,7 +172,7 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   constexpr Index small = 150;
   const Exponents found =
       allowed.size() <= small ? all_exponents(problem, scale) : first_exponents(problem, scale, count);
-  std::vector<Vibration> all = paired(found, noise, 1e-6 * scale);
+  std::vector<Vibration> all = paired(confirmed(problem, found, 1e-6 * scale + noise), noise, 1e-6 * scale);
   if (all.size() > static_cast<std::size_t>(count)) all.resize(count);
   return all;
 }

@@ -75,11 +75,15 @@ Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamS
   return axes;
 }
 
-/// Of an even bending, and of one against which shear gives way; never as a difference of two.
+/// Of an even bending, and of an odd one, against which shear gives way.
 Eigen::Matrix<double, 6, 6> bending_stiffness(const BeamSection& section, double l) {
-  const Row6 even = (Row6() << 0, 0, -1, 0, 0, 1).finished(), odd = antisymmetric(l);
-  Eigen::Matrix<double, 6, 6> K = section.EI / l * even.transpose() * even;
-  K += 12 * section.EI / (l * l * l) / (1 + softness(section, l)) * odd.transpose() * odd;
+  const double odd = 1 / (1 + softness(section, l));
+  Eigen::Matrix<double, 6, 6> K = Eigen::Matrix<double, 6, 6>::Zero();
+  const int v[4] = {1, 2, 4, 5};
+  const double c = 12 * odd, d = 6 * odd * l, near = (3 * odd + 1) * l * l, far = (3 * odd - 1) * l * l;
+  const double k[4][4] = {{c, d, -c, d}, {d, near, -d, far}, {-c, -d, c, -d}, {d, far, -d, near}};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) K(v[i], v[j]) = section.EI / (l * l * l) * k[i][j];
   return K;
 }
 

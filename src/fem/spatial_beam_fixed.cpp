@@ -18,14 +18,30 @@ Matrix12 congruent(const Matrix12& K, const BeamFrame& frame) {
   return result;
 }
 
-/// Of an even bending, and of one against which shear gives way; never as a difference of two.
 Matrix12 bending_and_torsion(const SpatialBeamSection& section, double l) {
-  const ShearRows odd = antisymmetric(l);
-  ShearRows even = ShearRows::Zero();  // the change of the slopes v' and w' = -ry
-  even(0, 5) = even(1, 10) = -1, even(0, 11) = even(1, 4) = 1;
-  Eigen::Matrix2d EI;
-  EI << section.EIz, section.EIyz, section.EIyz, section.EIy;
-  Matrix12 K = even.transpose() * (EI / l) * even + odd.transpose() * antisymmetric_stiffness(section, l) * odd;
+  const double c = 1 / (l * l * l);
+  Matrix12 K = Matrix12::Zero();
+  if (section.shears()) {  // an even bending, and an odd one, against which shear gives way
+    const ShearRows odd = antisymmetric(l);
+    ShearRows even = ShearRows::Zero();  // the change of the slopes v' = rz and w' = -ry
+    even(0, 5) = even(1, 10) = -1, even(0, 11) = even(1, 4) = 1;
+    Eigen::Matrix2d EI;
+    EI << section.EIz, section.EIyz, section.EIyz, section.EIy;
+    K = even.transpose() * (EI / l) * even + odd.transpose() * antisymmetric_stiffness(section, l) * odd;
+  } else {
+    Eigen::Matrix4d b;
+    b << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l, -6 * l,
+        4 * l * l;
+    constexpr int v[4] = {1, 5, 7, 11}, w[4] = {2, 4, 8, 10};
+    constexpr double sign[4] = {1, -1, 1, -1};  // w' = -ry
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        K(v[i], v[j]) = section.EIz * c * b(i, j);
+        K(w[i], w[j]) = section.EIy * c * b(i, j) * sign[i] * sign[j];
+        K(v[i], w[j]) = section.EIyz * c * b(i, j) * sign[j];
+        K(w[j], v[i]) = K(v[i], w[j]);
+      }
+  }
   K(3, 3) = K(9, 9) = section.GJ / l;
   K(3, 9) = K(9, 3) = -section.GJ / l;
   return K;
