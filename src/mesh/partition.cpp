@@ -1,5 +1,7 @@
 #include "floe/mesh/partition.h"
 
+#include <dlfcn.h>
+
 #include "floe/mesh/exchange.h"
 #include "floe/petsc/handle.h"
 #include "node_graph.h"
@@ -22,6 +24,18 @@ petsc::MatHandle adjacency(const RawMesh& mesh) {
   return matrix;
 }
 
+/// @throws InputError  the partitioner is PT-Scotch, of other integers than PETSc's
+void check_integers(MatPartitioning partitioning) {
+  MatPartitioningType type = nullptr;
+  petsc::check(MatPartitioningGetType(partitioning, &type));
+  const auto size = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "SCOTCH_numSizeof"));
+  if (!type || std::string(type) != MATPARTITIONINGPTSCOTCH || !size || size() == static_cast<int>(sizeof(PetscInt)))
+    return;
+  throw InputError("option -mesh_mat_partitioning_type ptscotch: the PT-Scotch here has integers of " +
+                   std::to_string(8 * size()) + " bits, PETSc of " + std::to_string(8 * sizeof(PetscInt)) +
+                   "; expected metis, current, ...");
+}
+
 }  // namespace
 
 std::vector<int> partition(const RawMesh& mesh) {
@@ -37,6 +51,7 @@ std::vector<int> partition(const RawMesh& mesh) {
   petsc::check(MatPartitioningSetNParts(partitioning, ranks));
   petsc::check(MatPartitioningSetType(partitioning, "metis"));
   petsc::check_options(MatPartitioningSetFromOptions(partitioning), "mesh_mat_partitioning");
+  check_integers(partitioning);
   petsc::IsHandle parts;
   petsc::check(MatPartitioningApply(partitioning, parts.out()));
   const PetscInt* indices;
