@@ -4,7 +4,7 @@ import numpy
 from floe import Floe
 from reference import beam_in_segments, with_tip_mass
 from scenes import cantilever
-from study import Answer, Miss, Point, Study
+from study import Answer, Point, Study
 
 CONTRASTS = [1e-12, 1e-8, 1e-4, 1, 1e4, 1e8, 1e12]
 
@@ -29,11 +29,6 @@ def bent(floe: Floe, c, formulation):
     scene = two_beams(c)
     scene["loads"] = {"tip": {"type": "force", "at": "outer.end", "force": [0, f"{P!r}*t"]}}
     return abs(floe.static(scene, formulation, "--at", "1", "--steps", "1").end("tip.y") / (P * exact) - 1)
-
-
-UNRESOLVED = Miss("squared frequencies of the two beams are 1e16 apart, which is all of double precision: floe campbell tells "
-                  "growth where nothing grows, before the right frequencies", 1.1)
-UNRESOLVED_AT = [(1e8, 1e-8, "vm+md")]
 
 
 def standing(scene):
@@ -129,7 +124,7 @@ STUDIES = [
            for f in ("nlffr", "vm+md") for c in CONTRASTS]),
     Study("contrast of stiffness and mass", "the same, 1e-8 to 1e8 in both, first frequency", "own beam elements in numpy",
           [Point(f"stiffness {s:g}, mass {m:g}, {f}", lambda floe, s=s, m=m, f=f: vibrating(floe, s, m, f), 1e-4,
-                 quick=(s, m, f) == (1e8, 1e8, "nlffr"), misses=UNRESOLVED if (s, m, f) in UNRESOLVED_AT else None)
+                 quick=(s, m, f) in ((1e8, 1e8, "nlffr"), (1e8, 1e-8, "vm+md")))
            for f in ("nlffr", "vm+md") for s in (1e-8, 1, 1e8) for m in (1e-8, 1, 1e8)]),
     Study("contrast within a body", "parts of one mesh in space, 1e-8 to 1e8 in stiffness and mass", "the same",
           [Point(f"stiffness {s:g}, mass {m:g}", lambda floe, s=s, m=m: modes_of_parts(floe, s, m), 1e-4,
