@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimate_columns.h"
 #include "estimate_lift.h"
@@ -28,8 +29,9 @@ void KeptMotion::keep(const dynamics::Instant& instant) {
 
 namespace {
 
-constexpr int most_samples = 32;  // of the full-order residual
-constexpr int most_columns = 8;   // for each body
+constexpr int most_samples = 32;           // of the full-order residual
+constexpr int most_columns = 8;            // for each body
+constexpr double greatest_followed = 100;  // of the motion
 bool keeps_factors(const Offline& offline) {
   for (std::size_t b = 0; b < offline.reduced.size(); ++b)
     if (has_structure(offline.prepared.bodies[b]) && !offline.reduced[b].statics) return false;
@@ -150,6 +152,9 @@ VectorXd deformations(const Model& model, const VectorXd& q) {
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+/// What is followed beyond that is no estimate any more, whatever its size: infinite.
+double known(double error) { return error <= greatest_followed ? error : std::numeric_limits<double>::infinity(); }
+
 /// Follows the deviation, on every rank alike.
 void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,
             Estimate& estimate) {
@@ -189,10 +194,11 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
   estimate.probes = sums.relative();
+  for (double& e : estimate.probes) e = known(e);
   const auto steps = static_cast<double>(report.steps);
   const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
   for (double& e : estimate.relative) e = size > 0 && !nothing ? e / std::sqrt(size / steps) : 0;
-  estimate.deformation = size > 0 && !nothing ? std::sqrt(error / size) : 0;
+  estimate.deformation = size > 0 && !nothing ? known(std::sqrt(error / size)) : 0;
 }
 
 void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {

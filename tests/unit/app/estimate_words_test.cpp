@@ -1,0 +1,18 @@
+#include "../../../src/app/estimate_words.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+using namespace floe;
+
+TEST_CASE("an estimate is told in per cent, or why there is none, or that it is beyond all use") {
+  scene::Estimate estimate;
+  CHECK(app::estimate_words(estimate) == "No estimate of the error: it was not asked for\n");
+  estimate.none.clear();
+  estimate.deformation = 0.0123, estimate.seconds = 0.5, estimate.notes = {"sampled"};
+  CHECK(app::estimate_words(estimate) ==
+        "estimated error 1.2 % (deformations, against the full order of the same mesh; 0.5 s)\n"
+        "Note (estimate): sampled\n");
+  estimate.deformation = std::numeric_limits<double>::infinity();
+  CHECK_THAT(app::estimate_words(estimate), Catch::Contains("beyond 10000 %"));
+}
