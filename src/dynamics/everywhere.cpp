@@ -17,7 +17,7 @@ Eigen::MatrixXd everywhere(const System& system, Mat J) {
   std::iota(all.begin(), all.end(), 0);
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(J, &first, &end));
-  check(MatGetValues(J, end - first, all.data() + first, n, all.data(), rows.data() + first * n));
+  check(MatGetValues(J, end - first, all.data() + first, n, all.data(), rows.data() + std::ptrdiff_t(first) * n));
   MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM, system.comm());
   return rows;
 }

@@ -9,7 +9,7 @@ SpatialForce::SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrenc
     : at_(std::move(at)), wrench_(std::move(wrench)), axes_(axes) {}
 
 Wrench SpatialForce::world(const Motion& motion) const {
-  const Wrench w = wrench_(motion.t);
+  Wrench w = wrench_(motion.t);
   if (axes_ == Axes::world) return w;
   const Matrix3d& axes = axes_ == Axes::body ? pose_.A : pose_.D;
   return (Wrench() << axes * w.head<3>(), axes * w.tail<3>()).finished();

@@ -225,7 +225,7 @@ void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) cons
   const PetscInt n = coordinates_.owned_size();
   if (dense_) {
     check(MatDenseGetArrayWrite(J, &dense));
-    std::fill(dense, dense + n * n, 0.0);
+    std::fill(dense, dense + std::ptrdiff_t(n) * n, 0.0);
   } else {
     check(MatZeroEntries(J));
   }
@@ -241,7 +241,7 @@ void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) cons
       for (PetscInt i = 0; i < size; ++i) rows_[i] = global[indices[i]];
       if (dense) {
         for (PetscInt j = 0; j < size; ++j) {
-          double* column = dense + rows_[j] * n;
+          double* column = dense + std::ptrdiff_t(rows_[j]) * n;
           for (PetscInt i = 0; i < size; ++i) column[rows_[i]] += w.J(i, j);
         }
         continue;
