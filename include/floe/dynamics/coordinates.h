@@ -45,6 +45,7 @@ class Coordinates {
   /// Global indices of the multipliers that this rank owns, ascending.
   const std::vector<PetscInt>& owned_multipliers() const { return owned_multipliers_; }
   PetscInt multiplier_count() const { return multiplier_count_; }
+  /// The local unknown of an angle, and whether it is that of a frame.
   struct Angle {
     int local;
     bool of_frame;
