@@ -86,15 +86,26 @@ std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fie
   return sloped;
 }
 
+/// sqrt(phi'K phi) of each field: omega of modes. Collective.
+std::vector<double> energy_norms(const Statics& statics, const Generators& generators) {
+  std::vector<double> norms = generators.modes.omega;
+  for (std::size_t i = norms.size(); i < generators.fields.size(); ++i)
+    norms.push_back(std::sqrt(2 * statics.elements()->strain_energy(generators.fields[i])));
+  return norms;
+}
+
 /// What is nothing beside the others becomes zero, by the displacements of the nodes: modes in two planes of bending
 /// have no derivative in common. Collective.
-void drop_round_off(const fem::Structure& structure, Columns& columns) {
+/// @param scales  of the fields that each column is a derivative of: with fields of the same strain energy the
+///                stretching ones are as many times smaller as they are stiffer
+void drop_round_off(const fem::Structure& structure, const std::vector<double>& scales, Columns& columns) {
   const int per_node = structure.dofs_per_node;
   std::vector<double> squares;
   for (const auto& column : columns) {
     petsc::Values values(column);
     const Eigen::Map<const Eigen::MatrixXd> nodes(values.begin(), per_node, structure.mesh.owned_nodes);
-    squares.push_back(nodes.topRows(structure.dimension()).squaredNorm());
+    const double scale = scales[squares.size()];
+    squares.push_back(nodes.topRows(structure.dimension()).squaredNorm() / (scale > 0 ? scale * scale : 1));
   }
   MPI_Allreduce(MPI_IN_PLACE, squares.data(), static_cast<int>(squares.size()), MPI_DOUBLE, MPI_SUM,
                 structure.mesh.comm);
@@ -129,12 +140,15 @@ DerivativeColumns derivative_columns(const fem::Structure& structure, const fem:
   for (auto& column : more) result.columns.push_back(std::move(column));
   which.insert(which.end(), without.begin(), without.end());
   const std::vector<bool> sloped = with_slope(structure, generators.fields);
+  const std::vector<double> norms = energy_norms(statics, generators);
+  std::vector<double> scales;
   for (std::size_t p = 0; p < which.size(); ++p) {
     const auto [i, j] = which[p];
     if (!sloped[i] && !sloped[j]) check(VecSet(result.columns[p], 0));
+    scales.push_back(norms[i] * norms[j]);
     result.origins.push_back({ColumnOrigin::Kind::derivative, derivative_label(generators, i, j)});
   }
-  drop_round_off(structure, result.columns);
+  drop_round_off(structure, scales, result.columns);
   return result;
 }
 
