@@ -4,6 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$1 jobs=${JOBS:-$(nproc)} room=${ROOM:-}
 mapfile -t files < <(git ls-files "src/${room:+$room/}*.cpp")
+command -v clang-tidy-16 >/dev/null || { echo "clang-tidy-16 is not there" >&2; exit 1; }
 [ ${#files[@]} -gt 0 ] || { echo "no room $room" >&2; exit 2; }
 log=$build/lint.log
 # GCC's own options mean nothing to clang; headers of Eigen and PETSc are not ours to judge. Of products that are widened
@@ -11,7 +12,7 @@ log=$build/lint.log
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" \
   clang-tidy-16 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option >"$log" 2>"$log.errors" || true
 ours=$(grep -E '(warning|error):' "$log" | grep -v "^/usr/\|widening conversion to type 'Index'.* in type 'int'" | sort -u || true)
-failed=$(grep -E '^(Error|Stack dump|.*clang-tidy.*not found)' "$log.errors" | head -3 || true)
+failed=$(grep -E '^(Error|Stack dump|xargs:)' "$log.errors" | head -3 || true)
 count=$(printf '%s' "$ours" | grep -c '' || true)
 [ "$count" -eq 0 ] || printf '%s\n' "$ours"
 echo "${#files[@]} files, $count findings; all of clang-tidy's words: $log"

@@ -208,12 +208,12 @@ int most_equal(int count) { return 4 * count + 256; }
 
 /// Looks for what lies below the bound and is not found.
 /// @param missing  how many; nothing: until none is found
-/// @param most     pairs in all
+/// @param most     pairs in all: where more turn out to be there, the search ends
 /// @return         how many of them are still not found
 PetscInt find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, std::size_t most,
                       Found& found) {
   int seed = 0;
-  while ((!missing || *missing > 0) && found.raw.size() <= most) {
+  while (!missing || *missing > 0) {
     const int left = search.available - static_cast<int>(found.raw.size());
     const int wanted = std::min<int>(left, missing ? std::min<int>(*missing, block_size(search.eps)) : 1);
     if (wanted <= 0) break;
@@ -227,6 +227,7 @@ PetscInt find_missing(const PairSearch& search, double bound, std::optional<Pets
     more.resize(std::size_t(below));
     if (missing) *missing -= static_cast<PetscInt>(below);
     merge(found, std::move(more));
+    if (found.raw.size() + static_cast<std::size_t>(std::max<PetscInt>(missing.value_or(0), 0)) > most) break;
   }
   return missing ? std::max<PetscInt>(*missing, 0) : 0;
 }
@@ -239,21 +240,19 @@ void complete(const PairSearch& search, int count, Found& found) {
   const bool factored = factors(solver_of(search.eps));
   if (factored && search.structure.dofs() > cheap_dofs && !may_lack(search.eps, found.lambda)) return;
   const double bound = bound_of(found.lambda, count);
-  const auto below = [&] {
-    return std::count_if(found.lambda.begin(), found.lambda.end(), [&](double l) { return l < bound; });
-  };
+  const bool open = last_cluster(found.lambda, count).second == std::ssize(found.lambda);
+  const auto below = std::count_if(found.lambda.begin(), found.lambda.end(), [&](double l) { return l < bound; });
   std::optional<PetscInt> missing;
   if (factored) missing = eigenvalues_below(search.structure, search.held, bound);
-  if (missing) *missing -= static_cast<PetscInt>(below()) + static_cast<PetscInt>(search.rigid.size());
-  const auto refuse_equal = [&](PetscInt more) {
+  if (missing) *missing -= static_cast<PetscInt>(below) + static_cast<PetscInt>(search.rigid.size());
+  const std::size_t most = count + most_equal(count), before = found.raw.size();
+  const PetscInt left = find_missing(search, bound, missing, most, found);
+  const std::size_t equal = found.raw.size() + static_cast<std::size_t>(left);
+  if (open && found.raw.size() > before && equal > most) {
     const int first = last_cluster(found.lambda, count).first;
     throw RunError(fmt::format("modes {} to {}{} have one frequency: ask for {}as many", first + 1,
-                               factored ? "" : "more than ", below() + more,
-                               first > 0 ? fmt::format("{}, or for ", first) : ""));
-  };
-  if (missing.value_or(0) > most_equal(count)) refuse_equal(*missing);
-  const PetscInt left = find_missing(search, bound, missing, count + most_equal(count), found);
-  if (!missing && below() > count + most_equal(count)) refuse_equal(0);
+                               missing ? "" : "more than ", equal, first > 0 ? fmt::format("{}, or for ", first) : ""));
+  }
   // Round-off of the factor moves eigenvalues that are as near to the bound as it is great.
   const auto near = [&](double l) { return std::abs(l / bound - 1) < 1e-5; };
   if (left == 0 || search.statics.refines() || std::any_of(found.lambda.begin(), found.lambda.end(), near)) return;

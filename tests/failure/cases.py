@@ -9,7 +9,7 @@ import reduced
 import runtime
 import space
 from results import absent, estimated, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
-from scenes import GAP, PLATE, RIGID, scene
+from scenes import GAP, HELD_ROD, PLATE, RIGID, rod, scene
 
 ENVIRONMENT = dict(os.environ)
 BLADE = pathlib.Path(__file__).resolve().parents[2] / "examples/blade/options"
@@ -66,12 +66,9 @@ COMMANDS = [
                "reduction: {modes: 355, derivatives: none}}}\n"),
     Case("modes cut among equal ones", ["modes", "scene.yaml"], lines=0,
          shows=("Note: body f: 1 more mode has the frequency of mode 1, the last one, and is left out: ask for 2",),
-         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
-               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
-               "joints: {root: {type: fixed, between: [ground, f.start]}}\n"),
+         scene=rod(modes=1, more=HELD_ROD)),
     Case("shear that is no list", ["modes", "scene.yaml"], 2, ("shear_factor",), lines=1,
-         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
-               "0.01, orientation: [0, 1, 0], shear_factor: 0.9}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),
+         scene=rod(", shear_factor: 0.9")),
     Case("a comparison where a rigid body alone has shear", ["compare", "scene.yaml", "-o", "out"], 0, lines=0,
          shows=("CFR",),
          scene="bodies:\n  beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {EA: 1e6, EI: 1, rhoA: 1}, "
@@ -80,14 +77,10 @@ COMMANDS = [
                "[beam.end, hub.start]}}\nloads: {tip: {type: force, at: beam.end, force: [0, t]}}\nprobes: {tip: {at: "
                "beam.end}}\nmotion: {end: 0.02, step: 0.01}\n"),
     Case("shear of one direction", ["modes", "scene.yaml"], 2, ("shear_factor", "is not two numbers greater than 0"), lines=1,
-         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
-               "0.01, orientation: [0, 1, 0], shear_factor: [0.9]}, material: {E: 7e10, nu: 0.3, rho: 2700}}}\n"),
+         scene=rod(", shear_factor: [0.9]")),
     Case("equilibria with modes cut among equal ones", ["static", "scene.yaml", "-o", "out"], 0, lines=0,
          shows=("Note: body f: 1 more mode has the frequency of mode 1",),
-         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
-               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 1}}}\n"
-               "joints: {root: {type: fixed, between: [ground, f.start]}}\nloads: {tip: {type: force, at: f.end, "
-               "force: [0, t, 0]}}\nprobes: {tip: {at: f.end}}\n"),
+         scene=rod(modes=1, more=HELD_ROD + "loads: {tip: {type: force, at: f.end, force: [0, t, 0]}}\nprobes: {tip: {at: f.end}}\n")),
     Case("a comparison with shear, which leaves corotational beams out", ["compare", "scene.yaml", "-o", "out"], 0, lines=0,
          never=("CFR",), shows=("NLFFR",), scene=scene({"bodies.beam.section.GA": 1e6})),
     Case("shear of corotational beams", run("cfr"), 2, ("formulation cfr has no shear (GA)",), lines=1,
@@ -97,9 +90,7 @@ COMMANDS = [
          shows=("1 joints", "no motion: fit for modes, reduce, static and campbell"), never=("steps of",)),
     Case("check of too many modes", ["check", "scene.yaml"], 2,
          ("bodies.f.reduction.modes: 40 modes are asked of a body that has 18 elastic dofs under its conditions",), lines=1,
-         scene="bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: "
-               "0.01, orientation: [0, 1, 0]}, material: {E: 7e10, nu: 0.3, rho: 2700}, reduction: {modes: 40}}}\n"
-               "joints: {root: {type: fixed, between: [ground, f.start]}}\nmotion: {end: 1, step: 1e-2}\n"),
+         scene=rod(modes=40, more=HELD_ROD + "motion: {end: 1, step: 1e-2}\n")),
     Case("modes", ["modes", "scene.yaml"], shows=("rad/s",)),
     *(Case(f"full standard output of {words[0]}", words, 1, ("cannot write to ",),
            lines=1, stdout="/dev/full", ranks=(1,))

@@ -15,6 +15,17 @@ BASE = {
 }
 
 
+
+def rod(section="", modes=None, more=""):
+    """A round rod in space, of three elements: its bending frequencies come in pairs. Text, with `more` at its end."""
+    reduction = f", reduction: {{modes: {modes}}}" if modes else ""
+    return ("bodies: {f: {mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 3}}, section: {shape: circle, radius: 0.01, "
+            f"orientation: [0, 1, 0]{section}}}, material: {{E: 7e10, nu: 0.3, rho: 2700}}{reduction}}}}}\n{more}")
+
+
+HELD_ROD = "joints: {root: {type: fixed, between: [ground, f.start]}}\n"
+
+
 def scene(changes=None):
     """BASE with some entries replaced (`motion.end`: 1), added, or removed (None)."""
     tree = copy.deepcopy(BASE)

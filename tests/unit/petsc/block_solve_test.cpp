@@ -120,6 +120,12 @@ TEST_CASE("Options that ask for PETSc's own way get it", "[parallel]") {
   check(PetscOptionsSetValue(nullptr, "-blocks_mat_mumps_icntl_20", "0"));
   const petsc::MatHandle A = springs(17, 0.5, PETSC_DECIDE);
   const petsc::KspHandle ksp = solver(A);
+  check(PetscLogDefaultBegin());
+  PetscMPIInt ranks = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   CHECK(apart(ksp, A, 70) < 1e-12);
+  const int before = made();
+  CHECK(apart(ksp, A, 7) < 1e-12);
+  CHECK((made() > before) == (ranks > 1));  // it makes the scatter anew
   check(PetscOptionsClearValue(nullptr, "-blocks_mat_mumps_icntl_20"));
 }
