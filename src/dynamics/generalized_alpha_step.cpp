@@ -173,6 +173,14 @@ PetscErrorCode solve(TS ts) {
   PetscFunctionReturn(0);
 }
 
+// A step that ends where the motion does, or past it by round-off, ends there. TSSolve sees to that with its first step
+// only, so that a motion that is taken up before its last step would take another one than the motion that went on.
+void end_in_time(TS ts) {
+  const PetscReal left = ts->max_time - ts->ptime;
+  if (ts->exact_final_time == TS_EXACTFINALTIME_MATCHSTEP && left > 0 && ts->time_step > (1 - 1e-9) * left)
+    ts->time_step = left;
+}
+
 // An adaptive step that would change by little is kept: constant steps are what the scheme likes best, and a Jacobian
 // may serve longer. Not near a time that is to be met.
 PetscReal keep_if_close(TS ts, PetscReal next) {
@@ -215,10 +223,12 @@ PetscErrorCode attempt(TS ts, PetscReal* next, PetscBool* accepted) {
 PetscErrorCode step(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   PetscInt rejections = 0;
-  PetscReal next = ts->time_step;
+  PetscReal next;
   PetscBool accepted = PETSC_TRUE;
 
   PetscFunctionBegin;
+  end_in_time(ts);
+  next = ts->time_step;
   if (!ts->steprollback) PetscCall(begin(ts));
   if (ts->steprestart || !data->started) PetscCall(start_consistently(ts));
   do {
