@@ -3,18 +3,38 @@
 #include <complex>
 #include <vector>
 
-/// Exponents s of (s^2 M + s C + K) y = 0.
+#include "floe/dynamics/steady_rotation.h"
+
 namespace floe::dynamics {
 
+/// (s^2 M + s C + K) y = 0 of real square matrices.
 struct Quadratic {
   Eigen::MatrixXd M, C, K;
 };
 
 using Exponents = std::vector<std::complex<double>>;
 
-/// Those of which inverse iteration, s^2 y'My + s y'Cy + y'Ky = 0 from y <- (s^2 M + s C + K)^-1 M y, stays within a
-/// per cent, each as it comes out of that. Only those are asked that grow or decay by more than `small` and 1e-7 |s|:
-/// round-off of a linearisation makes such of fast vibrations, s = +-iw.
-Exponents confirmed(const Quadratic& problem, const Exponents& found, double small);
+/// An exponent by two-sided iteration from one that is nearly one,
+///
+///   Q(s) = s^2 M + s C + K,   y <- Q^-1 Q' y,   z <- Q^-H Q'^H z,   s <- s - z'Q y / z'Q'y
+///
+/// and what round-off of the matrices may make of it, |ds| = 4 eps (|s|^2 |M| + |s| |C| + |K|) |z| |y| / |z'Q'y|. A
+/// real one stays real.
+struct Refined {
+  std::complex<double> s;
+  double uncertainty;
+};
+Refined refined(const Quadratic& problem, std::complex<double> start);
+
+/// The `count` slowest vibrations of the exponents `found`, one for each pair s = a +- ib. Of real ones, half as many
+/// as there are: those that grow most or decay least.
+///
+/// A linearisation's round-off makes fast vibrations grow or decay, and at times real exponents of nothing. What grows
+/// or decays is refined: where that leads away (by a per cent; of real ones that round-off may make, by 1e-6) there is
+/// no exponent, and growth that round-off may make is none.
+/// @param nothing  exponents that are not told from zero, |s| <= nothing: frames that turn or drift freely
+/// @param small    growth that is none; in addition to 1e-7 |s|
+std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Exponents& found, double nothing,
+                                          double small, int count);
 
 }  // namespace floe::dynamics

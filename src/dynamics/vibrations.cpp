@@ -136,29 +136,6 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   return found;
 }
 
-/// One vibration for each pair of exponents.
-std::vector<Vibration> paired(const Exponents& exponents, double nothing, double small) {
-  std::vector<Vibration> all;
-  std::vector<double> real;
-  int zeros = 0;
-  for (const auto& s : exponents) {
-    if (!std::isfinite(std::abs(s))) continue;
-    if (std::abs(s) <= nothing)
-      ++zeros;
-    else if (std::abs(s.imag()) <= 1e-9 * std::abs(s))
-      real.push_back(s.real());
-    else if (s.imag() > 0)
-      all.push_back({s.imag(), std::abs(s.real()) > small + 1e-7 * std::abs(s) ? s.real() : 0});
-  }
-  std::sort(real.rbegin(), real.rend());
-  for (std::size_t i = 0; 2 * i < real.size(); ++i) all.push_back({0, real[i]});
-  for (int i = 0; 2 * i < zeros; ++i) all.push_back({0, 0, true, nothing});
-  std::sort(all.begin(), all.end(), [](const Vibration& a, const Vibration& b) {
-    return a.omega != b.omega ? a.omega < b.omega : a.growth > b.growth;
-  });
-  return all;
-}
-
 }  // namespace
 
 std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, Vec U, int count) {
@@ -172,9 +149,7 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   constexpr Index small = 150;
   const Exponents found =
       allowed.size() <= small ? all_exponents(problem, scale) : first_exponents(problem, scale, count);
-  std::vector<Vibration> all = paired(confirmed(problem, found, 1e-6 * scale + noise), noise, 1e-6 * scale);
-  if (all.size() > static_cast<std::size_t>(count)) all.resize(count);
-  return all;
+  return slowest_vibrations(problem, found, noise, 1e-6 * scale, count);
 }
 
 }  // namespace floe::dynamics

@@ -216,6 +216,41 @@ TEST_CASE("campbell: linear elastic forces grow beyond gamma = 3.516, von Karman
   }
 }
 
+// Both planes of a clamped shaft without rotary inertia have the shapes of the standing beam: each mode is a Jeffcott
+// rotor with s^4 + s^2 (a + b + 4 W^2) + a b = 0, a = w_y^2 - W^2, b = w_z^2 - W^2, which grows for w_y < W < w_z.
+TEST_CASE("campbell: a shaft of unequal stiffness grows between its critical speeds") {
+  const double beta = 3.5160152685, at = 0.4;
+  for (const double ratio : {1.1, 1.5, 3.}) {
+    const double W = beta * (1 + at * (std::sqrt(ratio) - 1));
+    const double a = beta * beta - W * W, b = ratio * beta * beta - W * W, p = a + b + 4 * W * W,
+                 root = std::sqrt(p * p - 4 * a * b);
+    const std::string shaft = fill(R"yaml(
+bodies:
+  shaft:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 16}}
+    section: {A: 1, Iy: 1e-8, Iz: $Iz, J: 2e-8, orientation: [0, 1, 0]}
+    material: {E: 1e8, G: 4e7, rho: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 6, derivatives: all}
+joints: {root: {type: driven, between: [ground, shaft.start], axis: [1, 0, 0], angle: "t"}}
+)yaml",
+                                   {{"Iz", number(1e-8 * ratio)}});
+    for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+      INFO("ratio " << ratio << ", " << scene::name_of(formulation));
+      const auto found = diagram(shaft, formulation, number(W) + "," + number(0.9 * beta), 3);
+      REQUIRE(found.points.at(0).fault == "");
+      const auto& vibrations = found.points.at(0).vibrations;
+      REQUIRE(vibrations.size() == 3);
+      CHECK(vibrations[0].omega == 0);
+      CHECK(vibrations[0].growth == Approx(std::sqrt(-2 * a * b / (p + root))).epsilon(2e-5));
+      CHECK(vibrations[1].omega == Approx(std::sqrt((p + root) / 2)).epsilon(1e-5));
+      CHECK(vibrations[1].growth == 0);
+      CHECK(vibrations[2].growth == 0);
+      CHECK(omega(found.points.at(1)).size() == 3);
+    }
+  }
+}
+
 // omega a^2 sqrt(rho h / D), nu = 0.3, the plate in the plane of rotation: independent converged computation. The error
 // of the mesh is of order 2.
 TEST_CASE("campbell: a rotating square plate") {
