@@ -80,6 +80,13 @@ def facts(pairs):
 
 # --- parts of the page, from a summary
 
+BEYOND = "beyond 10000"  # no estimate any more: null in summaries
+
+
+def per_cent(share):
+    return f"{100 * share:.2g} %" if share is not None else BEYOND + " %"
+
+
 def overview(summary):
     status, seconds = summary.get("status", ""), summary.get("seconds", {})
     estimate = summary.get("estimate", {})
@@ -90,7 +97,7 @@ def overview(summary):
              ("offline", duration(seconds["offline"]) if "offline" in seconds else None),
              ("motion", duration(seconds["motion"]) if "motion" in seconds else None),
              ("a step", duration(seconds["per_step"]) if "per_step" in seconds else None),
-             ("estimated error", f"{100 * estimate['deformation']:.2g} %" if "deformation" in estimate else None)]
+             ("estimated error", per_cent(estimate["deformation"]) if "deformation" in estimate else None)]
     good = status == "finished"
     reason = f": {escaped(summary['reason'])}" if summary.get("reason") else ""
     words = "finished" if good else "still running, or killed" if status == "running" else status
@@ -120,7 +127,7 @@ def choice(summary):
     chosen = summary.get("accuracy")
     if not chosen:
         return ""
-    words = (f"Chosen for an error of {100 * chosen['asked']:.3g} %: {100 * chosen['supported']:.2g} % is supported, "
+    words = (f"Chosen for an error of {100 * chosen['asked']:.3g} %: {per_cent(chosen['supported'])} is supported, "
              f"{'within' if chosen['within'] else 'beyond'} what was asked for; {chosen['trials']} motions of reduced models, "
              f"{duration(chosen['seconds'])}.")
     return (f"<p>{escaped(words)}</p>"
@@ -160,9 +167,9 @@ def errors(summary, run):
         return ""
     if "none" in estimate:
         return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>"
-    rows = [[name, 100 * value if value is not None else ""] for name, value in (estimate.get("probes") or {}).items()]
+    rows = [[name, 100 * value if value is not None else BEYOND] for name, value in (estimate.get("probes") or {}).items()]
     return ("<p>Estimated without moving the full order: what this model errs against the full order of the same mesh, root "
-            f"mean square over the motion. Deformations: {100 * estimate['deformation']:.2g} %; "
+            f"mean square over the motion. Deformations: {per_cent(estimate['deformation'])}; "
             f"{estimate['full_order_residuals']} residuals of full order, {estimate['columns']} further columns.</p>"
             + (table(["probe", "estimated error [%]"], rows) if rows else ""))
 

@@ -29,9 +29,8 @@ void KeptMotion::keep(const dynamics::Instant& instant) {
 
 namespace {
 
-constexpr int most_samples = 32;           // of the full-order residual
-constexpr int most_columns = 8;            // for each body
-constexpr double greatest_followed = 100;  // of the motion
+constexpr int most_samples = 32;  // of the full-order residual
+constexpr int most_columns = 8;   // for each body
 bool keeps_factors(const Offline& offline) {
   for (std::size_t b = 0; b < offline.reduced.size(); ++b)
     if (has_structure(offline.prepared.bodies[b]) && !offline.reduced[b].statics) return false;
@@ -151,9 +150,6 @@ VectorXd deformations(const Model& model, const VectorXd& q) {
     all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
-
-/// What is followed beyond that is no estimate any more, whatever its size: infinite.
-double known(double error) { return error <= greatest_followed ? error : std::numeric_limits<double>::infinity(); }
 
 /// Follows the deviation, on every rank alike.
 void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <ctime>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -50,6 +51,9 @@ void fill_in(Estimate& estimate, const Allowance& time, double seconds, const Ma
   }
   estimate.seconds = time.spent(), estimate.allowed = seconds;
 }
+
+/// An error beyond a hundred times what it is an error of is no estimate, whatever its size: infinite.
+inline double known(double error) { return error <= 100 ? error : std::numeric_limits<double>::infinity(); }
 
 /// V'r by plain products.
 Eigen::VectorXd products(const reduction::Basis& basis, Vec r);

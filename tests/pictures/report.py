@@ -93,6 +93,18 @@ def of_a_run(folder):
     assert len(columns) == 2 and np.isclose(float(columns[0][2]), summary["bodies"][1]["frequencies"][0]["Hz"], rtol=1e-3)
 
 
+def beyond_estimate(folder):
+    """An error that is no estimate any more is null in the summary."""
+    shutil.copytree(folder / "crank", folder / "beyond")
+    summary = json.loads((folder / "crank/summary.json").read_text())
+    summary["estimate"]["deformation"] = None
+    summary["estimate"]["probes"] = dict.fromkeys(summary["estimate"]["probes"])
+    (folder / "beyond/summary.json").write_text(json.dumps(summary))
+    page, _ = page_of(folder, "beyond")
+    assert page.text.count("beyond 10000 %") == 2, page.text
+    assert any(row[1:] == ["beyond 10000"] for row in page.rows), page.rows
+
+
 def of_other_folders(folder):
     floe(FLOE, folder, "compare", "beam.yaml", "--formulations", "nlffr,vm+md", "-o", "compare", "--no-reference-error")
     page, _ = page_of(folder, "compare")
@@ -195,7 +207,7 @@ def main():
             floe(FLOE, folder, "run", f"{scene}.yaml", "-o", scene)
             floe(FLOE, folder, "report", scene)
         write(folder, "beam.yaml", BEAM)
-        for case in (in_a_browser,) if "browser" in sys.argv else (of_a_run, of_other_folders, faults):
+        for case in (in_a_browser,) if "browser" in sys.argv else (of_a_run, beyond_estimate, of_other_folders, faults):
             case(folder)
     return 0
 

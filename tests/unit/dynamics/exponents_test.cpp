@@ -141,8 +141,8 @@ TEST_CASE("exponents of nothing and growth by round-off go, what is true stays")
   Quadratic problem = mixed(jeffcott(1, 1.2, 1.05));
   const std::vector<double> squares = jeffcott_squares(1, 1.2, 1.05);
   const double growth = std::sqrt(squares[0]), omega = std::sqrt(-squares[1]);
-  const Exponents found{{growth * (1 + 1e-5), 0}, {-growth, 0},         {20, 0},          {-20, 0},
-                        {1e-4, omega},            {1e-4, -omega},       {3, 7},           {3, -7}};
+  const Exponents found{{growth * (1 + 1e-5), 0}, {-growth, 0}, {20, 0}, {-20, 0}, {1e-4, omega},
+                        {1e-4, -omega},           {3, 7},       {3, -7}};
   const std::vector<Vibration> all = slowest_vibrations(problem, found, 1e-9, 1e-9, 10);
   REQUIRE(all.size() == 2);
   CHECK(all[0].growth == Approx(growth).epsilon(1e-9));
