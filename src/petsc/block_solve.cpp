@@ -79,8 +79,16 @@ PetscErrorCode aim(Kept* kept, MPI_Comm comm, PetscLayout layout, std::vector<MU
   PetscFunctionReturn(0);
 }
 
-/// X with A X = B for `count` columns, of which b and x are the rows here, column by column.
-PetscErrorCode solve_columns(Mat F, Kept* kept, PetscInt count, const double* b, double* x) {
+/// The rows here of some columns, whose first entries are `step` apart.
+template <class Number>
+struct Rows {
+  Number* first;
+  PetscInt step;
+  Number* column(PetscInt j) const { return first + static_cast<std::ptrdiff_t>(j) * step; }
+};
+
+/// X with A X = B for `count` columns.
+PetscErrorCode solve_columns(Mat F, Kept* kept, PetscInt count, Rows<const double> b, Rows<double> x) {
   DMUMPS_STRUC_C* const id = instance(F);
   const MPI_Comm comm = PetscObjectComm(reinterpret_cast<PetscObject>(F));
   const PetscInt own = F->rmap->n;
@@ -92,8 +100,8 @@ PetscErrorCode solve_columns(Mat F, Kept* kept, PetscInt count, const double* b,
   {
     const Borrowed borrowed(id);
     id->nrhs = static_cast<MUMPS_INT>(count);
-    id->nloc_rhs = static_cast<MUMPS_INT>(own), id->lrhs_loc = std::max<MUMPS_INT>(id->nloc_rhs, 1);
-    id->irhs_loc = kept->rows.data(), id->rhs_loc = const_cast<double*>(b);
+    id->nloc_rhs = static_cast<MUMPS_INT>(own), id->lrhs_loc = static_cast<MUMPS_INT>(std::max<PetscInt>(b.step, 1));
+    id->irhs_loc = kept->rows.data(), id->rhs_loc = const_cast<double*>(b.first);
     id->isol_loc = found.data(), id->sol_loc = solution.data();
     id->icntl[19] = 10;
     id->job = solve_job;
@@ -105,9 +113,8 @@ PetscErrorCode solve_columns(Mat F, Kept* kept, PetscInt count, const double* b,
   PetscCall(aim(kept, comm, F->rmap, std::move(found)));
   for (PetscInt j = 0; j < count; ++j) {
     const double* const from = solution.data() + static_cast<std::size_t>(j) * left;
-    double* const to = x + static_cast<std::size_t>(j) * static_cast<std::size_t>(own);
-    PetscCall(PetscSFReduceBegin(kept->scatter, MPIU_REAL, from, to, MPI_REPLACE));
-    PetscCall(PetscSFReduceEnd(kept->scatter, MPIU_REAL, from, to, MPI_REPLACE));
+    PetscCall(PetscSFReduceBegin(kept->scatter, MPIU_REAL, from, x.column(j), MPI_REPLACE));
+    PetscCall(PetscSFReduceEnd(kept->scatter, MPIU_REAL, from, x.column(j), MPI_REPLACE));
   }
   PetscCall(PetscLogFlops(2.0 * static_cast<double>(count) * id->rinfo[2]));
   PetscFunctionReturn(0);
@@ -125,9 +132,9 @@ PetscErrorCode kept_of(Mat F, Kept** kept) {
 PetscErrorCode solve(Mat F, Mat B, Mat X) {
   Kept* kept = nullptr;
   PetscBool dense = PETSC_FALSE, apart = PETSC_FALSE;
-  PetscInt count = 0, step_b = 0, step_x = 0;
-  const double* b = nullptr;
-  double* x = nullptr;
+  PetscInt count = 0;
+  Rows<const double> b{nullptr, 0};
+  Rows<double> x{nullptr, 0};
 
   PetscFunctionBegin;
   PetscCall(kept_of(F, &kept));
@@ -140,18 +147,14 @@ PetscErrorCode solve(Mat F, Mat B, Mat X) {
   PetscCheck(B->rmap->n == F->rmap->n && X->rmap->n == F->rmap->n, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
              "Right-hand sides and solutions must have the rows of the factor");
   PetscCall(MatGetSize(B, nullptr, &count));
-  PetscCall(MatDenseGetLDA(B, &step_b));
-  PetscCall(MatDenseGetLDA(X, &step_x));
-  PetscCheck(step_b == B->rmap->n && step_x == X->rmap->n, PETSC_COMM_SELF, PETSC_ERR_SUP,
-             "Columns must follow one another");
-  PetscCall(MatDenseGetArrayRead(B, &b));
-  PetscCall(MatDenseGetArrayWrite(X, &x));
-  for (PetscInt j = 0; j < count; j += most_columns) {
-    const std::size_t before = static_cast<std::size_t>(j) * static_cast<std::size_t>(F->rmap->n);
-    PetscCall(solve_columns(F, kept, std::min(most_columns, count - j), b + before, x + before));
-  }
-  PetscCall(MatDenseRestoreArrayWrite(X, &x));
-  PetscCall(MatDenseRestoreArrayRead(B, &b));
+  PetscCall(MatDenseGetLDA(B, &b.step));
+  PetscCall(MatDenseGetLDA(X, &x.step));
+  PetscCall(MatDenseGetArrayRead(B, &b.first));
+  PetscCall(MatDenseGetArrayWrite(X, &x.first));
+  for (PetscInt j = 0; j < count; j += most_columns)
+    PetscCall(solve_columns(F, kept, std::min(most_columns, count - j), {b.column(j), b.step}, {x.column(j), x.step}));
+  PetscCall(MatDenseRestoreArrayWrite(X, &x.first));
+  PetscCall(MatDenseRestoreArrayRead(B, &b.first));
   PetscFunctionReturn(0);
 }
 

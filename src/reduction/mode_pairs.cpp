@@ -250,8 +250,9 @@ void complete(const PairSearch& search, int count, Found& found) {
   const std::size_t equal = found.raw.size() + static_cast<std::size_t>(left);
   if (open && found.raw.size() > before && equal > most) {
     const int first = last_cluster(found.lambda, count).first;
-    throw RunError(fmt::format("modes {} to {}{} have one frequency: ask for {}as many", first + 1,
-                               missing ? "" : "more than ", equal, first > 0 ? fmt::format("{}, or for ", first) : ""));
+    throw InputError(fmt::format("modes {} to {}{} have one frequency: ask for {}as many", first + 1,
+                                 missing ? "" : "more than ", equal,
+                                 first > 0 ? fmt::format("{}, or for ", first) : ""));
   }
   // Round-off of the factor moves eigenvalues that are as near to the bound as it is great.
   const auto near = [&](double l) { return std::abs(l / bound - 1) < 1e-5; };

@@ -44,8 +44,10 @@ int left_out(const std::vector<double>& lambda, int count);
 /// Wherever that can be, or is cheap to see, the negative pivots of K - s M with s behind the last pair tell how many
 /// there are below (Sylvester's law of inertia); what is missing is then looked for with those found deflated, from
 /// other vectors. Where nothing is factored, such a search itself tells.
-/// @throws RunError    the EPS did not converge, or does not find what the pivots tell of
-/// @throws InputError  the user's EPS finds rigid motions that it should deflate
+/// @throws RunError    the EPS did not converge, or does not find what the pivots tell of; not where some found lie so
+///                     near to s that round-off of the factor may count them on either side
+/// @throws InputError  the user's EPS finds rigid motions that it should deflate; far more pairs than `count` have the
+///                     last one's lambda
 /// Collective.
 /// @param M  of the rigid motions
 Found lowest_pairs(const PairSearch& search, Mat M, int count);
