@@ -136,7 +136,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
     const output::Waiting waiting(comm, "estimating the error");
     result.estimate = scene::estimate_error_at_rest(
         model, kept.states(),
-        std::max(0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds())));
+        scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
   }
   recorder.finish(report, why);
   if (fault) std::rethrow_exception(fault);

@@ -178,10 +178,9 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
   } else if (plan.estimate && !fault) {
     const output::Waiting waiting(comm, "estimating the error");
-    result.estimate =
-        scene::estimate_error(model, kept,
-                              plan.estimate_seconds.value_or(std::max(
-                                  0.25, 0.1 * (result.offline_seconds + result.motion_seconds + recorder.seconds()))));
+    result.estimate = scene::estimate_error(model, kept,
+                                            plan.estimate_seconds.value_or(scene::estimate_seconds(
+                                                result.offline_seconds + result.motion_seconds + recorder.seconds())));
   }
   if (plan.keep_states) result.states = kept.states();
   const std::exception_ptr later = fault_of([&] {

@@ -38,15 +38,15 @@ void hold(const Structure& structure, const Conditions& conditions, const std::v
       A.row(i).setZero(), A.col(i).setZero();
 }
 
-}  // namespace
-
-petsc::MatHandle assemble(const Structure& structure, const Conditions& conditions, double diagonal, double k,
-                          double m) {
+/// What `matrix_of` gives for each cell, under the conditions. Collective.
+template <class MatrixOf>
+petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& conditions, double diagonal,
+                                MatrixOf&& matrix_of) {
   const petsc::Stage stage("assembly");
   petsc::MatHandle A = empty_matrix(structure);
   double largest = 0;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
-    Eigen::MatrixXd Ae = structure.matrix(cell, k, m);
+    Eigen::MatrixXd Ae = matrix_of(cell);
     largest = std::max(largest, Ae.diagonal().cwiseAbs().maxCoeff());
     hold(structure, conditions, structure.cell_dofs(cell), Ae);
     PetscInt nodes[8];
@@ -62,6 +62,21 @@ petsc::MatHandle assemble(const Structure& structure, const Conditions& conditio
   check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   return A;
+}
+
+}  // namespace
+
+petsc::MatHandle assemble(const Structure& structure, const Conditions& conditions, double diagonal, double k,
+                          double m) {
+  return assemble_cells(structure, conditions, diagonal,
+                        [&](const Mesh::Cell& cell) { return structure.matrix(cell, k, m); });
+}
+
+petsc::MatHandle tangent_stiffness(const Structure& structure, const Conditions& conditions, Vec q) {
+  const Eigen::VectorXd all = structure.exchange.gather(q);
+  return assemble_cells(structure, conditions, 1, [&](const Mesh::Cell& cell) {
+    return structure.maps(cell).tangent(all(structure.cell_dofs(cell)));
+  });
 }
 
 petsc::MatHandle stiffness(const Structure& structure, const Conditions& conditions) {

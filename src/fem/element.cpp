@@ -26,6 +26,21 @@ Eigen::MatrixXd ElementMaps::stiffness() const {
   return K;
 }
 
+Eigen::MatrixXd ElementMaps::tangent(const Eigen::VectorXd& q) const {
+  Eigen::MatrixXd K = bending;
+  for (const StrainPoint& g : membrane) {
+    const Eigen::VectorXd slope = g.G * q;
+    const Eigen::VectorXd stress = g.D * (g.L * q + 0.5 * g.bilinear(slope, slope));
+    Eigen::MatrixXd E = g.L, curved = Eigen::MatrixXd::Zero(g.G.rows(), g.G.rows());
+    for (std::size_t s = 0; s < g.P.size(); ++s) {
+      E.row(static_cast<Eigen::Index>(s)).noalias() += (g.P[s] * slope).transpose() * g.G;
+      curved += stress[static_cast<Eigen::Index>(s)] * g.P[s];
+    }
+    K.noalias() += g.weight * (E.transpose() * g.D * E + g.G.transpose() * curved * g.G);
+  }
+  return K;
+}
+
 Eigen::MatrixXd ElementMaps::mass_matrix() const {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(bending.rows(), bending.rows());
   for (const body::MassPoint& point : mass) M.noalias() += point.mass * point.N.transpose() * point.N;

@@ -204,7 +204,8 @@ Columns Statics::solve(const Columns& loads) const {
   return solve(dense_of(loads));
 }
 
-Columns Statics::solve(petsc::MatHandle loads) const {
+/// P' f of each column, under the conditions.
+void Statics::prepare(Mat loads) const {
   const bool in_frame = holds_frame(frame_, conditions_);
   PetscInt count = 0;
   check(MatGetSize(loads, nullptr, &count));
@@ -215,9 +216,39 @@ Columns Statics::solve(petsc::MatHandle loads) const {
     fem::hold(column, conditions_);
     check(MatDenseRestoreColumnVec(loads, j, &column));
   }
+}
+
+/// P u.
+void Statics::finish(const Columns& u) const {
+  if (holds_frame(frame_, conditions_)) return;
+  for (const auto& column : u) fem::to_frame(frame_, column);
+}
+
+Columns Statics::solve(petsc::MatHandle loads) const {
+  prepare(loads);
   Columns u = corrected(std::move(loads));
-  if (!in_frame)
-    for (const auto& column : u) fem::to_frame(frame_, column);
+  finish(u);
+  return u;
+}
+
+Columns Statics::solve_bent(Vec q, const Columns& loads) const {
+  if (loads.empty() || !factors(solver()) || iterates()) return {};
+  const petsc::MatHandle K = fem::tangent_stiffness(elements_->structure(), conditions_, q), B = dense_of(loads),
+                         X = dense_like(loads[0], loads.size());
+  const petsc::KspHandle ksp = direct_solver(K, "estimate_");
+  prepare(B);
+  try {
+    block_solve(ksp, B, X);
+  } catch (const RunError&) {
+    return {};
+  }
+  Columns u = columns_of(X);
+  for (const auto& column : u) {
+    double size = 0;
+    check(VecNorm(column, NORM_INFINITY, &size));
+    if (!std::isfinite(size)) return {};
+  }
+  finish(u);
   return u;
 }
 

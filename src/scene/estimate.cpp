@@ -29,8 +29,10 @@ void KeptMotion::keep(const dynamics::Instant& instant) {
 
 namespace {
 
-constexpr int most_samples = 32;  // of the full-order residual
-constexpr int most_columns = 8;   // for each body
+constexpr int most_samples = 16;                    // of the full-order residual
+constexpr int most_columns = 8, least_columns = 3;  // for each body
+constexpr int most_tangents = 2;
+
 bool keeps_factors(const Offline& offline) {
   for (std::size_t b = 0; b < offline.reduced.size(); ++b)
     if (has_structure(offline.prepared.bodies[b]) && !offline.reduced[b].statics) return false;
@@ -59,7 +61,7 @@ class Residuals {
       if (has_structure(offline_.prepared.bodies[b])) take(static_cast<int>(b), state);
     ++samples;
   }
-  const reduction::Columns& loads(std::size_t body) const { return loads_[body]; }
+  const std::vector<LeftOver>& loads(std::size_t body) const { return loads_[body]; }
   /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
   double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
   int samples = 0;
@@ -86,26 +88,44 @@ class Residuals {
     const VectorXd eta = state.q.segment(report.first_elastic, report.columns);
     unbalanced_ = std::max(unbalanced_, along.norm());
     forces_ = std::max(forces_, (reduced.body.elasticity.linear_stiffness() * eta).norm());
-    loads_[b].push_back(std::move(load));
+    loads_[b].push_back({std::move(load), eta});
   }
 
   const Model& reduced_;
   Offline& offline_;
   Model full_;
   petsc::VecHandle U_, V_, A_, F_;
-  std::vector<reduction::Columns> loads_;
+  std::vector<std::vector<LeftOver>> loads_;
   double unbalanced_ = 0, forces_ = 0;
 };
 
-void sample(const KeptMotion& motion, const Allowance& time, Residuals& residuals, Estimate& estimate) {
-  const std::vector<State> states = spread(motion.states(), most_samples);
+/// Elastic coordinates of all bodies.
+VectorXd deformations(const Model& model, const VectorXd& q) {
+  std::vector<double> all;
+  for (const BodyReport& body : model.bodies)
+    all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
+  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/// The state whose elastic coordinates are the greatest.
+const State& most_deformed(const Model& model, const std::vector<State>& states) {
+  return *std::max_element(states.begin(), states.end(), [&](const State& a, const State& b) {
+    return deformations(model, a.q).squaredNorm() < deformations(model, b.q).squaredNorm();
+  });
+}
+
+/// Where the motion deforms most, and some instants along it.
+void sample(const Model& model, const KeptMotion& motion, const Allowance& time, Residuals& residuals,
+            Estimate& estimate) {
+  const std::vector<State> states = spread(motion.states(), most_samples - 1);
+  const State& greatest = most_deformed(model, motion.states());
   const double before = time.spent();
-  residuals.add(states.back());
+  residuals.add(greatest);
   const double each = time.spent() - before;
   const auto count = std::min<std::size_t>(
       states.size(), static_cast<std::size_t>(std::max(4.0, 0.3 * time.left() / std::max(each, 1e-9))));
   for (const State& state : spread(states, count))
-    if (state.t < states.back().t) residuals.add(state);
+    if (state.t != greatest.t) residuals.add(state);
   estimate.samples = residuals.samples, estimate.unbalanced = residuals.unbalanced();
   if (count < states.size())
     estimate.notes.push_back(fmt::format("{} residuals instead of {}, to save time", count, states.size()));
@@ -115,7 +135,7 @@ void sample(const KeptMotion& motion, const Allowance& time, Residuals& residual
 int columns_in(double seconds, const ReducedBody& reduced) {
   const double k = std::max(1, reduced.body.coordinates());
   const double factor = std::pow(seconds / std::max(reduced.report.seconds_projection, 1e-6), 0.25);
-  return std::clamp(static_cast<int>(k * (factor - 1)), 1, most_columns);
+  return std::clamp(static_cast<int>(k * (factor - 1)), least_columns, most_columns);
 }
 
 std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const Allowance& time,
@@ -134,21 +154,14 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     if (most < most_columns)
       estimate.notes.push_back(
           fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
-    const auto W =
-        std::make_shared<const reduction::Columns>(response_columns(*reduced.statics, residuals.loads(b), most));
+    const auto W = std::make_shared<const reduction::Columns>(main_columns(
+        body.structure, responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1), most));
     if (W->empty()) continue;
     estimate.responses.back() = W;
     bodies.back() = with_columns(body, reduced, *W);
     estimate.columns += bodies.back().body.coordinates() - reduced.body.coordinates();
   }
   return bodies;
-}
-
-VectorXd deformations(const Model& model, const VectorXd& q) {
-  std::vector<double> all;
-  for (const BodyReport& body : model.bodies)
-    all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
-  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 /// Follows the deviation, on every rank alike.
@@ -200,7 +213,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
 void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {
   Offline& offline = *model.offline;
   Residuals residuals(model, offline, full_order(offline));
-  sample(motion, time, residuals, estimate);
+  sample(model, motion, time, residuals, estimate);
   const std::vector<ReducedBody> bodies = enriched(offline, residuals, time, estimate);
   const Model more = assemble(offline.prepared, Formulation::vm_md, bodies);
   follow(model, more, motion, time, estimate);

@@ -2,18 +2,68 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace floe::scene {
 
 using petsc::check;
 
-reduction::Columns response_columns(const reduction::Statics& statics, const reduction::Columns& loads, int most) {
-  const reduction::Columns u = statics.solve(loads);
+namespace {
+
+/// The greatest of the deformations, and up to `most` in all of which a good part is in none before.
+std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
+  Eigen::MatrixXd left(loads[0].eta.size(), static_cast<Eigen::Index>(loads.size()));
+  for (std::size_t i = 0; i < loads.size(); ++i) left.col(static_cast<Eigen::Index>(i)) = loads[i].eta;
+  std::vector<std::size_t> chosen;
+  double greatest = 0;
+  while (static_cast<int>(chosen.size()) < most) {
+    Eigen::Index at = 0;
+    const double size = left.colwise().norm().maxCoeff(&at);
+    greatest = std::max(greatest, size);
+    if (!chosen.empty() && !(size > 0.5 * greatest)) break;
+    chosen.push_back(static_cast<std::size_t>(at));
+    if (!(size > 0)) break;
+    const Eigen::VectorXd direction = left.col(at) / size;
+    left -= direction * (direction.transpose() * left).eval();
+  }
+  return chosen;
+}
+
+}  // namespace
+
+reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
+                             int tangents) {
+  if (loads.empty()) return {};
+  const std::vector<std::size_t> bent = unlike(loads, tangents);
+  reduction::Columns all;
+  for (const std::size_t at : bent) {
+    const auto apart = [&](std::size_t i, std::size_t from) { return (loads[i].eta - loads[from].eta).norm(); };
+    reduction::Columns own;
+    for (std::size_t i = 0; i < loads.size(); ++i)
+      if (std::all_of(bent.begin(), bent.end(), [&](auto other) { return apart(i, at) <= apart(i, other); }))
+        own.push_back(reduction::copy(loads[i].load));
+    const petsc::VecHandle q = fem::field(body.structure);
+    Eigen::VectorXd eta = loads[at].eta;
+    check(BVMultVec(reduced.basis->V, 1, 0, q, eta.data()));
+    reduction::Columns u = reduced.statics->solve_bent(q, own);
+    if (u.empty()) u = reduced.statics->solve(own);
+    std::move(u.begin(), u.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most) {
   const Eigen::Index n = static_cast<Eigen::Index>(u.size());
-  std::vector<Vec> bare;
-  for (const auto& load : loads) bare.push_back(load);
-  Eigen::MatrixXd work(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) check(VecMDot(u[i], static_cast<PetscInt>(n), bare.data(), work.col(i).data()));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (work + work.transpose()));
+  std::vector<Vec> bare(u.begin(), u.end());
+  Eigen::MatrixXd products(n, n);
+  const petsc::MatHandle M = fem::mass(structure, {});
+  const petsc::VecHandle force = fem::field(structure);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    check(MatMult(M, u[i], force));
+    check(VecMDot(force, static_cast<PetscInt>(n), bare.data(), products.col(i).data()));
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (products + products.transpose()));
   const double greatest = n > 0 ? eigen.eigenvalues()[n - 1] : 0;
   reduction::Columns columns;
   for (Eigen::Index i = n - 1; i >= 0 && std::ssize(columns) < most; --i) {

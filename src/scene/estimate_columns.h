@@ -3,10 +3,24 @@
 
 namespace floe::scene {
 
-/// Columns that carry most of what loads f do to a body, u_i = K^-1 P' f_i: at most `most`, the eigenvectors of the
-/// work u_i'f_j of the snapshots (proper orthogonal decomposition in the norm of K). Those below 1e-4 of the greatest
-/// norm are left out. Collective. One block solve.
-reduction::Columns response_columns(const reduction::Statics& statics, const reduction::Columns& loads, int most);
+/// A load that is left over in a deformation V eta.
+struct LeftOver {
+  petsc::VecHandle load;
+  Eigen::VectorXd eta;
+};
+
+/// What the loads do to a body, x = K_T(V eta)^-1 P' f: K_T is that of the greatest deformation, of up to `tangents`
+/// unlike ones where they differ much; each load meets the one that its own deformation is nearest to. Where K_T has no
+/// factor, that of rest. Collective. A factorisation for each tangent.
+///
+/// K at rest would lock: what bends a wide thin shell further stretches it, unless the same column holds the way out,
+/// and that depends on how far it is bent.
+reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
+                             int tangents);
+
+/// Columns that carry most of the fields u: at most `most`, by proper orthogonal decomposition in the norm of M. Those
+/// below 1e-4 of the greatest are left out. Collective.
+reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most);
 
 /// The body on [V W]: its first coordinates are those that it has. Rayleigh damping acts on all, modal damping on the
 /// first. Collective.

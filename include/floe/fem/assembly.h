@@ -15,6 +15,8 @@ petsc::MatHandle assemble(const Structure& structure, const Conditions& conditio
 
 /// K under conditions: K_b + sum w L'DL, with the conditions' diagonal positive. Collective.
 petsc::MatHandle stiffness(const Structure& structure, const Conditions& conditions);
+/// d2U/dq2 at the displacements q, under conditions: not definite where compression buckles. Collective.
+petsc::MatHandle tangent_stiffness(const Structure& structure, const Conditions& conditions, Vec q);
 /// M under conditions; their diagonal is zero. Without conditions it is assembled once and shared by all who ask, who
 /// may not change it (it is found out at the next call, which assembles another); under conditions it is a copy of that
 /// one. Collective.

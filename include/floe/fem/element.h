@@ -26,7 +26,9 @@ struct ElementMaps {
   std::vector<StrainPoint> membrane;
   std::vector<body::MassPoint> mass;
 
-  Eigen::MatrixXd stiffness() const;    ///< K = K_b + sum w L'DL
+  Eigen::MatrixXd stiffness() const;  ///< K = K_b + sum w L'DL
+  /// d2U/dq2 = K_b + sum w [E'D E + sum_s sigma_s G'P_s G],  E = L + e(q, .),  sigma = D (L q + e(q, q)/2)
+  Eigen::MatrixXd tangent(const Eigen::VectorXd& q) const;
   Eigen::MatrixXd mass_matrix() const;  ///< M = sum m N'N
 };
 

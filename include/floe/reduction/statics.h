@@ -25,6 +25,10 @@ class Statics {
   Columns solve(const Columns& loads) const;
   /// The same for the columns of a dense matrix, which is used up.
   Columns solve(petsc::MatHandle loads) const;
+  /// Responses about a deformation: x with K_T(q) x = P' f, K_T = d2U/dq2 under the same conditions, and P x. Empty
+  /// where that has no factor, and where nothing factors K or round-off spoils its factor. One factorisation for all
+  /// loads, KSP prefix estimate_. Collective.
+  Columns solve_bent(Vec q, const Columns& loads) const;
   /// Static constraint modes, in the floating frame: conditions() displaced as `moved` says (zero at all other dofs)
   /// and the others held at zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and Bampton
   /// 1968. Collective. One block solve, the same factor.
@@ -53,6 +57,8 @@ class Statics {
   double missing(Mat loads, Mat u) const;
   void correct(Mat loads, Mat u) const;
   Columns corrected(petsc::MatHandle loads) const;
+  void prepare(Mat loads) const;
+  void finish(const Columns& u) const;
   const fem::ReferenceFrame& frame_;
   fem::Conditions conditions_;
   petsc::MatHandle K_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,12 +45,16 @@ struct Estimate {
   std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none
 };
 
+/// What an estimate may take of a run [s]: a tenth of it, or a second.
+inline double estimate_seconds(double run) { return std::max(1.0, 0.1 * run); }
+
 /// The full-order equations of every body are evaluated at lifted states (U = V eta) of some instants, r; the columns
-/// W = K^-1 P' r, by energy, join V; and the equations of the bodies on [V W] are solved for what the motion lacks,
-/// d(t) (dynamics::deviation). Loads, joints, frames and inertia act on d as they do on the motion; joint forces in r
-/// are the multipliers of the motion.
+/// W, the main ones of K_T^-1 P' r, join V; and the equations of the bodies on [V W] are solved for what the motion
+/// lacks, d(t) (dynamics::deviation). Loads, joints, frames and inertia act on d as they do on the motion; joint forces
+/// in r are the multipliers of the motion.
 ///
 ///   r = M(q) q'' - Q_v + dU/dq - Q_e + C_q' lambda     on the free dofs of each body,  V'r = 0
+///   K_T = d2U/dq2 at the instant at which the body deforms most, and at another one that is unlike it
 ///
 /// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
 ///

@@ -54,7 +54,7 @@ TEST_CASE("cantilever with shear: Timoshenko's tip deflections, whatever the num
   const int n = GENERATE(1, 2, 5);
   const BeamChain beam = beam_chain(n, L, s, clamped_root, {}, testing::some_rotation());
   const Matrix2d soft = (Matrix2d() << 0.7, 0.3, 0.3, 0.9).finished().inverse();
-  for (const Vector2d F : {Vector2d(1, 0), Vector2d(0, 1)}) {
+  for (const Vector2d& F : {Vector2d(1, 0), Vector2d(0, 1)}) {
     const Vector6 q = tip(linear_deflection(beam, tip_load(beam, load(0, F[0], F[1]))));
     const Vector2d deflection = L * L * L / 3 * soft * F + L * F.cwiseQuotient(s.GA), turn = L * L / 2 * soft * F;
     CHECK((q - load(0, deflection[0], deflection[1], 0, -turn[1], turn[0])).norm() < 1e-12);

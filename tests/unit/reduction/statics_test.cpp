@@ -60,6 +60,37 @@ TEST_CASE("three members that meet in a rigid knot share its moment as 3 EI/l, 4
   CHECK(response(other, knot + 2, M)[knot + 2] == Approx(M / EI / (4 / 1. + 3 / 2. + 4 / 3.)).epsilon(1e-7));
 }
 
+TEST_CASE("responses about a deformation are those of the tangent there") {
+  const Held body(testing::straight(PETSC_COMM_WORLD, 6, 3, {50, 0.7, 3, 0.2}), Kind::clamped, {});
+  const fem::Structure& s = body.structure;
+  const auto elastic_force =
+      [&](const VectorXd& q) {  // K q + (dK/dq q) q / 2 + cubic terms, from K_T by Simpson's rule
+        VectorXd sum = VectorXd::Zero(q.size());
+        const petsc::VecHandle along = testing::field_of(s, q);
+        for (const auto& [at, weight] : {std::pair(0., 1 / 6.), {0.5, 4 / 6.}, {1., 1 / 6.}})
+          sum += weight * testing::product(fem::tangent_stiffness(s, {}, testing::field_of(s, at * q)), along);
+        return sum;
+      };
+  const VectorXd bent = everywhere(body.statics.solve([&] {
+    reduction::Columns loads;
+    loads.push_back(testing::field_of(s, 0.1 * testing::Random(5).vector(s.dofs())));
+    return loads;
+  }())[0]);
+  const VectorXd direction = testing::Random(6).vector(s.dofs());
+  reduction::Columns loads;
+  loads.push_back(testing::field_of(s, direction));
+  const petsc::VecHandle q = testing::field_of(s, bent);
+  const VectorXd u = everywhere(body.statics.solve_bent(q, loads)[0]);
+  // the force grows by the load, but at what is held
+  const double h = 1e-4 / u.cwiseAbs().maxCoeff();
+  VectorXd grown = (elastic_force(bent + h * u) - elastic_force(bent - h * u)) / (2 * h);
+  for (const PetscInt dof : body.statics.conditions()) grown[dof] = 0;
+  VectorXd wanted = direction;
+  for (const PetscInt dof : body.statics.conditions()) wanted[dof] = 0;
+  CHECK(testing::relative_error(grown, wanted) < 1e-6);
+  CHECK(testing::relative_error(u, everywhere(body.statics.solve(loads)[0])) > 1e-2);
+}
+
 TEST_CASE("the answer stands in the frame and satisfies K u = P' f, however the free body is supported") {
   const Kind kind = GENERATE(Kind::pinned, Kind::clamped, Kind::mean_axis);
   const Held body(testing::straight(PETSC_COMM_WORLD, 6, 3, {50, 0.7, 3, 0.2}), kind, {});

@@ -1,0 +1,39 @@
+#include <catch2/catch.hpp>
+
+#include "differences.h"
+#include "floe/fem/assembly.h"
+#include "floe/fem/shell.h"
+#include "random.h"
+#include "shell_states.h"
+
+using namespace floe;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using testing::relative_error;
+
+namespace {
+
+/// dU/dq of an element.
+VectorXd force(const fem::ElementMaps& maps, const VectorXd& q) {
+  const body::Elasticity elastic = fem::elasticity(maps, MatrixXd::Identity(q.size(), q.size()));
+  return testing::gradient([&](const VectorXd& x) { return body::energy(elastic, x); }, q, 1e-3);
+}
+
+void check_tangent(const fem::ElementMaps& maps, double size) {
+  const VectorXd q = size * testing::Random(7).vector(maps.bending.rows());
+  const MatrixXd found = maps.tangent(q);
+  CHECK(relative_error(found, testing::jacobian([&](const VectorXd& x) { return force(maps, x); }, q, 1e-3)) < 1e-7);
+  CHECK(relative_error(found, found.transpose().eval()) < 1e-14);
+  CHECK(relative_error(maps.tangent(VectorXd::Zero(q.size())), maps.stiffness()) < 1e-14);
+  CHECK(relative_error(found, maps.stiffness()) > 1e-3);
+}
+
+}  // namespace
+
+TEST_CASE("an element's tangent is the derivative of its force") {
+  check_tangent(fem::planar_beam({0, 0}, {1.1, 0.4}, {50, 0.7, 3, 0.2}, fem::MembraneStrain::averaged), 0.3);
+  check_tangent(fem::shell_triangle({Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0.1), Vector3d(0.5, 0.9, 0)},
+                                    testing::skew_laminate()),
+                0.3);
+}
