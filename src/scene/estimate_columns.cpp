@@ -35,19 +35,24 @@ std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
 reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
                              int tangents) {
   if (loads.empty()) return {};
-  const std::vector<std::size_t> bent = unlike(loads, tangents);
+  std::vector<Eigen::VectorXd> tangents_at = {Eigen::VectorXd::Zero(loads[0].eta.size())};
+  for (const std::size_t i : unlike(loads, tangents)) tangents_at.push_back(loads[i].eta);
+  std::vector<reduction::Columns> met(tangents_at.size());
+  for (const LeftOver& one : loads) {
+    const auto nearest = std::min_element(tangents_at.begin(), tangents_at.end(), [&](const auto& a, const auto& b) {
+      return (one.eta - a).norm() < (one.eta - b).norm();
+    });
+    met[static_cast<std::size_t>(nearest - tangents_at.begin())].push_back(reduction::copy(one.load));
+  }
   reduction::Columns all;
-  for (const std::size_t at : bent) {
-    const auto apart = [&](std::size_t i, std::size_t from) { return (loads[i].eta - loads[from].eta).norm(); };
-    reduction::Columns own;
-    for (std::size_t i = 0; i < loads.size(); ++i)
-      if (std::all_of(bent.begin(), bent.end(), [&](auto other) { return apart(i, at) <= apart(i, other); }))
-        own.push_back(reduction::copy(loads[i].load));
-    const petsc::VecHandle q = fem::field(body.structure);
-    Eigen::VectorXd eta = loads[at].eta;
-    check(BVMultVec(reduced.basis->V, 1, 0, q, eta.data()));
-    reduction::Columns u = reduced.statics->solve_bent(q, own);
-    if (u.empty()) u = reduced.statics->solve(own);
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    reduction::Columns u;
+    if (i > 0) {
+      const petsc::VecHandle q = fem::field(body.structure);
+      check(BVMultVec(reduced.basis->V, 1, 0, q, tangents_at[i].data()));
+      u = reduced.statics->solve_bent(q, met[i]);
+    }
+    if (u.empty()) u = reduced.statics->solve(met[i]);
     std::move(u.begin(), u.end(), std::back_inserter(all));
   }
   return all;
