@@ -181,13 +181,13 @@ PetscErrorCode iterate(EPS eps) {
   const PetscInt b = data->block;
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(eps->ncv + b, eps->ncv + b), A, R;
   Ritz pairs;
-  PetscInt k = 0, m = b, locked = 0;
+  PetscInt k = 0, locked = 0;
 
   PetscFunctionBegin;
   PetscCall(start(eps));
   while (true) {
     eps->its++;
-    m = k + b;  // V: k columns and the block of b; P = M times the block
+    const PetscInt m = k + b;  // V: k columns and the block of b; P = M times the block
     PetscCall(solve_block(eps));
     PetscCall(dot(data->P, data->W, A));
     T.block(k, k, b, b) = (A + A.transpose()) / 2;
