@@ -169,7 +169,7 @@ petsc::MatHandle stiffness_operator(std::shared_ptr<const ElementStiffness> elem
   shell->conditions = conditions;
   shell->elements = std::move(elements);
   check(MatCreateShell(structure.mesh.comm, owned, owned, n, n, shell.get(), K.out()));
-  shell.release();
+  static_cast<void>(shell.release());  // K destroys it
   check(MatShellSetOperation(K, MATOP_MULT, reinterpret_cast<void (*)()>(multiply_shell)));
   check(MatShellSetOperation(K, MATOP_DESTROY, reinterpret_cast<void (*)()>(destroy)));
   check(MatSetOption(K, MAT_SPD, PETSC_TRUE));

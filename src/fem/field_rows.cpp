@@ -80,9 +80,9 @@ DofRanges dof_ranges(const Structure& structure, const FieldRows& fields) {
     for (int j = columns; j-- > range.end;)
       if (row[j] != 0) range.end = j + 1;
   }
-  for (int d = 0; d < 6; ++d) bounds[2 * d] = -ranges[d].begin, bounds[2 * d + 1] = ranges[d].end;
+  for (std::size_t d = 0; d < 6; ++d) bounds[2 * d] = -ranges[d].begin, bounds[2 * d + 1] = ranges[d].end;
   MPI_Allreduce(MPI_IN_PLACE, bounds.data(), 12, MPI_INT, MPI_MAX, structure.mesh.comm);
-  for (int d = 0; d < 6; ++d) ranges[d] = {-bounds[2 * d], bounds[2 * d + 1]};
+  for (std::size_t d = 0; d < 6; ++d) ranges[d] = {-bounds[2 * d], bounds[2 * d + 1]};
   return ranges;
 }
 

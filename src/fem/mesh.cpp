@@ -143,7 +143,7 @@ Eigen::Vector3d near_origin(const Mesh& mesh) {
   for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
   MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  const Eigen::Vector3d middle = (low + high) / 2;
+  Eigen::Vector3d middle = (low + high) / 2;
   if (middle.norm() > 10 * (high - low).norm()) return middle;
   return Eigen::Vector3d::Zero();
 }

@@ -12,7 +12,7 @@ double greatest_sag(const Mesh& mesh, const Mesh::Cell& cell, const double* valu
   const auto corners = cell.corners();
   const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return mesh.positions[corners[i % corners.size()]]; };
   const auto rotation = [&](std::size_t i) {
-    return Eigen::Map<const Eigen::Vector3d>(values + 6 * corners[i % corners.size()] + 3);
+    return Eigen::Map<const Eigen::Vector3d>(values + 6 * static_cast<std::ptrdiff_t>(corners[i % corners.size()]) + 3);
   };
   const std::size_t last = corners.size() - 1;
   const Eigen::Vector3d normal =

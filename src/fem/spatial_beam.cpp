@@ -20,7 +20,7 @@ std::vector<SectionPoint> section_points(const SpatialBeamSection& section) {
   Eigen::Matrix2d second;
   second << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal(second / section.rhoA);
-  const Eigen::Vector2d s = principal.eigenvalues();
+  const Eigen::Vector2d& s = principal.eigenvalues();
   const auto counts = [&](int i) { return s[i] > 1e-14 * s[1]; };
   const int n = counts(0) + counts(1);
   if (n == 0) return {{1, Eigen::Vector2d::Zero()}};

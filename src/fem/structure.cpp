@@ -73,7 +73,7 @@ Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, in
   const auto found = std::lower_bound(all.begin(), all.end(), node,
                                       [](const Mesh::Follower& f, int wanted) { return f.node < wanted; });
   const bool follows = found != all.end() && found->node == node;
-  const Eigen::VectorXd q =
+  Eigen::VectorXd q =
       Eigen::Map<const Eigen::VectorXd>(owned + static_cast<std::ptrdiff_t>(n) * (follows ? found->leader : node), n);
   if (!follows) return q;
   const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->leader];
@@ -112,7 +112,7 @@ std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {
     check(VecGetArray(motions.back(), &values));
     const Eigen::Vector3d axis = d == 2 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(Eigen::Vector3d::Unit(motion % 3));
     for (PetscInt node = 0; node < structure.mesh.owned_nodes; ++node) {
-      double* at = values + per_node * node;
+      double* at = values + static_cast<std::ptrdiff_t>(per_node) * node;
       if (motion < d) {
         at[motion] = 1;
         continue;

@@ -162,7 +162,7 @@ const std::map<std::string, Function>& functions() {
        {[](const Arguments& a) { return Jet{a[1].value <= a[0].value && a[0].value < a[2].value ? 1.0 : 0.0}; }, 3}},
   };
   return all;
-}
+}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): they are static
 
 NodePointer make(Operation operation, std::vector<NodePointer> children) {
   auto node = std::make_shared<Expression::Node>();
@@ -195,7 +195,7 @@ struct Reader {
   }
 
   NodePointer choice() {
-    const NodePointer condition = alternative();
+    NodePointer condition = alternative();
     if (!take("?")) return condition;
     auto node = std::make_shared<Expression::Node>();
     const NodePointer yes = choice();
@@ -258,7 +258,7 @@ struct Reader {
   NodePointer signed_power() {
     if (take("-")) return make([](const Arguments& a) { return -a[0]; }, {signed_power()});
     if (take("+")) return signed_power();
-    const NodePointer base = primary();
+    NodePointer base = primary();
     if (!take("^")) return base;
     return make([](const Arguments& a) { return power(a[0], a[1]); }, {base, signed_power()});
   }
@@ -266,7 +266,7 @@ struct Reader {
     skip_blanks();
     if (at >= text.size()) throw Unknown{};
     if (take("(")) {
-      const NodePointer inner = choice();
+      NodePointer inner = choice();
       expect(")");
       return inner;
     }

@@ -138,7 +138,8 @@ PetscErrorCode solve(Mat F, Mat B, Mat X) {
 
   PetscFunctionBegin;
   PetscCall(kept_of(F, &kept));
-  PetscCheck(kept, PetscObjectComm(reinterpret_cast<PetscObject>(F)), PETSC_ERR_PLIB, "The factor has lost its scatter");
+  PetscCheck(kept, PetscObjectComm(reinterpret_cast<PetscObject>(F)), PETSC_ERR_PLIB,
+             "The factor has lost its scatter");
   PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(B), MATMPIDENSE, &dense));
   PetscCall(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(X), MATMPIDENSE, &apart));
   if (!dense || !apart) {
