@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 #include "floe/fem/field_rows.h"
 #include "floe/petsc/factorisation.h"
@@ -231,15 +233,16 @@ Columns Statics::solve(petsc::MatHandle loads) const {
   return u;
 }
 
-Columns Statics::solve_bent(Vec q, const Columns& loads) const {
-  if (loads.empty() || !factors(solver()) || iterates()) return {};
-  const petsc::MatHandle K = fem::tangent_stiffness(elements_->structure(), conditions_, q), B = dense_of(loads),
-                         X = dense_like(loads[0], loads.size());
-  const petsc::KspHandle ksp = direct_solver(K, "estimate_");
-  prepare(B);
+namespace {
+
+/// X with K X = B for a tangent; nothing where it has no factor. @throws RunError  any other fault
+std::optional<Columns> solve_tangent(Mat K, const Columns& B) {
+  const petsc::KspHandle ksp = direct_solver(K, "derivatives_");
+  const petsc::MatHandle loads = dense_of(B), X = dense_like(B[0], B.size());
   try {
-    block_solve(ksp, B, X);
+    block_solve(ksp, loads, X);
   } catch (const RunError&) {
+    if (petsc::factor_fault(ksp).text.empty()) throw;
     return {};
   }
   Columns u = columns_of(X);
@@ -248,8 +251,95 @@ Columns Statics::solve_bent(Vec q, const Columns& loads) const {
     check(VecNorm(column, NORM_INFINITY, &size));
     if (!std::isfinite(size)) return {};
   }
-  finish(u);
   return u;
+}
+
+/// The matrix of low rank by which P' K P differs from K: W C W', W = [f G, K Phi], C = [Phi'K Phi, -1; -1, 0], with
+/// P = 1 - Phi (f G)'.
+struct FrameTerms {
+  Columns W;
+  Eigen::MatrixXd C;
+};
+
+FrameTerms frame_terms(const fem::Structure& structure, const fem::ReferenceFrame& frame, Mat K) {
+  const auto r = static_cast<Eigen::Index>(frame.rigid.size());
+  const double length = fem::extent(structure);  // turns as displacements
+  const auto unit = [&](Eigen::Index i) { return i < structure.dimension() ? 1 : 1 / length; };
+  FrameTerms terms;
+  for (Eigen::Index j = 0; j < r; ++j) {
+    terms.W.push_back(fem::field(structure));
+    for (Eigen::Index i = 0; i < r; ++i)
+      check(VecAXPY(terms.W[j], frame.inverse(j, i) / unit(j), frame.functionals[i]));
+  }
+  for (Eigen::Index j = 0; j < r; ++j) {
+    terms.W.push_back(fem::field(structure));
+    check(MatMult(K, frame.rigid[j], terms.W.back()));
+    check(VecScale(terms.W.back(), unit(j)));
+  }
+  terms.C = Eigen::MatrixXd::Zero(2 * r, 2 * r);
+  for (Eigen::Index i = 0; i < r; ++i)
+    for (Eigen::Index j = 0; j < r; ++j) {
+      check(VecDot(frame.rigid[i], terms.W[r + j], &terms.C(i, j)));
+      terms.C(i, j) *= unit(i);
+    }
+  terms.C.topRightCorner(r, r).diagonal().setConstant(-1);
+  terms.C.bottomLeftCorner(r, r).diagonal().setConstant(-1);
+  return terms;
+}
+
+Eigen::MatrixXd dot_products(const Columns& a, const Columns& b) {
+  const std::vector<Vec> bare(a.begin(), a.end());
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t j = 0; j < b.size(); ++j)
+    check(VecMDot(b[j], static_cast<PetscInt>(a.size()), bare.data(), values.col(static_cast<Eigen::Index>(j)).data()));
+  return values;
+}
+
+/// u <- u - X (1 + C W'X)^-1 C W'u: of K's solutions those of K + W C W', X = K^-1 W.
+void add_low_rank(const FrameTerms& terms, const Columns& X, const Columns& u) {
+  const Eigen::Index n = terms.C.rows(), r = n / 2;
+  const Eigen::MatrixXd WX = dot_products(terms.W, X), Wu = dot_products(terms.W, u);
+  // the first half are forces, the second displacements: brought to one size
+  const double stiffness = terms.C.topLeftCorner(r, r).cwiseAbs().maxCoeff();
+  Eigen::VectorXd size = Eigen::VectorXd::Ones(n);
+  if (stiffness > 0) size.head(r).setConstant(stiffness);
+  const Eigen::MatrixXd A =
+      size.cwiseInverse().asDiagonal() * (Eigen::MatrixXd::Identity(n, n) + terms.C * WX) * size.asDiagonal();
+  const Eigen::MatrixXd y =
+      size.asDiagonal() *
+      Eigen::FullPivLU<Eigen::MatrixXd>(A).solve(size.cwiseInverse().asDiagonal() * (terms.C * Wu)).eval();
+  const std::vector<Vec> bare(X.begin(), X.end());
+  for (std::size_t j = 0; j < u.size(); ++j) {
+    const Eigen::VectorXd weights = -y.col(static_cast<Eigen::Index>(j));
+    check(VecMAXPY(u[j], static_cast<PetscInt>(n), weights.data(), const_cast<Vec*>(bare.data())));
+  }
+}
+
+}  // namespace
+
+Columns Statics::solve_bent(Vec q, const Columns& loads) const {
+  if (loads.empty() || !factors(solver()) || iterates()) return {};
+  const fem::Structure& structure = elements_->structure();
+  const bool in_frame = holds_frame(frame_, conditions_);
+  Columns all;
+  for (const auto& load : loads) {
+    all.push_back(copy(load));
+    if (!in_frame) fem::balance(frame_, all.back());
+  }
+  FrameTerms terms;
+  if (!in_frame) terms = frame_terms(structure, frame_, fem::tangent_stiffness(structure, {}, q));
+  for (auto& column : terms.W) all.push_back(copy(column));
+  for (const auto& column : all) fem::hold(column, conditions_);
+  std::optional<Columns> found = solve_tangent(fem::tangent_stiffness(structure, conditions_, q), all);
+  if (!found) return {};
+  Columns X;
+  std::move(found->begin() + std::ssize(loads), found->end(), std::back_inserter(X));
+  found->resize(loads.size());
+  if (in_frame) return std::move(*found);
+  for (const auto& column : terms.W) fem::hold(column, conditions_);
+  add_low_rank(terms, X, *found);
+  finish(*found);
+  return std::move(*found);
 }
 
 Columns Statics::constraint_modes(const Columns& moved) const {

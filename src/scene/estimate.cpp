@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "combination.h"
 #include "estimate_columns.h"
 #include "estimate_lift.h"
 #include "estimate_parts.h"
@@ -79,7 +80,7 @@ class Residuals {
     VectorXd along = products(*reduced.basis, load);
     if (!body.spec.damping.modal.empty()) {
       const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
-      check(BVMultVec(reduced.basis->V, 1, 0, field, along.data()));
+      combine(*reduced.basis, along, field);
       check(MatMult(fem::mass(body.structure, {}), field, force));
       check(VecAXPY(load, -1, force));
       along.setZero();
@@ -155,7 +156,8 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
       estimate.notes.push_back(
           fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
     const auto W = std::make_shared<const reduction::Columns>(main_columns(
-        body.structure, responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1), most));
+        body.structure,
+        responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1, estimate.notes), most));
     if (W->empty()) continue;
     estimate.responses.back() = W;
     bodies.back() = with_columns(body, reduced, *W);

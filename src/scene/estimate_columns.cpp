@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "combination.h"
+
 namespace floe::scene {
 
 using petsc::check;
@@ -13,6 +15,7 @@ namespace {
 
 /// The greatest of the deformations, and up to `most` in all of which a good part is in none before.
 std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
+  if (loads[0].eta.size() == 0) return {};
   Eigen::MatrixXd left(loads[0].eta.size(), static_cast<Eigen::Index>(loads.size()));
   for (std::size_t i = 0; i < loads.size(); ++i) left.col(static_cast<Eigen::Index>(i)) = loads[i].eta;
   std::vector<std::size_t> chosen;
@@ -22,8 +25,8 @@ std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
     const double size = left.colwise().norm().maxCoeff(&at);
     greatest = std::max(greatest, size);
     if (!chosen.empty() && !(size > 0.5 * greatest)) break;
-    chosen.push_back(static_cast<std::size_t>(at));
     if (!(size > 0)) break;
+    chosen.push_back(static_cast<std::size_t>(at));
     const Eigen::VectorXd direction = left.col(at) / size;
     left -= direction * (direction.transpose() * left).eval();
   }
@@ -33,7 +36,7 @@ std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
 }  // namespace
 
 reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
-                             int tangents) {
+                             int tangents, std::vector<std::string>& notes) {
   if (loads.empty()) return {};
   std::vector<Eigen::VectorXd> tangents_at = {Eigen::VectorXd::Zero(loads[0].eta.size())};
   for (const std::size_t i : unlike(loads, tangents)) tangents_at.push_back(loads[i].eta);
@@ -49,8 +52,11 @@ reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduce
     reduction::Columns u;
     if (i > 0) {
       const petsc::VecHandle q = fem::field(body.structure);
-      check(BVMultVec(reduced.basis->V, 1, 0, q, tangents_at[i].data()));
+      combine(*reduced.basis, tangents_at[i], q);
       u = reduced.statics->solve_bent(q, met[i]);
+      if (u.empty() && !met[i].empty())
+        notes.push_back(fmt::format("body {}: its stiffness where it is bent has no factor; that of rest stands in",
+                                    body.spec.name));
     }
     if (u.empty()) u = reduced.statics->solve(met[i]);
     std::move(u.begin(), u.end(), std::back_inserter(all));

@@ -10,13 +10,13 @@ struct LeftOver {
 };
 
 /// What the loads do to a body, x = K_T(V eta)^-1 P' f: K_T is that of the greatest deformation, of up to `tangents`
-/// unlike ones where they differ much; each load meets the one that its own deformation is nearest to. Where K_T has no
-/// factor, that of rest. Collective. A factorisation for each tangent.
+/// unlike ones where they differ much, and of rest; each load meets the one that its own deformation is nearest to.
+/// Where K_T has no factor, that of rest, and a note says so. Collective. A factorisation for each tangent.
 ///
-/// K at rest would lock: what bends a wide thin shell further stretches it, unless the same column holds the way out,
-/// and that depends on how far it is bent.
+/// K at rest alone would lock: what bends a wide thin shell further stretches it, unless the same column holds the way
+/// out, and that depends on how far it is bent.
 reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
-                             int tangents);
+                             int tangents, std::vector<std::string>& notes);
 
 /// Columns that carry most of the fields u: at most `most`, by proper orthogonal decomposition in the norm of M. Those
 /// below 1e-4 of the greatest are left out. Collective.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "combination.h"
 #include "floe/petsc/values.h"
 
 namespace floe::scene {
@@ -61,8 +62,7 @@ void lift_to_full_order(const State& state, const Model& reduced, const Offline&
     }
     const petsc::VecHandle field = fem::field(offline.prepared.bodies[b].structure);
     for (const auto& [from, to] : {std::pair(&state.q, &lifted.q), {&state.v, &lifted.v}, {&state.a, &lifted.a}}) {
-      VectorXd eta = from->segment(mine.first_elastic, mine.columns);
-      check(BVMultVec(offline.reduced[b].basis->V, 1, 0, field, eta.data()));
+      combine(*offline.reduced[b].basis, from->segment(mine.first_elastic, mine.columns), field);
       petsc::Values own(field);
       std::copy(own.begin(), own.begin() + (own.end - own.first), to->data() + theirs.first_dof);
     }

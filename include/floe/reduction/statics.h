@@ -25,9 +25,15 @@ class Statics {
   Columns solve(const Columns& loads) const;
   /// The same for the columns of a dense matrix, which is used up.
   Columns solve(petsc::MatHandle loads) const;
-  /// Responses about a deformation: x with K_T(q) x = P' f, K_T = d2U/dq2 under the same conditions, and P x. Empty
-  /// where that has no factor, and where nothing factors K or round-off spoils its factor. One factorisation for all
-  /// loads, KSP prefix estimate_. Collective.
+  /// Responses about a deformation q that the frame measures: x = P w with
+  ///
+  ///   P' K_T P w = P' f,   K_T = d2U/dq2 at q,   w = 0 where joints hold it
+  ///
+  /// A rigid motion of w costs nothing, though K_T knows of it, for von Karman's strains do: any supplement of the
+  /// conditions gives the same. Solved with a factor of K_T under conditions(), which P changes by a matrix of twice as
+  /// low a rank as there are rigid motions (Sherman, Morrison and Woodbury). Empty where K_T has no factor, and where
+  /// nothing factors K or round-off spoils its factor. One factorisation for all loads, KSP prefix derivatives_.
+  /// Collective.
   Columns solve_bent(Vec q, const Columns& loads) const;
   /// Static constraint modes, in the floating frame: conditions() displaced as `moved` says (zero at all other dofs)
   /// and the others held at zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and Bampton

@@ -36,4 +36,9 @@ TEST_CASE("an element's tangent is the derivative of its force") {
   check_tangent(fem::shell_triangle({Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0.1), Vector3d(0.5, 0.9, 0)},
                                     testing::skew_laminate()),
                 0.3);
+  check_tangent(fem::planar_beam({0, 0}, {1.1, 0.4}, {50, 0.7, 3, 0.2}, fem::MembraneStrain::pointwise), 0.3);
+  check_tangent(fem::shell_quadrilateral(
+                    {Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0), Vector3d(1.2, 1.1, 0), Vector3d(0.3, 0.9, 0)},
+                    testing::skew_laminate()),
+                0.3);
 }
