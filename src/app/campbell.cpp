@@ -89,10 +89,14 @@ double visit(const dynamics::RotatingSystem& rotating, double from, int modes, V
   try {
     point.iterations = dynamics::steady_rotation(rotating, from, point.speed, U);
   } catch (const RunError& error) {
-    point.fault = error.what();
+    point.fault = error.what(), point.steady = false;
     return from;
   }
-  point.vibrations = dynamics::vibrations(rotating, point.speed, U, modes);
+  try {
+    point.vibrations = dynamics::vibrations(rotating, point.speed, U, modes);
+  } catch (const RunError& error) {
+    point.fault = error.what();
+  }
   return point.speed;
 }
 

@@ -30,9 +30,10 @@ Eigen::Vector3d parse_point(const std::string& text, const std::string& option);
 /// One speed of the diagram.
 struct CampbellPoint {
   double speed = 0;
-  std::string fault;  ///< why there is no steady rotation; empty: there is
+  std::string fault;  ///< why there is no steady rotation, or why its vibrations are not found; empty: there is
   PetscInt iterations = 0;
   std::vector<dynamics::Vibration> vibrations;
+  bool steady = true;
 };
 
 struct CampbellDiagram {

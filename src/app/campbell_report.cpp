@@ -19,7 +19,9 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
     const std::string empty;
     if (!point.fault.empty() || point.vibrations.empty())
       table.rows.push_back({point.speed, empty, empty, empty, empty,
-                            std::string(point.fault.empty() ? "nothing vibrates" : "no steady rotation")});
+                            std::string(point.fault.empty() ? "nothing vibrates"
+                                        : point.steady      ? "vibrations not found"
+                                                            : "no steady rotation")});
     for (std::size_t i = 0; i < point.vibrations.size(); ++i) {
       const dynamics::Vibration& v = point.vibrations[i];
       table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
@@ -44,7 +46,7 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
   j["axis"] = {{"about", {about.x(), about.y(), about.z()}}, {"through", {through.x(), through.y(), through.z()}}};
   j["speeds"] = ordered_json::array();
   for (const CampbellPoint& point : diagram.points) {
-    ordered_json at{{"rad_per_s", point.speed}, {"steady", point.fault.empty()}};
+    ordered_json at{{"rad_per_s", point.speed}, {"steady", point.steady}};
     if (!point.fault.empty())
       at["reason"] = point.fault;
     else

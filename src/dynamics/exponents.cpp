@@ -100,17 +100,26 @@ std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Expone
   for (std::size_t i = 0; 2 * i < zeros; ++i) all.push_back({0, 0, true, nothing});
   std::sort(real.rbegin(), real.rend());
   for (std::size_t i = 0; i < real.size() && (2 * i < real.size() || real[i] > 0); ++i) all.push_back({0, real[i]});
-  const auto slower = [](const Complex& a, const Complex& b) { return a.imag() < b.imag(); };
-  std::sort(swings.begin(), swings.end(), slower);
+  const auto size_of = [](const Vibration& one) { return std::hypot(one.omega, one.growth); };
+  const auto before = [&](double size) {  // how many are slower
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](const Vibration& one) { return size_of(one) < size; }));
+  };
+  std::sort(swings.begin(), swings.end(), [](const Complex& a, const Complex& b) { return std::abs(a) < std::abs(b); });
   for (const Complex& s : swings) {
-    if (all.size() >= wanted && s.imag() > 1.02 * all.back().omega) break;
+    if (s.real() <= small + 1e-7 * std::abs(s) && before(0.98 * std::abs(s)) >= wanted) continue;
     if (const auto exact = confirmed(problem, s, small)) all.push_back({exact->imag(), exact->real()});
   }
-  std::sort(all.begin(), all.end(), [](const Vibration& a, const Vibration& b) {
+  // the slowest, and whatever grows
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Vibration& a, const Vibration& b) { return size_of(a) < size_of(b); });
+  std::vector<Vibration> chosen;
+  for (const Vibration& one : all)
+    if (chosen.size() < wanted || one.unstable()) chosen.push_back(one);
+  std::sort(chosen.begin(), chosen.end(), [](const Vibration& a, const Vibration& b) {
     return a.omega != b.omega ? a.omega < b.omega : a.growth > b.growth;
   });
-  if (all.size() > wanted) all.resize(wanted);
-  return all;
+  return chosen;
 }
 
 }  // namespace floe::dynamics

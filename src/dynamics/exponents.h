@@ -26,8 +26,9 @@ struct Refined {
 };
 Refined refined(const Quadratic& problem, std::complex<double> start);
 
-/// The `count` slowest vibrations of the exponents `found`, one for each pair s = a +- ib. Of real ones, half as many
-/// as there are: those that grow most or decay least.
+/// The `count` slowest vibrations of the exponents `found` by |s|, and all that grow besides; one for each pair s = a
+/// +- ib. Of real ones, half as many as there are: those that grow most or decay least. In the order of their
+/// frequencies.
 ///
 /// A linearisation's round-off makes fast vibrations grow or decay, and at times real exponents of nothing. What grows
 /// or decays is refined: where that leads away (by a per cent; of real ones that round-off may make, by 1e-6) there is

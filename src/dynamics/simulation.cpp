@@ -23,6 +23,7 @@ struct Context {
   const std::vector<Event>& events;
   double end = 0;  ///< [s]
   bool adaptive = false;
+  double nominal = 0;  ///< the fixed step [s]
   petsc::Guard guard = {};
   TS ts = nullptr;
   std::vector<double> carried_of_tangent = {};        ///< as it was when the last tangent was formed
@@ -210,9 +211,15 @@ std::string ending(TS ts, TSConvergedReason reason, const IntegrationReport& rep
       step, SNESConvergedReasons[newton], iterations, report.rejected, prefix_of(ts), prefix_of(ts));
 }
 
+/// At the end of a motion the step is what was left of it; what goes on from there takes whole ones.
 MotionState keep(const Context& context) {
   MotionState state;
+  double t = 0, step = 0;
+  check(TSGetTime(context.ts, &t));
+  check(TSGetTimeStep(context.ts, &step));
+  if (!context.adaptive && t >= context.end * (1 - 1e-12)) check(TSSetTimeStep(context.ts, context.nominal));
   save_motion(context.ts, context.system, state);
+  check(TSSetTimeStep(context.ts, step));
   state.carried_of_tangent = context.carried_of_tangent;
   state.events = context.happened;
   return state;
@@ -303,7 +310,7 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
     };
   }
   context.happened.assign(how.events.size(), 0);
-  double nominal = 0;
+  double& nominal = context.nominal;
   check(TSGetTimeStep(ts, &nominal));
   if (std::any_of(how.events.begin(), how.events.end(), [](const Event& event) { return event.watched(); })) {
     context.crossings =

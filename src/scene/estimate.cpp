@@ -204,12 +204,11 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   if (report.steps == 0) throw RunError("the error cannot be followed from the start");
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
-  estimate.probes = sums.relative();
-  for (double& e : estimate.probes) e = known(e);
   const auto steps = static_cast<double>(report.steps);
+  estimate.probes = sums.relative(steps * std::pow(64 * PETSC_MACHINE_EPSILON * reduced.offline->prepared.extent, 2));
   const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
   for (double& e : estimate.relative) e = size > 0 && !nothing ? e / std::sqrt(size / steps) : 0;
-  estimate.deformation = size > 0 && !nothing ? known(std::sqrt(error / size)) : 0;
+  estimate.deformation = nothing ? 0 : known(std::sqrt(error / size));
 }
 
 void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {

@@ -83,7 +83,7 @@ void Sums::add(const std::vector<double>& error, const std::vector<double>& valu
 std::vector<double> Sums::relative(double smallest) const {
   std::vector<double> all;
   for (std::size_t p = 0; p < sizes_.size(); ++p)
-    all.push_back(size_[p] > 0 && std::max(error_[p], size_[p]) > smallest ? std::sqrt(error_[p] / size_[p]) : 0);
+    all.push_back(std::max(error_[p], size_[p]) > smallest ? known(std::sqrt(error_[p] / size_[p])) : 0);
   return all;
 }
 

@@ -231,9 +231,8 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   const bool nothing = std::max(error, whole) <= smallest;
   for (const Gap& gap : all)
     estimate.relative.push_back(whole > 0 && !nothing ? std::sqrt(gap.deformation / (whole / count)) : 0);
-  estimate.deformation = whole > 0 && !nothing ? known(std::sqrt(error / whole)) : 0;
+  estimate.deformation = nothing ? 0 : known(std::sqrt(error / whole));
   estimate.probes = sums.relative(count * std::pow(64 * PETSC_MACHINE_EPSILON * model.offline->prepared.extent, 2));
-  for (double& e : estimate.probes) e = known(e);
   if (!open.empty())
     estimate.notes.push_back(fmt::format(
         "Newton's method at full order did not come to its end at t = {}: the error is of this order", open));

@@ -61,7 +61,8 @@ struct Vibration {
   bool unstable() const { return growth > 0; }
 };
 
-/// The `count` slowest vibrations about a steady state, by frequency.
+/// The `count` slowest vibrations u = Re y e^(st) about a steady state by |s|, and all found that grow; in the order of
+/// their frequencies.
 ///
 /// With u the change of U in the turning axes, x counted in body axes, and u' its rate,
 ///

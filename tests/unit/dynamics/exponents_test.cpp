@@ -126,6 +126,22 @@ TEST_CASE("each divergence is told, and of overdamped motions those that last lo
   CHECK(found[2].growth == Approx(-2));
 }
 
+// Damping in proportion to stiffness makes fast vibrations decay without swinging, at 1/beta or faster: they are no
+// reason to lose a slow one that grows. (s^2 + 50 s + 400: -10, -40)
+TEST_CASE("overdamped motions do not stand before slower swings, and nothing that grows is left out") {
+  const MatrixXd one = MatrixXd::Identity(5, 5), nothing = MatrixXd::Zero(5, 5);
+  Quadratic problem{one, nothing, nothing};
+  problem.C.diagonal() << -0.01, 0.02, 50, 60, -0.2;
+  problem.K.diagonal() << 4, 9, 400, 500, 1e4;
+  const std::vector<Vibration> found = of(mixed(problem), 2);
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].omega == Approx(std::sqrt(4 - 0.005 * 0.005)));
+  CHECK(found[0].growth == Approx(0.005));
+  CHECK(found[1].growth == Approx(-0.01));
+  CHECK(found[2].growth == Approx(0.1));
+  CHECK(found[2].omega == Approx(100).epsilon(1e-4));
+}
+
 // A massless direction that a damper holds: (s + 4) beside a mass of 1 with s^2 + 9.
 TEST_CASE("a direction without mass decays") {
   Quadratic problem{Matrix2d::Zero(), Matrix2d::Zero(), Matrix2d::Zero()};
