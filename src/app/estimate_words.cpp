@@ -8,9 +8,10 @@ namespace floe::app {
 
 std::string estimate_words(const scene::Estimate& estimate) {
   if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
-  const std::string error = std::isfinite(estimate.deformation)
-                                ? fmt::format("estimated error {:.2g} %", 100 * estimate.deformation)
-                                : "estimated error beyond 10000 %, which is no estimate: smaller steps may help";
+  const std::string error =
+      std::isfinite(estimate.deformation)
+          ? fmt::format("estimated error {:.2g} %", 100 * estimate.deformation)
+          : "estimated error beyond 10000 %, which is no estimate: smaller steps or more columns may help";
   std::string words =
       fmt::format("{} (deformations, against the full order of the same mesh; {:.2g} s)\n", error, estimate.seconds);
   for (const std::string& note : estimate.notes) words += "Note (estimate): " + note + "\n";

@@ -19,7 +19,7 @@ bool has(hid_t file, const std::string& name) {
 }
 
 Extent extent_of(hid_t file, const std::string& name) {
-  const Extent extent = series_extent(file, name);
+  Extent extent = series_extent(file, name);
   if (extent.size() != 2) fail(name, "a series", "none");
   return extent;
 }
@@ -37,7 +37,7 @@ std::vector<double> series_rows(hid_t file, const std::string& name, hsize_t fir
 }
 
 std::vector<double> finite_row(hid_t file, const std::string& name, hsize_t index) {
-  const auto row = series_rows(file, name, index, 1);
+  auto row = series_rows(file, name, index, 1);
   if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
     throw RunError(fmt::format("{}: row {} has a number that is none", name, index + 1));
   return row;
@@ -96,7 +96,7 @@ void MotionSource::read_body(const std::string& name, int& frames_in_space) {
   body.name = name;
   const auto columns = read_whole<double>(file_, group + "/columns_of_motion", {2});
   body.frame = std::lround(columns[0]), body.elastic = std::lround(columns[1]);
-  if (dimension_ == 3 && body.frame >= 0) body.attitude = 4 * frames_in_space++;
+  if (dimension_ == 3 && body.frame >= 0) body.attitude = 4 * static_cast<std::int64_t>(frames_in_space++);
   if (!has(file_, group + "/shapes")) {
     without_.push_back(name);
     return;
