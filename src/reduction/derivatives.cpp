@@ -62,7 +62,7 @@ petsc::KspHandle shifted_solver(const fem::Structure& structure, const Statics& 
   if (!factors(ksp))
     throw InputError(
         "options -derivatives_pc_...: derivatives with inertia (derivative_type: full) have an indefinite "
-        "matrix; expected a factorisation (cholesky, lu), or static derivatives");
+        "matrix; expected a factorisation (cholesky), or static derivatives");
   if (!statics.refines()) return ksp;
   const petsc::MatHandle exact = exact_operator(structure, statics, lambda, conditions);
   check(KSPSetOperators(ksp, exact, A));

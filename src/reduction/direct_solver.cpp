@@ -48,6 +48,13 @@ petsc::KspHandle direct_solver(Mat A, const char* prefix) {
   check(PCSetType(pc, PCCHOLESKY));
   check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   petsc::check_options(KSPSetFromOptions(ksp), prefix);
+  PetscBool whole = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCLU, &whole));
+  if (whole)
+    throw InputError(
+        fmt::format("option -{}pc_type lu: the matrix is symmetric, and one half of it is kept; expected "
+                    "cholesky",
+                    prefix));
   widen_blocks(ksp);
   return ksp;
 }

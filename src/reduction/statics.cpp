@@ -35,7 +35,7 @@ void check_solver(KSP ksp) {
   if (direct && !factors(ksp))
     throw InputError(
         fmt::format("option -derivatives_pc_type {}: is no solver by itself; expected a factorisation "
-                    "(cholesky, lu), or an iteration besides (-derivatives_ksp_type cg)",
+                    "(cholesky), or an iteration besides (-derivatives_ksp_type cg)",
                     preconditioner));
 }
 

@@ -440,6 +440,8 @@ UNUSUAL = [
                            "-static_mat_mumps_icntl_14", "-50", "-o", "out"], MANY))),
     Case("modes by another transformation", ["modes", "scene.yaml", "-modes_st_type", "shift"], (1, 2),
          ("-modes_st_type shift", "expected sinvert"), never=("PETSc error",), lines=1, scene=PLATE),
+    Case("LU of one half of a matrix", ["modes", "scene.yaml", "-derivatives_pc_type", "lu"], 2,
+         ("option -derivatives_pc_type lu: the matrix is symmetric", "expected cholesky"), lines=1, scene=PLATE),
     Case("a preconditioner alone", ["modes", "scene.yaml", "-derivatives_pc_type", "jacobi"], 2,
          ("option -derivatives_pc_type jacobi: is no solver by itself",), never=("finer",), lines=1, scene=PLATE),
     *(Case(f"modes by {name}", ["modes", "scene.yaml", "-options_file", str(BLADE / name)], 0, shows=("rad/s",), lines=0,
