@@ -13,7 +13,7 @@ RawMesh scaled(RawMesh mesh, double factor) {
 
 RawMesh prefixed(RawMesh mesh, const std::string& prefix) {
   for (auto* names : {&mesh.parts, &mesh.places})
-    for (auto& name : *names) name = prefix + name;
+    for (auto& name : *names) name.insert(0, prefix);
   return mesh;
 }
 

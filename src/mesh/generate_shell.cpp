@@ -13,7 +13,7 @@ class Surface {
   Eigen::Vector3d at(GridNode node) const {
     const double half = node.centre ? 0.5 : 0, nv = static_cast<double>(grid_.nv);
     const double v = (static_cast<double>(node.j) + half) / nv;
-    const Eigen::Vector3d x = at((static_cast<double>(node.i) + half) / static_cast<double>(grid_.nu), v);
+    Eigen::Vector3d x = at((static_cast<double>(node.i) + half) / static_cast<double>(grid_.nu), v);
     const bool bottom = grid_.pole_bottom && node.j == 0, top = grid_.pole_top && node.j == grid_.nv;
     if (bottom || top) {
       const double step = (x - at(0, v + (bottom ? 1 : -1) / nv)).norm();
@@ -28,7 +28,7 @@ class Surface {
 
  private:
   Eigen::Vector3d at(double u, double v) const {
-    const Eigen::Vector3d x = given_.position(u, v);
+    Eigen::Vector3d x = given_.position(u, v);
     if (!x.allFinite())
       throw InputError("shell: position(" + std::to_string(u) + ", " + std::to_string(v) +
                        ") has coordinates that are no numbers");

@@ -40,8 +40,8 @@ bool read_labels(GmshCursor& cursor, int count, const char* what, long long* lab
 std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faults& faults) {
   Eigen::Vector3d position;
   if (cursor.binary) {
-    for (int i = 0; i < 3; ++i) position[i] = cursor.value<double>(cursor.at + 8 * i);
-    cursor.at += 8 * reals;
+    for (int i = 0; i < 3; ++i) position[i] = cursor.value<double>(cursor.at + static_cast<std::ptrdiff_t>(8) * i);
+    cursor.at += static_cast<std::ptrdiff_t>(8) * reals;
     return position;
   }
   Where where;
@@ -77,7 +77,7 @@ Window window(long long start, long long count, long long first, long long last)
 void read_block(const GmshElementBlock& block, const GmshUse& use, Window part, FileMesh& mesh, Faults& faults) {
   const auto& type = *gmsh_type(block.type);
   GmshCursor cursor = block.begin;
-  pass(cursor, part.skipped, cursor.count_width * (1 + type.nodes));
+  pass(cursor, part.skipped, static_cast<long long>(cursor.count_width) * (1 + type.nodes));
   const std::string what = "an element number and " + std::to_string(type.nodes) + " nodes (" + type.name + ")";
   long long labels[1 + most_nodes];
   std::vector<long long> used;
@@ -107,7 +107,7 @@ void read_nodes(const GmshStructure& structure, Share share, FileMesh& mesh, Fau
     if (part.count == 0) continue;
     GmshCursor labels = block.labels, positions = block.positions;
     pass(labels, part.skipped, labels.count_width);
-    pass(positions, part.skipped, 8 * block.reals);
+    pass(positions, part.skipped, 8LL * block.reals);
     for (long long i = 0; i < part.count; ++i) {
       Where where;
       long long label = 0;

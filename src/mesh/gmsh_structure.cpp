@@ -91,7 +91,7 @@ void read_node_blocks(GmshCursor& cursor, GmshStructure& result) {
     cursor.binary ? cursor.skip_bytes(count, cursor.count_width, "node numbers")
                   : cursor.skip_lines(count, "lines of node numbers");
     const GmshCursor positions = cursor;
-    cursor.binary ? cursor.skip_bytes(count, 8 * reals, "node positions")
+    cursor.binary ? cursor.skip_bytes(count, 8LL * reals, "node positions")
                   : cursor.skip_lines(count, "lines of node positions");
     result.nodes.push_back({labels, positions, result.node_count, count, reals});
     result.node_count += count;
@@ -117,7 +117,8 @@ void read_element_blocks(GmshCursor& cursor, GmshStructure& result) {
     const long long count = cursor.count("the number of elements of a block");
     begin_records(cursor);
     result.elements.push_back({{static_cast<int>(dimension), tag}, type, count, cursor});
-    cursor.binary ? cursor.skip_bytes(count, cursor.count_width * (1 + gmsh_type(type)->nodes), "elements")
+    cursor.binary ? cursor.skip_bytes(count, static_cast<long long>(cursor.count_width) * (1 + gmsh_type(type)->nodes),
+                                      "elements")
                   : cursor.skip_lines(count, "lines of elements");
     total += count;
   }

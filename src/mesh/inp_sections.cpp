@@ -22,7 +22,7 @@ double number_of(const InpBlock& block, const std::string& key, InpReading& read
 }
 
 std::string set_of(const InpBlock& block, InpUse::Kind kind, InpReading& reading) {
-  const std::string set = without_instance(required(block, "ELSET", reading), reading);
+  std::string set = without_instance(required(block, "ELSET", reading), reading);
   if (!set.empty()) reading.uses.push_back({kind, set, block.where, 0});
   return set;
 }

@@ -155,7 +155,7 @@ Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2
   check_shapes(mesh, faults);
   check_duplicates(mesh, faults);
   result.faults = faults.texts_together(mesh.comm);
-  for (auto& fault : result.faults) fault = mesh.source + ": " + fault;
+  for (auto& fault : result.faults) fault.insert(0, mesh.source + ": ");
   find_components(mesh, connections, result);
   if (result.component_count > 1) {
     std::string text = mesh.source + ": the mesh is in " + std::to_string(result.component_count) + " pieces:";

@@ -56,7 +56,7 @@ std::vector<int> partition(const RawMesh& mesh) {
   petsc::check(MatPartitioningApply(partitioning, parts.out()));
   const PetscInt* indices;
   petsc::check(ISGetIndices(parts, &indices));
-  const std::vector<int> result(indices, indices + mesh.positions.size());
+  std::vector<int> result(indices, indices + mesh.positions.size());
   petsc::check(ISRestoreIndices(parts, &indices));
   return result;
 }
