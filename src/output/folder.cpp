@@ -123,6 +123,8 @@ ResultFolder reopen_folder(MPI_Comm comm, const fs::path& path) {
       refuse(path, fmt::format("is not writable: {}", fault.what()));
     }
     fs::remove(path / "floe.try", error);
+    for (const auto& names : results)  // drafts that the run was killed over
+      for (const auto& name : names) fs::remove(draft_of(path / name), error);
   });
   return {path};
 }
