@@ -15,7 +15,6 @@
 namespace floe::scene {
 
 using dynamics::Marker;
-using petsc::check;
 
 namespace {
 

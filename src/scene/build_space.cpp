@@ -17,7 +17,6 @@
 
 namespace floe::scene {
 
-using dynamics::SpatialMarker;
 using petsc::check;
 
 namespace {

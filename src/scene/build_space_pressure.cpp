@@ -29,7 +29,7 @@ Chosen shells_of(const Load& load, const PreparedBody& body) {
                                  near.empty() ? "" : "; did you mean \"" + near + "\"?"));
   }
   const int wanted = load.part.empty() ? -1 : static_cast<int>(part - body.parts.begin());
-  const Chosen chosen = [wanted](const fem::Mesh::Cell& cell) {
+  Chosen chosen = [wanted](const fem::Mesh::Cell& cell) {
     return fem::is_shell(cell) && (wanted < 0 || cell.part == wanted);
   };
   const fem::Mesh& mesh = body.structure.mesh;

@@ -124,7 +124,7 @@ petsc::VecHandle nodal(const Shape& shape, Displacement displacement, Rotation r
   structure.exchange.add(local, field);
   petsc::Values owned(field);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
-    Eigen::Map<Eigen::Matrix<double, 6, 1>> q(owned.begin() + 6 * i);
+    Eigen::Map<Eigen::Matrix<double, 6, 1>> q(owned.begin() + static_cast<std::ptrdiff_t>(6) * i);
     if (q[0] > 0) q.tail<3>() /= q[0];
     q.head<3>() = displacement(static_cast<int>(i));
   }
@@ -230,7 +230,7 @@ Eigen::Matrix<double, 6, 1> frame_rates(const Shape& shape, const Pose& pose, Ve
     motions[j] = j < 3 ? frame.rigid[j].get() : turns[j - 3].get();
     G.col(j) = conditions(frame, motions[j]);
   }
-  const Eigen::Matrix<double, 6, 1> motion = G.fullPivLu().solve(conditions(frame, field));
+  Eigen::Matrix<double, 6, 1> motion = G.fullPivLu().solve(conditions(frame, field));
   for (int j = 0; j < 6; ++j) check(VecAXPY(field, -motion[j], motions[j]));
   fem::to_frame(frame, field);
   return motion;

@@ -91,7 +91,7 @@ petsc::VecHandle nodal(const fem::Structure& structure, Displacement displacemen
   structure.exchange.add(local, vector);
   petsc::Values owned(vector);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
-    double* node = owned.begin() + 3 * i;
+    double* node = owned.begin() + static_cast<std::ptrdiff_t>(3) * i;
     node[2] /= node[0];
     Eigen::Map<Eigen::Vector2d>{node} = displacement(i);
   }

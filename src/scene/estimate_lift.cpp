@@ -9,7 +9,6 @@ namespace floe::scene {
 
 using dynamics::State;
 using Eigen::VectorXd;
-using petsc::check;
 
 namespace {
 

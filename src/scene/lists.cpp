@@ -75,7 +75,7 @@ std::vector<Entry> read_mapping(Document& document, const Value& value, const st
       continue;
     }
     const std::string& text = name.Scalar();
-    where.key = path.empty() ? text : path + "." + text;
+    where.key = path.empty() ? text : fmt::format("{}.{}", path, text);
     if (text == "<<") {
       document.fault(where, "merge keys are not supported", "an alias for a whole value (KEY: *NAME)");
     } else if (const auto [first, fresh] = lines.emplace(text, where.line); !fresh) {

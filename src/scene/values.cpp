@@ -151,7 +151,7 @@ bool read_flag(Document& document, const Value& value, const Key& key) {
 }
 
 std::string read_choice(Document& document, const Value& value, const Key& key) {
-  const std::string word = value.node.IsScalar() ? value.node.Scalar() : "";
+  std::string word = value.node.IsScalar() ? value.node.Scalar() : "";
   for (const auto& choice : key.choices) {
     if (word == choice) return word;
   }

@@ -113,7 +113,7 @@ bool chooses_by_motion(const Scene& scene) {
 
 }  // namespace
 
-void vary(YAML::Node root, const std::string& file, const std::vector<Variation>& variations) {
+void vary(const YAML::Node& root, const std::string& file, const std::vector<Variation>& variations) {
   std::vector<std::string> faults;
   for (const Variation& variation : variations) {
     try {
