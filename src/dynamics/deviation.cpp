@@ -49,14 +49,42 @@ State deviated(const System& system, const State& state, const VectorXd& d, cons
 
 namespace {
 
-/// Backward differences of second order, of the first where h_before = 0: y' = now y_n + before y_(n-1) + earlier
-/// y_(n-2).
-struct Difference {
-  double now, before, earlier;
-  Difference(double h, double h_before) {
-    const double r = h_before > 0 ? h / h_before : 0;
-    now = (1 + 2 * r) / (1 + r) / h, before = -(1 + r) / h, earlier = r * r / (1 + r) / h;
+/// d and what the scheme keeps of it at the end of a step: `mean` is the acceleration that positions and velocities
+/// take, a mean of second_rate's in time.
+struct Deviation {
+  VectorXd d, rate, second_rate, mean;
+};
+
+/// The generalized-alpha scheme (Chung and Hulbert; Arnold and Bruels for constraints) from one state to the next in
+/// terms of d, or implicit Euler from a start whose second_rate nobody knows:
+/// rate = by_rate d + ..., second_rate = by_second_rate d + ....
+struct Scheme {
+  double by_rate, by_second_rate;
+
+  Scheme(double h, bool start) : h_(h), start_(start) {
+    by_rate = start ? 1 / h : gamma / (beta * h);
+    by_second_rate = start ? 1 / (h * h) : (1 - alpha_m) / (1 - alpha_f) / (beta * h * h);
   }
+  Deviation at(const VectorXd& d, const Deviation& last) const {
+    Deviation now{d, {}, {}, {}};
+    if (start_) {
+      now.rate = (d - last.d) / h_;
+      now.second_rate = (now.rate - last.rate) / h_;
+      now.mean = now.second_rate;
+      return now;
+    }
+    now.mean = (d - last.d - h_ * last.rate) / (beta * h_ * h_) - (0.5 - beta) / beta * last.mean;
+    now.rate = last.rate + h_ * ((1 - gamma) * last.mean + gamma * now.mean);
+    now.second_rate = ((1 - alpha_m) * now.mean + alpha_m * last.mean - alpha_f * last.second_rate) / (1 - alpha_f);
+    return now;
+  }
+
+ private:
+  static constexpr double radius = 0.5;  // at infinite frequency
+  static constexpr double alpha_m = (2 * radius - 1) / (radius + 1), alpha_f = radius / (radius + 1);
+  static constexpr double gamma = 0.5 + alpha_f - alpha_m, beta = 0.25 * (gamma + 0.5) * (gamma + 0.5);
+  double h_;
+  bool start_;
 };
 
 class Follower {
@@ -71,23 +99,20 @@ class Follower {
         X_(system.create_vector()),
         J_(system.create_tangent()),
         ksp_(tangent_solver(J_, "estimate_")) {
-    for (int i = 0; i < 2; ++i) d_[i] = rate_[i] = VectorXd::Zero(system.coordinates().local_size());
+    const VectorXd zero = VectorXd::Zero(system.coordinates().local_size());
+    last_ = {zero, zero, zero, zero};
   }
 
   /// d of one more state. @return false  not converged
-  bool step(const State& known, double h, double h_before) {
-    const Difference by(h, h_before);
+  bool step(const State& known, const Scheme& by, double h) {
     set_state(system_, known, U_, V_, A_);
     system_.rebase(U_);  // springs take over their turns
-    VectorXd d = d_[0] + h * rate_[0];
+    VectorXd d = last_.d + h * last_.rate;
     if (!newton(known, by, d)) return false;
-    VectorXd rate = rate_of(by, d);
-    d_[1] = std::move(d_[0]), d_[0] = std::move(d);
-    rate_[1] = std::move(rate_[0]), rate_[0] = std::move(rate);
+    last_ = with_rates(by, d);
     return true;
   }
-  const VectorXd& d() const { return d_[0]; }
-  const VectorXd& rate() const { return rate_[0]; }
+  const Deviation& last() const { return last_; }
   DeviationReport report;
 
  private:
@@ -96,19 +121,20 @@ class Follower {
       if (multiplier_[i]) values[i] = 0;
     return values;
   }
-  VectorXd rate_of(const Difference& by, const VectorXd& d) const {
-    return without_multipliers(by.now * d + by.before * d_[0] + by.earlier * d_[1]);
+  Deviation with_rates(const Scheme& by, const VectorXd& d) const {
+    Deviation now = by.at(d, last_);
+    for (VectorXd* rates : {&now.rate, &now.second_rate, &now.mean}) *rates = without_multipliers(std::move(*rates));
+    return now;
   }
-  void set(const State& known, const Difference& by, const VectorXd& d) {
-    const VectorXd rate = rate_of(by, d);
-    const VectorXd second = by.now * rate + by.before * rate_[0] + by.earlier * rate_[1];
-    set_state(system_, deviated(system_, known, d, rate, second), U_, V_, A_);
+  void set(const State& known, const Scheme& by, const VectorXd& d) {
+    const Deviation now = with_rates(by, d);
+    set_state(system_, deviated(system_, known, d, now.rate, now.second_rate), U_, V_, A_);
   }
-  void factor(double t, const Difference& by) {
-    system_.tangent(t, U_, V_, A_, {1, by.now, by.now * by.now}, J_);
+  void factor(double t, const Scheme& by) {
+    system_.tangent(t, U_, V_, A_, {1, by.by_rate, by.by_second_rate}, J_);
     check(KSPSetOperators(ksp_, J_, J_));
     check(KSPSetUp(ksp_));
-    factored_for_ = by.now, ++report.factorisations;
+    factored_for_ = by.by_rate, ++report.factorisations;
   }
   VectorXd correction(double t) {
     system_.residual(t, U_, V_, A_, ConstraintLevel::position, F_);
@@ -121,10 +147,10 @@ class Follower {
 
   /// A factor is made for a new step size, and where corrections do not fall to a fifth. What counts is the error
   /// beside the distance from the extrapolation, h^2 d'': a part of d itself would be differenced twice.
-  bool newton(const State& known, const Difference& by, VectorXd& d) {
-    bool stale = std::abs(factored_for_ - by.now) > 0.05 * by.now;
+  bool newton(const State& known, const Scheme& by, VectorXd& d) {
+    bool stale = std::abs(factored_for_ - by.by_rate) > 0.05 * by.by_rate;
     const double round_off =
-        1e-9 * (without_multipliers(known.q).norm() + without_multipliers(known.v).norm() / by.now);
+        1e-9 * (without_multipliers(known.q).norm() + without_multipliers(known.v).norm() / by.by_rate);
     const VectorXd predicted = d;
     double before = 0;
     for (int i = 0; i < 12; ++i) {
@@ -146,7 +172,7 @@ class Follower {
   petsc::VecHandle U_, V_, A_, F_, X_;
   petsc::MatHandle J_;
   petsc::KspHandle ksp_;
-  VectorXd d_[2], rate_[2];  // of the last two states, the last one first
+  Deviation last_;
   double factored_for_ = 0;
 };
 
@@ -156,13 +182,13 @@ DeviationReport deviation(
     const System& system, double begin, const std::vector<State>& known,
     const std::function<void(const State&, const Eigen::VectorXd&, const Eigen::VectorXd&)>& observe) {
   Follower follower(system);
-  double before = begin, h_before = 0;
+  double before = begin;
   follower.report.end = begin;
   for (const State& state : known) {
     const double h = state.t - before;
-    if (!follower.step(state, h, h_before)) break;
-    observe(state, follower.d(), follower.rate());
-    before = state.t, h_before = h;
+    if (!follower.step(state, Scheme(h, follower.report.steps == 0), h)) break;
+    observe(state, follower.last().d, follower.last().rate);
+    before = state.t;
     ++follower.report.steps, follower.report.end = state.t;
   }
   return follower.report;

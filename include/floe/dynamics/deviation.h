@@ -32,10 +32,12 @@ struct DeviationReport {
 ///   F(t, q + d, v + d', a + d'') = 0,   d = d' = 0 at `begin`,   (q, v, a)(t) given
 ///
 /// q + d is the system's own motion; only d is differenced in time, so that steps may be as long as d allows, however
-/// fast q moves. Second-order backward differences with the steps of the given states: what is too fast for them is
-/// taken as static, and multipliers do not oscillate. An attitude deviates by A exp(d), its angular velocity by
-/// d' + omega x d and its rate by d'' + alpha x d + omega x d' (first order in d). Newton's method to 1e-3 of what
-/// a step adds to h d' (or 1e-9 of q), with one factor for as long as that converges (KSP prefix estimate_).
+/// fast q moves. The generalized-alpha scheme with the steps of the given states and a spectral radius of 0.5: a
+/// vibration of twelve steps a period loses a seventieth of its amplitude in each, what is too fast settles on its
+/// static answer within some steps, and multipliers do not oscillate. The first step is implicit Euler's. An attitude
+/// deviates by A exp(d), its angular velocity by d' + omega x d and its rate by d'' + alpha x d + omega x d' (first
+/// order in d). Newton's method to 1e-3 of what a step adds to h d' (or 1e-9 of q), with one factor for as long as that
+/// converges (KSP prefix estimate_).
 ///
 /// @param system   on one rank, whose terms take their steps from state to state (Term::begin_step)
 /// @param known    in ascending order of t, all after `begin`

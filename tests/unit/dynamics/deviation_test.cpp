@@ -79,8 +79,9 @@ TEST_CASE("deviation: the missing part of a pendulum's motion, at order 2 in ste
     return std::sqrt(difference / size);
   };
   const double coarse = error(20), fine = error(10);
-  CHECK(fine < 0.02);
+  CHECK(fine < 0.005);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.4));
+  CHECK(error(100) < 0.35);  // sixteen steps a swing
 }
 
 // Another attitude deviates by A exp(d): checked against the top that has the missing weight.
@@ -106,8 +107,8 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
     CHECK(std::sqrt(rates / greatest) < 0.1);
     return std::sqrt(difference / size);
   };
-  const double coarse = error(8), fine = error(4);
-  CHECK(fine < 0.03);
+  const double coarse = error(16), fine = error(8);
+  CHECK(fine < 0.001);
   CHECK(std::log2(coarse / fine) > 1.5);
 }
 
