@@ -89,6 +89,7 @@ void check_identity(const ordered_json& of_checkpoint, const ordered_json& now, 
 void put_state(const dynamics::MotionState& state, output::Checkpoint& checkpoint) {
   checkpoint.shared["motion"] = state.numbers;
   checkpoint.shared["events"] = state.events;
+  checkpoint.shared["stop"] = {state.stop};
   checkpoint.own["carried"] = state.carried;
   checkpoint.own["carried_of_tangent"] = state.carried_of_tangent;
   int number = 0;
@@ -100,6 +101,7 @@ dynamics::MotionState state_of(const output::Checkpoint& checkpoint) {
   dynamics::MotionState state;
   state.numbers = checkpoint.shared.at("motion");
   state.events = checkpoint.shared.at("events");
+  state.stop = checkpoint.shared.at("stop").at(0);
   state.carried = checkpoint.own.at("carried");
   state.carried_of_tangent = checkpoint.own.at("carried_of_tangent");
   for (const auto& [name, entries] : checkpoint.own)  // in the order of their numbers

@@ -211,17 +211,20 @@ std::string ending(TS ts, TSConvergedReason reason, const IntegrationReport& rep
       step, SNESConvergedReasons[newton], iterations, report.rejected, prefix_of(ts), prefix_of(ts));
 }
 
-/// At the end of a motion the step is what was left of it; what goes on from there takes whole ones.
+/// The next event at a time given, of those that have not happened; none: the motion's end.
+double next_stop(const Context& context) {
+  double next = context.end;
+  for (std::size_t i = 0; i < context.events.size(); ++i)
+    if (!context.events[i].watched() && context.happened[i] == 0) next = std::min(next, context.events[i].at);
+  return next;
+}
+
 MotionState keep(const Context& context) {
   MotionState state;
-  double t = 0, step = 0;
-  check(TSGetTime(context.ts, &t));
-  check(TSGetTimeStep(context.ts, &step));
-  if (!context.adaptive && t >= context.end * (1 - 1e-12)) check(TSSetTimeStep(context.ts, context.nominal));
   save_motion(context.ts, context.system, state);
-  check(TSSetTimeStep(context.ts, step));
   state.carried_of_tangent = context.carried_of_tangent;
   state.events = context.happened;
+  state.stop = next_stop(context);
   return state;
 }
 
@@ -235,14 +238,8 @@ void take_up(TS ts, const MotionState& state, Context& context) {
   load_motion(ts, context.system, state);
   context.carried_of_tangent = state.carried_of_tangent;
   context.happened = state.events;
-}
-
-/// The next event at a time given, of those that have not happened; none: the motion's end.
-double next_stop(const Context& context) {
-  double next = context.end;
-  for (std::size_t i = 0; i < context.events.size(); ++i)
-    if (!context.events[i].watched() && context.happened[i] == 0) next = std::min(next, context.events[i].at);
-  return next;
+  // Before an end steps are shorter, to meet it; where that is no end any more, they are whole again.
+  if (!context.adaptive && next_stop(context) > state.stop * (1 + 1e-12)) check(TSSetTimeStep(ts, context.nominal));
 }
 
 /// Has the events happen that are due. Returns whether the motion goes on.

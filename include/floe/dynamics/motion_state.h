@@ -21,9 +21,11 @@ struct MotionState {
   std::vector<double> numbers;                                       ///< the same on all ranks
   std::vector<double> carried, carried_of_tangent;                   ///< System::save, this rank's
   std::vector<double> events;                                        ///< of each: 1 where it has happened
+  double stop = 0;  ///< the instant that the steps were cut to meet: the motion's end, or an event before it [s]
 };
 
-/// Of a TS of type generalized-alpha after a step; `carried_of_tangent` and `events` are the caller's. Rank-local.
+/// Of a TS of type generalized-alpha after a step; `carried_of_tangent`, `events` and `stop` are the caller's.
+/// Rank-local.
 void save_motion(TS ts, const System& system, MotionState& state);
 /// Makes a TS that is set up continue from a state. Collective.
 /// @throws RunError  the state is that of another system
