@@ -18,6 +18,7 @@ void restart_one(const std::string& path, const std::string& scene_file, const s
   petsc::agree(
       comm, [&] { scene = scene::read_scene(scene_file.empty() ? run.at("scene").get<std::string>() : scene_file); });
   petsc::agree(comm, [&] { check_identity(run, identity_of(scene, of_run, comm), path); });
+  output::remove_drafts(comm, folder);
   plan.until = until;
   if (const double t = plan.from->words.at("t"); until && *until < t)
     throw InputError(fmt::format("--until {}: the checkpoint is at t = {}; expected a later time", *until, t));

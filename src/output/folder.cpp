@@ -123,10 +123,23 @@ ResultFolder reopen_folder(MPI_Comm comm, const fs::path& path) {
       refuse(path, fmt::format("is not writable: {}", fault.what()));
     }
     fs::remove(path / "floe.try", error);
-    for (const auto& names : results)  // drafts that the run was killed over
-      for (const auto& name : names) fs::remove(draft_of(path / name), error);
   });
   return {path};
+}
+
+void remove_drafts(MPI_Comm comm, const ResultFolder& folder) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  petsc::agree(comm, [&] {
+    if (rank != 0) return;
+    for (const auto& name : results.front()) {
+      const fs::path draft = draft_of(folder.path / name);
+      for (const fs::path& file : {draft, draft_of(draft)}) {
+        std::error_code error;
+        if (fs::is_regular_file(fs::symlink_status(file, error))) fs::remove(file, error);
+      }
+    }
+  });
 }
 
 ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite) {

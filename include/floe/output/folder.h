@@ -33,6 +33,10 @@ ResultFolder prepare_folder(MPI_Comm comm, const std::filesystem::path& path, bo
 /// @throws InputError  not there, not writable: the same on every rank. Collective.
 ResultFolder reopen_folder(MPI_Comm comm, const std::filesystem::path& path);
 
+/// Clears drafts of a run's results away that it was killed over, once it is known that this run is taken up.
+/// Collective; rank 0 alone touches the file system.
+void remove_drafts(MPI_Comm comm, const ResultFolder& folder);
+
 /// Removes the results that new ones replace: to be called when these begin.
 /// @throws RunError  one cannot be removed. Collective; rank 0 alone touches the file system.
 void remove_replaced(MPI_Comm comm, const ResultFolder& folder);

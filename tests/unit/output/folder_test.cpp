@@ -52,6 +52,22 @@ TEST_CASE("a folder that holds something is replaced only when asked, only what 
   CHECK(text_of(scratch / "photo.png") == "mine");
 }
 
+TEST_CASE("drafts of a killed run go when it is taken up, not when its folder is opened; other files stay") {
+  Scratch scratch;
+  const std::vector<const char*> drafts = {".result.h5.partial", ".motion.xdmf.partial",
+                                           "..motion.xdmf.partial.partial"},
+                                 others = {"result.h5", ".notes.partial", ".tradeoff.png.partial"};
+  for (const char* name : drafts) put(scratch, scratch / name, "draft");
+  for (const char* name : others) put(scratch, scratch / name, "mine");
+  const ResultFolder folder = reopen_folder(PETSC_COMM_WORLD, scratch);
+  for (const char* name : drafts) CHECK(std::filesystem::exists(scratch / name));
+  meet();
+  remove_drafts(PETSC_COMM_WORLD, folder);
+  meet();
+  for (const char* name : drafts) CHECK_FALSE(std::filesystem::exists(scratch / name));
+  for (const char* name : others) CHECK(std::filesystem::exists(scratch / name));
+}
+
 TEST_CASE("a file that is called like a result and is none of floe's is not replaced") {
   const std::string own = R"({"provenance": {"floe": {"version": "1"}}})";
   using Files = std::vector<std::pair<std::string, std::string>>;
