@@ -108,7 +108,7 @@ std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Expone
   std::sort(swings.begin(), swings.end(), [](const Complex& a, const Complex& b) { return std::abs(a) < std::abs(b); });
   for (const Complex& s : swings) {
     if (s.real() <= small + 1e-7 * std::abs(s) && before(0.98 * std::abs(s)) >= wanted) continue;
-    if (const auto exact = confirmed(problem, s, small)) all.push_back({exact->imag(), exact->real()});
+    if (const auto exact = confirmed(problem, s, small)) all.push_back({std::abs(exact->imag()), exact->real()});
   }
   // the slowest, and whatever grows
   std::stable_sort(all.begin(), all.end(),
