@@ -87,7 +87,9 @@ class Search {
     const std::string line = text.substr(0, text.find('\n'));
     return line.size() > 90 ? line.substr(0, 87) + "..." : line;
   }
-  static std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+  static std::string percent(double share) {
+    return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "beyond 10000 %";
+  }
   static std::string words(const Trial& trial) { return trial.failed.empty() ? percent(trial.error) : trial.failed; }
 
   void decide(std::string what, std::string choice, std::string reason) {
@@ -288,10 +290,11 @@ class Search {
       if (body.reduced) decide("  " + body.name, "from a file", "counted as exact: its mesh is not here");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
-    chosen.supported = richest_ + tried(selection_, step_).error;
+    const double of_choice = tried(selection_, step_).error;
+    chosen.supported = richest_ + of_choice;
     decide("supported error", percent(chosen.supported),
-           fmt::format("{} of the choice, {} of the richest model, {} of its step",
-                       percent(chosen.supported - richest_), percent(space_), percent(time_)));
+           fmt::format("{} of the choice, {} of the richest model, {} of its step", percent(of_choice), percent(space_),
+                       percent(time_)));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
     if (!pool_->has_responses(selection_)) chosen.scene.text = pool_->text(selection_, chosen.scene.motion);

@@ -264,7 +264,11 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
     for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
     table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
                           result.series.columns[c].unit});
-    if (estimated) table.rows.back().emplace_back(probes_estimate(result.series.columns[c].name));
+    if (!estimated) continue;
+    if (const double error = probes_estimate(result.series.columns[c].name); std::isfinite(error))
+      table.rows.back().emplace_back(error);
+    else
+      table.rows.back().emplace_back("> 10000");
   }
   if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));

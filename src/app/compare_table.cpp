@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace floe::app {
 
 namespace {
 
-std::string probe_of(const scene::ProbeColumn& column) { return column.name.substr(0, column.name.rfind('.')); }
+using scene::probe_of;
+
+double duration(const Series& series) { return series.t.empty() ? 0 : series.t.back() - series.t.front(); }
 
 /// Visits the instants of `series` that the reference has reached, with the reference's place there: instants k, k + 1
 /// and the share of the second.
@@ -30,22 +31,26 @@ double between(const Series& reference, std::size_t k, double s, std::size_t c) 
                                 : (1 - s) * reference.values[k][c] + s * reference.values[k + 1][c];
 }
 
-/// Sums over the instants, of each column.
-struct Squares {
+/// Root mean squares over the instants, of each column.
+struct Sizes {
   std::vector<double> difference, size;
 };
 
-Squares squares(const Series& series, const Series& reference) {
+Sizes sizes(const Series& series, const Series& reference) {
   const std::size_t columns = series.columns.size();
-  Squares sums{std::vector<double>(columns, 0), std::vector<double>(columns, 0)};
+  Sizes of{std::vector<double>(columns, 0), std::vector<double>(columns, 0)};
+  double count = 0;
   for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
     for (std::size_t c = 0; c < columns; ++c) {
       const double r = between(reference, k, s, c);
-      sums.difference[c] += std::pow(series.values[i][c] - r, 2);
-      sums.size[c] += r * r;
+      of.difference[c] += std::pow(series.values[i][c] - r, 2);
+      of.size[c] += r * r;
     }
+    ++count;
   });
-  return sums;
+  for (auto* values : {&of.difference, &of.size})
+    for (double& value : *values) value = std::sqrt(value / std::max(1.0, count));
+  return of;
 }
 
 }  // namespace
@@ -58,45 +63,32 @@ std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns) 
 }
 
 std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference) {
-  const Squares sums = squares(series, reference);
-  std::vector<std::optional<double>> errors(sums.size.size());
-  for (std::size_t c = 0; c < errors.size(); ++c) {
-    double greatest = 0;  // of the probe's components
-    for (std::size_t o = 0; o < errors.size(); ++o)
-      if (probe_of(series.columns[o]) == probe_of(series.columns[c])) greatest = std::max(greatest, sums.size[o]);
-    if (sums.size[c] > 0 && std::sqrt(sums.size[c]) >= 1e-9 * std::sqrt(greatest))
-      errors[c] = std::sqrt(sums.difference[c] / sums.size[c]);
-  }
-  return errors;
-}
-
-std::vector<std::optional<double>> relative_vector_errors(const Series& series, const Series& reference) {
-  const Squares sums = squares(series, reference);
-  std::vector<std::optional<double>> errors;
-  for (const std::string& probe : probes(series.columns)) {
-    double difference = 0, size = 0;
-    for (std::size_t c = 0; c < sums.size.size(); ++c)
-      if (probe_of(series.columns[c]) == probe) difference += sums.difference[c], size += sums.size[c];
-    errors.push_back(size > 0 ? std::optional(std::sqrt(difference / size)) : std::nullopt);
-  }
+  const Sizes of = sizes(series, reference);
+  const std::vector<std::string> names = probes(series.columns);
+  std::vector<double> whole(names.size(), 0);  // of each probe
+  const auto probe = [&](std::size_t c) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), probe_of(series.columns[c])) - names.begin());
+  };
+  for (std::size_t c = 0; c < of.size.size(); ++c) whole[probe(c)] = std::hypot(whole[probe(c)], of.size[c]);
+  const std::vector<double> least = scene::reference_sizes(series.columns, whole, duration(series));
+  std::vector<std::optional<double>> errors(of.size.size());
+  for (std::size_t c = 0; c < errors.size(); ++c)
+    if (whole[probe(c)] >= least[probe(c)] && of.size[c] > 0 && of.size[c] >= 1e-9 * whole[probe(c)])
+      errors[c] = of.difference[c] / of.size[c];
   return errors;
 }
 
 std::vector<double> vector_errors(const Series& series, const Series& reference) {
-  const Squares sums = squares(series, reference);
-  const std::vector<std::optional<double>> relative = relative_vector_errors(series, reference);
-  const std::vector<std::string> names = probes(series.columns);
-  double greatest = 0;
-  for (const double size : sums.size) greatest = std::max(greatest, size);
-  std::vector<double> errors;
-  for (std::size_t p = 0; p < names.size(); ++p) {
-    double difference = 0;
-    for (std::size_t c = 0; c < sums.size.size(); ++c)
-      if (probe_of(series.columns[c]) == names[p]) difference += sums.difference[c];
-    const bool still = difference <= 1e-18 * greatest;
-    errors.push_back(relative[p] ? *relative[p] : still ? 0 : std::numeric_limits<double>::infinity());
-  }
-  return errors;
+  scene::ProbeErrors errors(series.columns);
+  std::vector<double> error(series.columns.size()), value(series.columns.size());
+  for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
+    for (std::size_t c = 0; c < value.size(); ++c) {
+      value[c] = between(reference, k, s, c);
+      error[c] = series.values[i][c] - value[c];
+    }
+    errors.add(error, value);
+  });
+  return errors.relative(duration(series));
 }
 
 double worst_error(const Series& series, const Series& reference) {
@@ -106,7 +98,7 @@ double worst_error(const Series& series, const Series& reference) {
   return worst;
 }
 
-std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference) {
+std::vector<double> peak_errors(const Series& series, const Series& reference) {
   const std::vector<std::string> names = probes(series.columns);
   std::vector<double> error(names.size()), size(names.size());
   for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
@@ -120,10 +112,9 @@ std::vector<std::optional<double>> relative_peak_errors(const Series& series, co
       error[p] = std::max(error[p], std::sqrt(difference)), size[p] = std::max(size[p], std::sqrt(whole));
     }
   });
-  std::vector<std::optional<double>> peaks;
-  for (std::size_t p = 0; p < names.size(); ++p)
-    peaks.push_back(size[p] > 0 ? std::optional(error[p] / size[p]) : std::nullopt);
-  return peaks;
+  size = scene::reference_sizes(series.columns, size, duration(series));
+  for (std::size_t p = 0; p < names.size(); ++p) error[p] = error[p] == 0 ? 0 : error[p] / size[p];
+  return error;
 }
 
 std::optional<double> relative_energy_error(const Series& series, const Series& reference) {
@@ -158,10 +149,12 @@ output::Table comparison(const std::vector<Compared>& rows, const std::vector<co
         cells.insert(cells.end(), names.size(), std::string());
         continue;
       }
-      const auto errors = components ? relative_errors(r.series, reference->result.series)
-                                     : relative_vector_errors(r.series, reference->result.series);
-      for (const auto& error : errors)
-        cells.push_back(error ? output::Cell(100 * *error) : output::Cell(std::string()));
+      if (components) {
+        for (const auto& error : relative_errors(r.series, reference->result.series))
+          cells.push_back(error ? output::Cell(100 * *error) : output::Cell(std::string()));
+      } else {
+        for (const double error : vector_errors(r.series, reference->result.series)) cells.emplace_back(100 * error);
+      }
     }
     cells.emplace_back(r.offline_seconds);
     cells.emplace_back(r.motion_seconds);

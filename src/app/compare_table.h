@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "floe/output/table.h"
+#include "floe/scene/probe_errors.h"
 #include "run.h"
 
 namespace floe::app {
@@ -16,19 +17,14 @@ struct Compared {
 };
 
 /// sqrt(sum (p - r)^2 / sum r^2) for each column; the reference is taken at the times of `series` by linear
-/// interpolation. None where the reference's root mean square is below 1e-9 of that of its probe's other component:
-/// there it is round-off.
+/// interpolation. None where the reference's root mean square is below 1e-9 of its probe's, or the probe's below what
+/// scene::reference_sizes asks for: there it is round-off.
 std::vector<std::optional<double>> relative_errors(const Series& series, const Series& reference);
 
-/// The same for each probe as a vector, in the order of `probes`: |.|^2 is summed over its components.
-std::vector<std::optional<double>> relative_vector_errors(const Series& series, const Series& reference);
-
-/// Greatest |p - r| over the greatest |r| of each probe as a vector, at the times of `series`.
-std::vector<std::optional<double>> relative_peak_errors(const Series& series, const Series& reference);
-
-/// relative_vector_errors, of probes that stand still in the reference, too: 0 where they move by no more than the
-/// round-off of what moves most (1e-9), else infinite.
+/// Root mean square of each probe as a vector, relative (scene::ProbeErrors), in the order of `probes`.
 std::vector<double> vector_errors(const Series& series, const Series& reference);
+/// Greatest |p - r| over the greatest |r| of each probe as a vector (scene::reference_sizes), likewise.
+std::vector<double> peak_errors(const Series& series, const Series& reference);
 /// The greatest of them; 0: no probes.
 double worst_error(const Series& series, const Series& reference);
 

@@ -28,12 +28,6 @@ std::string short_reason(const std::string& text) {
   return "diverged at t = " + text.substr(from, text.find(" of ", from) - from) + " s";
 }
 
-std::vector<double> known(const std::vector<std::optional<double>>& values) {
-  std::vector<double> all;
-  for (const auto& value : values) all.push_back(value.value_or(0));
-  return all;
-}
-
 /// What members are measured against: the reference with the scene's step, and with a finer one.
 struct References {
   Series own, exact;
@@ -45,7 +39,7 @@ Rung measured(const RunResult& result, const References& references) {
   rung.offline = result.offline_seconds, rung.motion = result.motion_seconds;
   rung.rms = vector_errors(result.series, references.exact);
   rung.reduction = vector_errors(result.series, references.own);
-  rung.peak = known(relative_peak_errors(result.series, references.exact));
+  rung.peak = peak_errors(result.series, references.exact);
   rung.energy = relative_energy_error(result.series, references.exact).value_or(0);
   if (result.estimate.none.empty()) rung.estimate = result.estimate.probes;
   const double end = references.exact.t.back();

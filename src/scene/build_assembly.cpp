@@ -209,6 +209,7 @@ Eigen::Vector3d Assembly::pose_at(const Marker& marker, const Eigen::VectorXd& q
 Model Assembly::model() {
   Model model;
   model.formulation = formulation_;
+  if (prepared_.extent > 0) model.extent = prepared_.extent;
   add_coordinates();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     add_body_terms(static_cast<int>(b));

@@ -18,9 +18,9 @@ std::vector<ProbeColumn> probe_columns(const Model& model) {
       continue;
     }
     const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
-    columns.push_back({probe.name + ".x", unit});
-    columns.push_back({probe.name + ".y", unit});
-    if (probe.spatial) columns.push_back({probe.name + ".z", unit});
+    columns.push_back({probe.name + ".x", unit, model.extent});
+    columns.push_back({probe.name + ".y", unit, model.extent});
+    if (probe.spatial) columns.push_back({probe.name + ".z", unit, model.extent});
   }
   return columns;
 }

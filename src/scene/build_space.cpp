@@ -296,6 +296,7 @@ Model SpaceAssembly::model() {
   refuse();
   Model model;
   model.formulation = formulation_;
+  if (prepared_.extent > 0) model.extent = prepared_.extent;
   add_coordinates();
   set_start(model);
   for (std::size_t b = 0; b < slots_.size(); ++b) {

@@ -187,13 +187,13 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
     states = spread(states, count);
   }
-  Sums sums(more);
+  ProbeErrors probes(probe_columns(more));
   double error = 0, size = 0;
   const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate) {
     const std::vector<double> was = values(state);
     std::vector<double> gap = values(dynamics::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
-    sums.add(gap, was);
+    probes.add(gap, was);
     const double e = deformations(more, d).squaredNorm();
     error += e, size += deformations(more, state.q).squaredNorm();
     estimate.t.push_back(state.t);
@@ -205,9 +205,9 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
   const auto steps = static_cast<double>(report.steps);
-  estimate.probes = sums.relative(steps * std::pow(64 * PETSC_MACHINE_EPSILON * reduced.offline->prepared.extent, 2));
+  estimate.probes = known(probes.relative(estimate.t.back() - motion.begin()));
   const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
-  for (double& e : estimate.relative) e = size > 0 && !nothing ? e / std::sqrt(size / steps) : 0;
+  for (double& e : estimate.relative) e = nothing || e == 0 ? 0 : e / std::sqrt(size / steps);
   estimate.deformation = nothing ? 0 : known(std::sqrt(error / size));
 }
 

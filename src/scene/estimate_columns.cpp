@@ -48,19 +48,21 @@ reduction::Columns responses(const PreparedBody& body, const ReducedBody& reduce
     met[static_cast<std::size_t>(nearest - tangents_at.begin())].push_back(reduction::copy(one.load));
   }
   reduction::Columns all;
+  bool unbent = false;
   for (std::size_t i = 0; i < met.size(); ++i) {
     reduction::Columns u;
     if (i > 0) {
       const petsc::VecHandle q = fem::field(body.structure);
       combine(*reduced.basis, tangents_at[i], q);
       u = reduced.statics->solve_bent(q, met[i]);
-      if (u.empty() && !met[i].empty())
-        notes.push_back(fmt::format("body {}: its stiffness where it is bent has no factor; that of rest stands in",
-                                    body.spec.name));
+      unbent = unbent || (u.empty() && !met[i].empty());
     }
     if (u.empty()) u = reduced.statics->solve(met[i]);
     std::move(u.begin(), u.end(), std::back_inserter(all));
   }
+  if (unbent)
+    notes.push_back(fmt::format("body {}: its stiffness where it is bent was not factored; that of rest stands in",
+                                body.spec.name));
   return all;
 }
 

@@ -21,13 +21,6 @@ PetscInt elements_of(const Offline& offline) {
   return count;
 }
 
-std::vector<int> sizes_of_probes(const Model& model) {
-  std::vector<int> sizes;
-  for (const ModelProbe& probe : model.probes)
-    sizes.push_back(probe.spatial ? 3 : probe.quantity == Probe::Quantity::rotation ? 1 : 2);
-  return sizes;
-}
-
 }  // namespace
 
 std::string without_estimate(const Offline& offline) {
@@ -71,20 +64,9 @@ VectorXd products(const reduction::Basis& basis, Vec r) {
   return all;
 }
 
-Sums::Sums(const Model& model) : sizes_(sizes_of_probes(model)), error_(sizes_.size()), size_(sizes_.size()) {}
-
-void Sums::add(const std::vector<double>& error, const std::vector<double>& value) {
-  std::size_t column = 0;
-  for (std::size_t p = 0; p < sizes_.size(); ++p)
-    for (int i = 0; i < sizes_[p]; ++i, ++column)
-      error_[p] += error[column] * error[column], size_[p] += value[column] * value[column];
-}
-
-std::vector<double> Sums::relative(double smallest) const {
-  std::vector<double> all;
-  for (std::size_t p = 0; p < sizes_.size(); ++p)
-    all.push_back(std::max(error_[p], size_[p]) > smallest ? known(std::sqrt(error_[p] / size_[p])) : 0);
-  return all;
+std::vector<double> known(std::vector<double> errors) {
+  for (double& error : errors) error = known(error);
+  return errors;
 }
 
 double round_off_of(const Offline& offline) {

@@ -7,6 +7,7 @@
 
 #include "floe/error.h"
 #include "floe/scene/estimate.h"
+#include "floe/scene/probe_errors.h"
 #include "offline.h"
 
 /// What the estimates of motions and of equilibria have in common.
@@ -68,18 +69,8 @@ std::vector<Value> spread(const std::vector<Value>& all, std::size_t count) {
   return some;
 }
 
-/// Sums squares over the instants, for the relative errors.
-class Sums {
- public:
-  explicit Sums(const Model& model);
-  void add(const std::vector<double>& error, const std::vector<double>& value);
-  /// @param smallest  sums of squares up to this are round-off, and have no error
-  std::vector<double> relative(double smallest = 0) const;
-
- private:
-  std::vector<int> sizes_;
-  std::vector<double> error_, size_;
-};
+/// `known` of each, with none that is no number.
+std::vector<double> known(std::vector<double> errors);
 
 /// Squares of deformations that are round-off of where the bodies are: 64 eps of the scene's length, of columns that
 /// are normalised by mass.

@@ -216,12 +216,12 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   const std::vector<Gap> all = gaps(states, time, full, estimate);
   const auto count = static_cast<double>(all.size());
   const double smallest = count * round_off_of(*model.offline);
-  Sums sums(full.model());
+  ProbeErrors probes(probe_columns(full.model()));
   double error = 0, whole = 0;
   std::string open, late;
   const auto add = [](std::string& times, double t) { times += fmt::format("{}{:.6g}", times.empty() ? "" : ", ", t); };
   for (const Gap& gap : all) {
-    sums.add(gap.error, gap.value);
+    probes.add(gap.error, gap.value);
     error += gap.deformation, whole += gap.whole;
     estimate.t.push_back(gap.t);
     estimate.errors.push_back(gap.error);
@@ -230,9 +230,9 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   }
   const bool nothing = std::max(error, whole) <= smallest;
   for (const Gap& gap : all)
-    estimate.relative.push_back(whole > 0 && !nothing ? std::sqrt(gap.deformation / (whole / count)) : 0);
+    estimate.relative.push_back(nothing || gap.deformation == 0 ? 0 : std::sqrt(gap.deformation / (whole / count)));
   estimate.deformation = nothing ? 0 : known(std::sqrt(error / whole));
-  estimate.probes = sums.relative(count * std::pow(64 * PETSC_MACHINE_EPSILON * model.offline->prepared.extent, 2));
+  estimate.probes = known(probes.relative(0));
   if (!open.empty())
     estimate.notes.push_back(fmt::format(
         "Newton's method at full order did not come to its end at t = {}: the error is of this order", open));

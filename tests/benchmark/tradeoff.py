@@ -33,6 +33,10 @@ def effectivity(rungs):
             if error is not None and estimate is not None and 1e-6 < error < 0.3]
 
 
+def said(estimate):
+    return "more than 10000 %" if None in estimate else f"{100 * max(estimate, default=0):.2g} %"
+
+
 def choices(rungs):
     """What was chosen for an accuracy: its true error, and its time against the fastest rung that is as good."""
     lines = []
@@ -51,7 +55,7 @@ def choices(rungs):
         beside = "no rung of the ladder is as good" if best is None else \
             f"{rung['motion'] / best['motion']:.2g} of the time of the fastest rung as good ({best['name']})"
         lines.append(f"- {100 * asked:g} % asked: {100 * worst[rung['name']]:.2g} % true, "
-                     f"{100 * max(rung['estimate'], default=0):.2g} % said; {beside}; chosen in {rung['offline']:.2g} s.")
+                     f"{said(rung['estimate'])} said; {beside}; chosen in {rung['offline']:.2g} s.")
     return lines
 
 

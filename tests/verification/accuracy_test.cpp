@@ -73,6 +73,29 @@ TEST_CASE("accuracy: what is chosen errs by no more than what was asked, and say
   }
 }
 
+TEST_CASE("accuracy: a probe that symmetry holds changes nothing") {
+  const auto chosen = [](const std::string& probes) {
+    return app::choose(scene::parse_scene(R"yaml(
+gravity: [0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 20}}
+    section: {EA: 1.2e5, EI: 10, rhoA: 1}
+    frame: pinned
+    reduction: {modes: 3, derivatives: all}
+joints: {a: {type: revolute, between: [ground, rod.start]}, b: {type: revolute, between: [ground, rod.end]}}
+motion: {end: 0.1, step: 1e-3}
+probes: {middle: {at: rod.middle, quantity: deflection})yaml" +
+                                              probes + "}\n",
+                                          "scene"),
+                       0.01, PETSC_COMM_WORLD);
+  };
+  const app::Chosen one = chosen(""), two = chosen(", turn: {at: rod.middle, quantity: rotation}");
+  CHECK(two.selection.count() == one.selection.count());
+  CHECK(two.scene.motion.step == one.scene.motion.step);
+  CHECK(two.supported == Approx(one.supported).epsilon(0.01));
+}
+
 TEST_CASE("accuracy: the scene that is written moves as the model that was chosen") {
   for (const auto& [text, accuracy] : {std::pair{pendulum, 0.01}, std::pair{plate, 0.05}}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");

@@ -54,7 +54,8 @@ inline double estimate_seconds(double run) { return std::max(1.0, 0.1 * run); }
 /// in r are the multipliers of the motion.
 ///
 ///   r = M(q) q'' - Q_v + dU/dq - Q_e + C_q' lambda     on the free dofs of each body,  V'r = 0
-///   K_T = d2U/dq2 at the instant at which the body deforms most, and at another one that is unlike it
+///   K_T = d2U/dq2 at rest, at the instant at which the body deforms most, and at another one that is unlike both,
+///   each for the instants whose deformation is nearest to it
 ///
 /// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
 ///

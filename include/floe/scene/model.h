@@ -169,6 +169,7 @@ struct Model {
   std::vector<std::string> warnings;
   std::map<std::string, JointLatches> latches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
+  double extent = 1;               ///< a length of the scene [m]
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
   std::vector<JointMultipliers> joints;
   std::shared_ptr<Offline> offline = {};  ///< if it was to be kept
@@ -213,6 +214,7 @@ Scene split_frames(const Scene& scene);
 /// Columns of the probes: `tip.x` with unit.
 struct ProbeColumn {
   std::string name, unit;
+  double scale = 1;  ///< beside which its values are small or not: the scene's extent [m], 1 rad
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.

@@ -1,0 +1,56 @@
+#include "floe/scene/probe_errors.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+using namespace floe::scene;
+
+namespace {
+
+const std::vector<ProbeColumn> columns = {{"tip.x", "m", 10}, {"tip.y", "m", 10}, {"middle.angle", "rad", 1},
+                                          {"tip_speed.x", "m/s", 10}};
+
+}  // namespace
+
+TEST_CASE("errors of probes: root mean squares of vectors, relative to what they are of") {
+  ProbeErrors errors(columns);
+  errors.add({0.3, 0.4, 0.01, 0}, {3, 4, 0.1, 5});
+  errors.add({0, 0, 0, 0}, {4, 3, 0.1, -5});
+  const std::vector<double> relative = errors.relative(2);
+  REQUIRE(relative.size() == 3);
+  CHECK(relative[0] == Approx(std::sqrt(0.5 * 0.25) / 5));
+  CHECK(relative[1] == Approx(std::sqrt(0.5 * 1e-4) / 0.1));
+  CHECK(relative[2] == 0);
+}
+
+TEST_CASE("errors of probes that symmetry holds are of no account, others that move little are seen") {
+  const auto of = [](double size, double error) {
+    ProbeErrors errors(columns);
+    errors.add({1e-6, 0, error, 0}, {1e-3, 0, size, 0});  // moves by 1e-4 of the extent
+    return errors.relative(2)[1];
+  };
+  CHECK(of(1e-16, 1e-14) < 1e-2);
+  CHECK(of(0, 1e-14) < 1e-2);
+  CHECK(of(1e-9, 5e-11) == Approx(0.05));
+  CHECK(of(0, 1e-9) == Approx(10));  // it stands still, and should not move
+}
+
+TEST_CASE("sizes that errors refer to: what goes far asks no more than what goes as far as the scene is long") {
+  const std::vector<double> still = reference_sizes(columns, {0, 0, 0}, 2);
+  CHECK(still[0] == Approx(1e-9));
+  CHECK(still[1] == Approx(1e-10));
+  CHECK(still[2] == Approx(1e-10 * 10 / 2));
+  const std::vector<double> turned = reference_sizes(columns, {0, 6000, 0}, 2);
+  CHECK(turned[0] == Approx(1e-6));
+  CHECK(turned[1] == 6000);
+  CHECK(turned[2] == Approx(1e-7 * 10 / 2));
+  CHECK(reference_sizes(columns, {0, 0, 70}, 2) == std::vector<double>{still[0], still[1], 70});
+}
+
+TEST_CASE("errors of probes that are no numbers stay none") {
+  ProbeErrors errors(columns);
+  errors.add({std::numeric_limits<double>::quiet_NaN(), 0, 0, 0}, {1, 0, 0, 0});
+  CHECK(std::isnan(errors.relative(1)[0]));
+  CHECK(ProbeErrors({}).relative(1).empty());
+}
