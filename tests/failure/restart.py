@@ -149,7 +149,8 @@ def compare(whole, pieces, repeats):
             size = 0.1 if name == "motion/constraints" else numpy.abs(x).max() if x.dtype.kind == "f" and x.size else 0
             near = x.dtype.kind == "f" and x.size and not repeats and numpy.abs(x - y).max() <= 1e-7 * size
             assert near or numpy.array_equal(x, y), f"{name} differs by {numpy.abs(x - y).max()}"
-    assert not list(pieces.glob(".*")), "drafts are left"
+    drafts = [path.name for path in pieces.glob(".*")]
+    assert not drafts, f"drafts are left: {', '.join(drafts)}"
 
 
 def attempt(floe, ranks, text, formulation, chance, folder):
