@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "floe/petsc/error.h"
@@ -35,19 +37,50 @@ bool of_floe(const fs::path& path, const fs::path& mark) {
   return path.extension() != ".csv" || path.stem() != "probes" || is_series(path);
 }
 
-/// Floe's own results in the folder, and drafts of them. @throws InputError  a file of that name is not floe's
+bool numbers(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789-.") == text.npos; }
+
+/// Whether MPI writes such a file beside `name` while that is open, and leaves it where it is killed: Open MPI's
+/// NAME-JOB-PROCESS.lock and NAME.locktest.RANK.
+bool beside(std::string_view file, std::string_view name) {
+  if (!file.starts_with(name)) return false;
+  file.remove_prefix(name.size());
+  constexpr std::string_view lock = ".lock", test = ".locktest.";
+  if (file.starts_with(test)) return numbers(file.substr(test.size()));
+  return file.starts_with('-') && file.ends_with(lock) && numbers(file.substr(0, file.size() - lock.size()));
+}
+
+/// What a killed run leaves of these results besides themselves: drafts, drafts of drafts, and what MPI has beside
+/// them.
+std::vector<fs::path> left_over(const fs::path& folder, const std::vector<std::string>& names) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string file = entry.path().filename().string();
+    const bool left = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      const std::string draft = draft_of(name).string();
+      return beside(file, name) || file == draft || beside(file, draft) || file == draft_of(draft).string();
+    });
+    if (left && fs::is_regular_file(entry.symlink_status(error))) files.push_back(entry.path());
+  }
+  return files;
+}
+
+/// Floe's own results in the folder, and what killed runs left of them. @throws InputError  a file of that name is not
+/// floe's
 std::vector<fs::path> own_results(const fs::path& folder) {
   std::vector<fs::path> own;
-  for (const auto& names : results)
+  for (const auto& names : results) {
+    const std::vector<fs::path> left = left_over(folder, names);
+    own.insert(own.end(), left.begin(), left.end());
     for (auto name = names.rbegin(); name != names.rend(); ++name) {
       const fs::path file = folder / *name;
       std::error_code ignored;
-      if (fs::exists(fs::symlink_status(draft_of(file), ignored))) own.push_back(draft_of(file));
       if (!fs::exists(fs::symlink_status(file, ignored))) continue;
       if (!of_floe(file, folder / names.front()))
         refuse(folder, fmt::format("{} in it is no result of floe's; name another folder, or move it away", *name));
       own.push_back(file);
     }
+  }
   return own;
 }
 
@@ -132,12 +165,9 @@ void remove_drafts(MPI_Comm comm, const ResultFolder& folder) {
   MPI_Comm_rank(comm, &rank);
   petsc::agree(comm, [&] {
     if (rank != 0) return;
-    for (const auto& name : results.front()) {
-      const fs::path draft = draft_of(folder.path / name);
-      for (const fs::path& file : {draft, draft_of(draft)}) {
-        std::error_code error;
-        if (fs::is_regular_file(fs::symlink_status(file, error))) fs::remove(file, error);
-      }
+    for (const fs::path& file : left_over(folder.path, results.front())) {
+      std::error_code error;
+      fs::remove(file, error);
     }
   });
 }

@@ -11,9 +11,9 @@ namespace {
 std::vector<std::size_t> numbers_of(const std::vector<ProbeColumn>& columns) {
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    numbers.push_back(i == 0                                              ? 0
+    numbers.push_back(i == 0                                             ? 0
                       : probe_of(columns[i]) == probe_of(columns[i - 1]) ? numbers.back()
-                                                                          : numbers.back() + 1);
+                                                                         : numbers.back() + 1);
   return numbers;
 }
 

@@ -54,9 +54,15 @@ TEST_CASE("a folder that holds something is replaced only when asked, only what 
 
 TEST_CASE("drafts of a killed run go when it is taken up, not when its folder is opened; other files stay") {
   Scratch scratch;
-  const std::vector<const char*> drafts = {".result.h5.partial", ".motion.xdmf.partial",
-                                           "..motion.xdmf.partial.partial"},
-                                 others = {"result.h5", ".notes.partial", ".tradeoff.png.partial"};
+  // of MPI's files beside an open one, too
+  const std::vector<const char*> drafts = {".result.h5.partial",
+                                           ".motion.xdmf.partial",
+                                           "..motion.xdmf.partial.partial",
+                                           ".result.h5.partial-1954938881-6268.lock",
+                                           "result.h5-1954938881-6268.lock",
+                                           ".result.h5.partial.locktest.1"};
+  const std::vector<const char*> others = {"result.h5", ".notes.partial", ".tradeoff.png.partial",
+                                           "result.h5-mine.lock", "result.h5.lock"};
   for (const char* name : drafts) put(scratch, scratch / name, "draft");
   for (const char* name : others) put(scratch, scratch / name, "mine");
   const ResultFolder folder = reopen_folder(PETSC_COMM_WORLD, scratch);

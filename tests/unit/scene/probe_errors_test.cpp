@@ -8,8 +8,8 @@ using namespace floe::scene;
 
 namespace {
 
-const std::vector<ProbeColumn> columns = {{"tip.x", "m", 10}, {"tip.y", "m", 10}, {"middle.angle", "rad", 1},
-                                          {"tip_speed.x", "m/s", 10}};
+const std::vector<ProbeColumn> columns = {
+    {"tip.x", "m", 10}, {"tip.y", "m", 10}, {"middle.angle", "rad", 1}, {"tip_speed.x", "m/s", 10}};
 
 }  // namespace
 
