@@ -10,6 +10,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 from plot import kinds_of  # noqa: E402
+import style  # noqa: E402
 from style import Fault, duration, guarded, read_json  # noqa: E402
 
 THREE = ["/usr/share/javascript/three/three.min.js", "/usr/share/nodejs/three/build/three.min.js"]
@@ -84,7 +85,7 @@ BEYOND = "beyond 10000"  # no estimate any more: null in summaries
 
 
 def per_cent(share):
-    return f"{100 * share:.2g} %" if share is not None else BEYOND + " %"
+    return style.per_cent(share) if share is not None else BEYOND + " %"
 
 
 def overview(summary):

@@ -105,6 +105,12 @@ def with_unit(name, unit):
     return f"{name} [{unit}]" if unit else name
 
 
+def per_cent(share):
+    """To two digits, without powers of ten up to 1e5 %."""
+    text = f"{100 * share:.2g}"
+    return (f"{float(text):.0f}" if "e" in text and 1 <= float(text) < 1e5 else text) + " %"
+
+
 def duration(value):
     """Of seconds, in a unit that suits."""
     for limit, factor, unit in ((1e-3, 1e6, "µs"), (1, 1e3, "ms")):

@@ -9,7 +9,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import COLOURS, MARKS, Fault, duration, guarded, pyplot, read_json, save  # noqa: E402
+from style import COLOURS, MARKS, Fault, duration, guarded, per_cent, pyplot, read_json, save  # noqa: E402
 
 WIDTH, HEIGHT = 7.6, 4.4  # inches, of the diagram; the key of the front comes below
 LINE = 0.19
@@ -37,10 +37,6 @@ def load(folder):
     if not shown:
         raise Fault(f"{path}: no model came to the end of its motion")
     return description, shown
-
-
-def per_cent(value):
-    return f"{100 * value:.2g} %"
 
 
 def key_lines(description):
