@@ -9,6 +9,7 @@
 #include <map>
 
 #include "compare_table.h"
+#include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "interruption.h"
 
@@ -87,10 +88,9 @@ class Search {
     const std::string line = text.substr(0, text.find('\n'));
     return line.size() > 90 ? line.substr(0, 87) + "..." : line;
   }
-  static std::string percent(double share) {
-    return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "beyond 10000 %";
+  static std::string words(const Trial& trial) {
+    return trial.failed.empty() ? math::percent(trial.error) : trial.failed;
   }
-  static std::string words(const Trial& trial) { return trial.failed.empty() ? percent(trial.error) : trial.failed; }
 
   void decide(std::string what, std::string choice, std::string reason) {
     decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
@@ -123,8 +123,8 @@ class Search {
     std::size_t offered = pool_->columns().size();
     decide("richest model", fmt::format("{} columns", offered),
            responses > 0 ? fmt::format("{} responses to what is missing: estimated error {} (before: {})", responses,
-                                       percent(space_), percent(first))
-                         : "estimated error " + percent(space_));
+                                       math::percent(space_), math::percent(first))
+                         : "estimated error " + math::percent(space_));
     if (too_low > 2)
       decisions_.back().reason +=
           fmt::format("; the first estimates were too low by as much as {:.2g}, which is counted", too_low);
@@ -292,9 +292,9 @@ class Search {
     chosen.asked = accuracy_, chosen.richest = richest_;
     const double of_choice = tried(selection_, step_).error;
     chosen.supported = richest_ + of_choice;
-    decide("supported error", percent(chosen.supported),
-           fmt::format("{} of the choice, {} of the richest model, {} of its step", percent(of_choice), percent(space_),
-                       percent(time_)));
+    decide("supported error", math::percent(chosen.supported),
+           fmt::format("{} of the choice, {} of the richest model, {} of its step", math::percent(of_choice),
+                       math::percent(space_), math::percent(time_)));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
     if (!pool_->has_responses(selection_)) chosen.scene.text = pool_->text(selection_, chosen.scene.motion);

@@ -14,6 +14,7 @@
 
 #include "choose.h"
 #include "estimate_words.h"
+#include "floe/math/rounded.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
 #include "floe/scene/check.h"
@@ -329,8 +330,8 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
       }
     }
     if (!chosen.within())
-      moved.warnings.push_back(fmt::format("an error of {:.2g} % was asked for; {:.2g} % is supported",
-                                           100 * chosen.asked, 100 * chosen.supported));
+      moved.warnings.push_back(fmt::format("an error of {} was asked for; {} is supported", math::percent(chosen.asked),
+                                           math::percent(chosen.supported)));
     return moved;
   });
   if (!petsc::first_rank(comm)) return;

@@ -4,13 +4,15 @@
 
 #include <cmath>
 
+#include "floe/math/rounded.h"
+
 namespace floe::app {
 
 std::string estimate_words(const scene::Estimate& estimate) {
   if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
   const std::string error =
       std::isfinite(estimate.deformation)
-          ? fmt::format("estimated error {:.2g} %", 100 * estimate.deformation)
+          ? "estimated error " + math::percent(estimate.deformation)
           : "estimated error beyond 10000 %, which is no estimate: smaller steps or more columns may help";
   std::string words =
       fmt::format("{} (deformations, against the full order of the same mesh; {:.2g} s)\n", error, estimate.seconds);

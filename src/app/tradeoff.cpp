@@ -7,6 +7,7 @@
 
 #include "choose.h"
 #include "drawing.h"
+#include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "floe/output/provenance.h"
 #include "interruption.h"
@@ -182,10 +183,10 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
     fmt::print("{}\n{}\n", output::to_text(tradeoff_table(names, reference, finer, rungs, chosen, false)),
                words(request, size));
     if (!chosen)
-      fmt::print("No model is within {:.2g} %\n", 100 * request.accuracy);
+      fmt::print("No model is within {}\n", math::percent(request.accuracy));
     else
-      fmt::print("Choice for {:.2g} %: {} ({}), error {:.2g} %, {:.3g} times faster than {}\n", 100 * request.accuracy,
-                 rungs[*chosen].name, rungs[*chosen].formulation, 100 * rungs[*chosen].worst(),
+      fmt::print("Choice for {}: {} ({}), error {}, {:.3g} times faster than {}\n", math::percent(request.accuracy),
+                 rungs[*chosen].name, rungs[*chosen].formulation, math::percent(rungs[*chosen].worst()),
                  reference.motion / rungs[*chosen].motion, reference.name);
     fmt::print("Picture: {}\n", draw("tradeoff", folder.path.string()));
   });

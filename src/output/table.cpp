@@ -3,25 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "floe/math/rounded.h"
 
 namespace floe::output {
 namespace {
 
 using Line = std::vector<std::string>;
 
-/// To so many digits; powers of ten only where the number is small, or above 1e5.
-std::string rounded(double value, int digits) {
-  std::string text = fmt::format("{:.{}g}", value, digits);
-  if (std::abs(value) < 1 || text.find('e') == std::string::npos) return text;
-  const double number = std::stod(text);
-  return std::abs(number) < 1e5 ? fmt::format("{:.0f}", number) : text;
-}
-
 std::string shown(const Cell& cell, int digits) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* whole = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *whole);
-  return rounded(std::get<double>(cell), digits);
+  return math::rounded(std::get<double>(cell), digits);
 }
 
 std::string exact(const Cell& cell) {

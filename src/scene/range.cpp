@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floe/fem/field_rows.h"
+#include "floe/math/rounded.h"
 #include "floe/petsc/values.h"
 #include "offline.h"
 #include "range_seen.h"
@@ -154,9 +155,9 @@ void judge_slope(const Model& model, const BodyReport& body, const std::string& 
     const double shortening = slope * slope / 2;
     if (shortening > 0.01)
       out.push_back({"shortening", body.name, shortening, 0.01,
-                     fmt::format("body {}: slopes to {:.2g} shorten it by {:.2g} %, which a linear elastic force does "
+                     fmt::format("body {}: slopes to {:.2g} shorten it by {}, which a linear elastic force does "
                                  "not know (limit 1 %): take vm+md or nlffr",
-                                 body.name, slope, 100 * shortening)});
+                                 body.name, slope, math::percent(shortening))});
     return;
   }
   const bool tangent = frame == "clamped";
@@ -165,8 +166,8 @@ void judge_slope(const Model& model, const BodyReport& body, const std::string& 
     out.push_back(
         {"slope", body.name, slope, tangent ? 0.5 : 0.89,
          fmt::format("body {}: slopes to {:.2g} in its {} frame, beyond {}: von Karman's strains err by about "
-                     "{:.1g} % there; {}",
-                     body.name, slope, frame, tangent ? "0.5" : "0.89", 100 * error,
+                     "{} there; {}",
+                     body.name, slope, frame, tangent ? "0.5" : "0.89", math::percent(error, 1),
                      tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)")});
 }
 
@@ -177,17 +178,17 @@ void judge_spin(const BodyReport& body, const Seen& seen, double omega, bool lin
   if (!is_stiff(body, linear) || !(omega > 0 && seen.spin > 0.2 * omega)) return;
   out.push_back({"spin", body.name, seen.spin / omega, 0.2,
                  fmt::format("body {}: spins at {:.3g} rad/s, {:.2g} of its first frequency (limit 0.2), and nothing "
-                             "stiffens it as it turns: stiffness off by about {:.2g} %; {}",
-                             body.name, seen.spin, seen.spin / omega, 100 * std::pow(seen.spin / omega, 2),
+                             "stiffens it as it turns: stiffness off by about {}; {}",
+                             body.name, seen.spin, seen.spin / omega, math::percent(std::pow(seen.spin / omega, 2)),
                              linear ? "take vm+md or nlffr" : "give it derivatives")});
 }
 
 void judge_stretching(const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
   if (!is_stiff(body, false) || !(seen.bending > 0 && seen.membrane > 0.02 * seen.bending)) return;
   out.push_back({"membrane", body.name, seen.membrane / seen.bending, 0.02,
-                 fmt::format("body {}: stretching holds {:.2g} % of the energy of bending (limit 2 %), and without "
+                 fmt::format("body {}: stretching holds {} of the energy of bending (limit 2 %), and without "
                              "derivatives nothing gives way to it: too stiff; give it derivatives",
-                             body.name, 100 * seen.membrane / seen.bending)});
+                             body.name, math::percent(seen.membrane / seen.bending))});
 }
 
 /// What its deformations alone tell, however they came about.
