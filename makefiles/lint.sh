@@ -7,10 +7,13 @@ mapfile -t files < <(git ls-files "src/${room:+$room/}*.cpp")
 command -v clang-tidy-16 >/dev/null || { echo "clang-tidy-16 is not there" >&2; exit 1; }
 [ ${#files[@]} -gt 0 ] || { echo "no room $room" >&2; exit 2; }
 log=$build/lint.log
+# clang-tidy does not read precompiled headers of GCC.
+cmake -S . -B "$build/lint" -G Ninja -DFLOE_PRECOMPILE=OFF >"$build/lint-configure.log" 2>&1 || { cat "$build/lint-configure.log"; exit 1; }
+cmake --build "$build/lint" --target floe_version >/dev/null
 # GCC's own options mean nothing to clang; headers of Eigen and PETSc are not ours to judge. Of products that are widened
 # those count that are PETSc's or offsets of pointers, not the small ones (3 i) that Eigen's blocks take as a long.
 printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$jobs" \
-  clang-tidy-16 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option >"$log" 2>"$log.errors" || true
+  clang-tidy-16 -p "$build/lint" --quiet --extra-arg=-Wno-unknown-warning-option >"$log" 2>"$log.errors" || true
 ours=$(grep -E '(warning|error):' "$log" | grep -v "^/usr/\|widening conversion to type 'Index'.* in type 'int'" | sort -u || true)
 failed=$(grep -E '^(Error|Stack dump|xargs:)' "$log.errors" | head -3 || true)
 count=$(printf '%s' "$ours" | grep -c '' || true)

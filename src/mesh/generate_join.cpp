@@ -125,8 +125,8 @@ std::vector<PetscInt> joined_to(const RawMesh& first, const RawMesh& second, con
     PetscInt count = join(first, second, seam, tolerance, matches), all = 0;
     MPI_Allreduce(&count, &all, 1, MPIU_INT, MPI_SUM, first.comm);
     if (all == 0)
-      throw InputError("merged: no node of " + quoted(seam.of_second) + " is within the tolerance of a node of " +
-                       quoted(seam.of_first));
+      throw InputError("merged: no node of " + in_quotes(seam.of_second) + " is within the tolerance of a node of " +
+                       in_quotes(seam.of_first));
   }
   refuse_collapsed(first, matches);
   std::vector<PetscInt> nodes;

@@ -67,7 +67,7 @@ long long GmshCursor::integer(const char* of) {
   if (binary) return value<std::int32_t>(bytes(4, of));
   const auto text = word(of);
   const auto read = number<long long>(text);
-  if (!read) refuse(std::string("expected ") + of + ", found " + quoted(text));
+  if (!read) refuse(std::string("expected ") + of + ", found " + in_quotes(text));
   return *read;
 }
 
@@ -82,7 +82,7 @@ double GmshCursor::real() {
   if (binary) return value<double>(bytes(8, "a real number"));
   const auto text = word("a real number");
   const auto read = number<double>(text);
-  if (!read) refuse("expected a real number, found " + quoted(text));
+  if (!read) refuse("expected a real number, found " + in_quotes(text));
   return *read;
 }
 
@@ -109,7 +109,7 @@ void GmshCursor::expect(const std::string& text) {
   skip_blanks();
   const char* place = at;
   const auto found = word(name.c_str());
-  if (found != text) refuse_at(place, "expected " + name + ", found " + quoted(found));
+  if (found != text) refuse_at(place, "expected " + name + ", found " + in_quotes(found));
 }
 
 }  // namespace floe::mesh

@@ -44,7 +44,7 @@ std::vector<GmshEntity> wanted_groups(const GmshStructure& structure, const std:
     if (best.dimension > 0)
       chosen.push_back(best);
     else
-      faults.add({0, 1}, "there is no physical group " + quoted(name) + " with curves or surfaces" +
+      faults.add({0, 1}, "there is no physical group " + in_quotes(name) + " with curves or surfaces" +
                              suggestion(name, known) + (known.empty() ? "" : " (the file has: " + listed(known) + ")"));
   }
   return chosen;
@@ -59,10 +59,10 @@ void make_part(const GmshStructure& structure, GmshSelection& selection, const s
     const char* place = block.begin.at;
     if (selection.uses[b].part >= 0)
       faults.add(block.begin.where(place), "these elements belong to two parts, " +
-                                               quoted(selection.parts[selection.uses[b].part]) + " and " +
-                                               quoted(name) + ": name the part that is meant");
+                                               in_quotes(selection.parts[selection.uses[b].part]) + " and " +
+                                               in_quotes(name) + ": name the part that is meant");
     if (block.type > 3)
-      faults.add(block.begin.where(place), "part " + quoted(name) + " has elements of type " +
+      faults.add(block.begin.where(place), "part " + in_quotes(name) + " has elements of type " +
                                                std::to_string(block.type) + " (" + gmsh_type(block.type)->name +
                                                "); lines of 2, triangles of 3 and quadrilaterals of 4 nodes are read");
     selection.uses[b].part = part;

@@ -27,13 +27,13 @@ bool read_labels(GmshCursor& cursor, int count, const char* what, long long* lab
   for (int i = 0; i < count; ++i) {
     const auto read = number<long long>(next_word(line));
     if (!read) {
-      faults.add(where, std::string("expected ") + what + ", found " + quoted(whole));
+      faults.add(where, std::string("expected ") + what + ", found " + in_quotes(whole));
       return false;
     }
     labels[i] = *read;
   }
   if (next_word(line).empty()) return true;
-  faults.add(where, std::string("expected ") + what + " and no more, found " + quoted(whole));
+  faults.add(where, std::string("expected ") + what + " and no more, found " + in_quotes(whole));
   return false;
 }
 
@@ -50,13 +50,13 @@ std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faul
   for (int i = 0; i < reals; ++i) {
     const auto read = number<double>(next_word(line));
     if (!read) {
-      faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node, found " + quoted(whole));
+      faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node, found " + in_quotes(whole));
       return std::nullopt;
     }
     if (i < 3) position[i] = *read;
   }
   if (next_word(line).empty()) return position;
-  faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node and no more, found " + quoted(whole));
+  faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node and no more, found " + in_quotes(whole));
   return std::nullopt;
 }
 

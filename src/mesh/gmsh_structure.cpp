@@ -12,7 +12,7 @@ namespace {
 void read_format(GmshCursor& cursor) {
   const std::string version(cursor.word("a format version"));
   if (version != "4.1")
-    cursor.refuse("format " + quoted(version) +
+    cursor.refuse("format " + in_quotes(version) +
                   " of Gmsh is not read, only 4.1: convert with  gmsh old.msh -save -format msh41 -o new.msh");
   const long long kind = cursor.integer("0 (text) or 1 (binary)");
   if (kind != 0 && kind != 1) cursor.refuse("expected 0 (text) or 1 (binary), found " + std::to_string(kind));
@@ -42,7 +42,7 @@ void read_names(GmshCursor& cursor, GmshStructure& result) {
     auto text = trimmed(cursor.rest_of_line());
     if (text.size() < 3 || text.front() != '"' || text.back() != '"') {
       --cursor.line;
-      cursor.refuse("expected the name of a physical group in quotes, found " + quoted(text));
+      cursor.refuse("expected the name of a physical group in quotes, found " + in_quotes(text));
     }
     result.group_names[{static_cast<int>(dimension), tag}] = std::string(text.substr(1, text.size() - 2));
   }
@@ -132,7 +132,7 @@ void skip_section(GmshCursor& cursor, const std::string& name) {
   const std::string_view text(cursor.at, static_cast<std::size_t>(cursor.end - cursor.at));
   const std::string last = "$End" + name.substr(1);
   const auto found = text.find(last);
-  if (found == std::string_view::npos) cursor.refuse("section " + quoted(name) + " has no " + quoted(last));
+  if (found == std::string_view::npos) cursor.refuse("section " + in_quotes(name) + " has no " + in_quotes(last));
   cursor.line += std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(found), '\n');
   cursor.at += found + last.size();
 }
@@ -154,13 +154,13 @@ GmshStructure gmsh_structure(const MappedFile& file) {
   GmshStructure result;
   std::string name(cursor.word("'$MeshFormat'"));
   for (; name == "$Comments"; name = cursor.word("'$MeshFormat'")) skip_section(cursor, name);
-  if (name != "$MeshFormat") cursor.refuse("expected '$MeshFormat', found " + quoted(name) + ": is this a Gmsh file?");
+  if (name != "$MeshFormat") cursor.refuse("expected '$MeshFormat', found " + in_quotes(name) + ": is this a Gmsh file?");
   read_format(cursor);
   while (!cursor.done()) {
     const char* place = cursor.at;
     name = cursor.word("a section");
     if (name.size() < 2 || name[0] != '$' || name.starts_with("$End"))
-      cursor.refuse_at(place, "expected a section ($Nodes, ...), found " + quoted(name));
+      cursor.refuse_at(place, "expected a section ($Nodes, ...), found " + in_quotes(name));
     cursor.rest_of_line();
     read_section(cursor, name, result);
   }

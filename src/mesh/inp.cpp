@@ -16,7 +16,7 @@ void refuse_unnamed(const std::vector<std::pair<std::string, Where>>& used, cons
   for (const auto& one : defined) names.push_back(one.name);
   for (const auto& [name, where] : used)
     if (std::none_of(names.begin(), names.end(), [&](const auto& other) { return upper(other) == upper(name); }))
-      faults.add(where, std::string("there is no ") + kind + " " + quoted(name) + suggestion(name, names));
+      faults.add(where, std::string("there is no ") + kind + " " + in_quotes(name) + suggestion(name, names));
 }
 
 void refuse_incomplete(const InpBlocks& deck, InpReading& reading) {

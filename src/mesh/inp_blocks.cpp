@@ -82,7 +82,7 @@ void walk(const std::string& path, int depth, InpBlocks& result, Faults& faults)
         result.blocks.push_back(std::move(block));
     } else if (is_data(line)) {
       if (result.blocks.empty() && !std::exchange(stray, true))
-        faults.add({file, number}, "expected a keyword (*NODE, *ELEMENT, ...), found " + quoted(line) +
+        faults.add({file, number}, "expected a keyword (*NODE, *ELEMENT, ...), found " + in_quotes(line) +
                                        ": is this a deck of CalculiX or Abaqus?");
       if (result.blocks.empty()) continue;
       if (!lines) lines = &result.blocks.back().data.emplace_back(InpLines{file, begin, begin, number, 0});

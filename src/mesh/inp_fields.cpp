@@ -22,7 +22,7 @@ std::optional<std::vector<double>> numbers(std::string_view line, Where where, s
     values.push_back(value.value_or(0));
   }
   if (good) return values;
-  faults.add(where, "expected " + what + ", found " + quoted(line));
+  faults.add(where, "expected " + what + ", found " + in_quotes(line));
   return std::nullopt;
 }
 

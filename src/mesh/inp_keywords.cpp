@@ -67,7 +67,7 @@ const std::map<std::string, Keyword>& keywords() {
 void check_parameters(const InpBlock& block, const Keyword& keyword, Faults& faults) {
   for (const auto& [key, value] : block.parameters)
     if (std::find(keyword.parameters.begin(), keyword.parameters.end(), key) == keyword.parameters.end())
-      faults.add(block.where, "parameter " + quoted(key) + " of " + block.name + " is not known" +
+      faults.add(block.where, "parameter " + in_quotes(key) + " of " + block.name + " is not known" +
                                   suggestion(key, keyword.parameters));
 }
 
@@ -90,7 +90,7 @@ std::size_t skip_steps(const std::vector<InpBlock>& blocks, std::size_t i, InpRe
 void refuse_unknown(const InpBlock& block, Faults& faults) {
   std::vector<std::string> known;
   for (const auto& [name, unused] : keywords()) known.push_back("*" + name);
-  faults.add(block.where, "keyword " + quoted(block.name) + " is not read" + suggestion("*" + block.keyword, known));
+  faults.add(block.where, "keyword " + in_quotes(block.name) + " is not read" + suggestion("*" + block.keyword, known));
 }
 
 // *PART, *ASSEMBLY: one part, and no nodes or elements outside it.

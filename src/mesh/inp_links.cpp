@@ -36,7 +36,7 @@ void read_mpc(const InpBlock& block, InpReading& reading) {
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
     if (fields.size() != 3 || upper(fields[0]) != "BEAM")
-      return reading.faults.add(where, "*MPC expects BEAM, node (or set), reference node; found " + quoted(line));
+      return reading.faults.add(where, "*MPC expects BEAM, node (or set), reference node; found " + in_quotes(line));
     reading.links.push_back({where, std::string(fields[2]), std::string(fields[1])});
   });
 }

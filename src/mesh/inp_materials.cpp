@@ -43,7 +43,7 @@ std::optional<std::vector<double>> one_line(const InpBlock& block, std::size_t c
   values->resize(count);
   if (positive(*values, moduli)) return values;
   reading.faults.add(lines[0].first, block.name + ": " + (count > 1 ? "moduli among " : "") + what +
-                                         " must be greater than 0, found " + quoted(lines[0].second));
+                                         " must be greater than 0, found " + in_quotes(lines[0].second));
   return std::nullopt;
 }
 
@@ -54,7 +54,7 @@ void read_material(const InpBlock& block, InpReading& reading) {
   material.name = required(block, "NAME", reading);
   for (const auto& other : reading.deck.materials)
     if (upper(other.name) == upper(material.name))
-      reading.faults.add(block.where, "material " + quoted(material.name) + " is defined a second time");
+      reading.faults.add(block.where, "material " + in_quotes(material.name) + " is defined a second time");
   reading.deck.materials.push_back(material);
 }
 
@@ -77,7 +77,7 @@ void read_elastic(const InpBlock& block, InpReading& reading) {
     constants = one_line(block, 6, "E1, E2, nu12, G12, G13, G23", {0, 1, 3, 4, 5}, reading);
   } else {
     reading.faults.add(block.where, block.name + " is read with TYPE=ISO, ENGINEERING CONSTANTS or LAMINA, not " +
-                                        quoted(found->second));
+                                        in_quotes(found->second));
   }
   if (constants) material->constants = *constants;
 }
@@ -115,7 +115,7 @@ void read_orientation(const InpBlock& block, InpReading& reading) {
     if (axis == 1 || axis == 2 || axis == 3)
       orientation.axis = static_cast<int>(axis);
     else
-      faults.add(lines[1].first, "expected an axis (1, 2, 3) and an angle, found " + quoted(lines[1].second));
+      faults.add(lines[1].first, "expected an axis (1, 2, 3) and an angle, found " + in_quotes(lines[1].second));
   }
   reading.deck.orientations.push_back(orientation);
 }

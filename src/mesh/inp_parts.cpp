@@ -45,8 +45,8 @@ std::vector<Assignment> listed_elements(MPI_Comm comm, const std::vector<std::ve
 void assign(InpElement& element, int use, InpReading& reading) {
   if (element.use >= 0 && element.use != use)
     return reading.faults.add(element.where, "element " + std::to_string(element.label) + " is in two sections, of " +
-                                                 quoted(reading.uses[element.use].set) + " and " +
-                                                 quoted(reading.uses[use].set));
+                                                 in_quotes(reading.uses[element.use].set) + " and " +
+                                                 in_quotes(reading.uses[use].set));
   element.use = use;
 }
 
@@ -58,7 +58,7 @@ void refuse_wrong_use(const InpElement& element, InpReading& reading) {
                                           " has no section: it is in no set of a " + needs[element.nodes]);
   else if (reading.uses[element.use].kind != kind)
     reading.faults.add(element.where, "element " + std::to_string(element.label) + " needs a " + needs[element.nodes] +
-                                          ", set " + quoted(reading.uses[element.use].set) + " has another section");
+                                          ", set " + in_quotes(reading.uses[element.use].set) + " has another section");
 }
 
 // The element sets of each use, members included; names that are no sets become faults.
@@ -69,10 +69,10 @@ std::vector<std::vector<int>> sets_of_uses(InpReading& reading) {
     const int set = reading.element_sets.find(use.set);
     if (set < 0)
       reading.faults.add(
-          use.where, "there is no element set " + quoted(use.set) + suggestion(use.set, reading.element_sets.names()));
+          use.where, "there is no element set " + in_quotes(use.set) + suggestion(use.set, reading.element_sets.names()));
     for (std::size_t j = 0; j < i; ++j)
       if (upper(reading.uses[j].set) == upper(use.set))
-        reading.faults.add(use.where, "element set " + quoted(use.set) + " has a section already");
+        reading.faults.add(use.where, "element set " + in_quotes(use.set) + " has a section already");
     sets.push_back(set < 0 ? std::vector<int>{} : reading.element_sets.with_members(set));
   }
   return sets;

@@ -17,7 +17,7 @@ double number_of(const InpBlock& block, const std::string& key, InpReading& read
   if (upper(text) == "SPOS") return 0.5;
   if (upper(text) == "SNEG") return -0.5;
   if (const auto value = number<double>(text); value && std::isfinite(*value)) return *value;
-  reading.faults.add(block.where, block.name + " expects a number after " + key + "=, found " + quoted(text));
+  reading.faults.add(block.where, block.name + " expects a number after " + key + "=, found " + in_quotes(text));
   return 0;
 }
 
@@ -37,7 +37,7 @@ std::optional<Ply> ply(std::string_view line, Where where, InpReading& reading) 
   fields.resize(std::max<std::size_t>(fields.size(), 4));
   const auto thickness = number<double>(fields[0]);
   if (!thickness || !(*thickness > 0) || fields[2].empty() || fields.size() > 5) {
-    reading.faults.add(where, "a ply is: thickness, (points), material[, angle or orientation], found " + quoted(line));
+    reading.faults.add(where, "a ply is: thickness, (points), material[, angle or orientation], found " + in_quotes(line));
     return std::nullopt;
   }
   Ply result{*thickness, std::string(fields[2]), "", 0};
@@ -149,7 +149,7 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   section.density = number_of(block, "DENSITY", reading);
   if (block.parameters.contains("DENSITY") && section.density < 0)
     faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
-                                quoted(value_of(block, "DENSITY")));
+                                in_quotes(value_of(block, "DENSITY")));
   const bool own = section.material.empty();
   const auto lines =
       data_lines(block, own ? 3 : 1, own ? 3 : 2,

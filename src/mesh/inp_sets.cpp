@@ -53,7 +53,7 @@ void read_ranges(const InpBlock& block, InpSet& set, Faults& faults) {
     }
     constexpr long long most = 1LL << 60;  // differences of labels stay numbers
     if (!good || range[2] < 1 || range[1] < range[0] || range[0] < -most || range[1] > most)
-      return faults.add(where, "GENERATE expects first, last[, step], found " + quoted(line));
+      return faults.add(where, "GENERATE expects first, last[, step], found " + in_quotes(line));
     set.ranges.push_back({range[0], range[1], range[2]});
   });
 }
@@ -69,7 +69,7 @@ void read_members(const InpBlock& block, InpSet& set, std::size_t most_fields, I
       if (const auto label = number<long long>(field))
         set.labels.push_back(*label);
       else if (field.empty() || field.front() == '-' || (field.front() >= '0' && field.front() <= '9'))
-        reading.faults.add(where, "expected numbers or names of sets, found " + quoted(field));
+        reading.faults.add(where, "expected numbers or names of sets, found " + in_quotes(field));
       else
         set.members.push_back(without_instance(std::string(field), reading));
     }
@@ -79,7 +79,7 @@ void read_members(const InpBlock& block, InpSet& set, std::size_t most_fields, I
 bool of_the_instance(const InpBlock& block, InpReading& reading) {
   const auto instance = block.parameters.find("INSTANCE");
   if (instance == block.parameters.end() || upper(instance->second) == upper(reading.instance)) return true;
-  reading.faults.add(block.where, "there is no instance " + quoted(instance->second));
+  reading.faults.add(block.where, "there is no instance " + in_quotes(instance->second));
   return false;
 }
 
@@ -120,7 +120,7 @@ void agree_members(MPI_Comm comm, InpReading& reading) {
       auto& set = sets->sets[std::stoul(all[i])];
       set.members.push_back(all[i + 1]);
       if (sets->find(all[i + 1]) < 0)
-        reading.faults.add(set.where, "set " + set.name + " holds " + quoted(all[i + 1]) + ", which is no set" +
+        reading.faults.add(set.where, "set " + set.name + " holds " + in_quotes(all[i + 1]) + ", which is no set" +
                                           suggestion(all[i + 1], sets->names()));
     }
   }
@@ -148,7 +148,7 @@ std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where 
   if (const auto label = number<long long>(text)) return label;
   const int set = reading.node_sets.find(without_instance(text, reading));
   if (set < 0) {
-    reading.faults.add(where, "there is no node set " + quoted(text) + suggestion(text, reading.node_sets.names()));
+    reading.faults.add(where, "there is no node set " + in_quotes(text) + suggestion(text, reading.node_sets.names()));
     return std::nullopt;
   }
   const auto& labels = reading.mesh.places[set].labels;
@@ -156,7 +156,7 @@ std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where 
                         labels.empty() ? std::numeric_limits<long long>::max() : -labels.back()};
   MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_LONG_LONG, MPI_MIN, comm);
   if (range[0] == -range[1]) return range[0];
-  reading.faults.add(where, "expected a node set of one node, found " + quoted(text));
+  reading.faults.add(where, "expected a node set of one node, found " + in_quotes(text));
   return std::nullopt;
 }
 
@@ -175,7 +175,7 @@ std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading) {
     const int set = node ? -1 : reading.node_sets.find(without_instance(link.nodes, reading));
     if (!node && set < 0)
       reading.faults.add(
-          link.where, "there is no node set " + quoted(link.nodes) + suggestion(link.nodes, reading.node_sets.names()));
+          link.where, "there is no node set " + in_quotes(link.nodes) + suggestion(link.nodes, reading.node_sets.names()));
     if (!reference || (!node && set < 0)) continue;
     LinkMentions mentions{mesh.mentions.size(), {}};
     mesh.mentions.push_back({*reference, link.where});

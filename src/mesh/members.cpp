@@ -28,7 +28,7 @@ std::vector<PetscInt> members_of(const RawMesh& mesh, const std::string& name) {
   if (part == mesh.parts.end()) {
     auto known = mesh.places;
     known.insert(known.end(), mesh.parts.begin(), mesh.parts.end());
-    throw InputError(mesh.source + ": there is no place or part " + quoted(name) + suggestion(name, known));
+    throw InputError(mesh.source + ": there is no place or part " + in_quotes(name) + suggestion(name, known));
   }
   std::vector<PetscInt> nodes;
   for (const auto& cell : mesh.cells)

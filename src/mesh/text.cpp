@@ -12,7 +12,7 @@ std::string upper(std::string_view text) {
   return result;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string result = "'";
   for (const char c : text.substr(0, most)) result += std::isprint(static_cast<unsigned char>(c)) ? c : '?';

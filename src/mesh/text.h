@@ -51,7 +51,7 @@ std::optional<Number> number(std::string_view word) {
 std::string upper(std::string_view text);
 
 /// For a message: in quotes, what cannot be printed as '?', cut after 40 characters.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// ", did you mean ...?" with the word of `known` that is nearest to `word`, or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);

@@ -108,7 +108,7 @@ class Writer {
     for (const Run& run : runs_) {
       int& known = dimension[run.part];
       if (known >= 0 && known != dimension_of(run.kind))
-        throw InputError("part " + quoted(mesh_.parts[run.part]) + " has cells of several dimensions");
+        throw InputError("part " + in_quotes(mesh_.parts[run.part]) + " has cells of several dimensions");
       known = dimension_of(run.kind);
     }
     for (std::size_t p = 0; p < dimension.size(); ++p)
@@ -117,7 +117,7 @@ class Writer {
       if (member_counts_[p] > 0) groups_.push_back({0, place_tag(p), mesh_.places[p]});
     for (const Group& group : groups_)
       if (group.name.empty() || group.name.find_first_of("\"\r\n") != std::string::npos)
-        throw InputError("the name " + quoted(group.name) + " cannot be that of a physical group");
+        throw InputError("the name " + in_quotes(group.name) + " cannot be that of a physical group");
     std::stable_sort(groups_.begin(), groups_.end(),
                      [](const Group& a, const Group& b) { return a.dimension < b.dimension; });
   }

@@ -78,7 +78,7 @@ std::string replaced(std::string text, char what, const std::string& by) {
   return text;
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return text.find_first_of(",\"\n\r") == std::string::npos ? text : '"' + replaced(text, '"', "\"\"") + '"';
 }
 
@@ -133,10 +133,10 @@ std::string to_markdown(const Table& table) {
 
 std::string to_csv(const Table& table) {
   std::string text;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) text += (i ? "," : "") + quoted(with_unit(table.columns[i]));
+  for (std::size_t i = 0; i < table.columns.size(); ++i) text += (i ? "," : "") + in_quotes(with_unit(table.columns[i]));
   text += '\n';
   for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + quoted(exact(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + in_quotes(exact(row[i]));
     text += '\n';
   }
   return text;

@@ -50,7 +50,7 @@ std::vector<std::string> read_texts(Document& document, const Value& value, cons
     if (!item.node.IsScalar() || item.node.Scalar().empty())
       document.fault(item.where, shown(item.node), "a text");
     else if (std::find(texts.begin(), texts.end(), item.node.Scalar()) != texts.end())
-      document.fault(item.where, quoted(item.node.Scalar()) + " stands twice", "each once");
+      document.fault(item.where, in_quotes(item.node.Scalar()) + " stands twice", "each once");
     else
       texts.push_back(item.node.Scalar());
   }

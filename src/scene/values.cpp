@@ -51,10 +51,10 @@ std::string shown(const YAML::Node& node) {
   if (node.IsSequence()) return "is a list";
   if (node.IsMap()) return "is a mapping";
   if (!node.IsScalar()) return "is empty";
-  return "is " + quoted(node.Scalar());
+  return "is " + in_quotes(node.Scalar());
 }
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   return text.size() > 60 ? fmt::format("\"{}...\"", text.substr(0, 60)) : fmt::format("\"{}\"", text);
 }
 
@@ -96,7 +96,7 @@ double read_number(Document& document, const Value& value, const Key& key) {
   }
   if (!key.range.contains(number)) {
     const std::string& text = value.node.Scalar();
-    const std::string is = plain_number(text) ? "is " + text : fmt::format("{} is {}", quoted(text), number);
+    const std::string is = plain_number(text) ? "is " + text : fmt::format("{} is {}", in_quotes(text), number);
     document.fault(value.where, is, expected_number(key, "a number"));
   } else if (key.type != Type::parameters && out_of_size(number)) {
     document.fault(value.where, fmt::format("is {}, whose products leave the range of double precision", number),

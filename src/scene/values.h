@@ -14,7 +14,7 @@ namespace floe::scene {
 /// How a message shows a value: `is "TEXT"`, `is a list`, `is a mapping`, `is empty`.
 std::string shown(const YAML::Node& node);
 /// In quotation marks, cut to 60 characters.
-std::string quoted(const std::string& text);
+std::string in_quotes(const std::string& text);
 
 double read_number(Document& document, const Value& value, const Key& key);
 double read_share(Document& document, const Value& value, const Key& key);
