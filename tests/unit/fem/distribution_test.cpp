@@ -95,6 +95,23 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the foreign nodes of a rank: those of its cells that other ranks own, each once") {
+  const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed, Spread::last);
+  const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_WORLD), whole = testing::mixed_mesh(PETSC_COMM_SELF);
+  const std::vector<int> ranks = testing::ranks_of(raw, spread), named = of_all(ranks);
+  std::set<PetscInt> expected;
+  for (const auto& cell : whole.cells)
+    for (int i = 0; i < mesh::node_count(cell.kind); ++i)
+      if (named[cell.nodes[0]] == testing::this_rank() && named[cell.nodes[i]] != testing::this_rank())
+        expected.insert(cell.nodes[i]);
+  const fem::Mesh mesh = fem::mesh_of(raw, ranks);
+  const std::vector<PetscInt> originals(mesh.original.begin() + mesh.owned_nodes, mesh.original.end());
+  CHECK(originals.size() == expected.size());
+  CHECK(std::set<PetscInt>(originals.begin(), originals.end()) == expected);
+  if (testing::ranks() > 1 && spread == Spread::shuffled)
+    CHECK(of_all(std::vector<int>(1, static_cast<int>(expected.size()))) != std::vector<int>(testing::ranks(), 0));
+}
+
 TEST_CASE("global nodes: each rank's questions in its own order, repeats too") {
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed, Spread::last);
   const fem::Mesh mesh = mixed(PETSC_COMM_WORLD, spread);
