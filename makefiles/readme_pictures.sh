@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# make readme-pictures: the animated picture of README.md (the other two: make demo, make tradeoff). BUILD: the build folder.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source makefiles/mpi_environment.sh
+"$1/floe" run examples/satellite/scene.yaml -o results/satellite --force --no-estimate >/dev/null
+"$1/floe" plot results/satellite --kind animation --out docs/satellite.gif --frames 48 --fps 10 --dpi 55
