@@ -10,6 +10,7 @@
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
+#include "floe/petsc/together.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -128,18 +129,24 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   }
   report.seconds = MPI_Wtime() - started;
   result.steps = report.steps, result.end = report.end, result.motion_seconds = report.seconds - recorder.seconds();
-  if (!fault) {
-    result.out_of_range = scene::shapes_out_of_range(model, kept.states(), comm);
-    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
-  }
-  if (estimate && !fault) {
-    const output::Waiting waiting(comm, "estimating the error");
-    result.estimate = scene::estimate_error_at_rest(
-        model, kept.states(),
-        scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
-  }
-  recorder.finish(report, why);
+  recorder.finish(report, why, !fault);
   if (fault) std::rethrow_exception(fault);
+  try {
+    const std::string unchecked = petsc::failed_together(
+        comm, [&] { result.out_of_range = scene::shapes_out_of_range(model, kept.states(), comm); });
+    if (!unchecked.empty()) result.warnings.push_back("the model's range was not checked: " + unchecked);
+    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+    if (estimate) {
+      const output::Waiting waiting(comm, "estimating the error");
+      result.estimate = scene::estimate_error_at_rest(
+          model, kept.states(),
+          scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
+    }
+  } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
+    recorder.conclude_alone(error.what());
+    throw;
+  }
+  recorder.conclude();
   return result;
 }
 

@@ -76,6 +76,10 @@ ordered_json first_summary(const scene::Scene& scene, const scene::Model& model,
   return j;
 }
 
+/// What a summary says until the run is assessed: also that of a run which was killed over it.
+constexpr const char* unassessed =
+    "not done: the run was ended while its model's range was checked or its error estimated; its results are whole";
+
 ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& model) {
   if (!estimate.none.empty()) return {{"none", estimate.none}};
   ordered_json j;
@@ -237,9 +241,11 @@ void Recorder::write_checkpoint(const dynamics::Instant& instant) {
   output::write_checkpoint(alone_ ? PETSC_COMM_SELF : comm_, folder_->checkpoint(), checkpoint);
 }
 
+bool Recorder::has_estimate() const { return result_.estimate.none.empty() && !result_.estimate.t.empty(); }
+
 void Recorder::write_estimate() {
   const scene::Estimate& estimate = result_.estimate;
-  if (!estimate.none.empty() || estimate.t.empty()) return;
+  if (!has_estimate()) return;
   const auto rows = static_cast<std::int64_t>(estimate.t.size());
   const auto columns = static_cast<std::int64_t>(result_.series.columns.size());
   std::vector<double> errors;
@@ -341,14 +347,11 @@ void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
   seconds_ += MPI_Wtime() - begin;
 }
 
-void Recorder::finish(const dynamics::IntegrationReport& report, const std::string& stopped) {
+void Recorder::finish(const dynamics::IntegrationReport& report, const std::string& stopped, bool assesses) {
   ordered_json& j = result_.summary;
   j["status"] = stopped.empty() ? "finished" : "failed";
   if (!stopped.empty()) j["reason"] = stopped;
   j["warnings"] = result_.warnings;
-  for (const scene::OutOfRange& one : result_.out_of_range)
-    j["out_of_range"].push_back(
-        {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   j["integration"] = {{"type", report.type},
                       {"reached", report.end},
                       {"steps", report.steps},
@@ -360,7 +363,9 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
                  {"greatest_part", energy_greatest_},
                  {"greatest_change_of_total_energy", change_}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
-  if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
+  if (assesses) j["assessment"] = unassessed;
+  if (scene::is_reduced(model_.formulation))
+    j["estimate"] = assesses ? ordered_json{{"none", unassessed}} : estimate_json(result_.estimate, model_);
   j["seconds"]["motion"] = result_.motion_seconds;
   j["seconds"]["recording"] = seconds_;
   j["seconds"]["motion_and_recording_processor"] = report.processor_seconds;
@@ -381,12 +386,40 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   attempt([&] { probes_->finish(); });
   attempt([&] {
     file_->flush();
-    write_estimate();
-    file_->write_text("summary", j.dump(2));
+    ordered_json there = j;
+    there.erase("assessment");  // else there would always be something to add to a file that may be large
+    file_->write_text("summary", written_ = there.dump(2));
     file_->finish();
   });
   attempt([&] { output::write_summary(comm_, *folder_, j); });
   if (fault) std::rethrow_exception(fault);
+}
+
+void Recorder::conclude() {
+  ordered_json& j = result_.summary;
+  j.erase("assessment");
+  j["warnings"] = result_.warnings;
+  for (const scene::OutOfRange& one : result_.out_of_range)
+    j["out_of_range"].push_back(
+        {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
+  if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
+  if (!folder_) return;
+  output::write_summary(comm_, *folder_, j);
+  if (!has_estimate() && j.dump(2) == written_) return;
+  write_estimate();
+  file_->write_text("summary", j.dump(2));
+  file_->publish();
+}
+
+void Recorder::conclude_alone(const std::string& why) noexcept {
+  if (!folder_) return;
+  try {
+    ordered_json j = result_.summary;
+    j["assessment"] = "failed: " + why;
+    if (scene::is_reduced(model_.formulation)) j["estimate"] = {{"none", why}};
+    output::write_file_atomically(folder_->summary(), j.dump(2) + "\n");
+  } catch (const std::exception&) {  // summary.json says that it was not done
+  }
 }
 
 }  // namespace floe::app

@@ -23,8 +23,15 @@ class Recorder {
   void checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending);
   /// An event that happened.
   void note(const dynamics::EventReport& event);
-  /// @param stopped  why the motion ended early, or empty. Collective.
-  void finish(const dynamics::IntegrationReport& report, const std::string& stopped);
+  /// The results are whole on disk then. @param stopped  why the motion ended early, or empty
+  /// @param assesses  whether conclude() is to follow; until then the summary says that this is not done
+  /// Collective.
+  void finish(const dynamics::IntegrationReport& report, const std::string& stopped, bool assesses);
+  /// Adds what was found about the finished run: the estimate of its error, where it leaves the model's range, and
+  /// warnings. The results stand, whatever happens here. Collective.
+  void conclude();
+  /// Says in summary.json why there is no more to add, where the other ranks cannot be reached. Rank-local.
+  void conclude_alone(const std::string& why) noexcept;
   /// Wall time that recording took. [s]
   double seconds() const { return seconds_; }
 
@@ -34,6 +41,7 @@ class Recorder {
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const dynamics::Instant& instant);
+  bool has_estimate() const;
   void write_estimate();
   void store_state(Vec U, Vec V);
   /// Energy, and the greatest violations of constraints and of their rates.
@@ -57,6 +65,7 @@ class Recorder {
   nlohmann::ordered_json identity_;
   std::unique_ptr<output::SeriesFile> probes_;
   std::unique_ptr<output::ResultFile> file_;
+  std::string written_;  // the summary in result.h5
   double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
   double violation_ = 0, velocity_violation_ = 0;

@@ -8,6 +8,7 @@
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/progress.h"
+#include "floe/petsc/together.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -61,6 +62,21 @@ std::string text_of(const std::exception_ptr& fault) {
   } catch (const std::exception& error) {
     return error.what();
   }
+}
+
+/// Warns where the finished motion leaves the range of its model. Collective.
+void check_range(const scene::Scene& scene, const scene::Model& model, const scene::KeptMotion& kept, MPI_Comm comm,
+                 const RunPlan& plan, RunResult& result) {
+  const std::string why =
+      petsc::failed_together(comm, [&] { result.out_of_range = scene::out_of_range(scene, model, kept, comm); });
+  if (!why.empty()) {  // as of frequencies that nothing else asked for
+    result.out_of_range.clear();
+    result.warnings.push_back("the model's range was not checked: " + why);
+  }
+  if (plan.measured)
+    std::erase_if(result.out_of_range, [](const scene::OutOfRange& one) { return !scene::also_of_full_order(one); });
+  for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+  if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
 }
 
 }  // namespace
@@ -162,37 +178,36 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   result.motion_seconds = report.seconds - recorder.seconds();
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
-  if (!fault && plan.check_range) {
-    try {
-      result.out_of_range = scene::out_of_range(scene, model, kept, comm);
-      if (plan.measured)
-        std::erase_if(result.out_of_range,
-                      [](const scene::OutOfRange& one) { return !scene::also_of_full_order(one); });
-      for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
-      if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
-    } catch (const RunError& error) {  // frequencies that nothing else asked for
-      result.warnings.push_back(std::string("the model's range was not checked: ") + error.what());
-    }
-  }
-  if (plan.estimate && (plan.from || changes_joints(scene))) {
-    result.estimate.none = plan.from ? "the run was taken up from a checkpoint" : "events change the joints";
-  } else if (plan.estimate && !fault) {
-    const output::Waiting waiting(comm, "estimating the error");
-    result.estimate = scene::estimate_error(model, kept,
-                                            plan.estimate_seconds.value_or(scene::estimate_seconds(
-                                                result.offline_seconds + result.motion_seconds + recorder.seconds())));
-  }
   if (plan.keep_states) result.states = kept.states();
+  if (plan.estimate && plan.from) result.estimate.none = "the run was taken up from a checkpoint";
+  if (plan.estimate && !plan.from && changes_joints(scene)) result.estimate.none = "events change the joints";
+  const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
+  const bool assesses = !fault && (estimates || plan.check_range);
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
     const std::exception_ptr lost = fault_of([&] {
       if (fault) reduced ? petsc::agree(comm, keep) : keep();
     });
-    recorder.finish(report, text_of(fault));
+    recorder.finish(report, text_of(fault), assesses);
     if (lost) std::rethrow_exception(lost);
   });
   if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to tell
   if (fault) std::rethrow_exception(fault);
+  if (!assesses) return result;
+  try {
+    if (plan.check_range) check_range(scene, model, kept, comm, plan, result);
+    if (estimates) {
+      const output::Waiting waiting(comm, "estimating the error");
+      result.estimate = scene::estimate_error(
+          model, kept,
+          plan.estimate_seconds.value_or(
+              scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
+    }
+  } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
+    recorder.conclude_alone(error.what());
+    throw;
+  }
+  recorder.conclude();
   return result;
 }
 

@@ -74,8 +74,9 @@ class Residuals {
     petsc::VecHandle load = fem::field(body.structure);
     {
       petsc::Values all(F_), own(load);
-      const PetscInt first = full_.system->coordinates().global()[full_.bodies[b].first_dof];
-      for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[first + i];
+      const std::vector<PetscInt>& global = full_.system->coordinates().global();
+      const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
+      for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
     }
     VectorXd along = products(*reduced.basis, load);
     if (!body.spec.damping.modal.empty()) {
@@ -238,7 +239,7 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   else if (motion.states().empty())
     estimate.none = "the integrator gives no accelerations";
   if (!estimate.none.empty()) return estimate;
-  fill_in(estimate, time, seconds, [&] { make(model, motion, time, estimate); });
+  fill_in(estimate, offline.prepared.comm, time, seconds, [&] { make(model, motion, time, estimate); });
   return estimate;
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "floe/error.h"
+#include "floe/petsc/together.h"
 #include "floe/scene/estimate.h"
 #include "floe/scene/probe_errors.h"
 #include "offline.h"
@@ -41,16 +41,10 @@ std::string without_estimate(const Offline& offline);
 Model full_order(Offline& offline);
 
 /// Runs `make`, which fills the estimate in within the time; where it cannot, the estimate says why and the result
-/// stands without it.
+/// stands without it. Collective. @throws  what this rank alone has failed of (petsc::failed_together)
 template <class Make>
-void fill_in(Estimate& estimate, const Allowance& time, double seconds, const Make& make) {
-  try {
-    make();
-  } catch (const RunError& error) {
-    estimate.none = error.what();
-  } catch (const InputError& error) {  // what is not known at full order
-    estimate.none = error.what();
-  }
+void fill_in(Estimate& estimate, MPI_Comm comm, const Allowance& time, double seconds, const Make& make) {
+  if (const std::string why = petsc::failed_together(comm, make); !why.empty()) estimate.none = why;
   estimate.seconds = time.spent(), estimate.allowed = seconds;
 }
 

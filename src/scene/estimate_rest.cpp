@@ -128,8 +128,9 @@ class FullOrder {
       const petsc::VecHandle load = fem::field(offline_.prepared.bodies[b].structure);
       {
         petsc::Values all(F_), own(load);
-        const PetscInt first = system_.coordinates().global()[full_.bodies[b].first_dof];
-        std::copy_n(all.begin() + (first - all.first), own.end - own.first, own.begin());
+        const std::vector<PetscInt>& global = system_.coordinates().global();
+        const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
+        for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = all[global[first + i]];
       }
       const BodyReport& report = reduced_.bodies[b];
       left = std::max(left, products(*body.basis, load).norm());
@@ -254,7 +255,7 @@ Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& st
   estimate.none = states.empty() ? "there is no equilibrium" : without_estimate(*model.offline);
   if (!estimate.none.empty()) return estimate;
   note_files(*model.offline, estimate);
-  fill_in(estimate, time, seconds, [&] { make(model, states, time, estimate); });
+  fill_in(estimate, model.offline->prepared.comm, time, seconds, [&] { make(model, states, time, estimate); });
   return estimate;
 }
 
