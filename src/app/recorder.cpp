@@ -171,6 +171,9 @@ void Recorder::take_up_files(const output::Checkpoint& from) {
   const auto rows = static_cast<std::int64_t>(record[0]);
   energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];
   change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
+  std::array<double, dynamics::EnergyBalance::numbers> balance{};
+  std::copy_n(record.begin() + 7, balance.size(), balance.begin());
+  balance_.load(balance);
   first_step_ = kept_step_ = from.words.at("step");
   result_.summary["events"] = from.words.at("events");
   result_.summary["continued"] = from.words.at("continued");
@@ -231,6 +234,8 @@ void Recorder::write_checkpoint(const dynamics::Instant& instant) {
                                  change_,
                                  violation_,
                                  velocity_violation_};
+  const auto balance = balance_.save();
+  checkpoint.shared["record"].insert(checkpoint.shared["record"].end(), balance.begin(), balance.end());
   put_state((*instant.state)(), checkpoint);
   const auto save_probes = [&] { probes_->save(); };
   if (alone_)
@@ -297,7 +302,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
   const bool stores = due(instant) && !again;
   if (!stores && !some) return;
   const Measured now = measured(instant.t, instant.U, instant.V);
-  look_after(now);
+  look_after(instant, now);
   if (stores) store(instant.t, instant.U, instant.V, now);
 }
 
@@ -312,7 +317,7 @@ Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   return all;
 }
 
-void Recorder::look_after(const Measured& now) {
+void Recorder::look_after(const dynamics::Instant& instant, const Measured& now) {
   const dynamics::Energy& energy = now.energy;
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late
@@ -320,6 +325,20 @@ void Recorder::look_after(const Measured& now) {
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, now.violations[0]);
   velocity_violation_ = std::max(velocity_violation_, now.violations[1]);
+  const double begin = MPI_Wtime();
+  balance_.add(*model_.system, instant.t, instant.U, instant.V, instant.A, energy_now_);
+  seconds_ += MPI_Wtime() - begin;
+}
+
+std::string Recorder::growth_warning() const {
+  constexpr double limit = 0.1;
+  const double scale = std::max(balance_.turnover(), energy_greatest_), growth = balance_.growth();
+  if (!(growth > limit * scale)) return "";
+  return fmt::format(
+      "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the greatest energy "
+      "in the motion (limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and no "
+      "options -motion_snes_... that end Newton's method early",
+      growth, balance_.work(), 100 * growth / scale, 100 * limit);
 }
 
 void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
@@ -361,7 +380,9 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   j["energy"] = {{"start", energy_start_},
                  {"end", energy_now_},
                  {"greatest_part", energy_greatest_},
-                 {"greatest_change_of_total_energy", change_}};
+                 {"greatest_change_of_total_energy", change_},
+                 {"work", balance_.work()},
+                 {"greatest_growth_without_work", balance_.growth()}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
   if (assesses) j["assessment"] = unassessed;
   if (scene::is_reduced(model_.formulation))

@@ -4,6 +4,7 @@
 #include <memory>
 #include <tuple>
 
+#include "floe/dynamics/energy_balance.h"
 #include "floe/output/result_file.h"
 #include "floe/output/series_file.h"
 #include "floe/petsc/handle.h"
@@ -32,6 +33,8 @@ class Recorder {
   void conclude();
   /// Says in summary.json why there is no more to add, where the other ranks cannot be reached. Rank-local.
   void conclude_alone(const std::string& why) noexcept;
+  /// A warning where the total energy has grown by what no load and no drive has brought; empty: it has not.
+  std::string growth_warning() const;
   /// Wall time that recording took. [s]
   double seconds() const { return seconds_; }
 
@@ -52,7 +55,7 @@ class Recorder {
   Measured measured(double t, Vec U, Vec V);
   void store(double t, Vec U, Vec V, const Measured& now);
   /// For the summary: of the ends of steps; between them all this has the error of the interpolation.
-  void look_after(const Measured& now);
+  void look_after(const dynamics::Instant& instant, const Measured& now);
   bool due(const dynamics::Instant& instant) const;
   const scene::Scene& scene_;
   const scene::Model& model_;
@@ -68,6 +71,7 @@ class Recorder {
   std::string written_;  // the summary in result.h5
   double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
+  dynamics::EnergyBalance balance_;
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
   double kept_at_ = 0, kept_seconds_ = 0;   // wall clock

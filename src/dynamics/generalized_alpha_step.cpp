@@ -134,12 +134,31 @@ void set_rates(GeneralizedAlpha* data, Vec U_vec, bool auxiliary) {
   }
 }
 
+// SNES types that test no convergence (ksponly) may return what is no number, or runs out of numbers: a step that did
+// not converge.
+PetscErrorCode refuse_not_finite(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscBool tested;
+  PetscReal sizes[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)ts->snes, simplified_newton, &tested));
+  if (tested || ts->snes->reason < 0) PetscFunctionReturn(0);
+  set_rates(data, data->U1, false);
+  PetscCall(VecNorm(data->U1, NORM_2, &sizes[0]));
+  PetscCall(VecNorm(data->V1, NORM_2, &sizes[1]));
+  if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
+    PetscCall(SNESSetConvergedReason(ts->snes, SNES_DIVERGED_FNORM_NAN));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode newton(TS ts, PetscBool plain, SNESConvergedReason* reason) {
   PetscInt iterations, linear;
 
   PetscFunctionBegin;
   PetscCall(predict(ts, plain));
   PetscCall(solve_again(ts->snes, generalized_alpha_data(ts)->U1));
+  PetscCall(refuse_not_finite(ts));
   PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
   PetscCall(SNESGetLinearSolveIterations(ts->snes, &linear));
   PetscCall(SNESGetConvergedReason(ts->snes, reason));

@@ -6,6 +6,9 @@ namespace floe::dynamics {
 /// Name of the SNES type.
 inline constexpr char simplified_newton[] = "simplified-newton";
 
+/// A state of this norm is as good as not finite: energies are its fourth powers.
+inline constexpr PetscReal beyond_numbers = 1e50;
+
 /// Name of a Vec composed with the SNES: what each entry of a linear solve is multiplied with, where the columns of J
 /// were scaled.
 inline constexpr char column_scales[] = "floe_column_scales";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/dynamics/start.h"
 #include "happen.h"
+#include "simplified_newton.h"
 
 namespace floe::dynamics {
 
@@ -84,6 +86,17 @@ PetscErrorCode well_met(TS ts, PetscReal t, Vec U, PetscBool* accept) {
   });
 }
 
+/// A state that is not finite, or whose energy soon will not be, is none to go on from, or to end with.
+void refuse_not_finite(Vec U, Vec V) {
+  double sizes[2] = {0, 0};
+  check(VecNorm(U, NORM_2, &sizes[0]));
+  check(VecNorm(V, NORM_2, &sizes[1]));
+  if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
+    throw RunError(
+        "the state is not finite. Try a smaller motion.step, and no options -motion_snes_... and "
+        "-motion_ts_... that end Newton's method early");
+}
+
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] {
@@ -91,6 +104,7 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
     Vec V = nullptr, A = nullptr;
     check(TS2GetSolution(ts, nullptr, &V));
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
+    refuse_not_finite(U, V);
     c.observe({t, step, U, V, A, t >= c.end * (1 - 1e-12),
                c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
                c.between && A ? &c.between : nullptr});
@@ -192,8 +206,22 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   refuse_other_types(ts, system, how.prefix);
 }
 
+/// What to do about a step that no smaller one replaced.
+std::string remedy(TS ts, const Context& context, bool newton_failed) {
+  SNES snes = nullptr;
+  SNESType type = nullptr;
+  double tolerance = 0;
+  check(TSGetSNES(ts, &snes));
+  check(SNESGetType(snes, &type));
+  check(TSGetTolerances(ts, nullptr, nullptr, &tolerance, nullptr));
+  if (newton_failed && type != std::string(simplified_newton))
+    return fmt::format("Leave out -{}snes_type {}, or try a smaller motion.step", prefix_of(ts), type);
+  if (!context.adaptive) return "Try a smaller motion.step, or a tolerance for adaptive steps";
+  return fmt::format("Try another motion.tolerance than {:.3g}, or a fixed motion.step", tolerance);
+}
+
 /// Ended by `reason`, which is no success: what happened and what was tried.
-std::string ending(TS ts, TSConvergedReason reason, const IntegrationReport& report) {
+std::string ending(TS ts, TSConvergedReason reason, const Context& context, const IntegrationReport& report) {
   if (reason == TS_CONVERGED_ITS)
     return fmt::format("no more than {} steps are allowed (option -{}ts_max_steps)", report.steps, prefix_of(ts));
   SNES snes = nullptr;
@@ -204,11 +232,16 @@ std::string ending(TS ts, TSConvergedReason reason, const IntegrationReport& rep
   check(SNESGetConvergedReason(snes, &newton));
   check(SNESGetIterationNumber(snes, &iterations));
   check(TSGetTimeStep(ts, &step));
+  if (newton >= 0)
+    return fmt::format(
+        "the error of a step of {:.3g} is above the tolerance ({} steps tried again; option "
+        "-{}ts_max_reject). {}",
+        step, report.rejected, prefix_of(ts), remedy(ts, context, false));
   return fmt::format(
-      "the step of {:.3g} did not converge ({} after {} Newton iterations, {} steps tried again; options -{}snes_..., "
-      "-{}ksp_...). Try a smaller "
-      "motion.step, or a tolerance for adaptive steps",
-      step, SNESConvergedReasons[newton], iterations, report.rejected, prefix_of(ts), prefix_of(ts));
+      "the step of {:.3g} did not converge ({}{} after {} Newton iterations, {} steps tried again; "
+      "options -{}snes_..., -{}ksp_...). {}",
+      step, newton == SNES_DIVERGED_FNORM_NAN ? "the state is not finite: " : "", SNESConvergedReasons[newton],
+      iterations, report.rejected, prefix_of(ts), prefix_of(ts), remedy(ts, context, true));
 }
 
 /// The next event at a time given, of those that have not happened; none: the motion's end.
@@ -345,7 +378,7 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
   TSConvergedReason reason = TS_CONVERGED_ITERATING;
   check(TSGetConvergedReason(ts, &reason));
   if (ended) return report;
-  if (reason < 0 || report.end < context.end * (1 - 1e-12)) stop(ending(ts, reason, report));
+  if (reason < 0 || report.end < context.end * (1 - 1e-12)) stop(ending(ts, reason, context, report));
   return report;
 }
 

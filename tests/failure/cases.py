@@ -247,6 +247,11 @@ SMALL_FILES = {"PMIX_MCA_gds": "hash", "OMPI_MCA_btl": "self,tcp"}  # Open MPI's
 # s that mpirun waits before SIGTERM and again before SIGKILL, however soon the ranks end
 PATIENT = {"OMPI_MCA_odls_base_sigkill_timeout": "4"}
 
+# Let go from a bow, in steps of some periods of the axial vibrations that this excites.
+RELEASED = {"bodies.beam.initial": {"deformation": ["-0.3^2*9/8*(4/3*x^3 - x^4 + x^5/5)", "0.3*(3*x^2 - x^3)/2"]},
+            "bodies.beam.section.EA": 1e7, "loads": {}, "motion.end": 1}
+STIFF_START = {**RELEASED, "bodies.beam.damping": {"stiffness": 2e-4}, "motion.tolerance": 1e-3}
+
 FAULTS = [
     *case("formula fails in the run", formulations=("vm+md", "nlffr", "cfr"), codes=1, lines=1,
           says=("stopped at t = 0.02 of 0.05, after 20 steps", "is not a number at t = 0.021"),
@@ -268,6 +273,18 @@ FAULTS = [
           options=("-motion_ts_max_reject", "1"), says=("the motion stopped at t = ", "steps tried again"),
           changes={"loads.tip.force": [0, 1e7], "motion.step": 0.05, "motion.end": 1, "motion.tolerance": 1e-6},
           check=files("failed")),
+    *case("steps of one iteration that run away", formulations=("vm+md", "nlffr"), codes=1, lines=1,
+          options=("-motion_snes_type", "ksponly"),
+          says=("the motion stopped at t = 0.00", "the state is not finite", "Leave out -motion_snes_type ksponly"),
+          changes=RELEASED, check=files("failed", reason="not finite")),
+    *case("energy that nothing brought", options=("-motion_snes_type", "ksponly"), lines=0,
+          shows=("Note: total energy: grows by", "(limit 10 %)", "take a smaller motion.step"),
+          changes={**RELEASED, "motion.end": 0.002}, check=files("finished", 3)),
+    *case("a stiff start with adaptive steps", changes={**STIFF_START, "motion.end": 0.01}, lines=0,
+          never=("total energy",), check=files("finished", rows=None)),
+    *case("a stiff start with few tries", codes=1, lines=1, options=("-motion_ts_max_reject", "3"),
+          says=("the error of a step of", "is above the tolerance", "Try another motion.tolerance than 0.001"),
+          changes=STIFF_START, check=files("failed", 1, "above the tolerance", 0)),
     *case("joints repeat each other", formulations=("vm+md", "nlffr"), codes=1, lines=1,
           says=("stopped at t = 0 of", "constraints repeat or contradict"),
           changes={**RIGID, "joints.b": {"type": "fixed", "between": [{"body": "ground", "node": [2, 0]}, "link.end"]},

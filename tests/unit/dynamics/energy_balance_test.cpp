@@ -1,0 +1,86 @@
+#include "floe/dynamics/energy_balance.h"
+
+#include <catch2/catch.hpp>
+
+#include "floe/dynamics/simulation.h"
+#include "random.h"
+#include "spatial_systems.h"
+
+using namespace floe;
+using testing::numbers_of;
+using testing::vector_of;
+
+namespace {
+
+double total(const dynamics::Energy& energy) { return energy.kinetic + energy.elastic + energy.potential; }
+
+dynamics::EnergyBalance balance_of(const dynamics::System& system, Vec U, Vec V, double end, double step) {
+  dynamics::EnergyBalance balance;
+  dynamics::simulate(system, {end, step, 0.8, {}}, U, V, [&](const dynamics::Instant& now) {
+    balance.add(system, now.t, now.U, now.V, now.A, total(system.energy(now.t, now.U, now.V)));
+  });
+  return balance;
+}
+
+}  // namespace
+
+// A force F across a hinged rod that follows it does the work F l per angle; gravity and the hinge do none.
+TEST_CASE("the work of a follower force on a pendulum is its moment times the angle") {
+  const double m = 2, l = 1.5, g = 9.81, F = 7;
+  testing::Terms load;
+  load.push_back(std::make_unique<dynamics::Force>(
+      testing::on_rod(l),
+      [F](double) -> Eigen::Vector3d {
+        return {0, F, 0};
+      },
+      dynamics::Force::Axes::body));
+  const dynamics::System system = testing::pendulum(m, l, g, std::move(load));
+  const petsc::VecHandle U = vector_of(system, {0, 0, -1, 0, 0}), V = system.create_vector();
+  const dynamics::EnergyBalance balance = balance_of(system, U, V, 2, 1e-3);
+  const double angle = numbers_of(U)[2] + 1;
+  REQUIRE(std::abs(angle) > 0.1);
+  CHECK(balance.work() == Approx(F * l * angle).margin(1e-5 * F * l));
+  CHECK(balance.turnover() > std::abs(balance.work()));
+  CHECK(balance.growth() < 1e-5 * F * l);
+}
+
+// The top's weight has no energy of its own here: its work is what its centre falls. Its frame turns in every step.
+TEST_CASE("the work of a force on a body in space, whose frame turns, is force times path") {
+  const auto attitude = std::make_shared<dynamics::Attitude>();
+  dynamics::Coordinates coordinates(PETSC_COMM_SELF);
+  coordinates.add_shared(6);
+  coordinates.add_shared(3, true);
+  coordinates.number();
+  testing::Terms terms;
+  const double weight = 20;
+  terms.push_back(std::make_unique<dynamics::SpatialBody>(std::vector<int>{0, 1, 2, 3, 4, 5}, attitude,
+                                                          testing::rigid(2, {1, 1.6, 2.2}), testing::no_elasticity()));
+  terms.push_back(std::make_unique<testing::HeavyOnPoint>(attitude, Eigen::Vector3d(0.5, 0, 0.3), weight));
+  const dynamics::System system(std::move(coordinates), std::move(terms), {{3, attitude}});
+  const petsc::VecHandle U = vector_of(system, {-0.5, 0, -0.3, 0, 0, 0, 0, 0, 0});
+  const petsc::VecHandle V = vector_of(system, {-0.9, 1.8, 1.5, 1, 3, -3, 0, 0, 0});
+  const double start = total(system.energy(0, U, V));
+  const dynamics::EnergyBalance balance = balance_of(system, U, V, 1.5, 1e-3);
+  const double work = -weight * (numbers_of(U)[2] + 0.3);
+  REQUIRE(std::abs(work) > 1);
+  CHECK(balance.work() == Approx(work).epsilon(1e-4));
+  CHECK(total(system.energy(1.5, U, V)) - start == Approx(work).epsilon(1e-4));
+}
+
+TEST_CASE("energy that grows without work is seen, also by a balance that was saved and loaded") {
+  const dynamics::System system = testing::pendulum(2, 1.5, 9.81);
+  dynamics::EnergyBalance balance;
+  for (int i = 0; i <= 10; ++i) {
+    // swings that grow, with the accelerations of none: w = w0 (1 + t)
+    const double t = 0.1 * i, w = 1 + t;
+    const petsc::VecHandle U = vector_of(system, {0, 0, -M_PI / 2, 0, 2 * (9.81 + 0.75 * w * w)}),
+                           V = vector_of(system, {0, 0, w, 0, 0}), A = vector_of(system, {0, 0, 0, 0, 0});
+    balance.add(system, t, U, V, A, total(system.energy(t, U, V)));
+    dynamics::EnergyBalance other;
+    other.load(balance.save());
+    balance = other;
+  }
+  const double J = 2 * 1.5 * 1.5 / 3;
+  CHECK(balance.work() == Approx(0).margin(1e-6));
+  CHECK(balance.growth() == Approx(0.5 * J * (4 - 1)).epsilon(1e-6));
+}
