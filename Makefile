@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize valgrind install package \
+.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize valgrind install package \
 	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
 all: build
 
@@ -47,6 +47,10 @@ tradeoff: build
 
 extremes: build
 	@bash makefiles/extremes.sh $(BUILD)
+
+# What verification tests take from independent computations, recomputed without floe.
+references: setup
+	@/usr/bin/python3 tests/verification/references/run.py
 
 readme-pictures: program
 	@bash makefiles/readme_pictures.sh $(BUILD)

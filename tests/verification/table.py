@@ -126,8 +126,8 @@ def page(wanted, cases, commit):
              f"{failed} failed, on one rank. `make verify-ranks` runs them on 2, 3 and 4.", "",
              "Expected and computed numbers are those that the tests compare, taken from their report; none is typed by hand. "
              "`< x` is a bound that a test sets. *Off* is the relative difference. Sources: closed forms are in the "
-             "comment above each test; \"independent\" is a program written apart from floe, whose numbers were given "
-             "beforehand and converged to the digits shown. The identities (force is the gradient of the energy, joints do no "
+             "comment above each test; a `.py` is a program in tests/verification/references that shares nothing with floe and is run "
+             "by `make references`. The identities (force is the gradient of the energy, joints do no "
              "work, and so on) are in `tests/unit`, on 1 to 4 ranks.", "",
              "| case | source | expected | computed | off | test |", "|---|---|---|---|---|---|"]
     words += rows_of(wanted, cases)
