@@ -2,7 +2,7 @@
 BUILD ?= build
 SHELL := /bin/bash
 .PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize valgrind install package \
-	manual api verification format format-check lint coverage fuzz setup-manual setup-maintain
+	manual api verification format format-check lint coverage fuzz mutate setup-manual setup-maintain
 all: build
 
 setup:
@@ -93,6 +93,9 @@ coverage: setup-maintain
 
 fuzz: setup-maintain
 	@bash makefiles/fuzz.sh
+
+mutate: setup
+	@bash makefiles/mutate.sh
 
 PREFIX ?= /usr/local
 install: build
