@@ -24,4 +24,5 @@ endfunction()
 
 if(FLOE_PRECOMPILE)
   floe_precompiled_header(floe_headers)
+  target_compile_options(floe_headers PRIVATE ${FLOE_COVERAGE_OPTIONS})
 endif()
