@@ -1,12 +1,15 @@
 #pragma once
+#include <petscsys.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -45,7 +48,12 @@ std::string printed(const Work& work) {
 inline std::map<std::string, std::vector<std::string>> columns_of(const std::filesystem::path& path) {
   const auto cells = [](const std::string& line) {
     std::vector<std::string> all(1);
-    for (const char c : line) c == ',' ? all.emplace_back() : all.back() += c, all;
+    for (const char c : line) {
+      if (c == ',')
+        all.emplace_back();
+      else
+        all.back() += c;
+    }
     return all;
   };
   std::ifstream file(path);
