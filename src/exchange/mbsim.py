@@ -135,6 +135,16 @@ def write_hdf5(path, body):
         content["nodal relative position"] = body.x.reshape(-1)
         content["nodal shape matrix of translation"] = body.place_S.reshape(-1, body.k)
         content["nodal shape matrix of rotation"] = body.place_psi.reshape(-1, body.k)
-    with h5py.File(path, "w") as file:
+    # MBSim's reader goes through groups and attributes in the order of their creation, which HDF5 does not keep unasked.
+    with h5py.File("memory", "w", driver="core", backing_store=False, track_order=True) as file:
+        ordered = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        ordered.set_attr_creation_order(h5py.h5p.CRT_ORDER_TRACKED | h5py.h5p.CRT_ORDER_INDEXED)
         for name, value in content.items():
-            file[name] = value
+            value = np.asarray(value)
+            space, kind = h5py.h5s.create_simple(value.shape), h5py.h5t.py_create(value.dtype, logical=True)
+            h5py.h5d.create(file.id, name.encode(), kind, space, dcpl=ordered).write(
+                h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value))
+        file.flush()
+        image = file.id.get_file_image()
+    with open(path, "wb") as target:  # whose faults, unlike HDF5's, can be told
+        target.write(image)

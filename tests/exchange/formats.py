@@ -254,13 +254,36 @@ def mbsim_hdf5_is_the_linear_body(folder):
         assert not found
 
 
+def mbsim_hdf5_is_read_in_the_order_of_creation(folder):
+    """As MBSim's reader does (hdf5serie: H5_INDEX_CRT_ORDER), for links and attributes; without that index HDF5 refuses."""
+    path = export(folder, "plate", ".h5mbs")
+    with h5py.File(path, "r") as file:
+        names, by = [], h5py.h5.INDEX_CRT_ORDER
+        file.id.links.iterate(lambda name: names.append(name.decode()), idx_type=by, order=h5py.h5.ITER_INC)
+        assert names[:3] == ["mass", "position integral", "position position integral"], names
+        assert len(names) == len(file) and sorted(names) != names
+        for each in (file["/"], *file.values()):
+            h5py.h5a.iterate(each.id, lambda name: None, index_type=by, order=h5py.h5.ITER_INC)
+            lists = each.id.get_create_plist()
+            assert lists.get_attr_creation_order() == h5py.h5p.CRT_ORDER_TRACKED | h5py.h5p.CRT_ORDER_INDEXED
+    with h5py.File(folder / "plain.h5", "w") as file:  # the test's own reader needs it
+        file["a"] = 1
+        try:
+            file.id.links.iterate(lambda name: None, idx_type=by, order=h5py.h5.ITER_INC)
+        except RuntimeError as error:
+            assert "no creation order index to query" in str(error), error
+        else:
+            raise AssertionError("read a file without the order of creation")
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         make(FLOE, folder)
         for test in (numpy_is_the_file, matrices_give_the_frequencies, sid_holds_the_inertia, sid_closed_forms,
                      geometric_stiffness_is_that_of_the_energy, a_spinning_cantilever_stiffens,
-                     a_pressed_cantilever_buckles, mbsim_has_the_energy, mbsim_hdf5_is_the_linear_body):
+                     a_pressed_cantilever_buckles, mbsim_has_the_energy, mbsim_hdf5_is_the_linear_body,
+                     mbsim_hdf5_is_read_in_the_order_of_creation):
             test(folder)
             print(f"passed: {test.__name__}")
 
