@@ -84,22 +84,37 @@ std::vector<fs::path> own_results(const fs::path& folder) {
   return own;
 }
 
-std::vector<fs::path> prepare(const fs::path& path, bool overwrite) {
+constexpr const char* lock_name = ".floe.lock";
+
+/// @throws InputError  another process writes there, or it is not writable
+Claim claim_folder(const fs::path& path) {
+  try {
+    return claim_at(path / lock_name, fmt::format("output folder '{}'", path.string()));
+  } catch (const RunError& fault) {
+    refuse(path, fmt::format("is not writable: {}", fault.what()));
+  }
+}
+
+/// Whether there is nothing in it but locks. @throws InputError
+bool is_free(const fs::path& path) {
+  std::error_code error;
+  fs::directory_iterator entries(path, error);
+  if (error) refuse(path, "cannot be read: " + error.message());
+  return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+    return entry.path().filename().string().find(lock_name) != std::string::npos;
+  });
+}
+
+std::vector<fs::path> prepare(const fs::path& path, bool overwrite, Claim& claim) {
   if (path.empty()) refuse(path, "needs a name");
   std::error_code error;
   const auto status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_directory(status)) refuse(path, "exists and is not a folder");
   fs::create_directories(path, error);
   if (error) refuse(path, "cannot be made: " + error.message());
-  const bool empty = fs::is_empty(path, error);
-  if (error) refuse(path, "cannot be read: " + error.message());
-  if (!empty && !overwrite) refuse(path, "is not empty; name another, or replace the results in it with --force");
-  try {
-    write_file_atomically(path / "floe.try", "");
-  } catch (const RunError& fault) {
-    refuse(path, fmt::format("is not writable: {}", fault.what()));
-  }
-  fs::remove(path / "floe.try", error);
+  claim = claim_folder(path);
+  if (!overwrite && !is_free(path))
+    refuse(path, "is not empty; name another, or replace the results in it with --force");
   return own_results(path);
 }
 
@@ -146,18 +161,14 @@ void sync(const fs::path& path, int flags) {
 ResultFolder reopen_folder(MPI_Comm comm, const fs::path& path) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
+  ResultFolder folder{path};
   petsc::agree(comm, [&] {
     if (rank != 0) return;
     std::error_code error;
     if (!fs::is_directory(path, error)) refuse(path, "is not there; expected the results of a run with --checkpoint");
-    try {
-      write_file_atomically(path / "floe.try", "");
-    } catch (const RunError& fault) {
-      refuse(path, fmt::format("is not writable: {}", fault.what()));
-    }
-    fs::remove(path / "floe.try", error);
+    folder.claim = claim_folder(path);
   });
-  return {path};
+  return folder;
 }
 
 void remove_drafts(MPI_Comm comm, const ResultFolder& folder) {
@@ -179,7 +190,7 @@ ResultFolder prepare_folder(MPI_Comm comm, const fs::path& path, bool overwrite)
   petsc::agree(comm, [&] {
     if (rank != 0) return;
     folder.made = first_missing(path);
-    folder.replaces = prepare(path, overwrite);
+    folder.replaces = prepare(path, overwrite, folder.claim);
   });
   return folder;
 }
@@ -194,6 +205,7 @@ void remove_replaced(MPI_Comm comm, const ResultFolder& folder) {
 }
 
 void discard_if_empty(const ResultFolder& folder) noexcept {
+  folder.claim.release();
   if (folder.made.empty()) return;
   for (fs::path path = folder.path; rmdir(path.c_str()) == 0 && path != folder.made;) path = path.parent_path();
 }

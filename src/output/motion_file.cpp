@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "floe/output/claim.h"
 #include "floe/petsc/error.h"
 #include "motion_source.h"
 #include "xdmf.h"
@@ -87,6 +88,7 @@ MotionWritten write_motion(MPI_Comm comm, const MotionRequest& request) {
   const XdmfPair pair{request.xdmf, "motion", "floe motion"};
   std::optional<MotionSource> source;
   petsc::agree(comm, [&] { source.emplace(comm, request.results); });
+  const Claim claim = claim_file(comm, pair.xdmf);
   check_pair(comm, pair, request.overwrite);
   const std::vector<std::size_t> rows = chosen_rows(source->times(), request.frames);
   MotionWritten written;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "build_reduce.h"
+#include "floe/output/claim.h"
 #include "floe/output/shape_file.h"
 #include "floe/petsc/values.h"
 #include "mesh_copy.h"
@@ -63,6 +64,7 @@ output::ShapeGrid grid_of(const PreparedBody& body, const BodyFields& fields) {
 
 std::vector<BodyReport> write_modes(const Scene& whole, MPI_Comm comm, const std::filesystem::path& path,
                                     bool overwrite) {
+  const output::Claim claim = output::claim_file(comm, path);
   output::check_shapes_path(comm, path, overwrite);
   const Scene scene = split_frames(whole);
   const Prepared prepared = prepare(scene, comm);

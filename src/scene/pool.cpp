@@ -10,6 +10,7 @@
 #include "body_stage.h"
 #include "floe/dynamics/simulation.h"
 #include "floe/fem/field_rows.h"
+#include "floe/output/claim.h"
 #include "floe/output/folder.h"
 #include "floe/output/reduced_file.h"
 #include "floe/petsc/error.h"
@@ -360,6 +361,7 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
   });
   for (const auto& [name, file] : files) {
     const std::filesystem::path beside = scene.parent_path() / file;
+    const output::Claim claim = output::claim_file(parts.comm, beside);
     output::check_reduced_path(parts.comm, beside, overwrite);
     for (std::size_t b = 0; b < parts.sources.size(); ++b) {
       if (parts.body(b).spec.name != name) continue;

@@ -5,6 +5,7 @@
 
 #include "build_reduce.h"
 #include "floe/math/nearest.h"
+#include "floe/output/claim.h"
 #include "floe/petsc/values.h"
 #include "floe/reduction/place_set.h"
 #include "floe/scene/places.h"
@@ -169,6 +170,7 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
                                     const std::filesystem::path& path, bool overwrite,
                                     std::vector<std::string>& warnings) {
   const int index = index_of(scene, name);
+  const output::Claim claim = output::claim_file(comm, path);
   output::check_reduced_path(comm, path, overwrite);
   const double start = MPI_Wtime();
   const Scene part = alone(scene, index);

@@ -22,10 +22,18 @@ void put(const Scratch& scratch, const std::filesystem::path& path, const std::s
 
 TEST_CASE("a result folder is made with its parents") {
   Scratch scratch;
-  const auto folder = prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false);
-  CHECK(std::filesystem::is_directory(scratch / "a/b/c"));
+  {
+    const auto folder = prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false);
+    CHECK(std::filesystem::is_directory(scratch / "a/b/c"));
+    CHECK(std::filesystem::exists(scratch / "a/b/c/.floe.lock"));  // its claim, and nothing else
+    CHECK(std::distance(std::filesystem::directory_iterator(scratch / "a/b/c"), {}) == 1);
+    CHECK(folder.result() == scratch / "a/b/c/result.h5");
+    meet();
+    CHECK_NOTHROW(prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false));  // this process has it already
+    meet();
+  }
+  meet();
   CHECK(std::filesystem::is_empty(scratch / "a/b/c"));
-  CHECK(folder.result() == scratch / "a/b/c/result.h5");
   meet();
   CHECK_NOTHROW(prepare_folder(PETSC_COMM_WORLD, scratch / "a/b/c", false));
 }
