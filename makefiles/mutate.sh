@@ -2,7 +2,7 @@
 # make mutate: random one-token mutants of src in a copy of the tree (build-mutate), each against the tests until one fails;
 # survivors with file and line. A stopped campaign goes on where it was.
 # COUNT: of mutants that compile (20). SEED (1). ROOM: some of the rooms. FILES: patterns such as "src/fem/shell_*.cpp".
-# TESTS: regular expression of the tests' names. RETRY=1: survivors again, with the tests as they are now.
+# TESTS: regular expression of the tests' names. RETRY=1: survivors again, in the tree as it is now.
 # FRESH=1: begins anew with the sources as they are now. JOBS.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -5,8 +5,9 @@ mutate.py --count N --seed S [--room R...] [--files GLOB...] [--tests REGEX] [--
 
 Everything happens in a copy of the working tree (FOLDER/tree) with its own build folder. Each mutant: it does not compile
 -> another one is drawn; its object file is the original's -> equivalent; else the tests run, those first that are near
-and fast, until one fails. FOLDER/results.jsonl has a line for each mutant: a stopped campaign goes on where it was, in the
-sources that it began with and with the tests as they are now (--fresh: begins anew).
+and fast, until one fails. FOLDER/results.jsonl has a line for each mutant: a stopped campaign goes on where it was, with the
+tree that it began with (--fresh: begins anew). --retry takes the tree as it is now and runs the tests on the survivors
+again, wherever their lines have gone.
 """
 import argparse
 import fnmatch
@@ -33,13 +34,16 @@ AFTER_UNITS = ("worked.np1", "verification.np1", "convergence.np1", "exchange", 
                "restart.np1")
 
 
-def synchronise(tree, what, keep=()):
+def synchronise(tree):
     """Makes the copy's files those of the working tree, and touches only what differs."""
-    names = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "--", *what], cwd=ROOT, check=True, text=True,
+    names = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=ROOT, check=True, text=True,
                            capture_output=True).stdout.splitlines()
+    for old in {str(p.relative_to(tree)) for folder in ("src", "include", "tests") for p in tree.glob(f"{folder}/**/*")
+                if p.is_file()} - set(names):
+        (tree / old).unlink()
     for name in names:
         source, copy = ROOT / name, tree / name
-        if not source.is_file() or any(name.startswith(k) for k in keep):
+        if not source.is_file():
             continue
         if not copy.exists() or copy.read_bytes() != source.read_bytes():
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -100,10 +104,11 @@ class Campaign:
             shutil.rmtree(self.folder)
         began = (self.tree / "CMakeLists.txt").exists()
         self.tree.mkdir(parents=True, exist_ok=True)
-        synchronise(self.tree, ["tests", "examples"] if began else ["."])
         self.original = self.folder / "original"  # of a file that is mutated now
         self.restore()
-        if not began:
+        if not began or arguments.retry:
+            synchronise(self.tree)
+        if not (self.build / "build.ninja").exists():
             self.shell(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja"])
         self.results = self.folder / "results.jsonl"
         self.done = [json.loads(line) for line in self.results.read_text().splitlines()] if self.results.exists() else []
@@ -238,11 +243,24 @@ class Campaign:
             mutant = chance.choice(choices)
             changed = mutant.of(text)
             begin, line = text.rfind("\n", 0, mutant.start) + 1, text.count("\n", 0, mutant.start) + 1
-            before = text[begin:text.find("\n", mutant.end)]
             after = changed[begin:changed.find("\n", mutant.start + len(mutant.put))]
+            lines = text[begin:text.find("\n", mutant.end)]
             key = hashlib.sha256(f"{name}\0{changed}".encode()).hexdigest()[:16]
-            yield {"key": key, "file": name, "line": line, "what": mutant.what, "start": mutant.start, "end": mutant.end,
-                   "put": mutant.put, "before": " ".join(before.split()), "after": " ".join(after.split())}
+            yield {"key": key, "file": name, "line": line, "what": mutant.what, "begin": begin, "start": mutant.start,
+                   "end": mutant.end, "put": mutant.put, "lines": lines, "before": " ".join(lines.split()),
+                   "after": " ".join(after.split())}
+
+    def where_now(self, survivor):
+        """The survivor in the copy's sources as they are; None: its lines have changed."""
+        file = self.tree / survivor["file"]
+        text = file.read_text() if file.exists() else ""
+        shift, length = survivor["start"] - survivor["begin"], survivor["end"] - survivor["start"]
+        found = [m.start() for m in re.finditer("^" + re.escape(survivor["lines"]) + "$", text, re.M)]
+        if not found:
+            return None
+        begin = min(found, key=lambda at: abs(text.count("\n", 0, at) + 1 - survivor["line"]))
+        return {**survivor, "start": begin + shift, "end": begin + shift + length, "begin": begin,
+                "line": text.count("\n", 0, begin) + 1}
 
     def record(self, found, fate):
         entry = {**found, **fate}
@@ -260,7 +278,8 @@ class Campaign:
         if built.returncode:
             sys.exit("the sources do not build without a mutant:\n" + built.stdout[-3000:])
         tests = Tests(self.tree, arguments.tests)
-        draws, known = list(self.draws()), {d["key"]: d for d in self.done}
+        survivors = [d for d in self.done if d["fate"] == "survived"]
+        draws, known = survivors if arguments.retry else list(self.draws()), {d["key"]: d for d in self.done}
         rooms = {d["file"].split("/")[1] for d in draws}
         if not draws:
             sys.exit("nothing to mutate in the chosen files")
@@ -272,14 +291,22 @@ class Campaign:
             if sum(e["fate"] != "does not compile" for e in counted) >= arguments.count:
                 break
             entry = known.get(found["key"])
-            if not entry or (arguments.retry and entry["fate"] == "survived"):
+            if not entry:
                 entry = self.record(found, self.judge(found, tests, times))
-                if entry["fate"] != "does not compile":
-                    by = f" by {entry['by']} ({entry['how']})" if "by" in entry else ""
-                    print(f"{entry['file']}:{entry['line']}: {entry['what']}: {entry['fate']}{by}", flush=True)
+                tell(entry)
+            elif arguments.retry:
+                now = self.where_now(found)
+                entry = self.record(now, self.judge(now, tests, times)) if now else found
+                tell(entry) if now else print(f"{found['file']}:{found['line']}: its lines have changed", flush=True)
             counted.append(entry)
         self.ninja()
-        return report(counted, arguments)
+        return report(self.done if arguments.retry else counted, arguments)
+
+
+def tell(entry):
+    if entry["fate"] != "does not compile":
+        by = f" by {entry['by']} ({entry['how']})" if "by" in entry else ""
+        print(f"{entry['file']}:{entry['line']}: {entry['what']}: {entry['fate']}{by}", flush=True)
 
 
 def report(entries, arguments):
@@ -303,7 +330,7 @@ def main():
     parser.add_argument("--tests", default="", help="regular expression of the tests' names")
     parser.add_argument("--folder", default=ROOT / "build-mutate")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--retry", action="store_true", help="runs the tests on survivors again")
+    parser.add_argument("--retry", action="store_true", help="the survivors again, in the tree as it is now")
     parser.add_argument("--fresh", action="store_true", help="forgets the campaign, copies the sources as they are now")
     sys.exit(Campaign(parser.parse_args()).execute())
 
