@@ -128,6 +128,21 @@ TEST_CASE("a hinge that is locked stops a rod at once and says what that took") 
   CHECK(history.t.back() == Approx(1).epsilon(1e-12));
 }
 
+TEST_CASE("an event happens where its formula first changes sign, also where that begins at zero") {
+  const std::vector<std::pair<std::string, double>> cases{{"sin(5*t)", M_PI / 5},
+                                                          {"t*(t - 0.4)", 0.4},
+                                                          {"(t - 0.2)*(t - 0.6)", 0.2},
+                                                          {"0.3 - t", 0.3},
+                                                          {"cos(20*t)", M_PI / 40}};
+  for (const auto& [when, t] : cases) {
+    INFO(when);
+    const History history = move(rod("enough: {stop: true, when: \"" + when + "\"}"), Formulation::vm_md);
+    REQUIRE(history.events.size() == 1);
+    CHECK(history.events[0].t == Approx(t).epsilon(1e-12));
+    CHECK(history.t.back() == Approx(t).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a rod whose hinge lets go flies straight on") {
   const bool space = GENERATE(false, true);
   const std::string events = "go: {unlock: hinge, when: \"t^2 - 0.25\"}";
