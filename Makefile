@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes sanitize valgrind install package \
+.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes petsc-options sanitize valgrind install package \
 	manual api verification format format-check lint coverage fuzz mutate setup-manual setup-maintain
 all: build
 
@@ -54,6 +54,9 @@ references: setup
 
 readme-pictures: program
 	@bash makefiles/readme_pictures.sh $(BUILD)
+
+petsc-options: build
+	@source makefiles/mpi_environment.sh; PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 tests/failure/petsc_options.py $(BUILD)/floe all
 
 bench-online: build
 	@bash makefiles/bench_online.sh $(BUILD)

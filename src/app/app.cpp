@@ -358,7 +358,8 @@ int main(int argc, char** argv) {
       throw InputError(fmt::format("{}: {} has no options of PETSc", line.petsc.front(), showing.script->name));
     };
   }
-  return in_session(line, work);
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  return in_session(line, commands.empty() ? "" : commands.front()->get_name(), work);
 }
 
 }  // namespace floe::app

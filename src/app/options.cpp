@@ -1,8 +1,10 @@
 #include "options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <petscsys.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -10,6 +12,8 @@
 
 #include "floe/math/nearest.h"
 #include "floe/petsc/error.h"
+#include "options_probe.h"
+#include "options_refused.h"
 
 namespace floe::app {
 
@@ -85,16 +89,63 @@ std::string option_fault(const std::string& name, const std::string& value) {
   }
   for (const char* time : {"motion_ts_dt", "motion_ts_max_time", "ranking_ts_dt", "ranking_ts_max_time"})
     if (name == time && not_positive(value)) return fmt::format("option -{} {}: is not a positive number", name, value);
-  return "";
+  return refusal(name, value);
 }
 
-void check_options() {
+namespace {
+
+std::string written(const Option& option) {
+  return fmt::format("-{}{}{}", option.first, option.second.empty() ? "" : " ", option.second);
+}
+
+/// Commands that have a solver of this prefix; none: any may have.
+Words commands_with(const std::string& name) {
+  if (begins(name, "campbell_")) return {"campbell"};
+  if (begins(name, "motion_")) return {"run", "compare", "tradeoff", "sweep", "static", "campbell"};
+  return {};
+}
+
+/// Of the solvers' options; they are kept, for what goes wrong may be their fault.
+std::vector<Option>& solver_options() {
+  static std::vector<Option> all;
+  return all;
+}
+
+}  // namespace
+
+void check_options(const std::string& command) {
   Words faults;
+  std::vector<Option>& given = solver_options();
+  given.clear();
   for_each_left([&](const std::string& name, const std::string& value) {
+    if (begins(name, solvers)) given.emplace_back(name, value);
     const std::string fault = option_fault(name, value);
-    if (!fault.empty()) faults.push_back(fault);
+    const Words commands = commands_with(name);
+    if (!fault.empty())
+      faults.push_back(fault);
+    else if (!commands.empty() && std::find(commands.begin(), commands.end(), command) == commands.end())
+      faults.push_back(fmt::format("option {}: floe {} has no such solver; expected it with {}", written({name, value}),
+                                   command, fmt::join(commands, ", ")));
   });
+  if (faults.empty())
+    for (const Option& option : unread(given))
+      faults.push_back(fmt::format(
+          "option {}: nothing reads it; floe <command> SCENE -help lists what the solvers read", written(option)));
   if (!faults.empty()) throw InputError(faults);
+}
+
+std::string with_options(const std::string& text) {
+  constexpr std::size_t most = 8;
+  const std::vector<Option>& given = solver_options();
+  const auto named = [&](const Option& option) {
+    return text.find("-" + option.first.substr(0, option.first.find('_') + 1)) != std::string::npos;
+  };
+  if (given.empty() || std::any_of(given.begin(), given.end(), named)) return text;
+  Words words;
+  for (const Option& option : given)
+    if (words.size() < most) words.push_back(written(option));
+  return fmt::format("{} (option{} given: {}{})", text, given.size() > 1 ? "s" : "", fmt::join(words, ", "),
+                     given.size() > most ? ", ..." : "");
 }
 
 void check_unused() {
@@ -103,8 +154,8 @@ void check_unused() {
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   for_each_left([&](const std::string& name, const std::string& value) {
     if (begins(name, globals) || (ranks == 1 && begins(name, partitioning))) return;
-    faults.push_back(fmt::format("option -{}{}{}: nothing in this run has read it; floe's solvers read -{}...", name,
-                                 value.empty() ? "" : " ", value, fmt::join(solvers, "..., -")));
+    faults.push_back(
+        fmt::format("option {}: nothing in this run has read it; its results are complete", written({name, value})));
   });
   if (!faults.empty()) throw InputError(faults);
 }

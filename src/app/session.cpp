@@ -8,13 +8,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
 #include "options.h"
+#include "options_file.h"
 
 namespace floe::app {
 
@@ -57,9 +57,10 @@ int guarded(const std::function<void()>& work) {
     work();
     return 0;
   } catch (const InputError& error) {
-    return report(2, error.what());
+    const std::string text = error.what();
+    return report(2, text.find("cannot be taken: PETSc") == std::string::npos ? text : with_options(text));
   } catch (const std::exception& error) {
-    return report(1, error.what());
+    return report(1, with_options(error.what()));
   }
 }
 
@@ -71,25 +72,11 @@ int flushed() {
   return 1;
 }
 
-bool command(const std::string& word) {
-  for (const char* name : {"run", "compare", "modes", "motion", "plot", "report", "check", "schema"})
+bool is_command(const std::string& word) {
+  for (const char* name : {"run", "compare", "tradeoff", "sweep", "static", "campbell", "modes", "reduce", "info",
+                           "motion", "plot", "report", "export", "check", "schema"})
     if (word == name) return true;
   return false;
-}
-
-/// Takes the options files that cannot be read out of the options: PETSc would end the program over them.
-std::vector<std::string> take_unreadable_files(std::vector<std::string>& options) {
-  std::vector<std::string> faults;
-  for (std::size_t i = 0; i + 1 < options.size();) {
-    if (options[i] != "-options_file" || std::ifstream(options[i + 1]).peek() != EOF) {
-      ++i;
-      continue;
-    }
-    faults.push_back(fmt::format("option -options_file: {} cannot be read, or is empty", options[i + 1]));
-    options.erase(options.begin() + static_cast<std::ptrdiff_t>(i),
-                  options.begin() + static_cast<std::ptrdiff_t>(i) + 2);
-  }
-  return faults;
 }
 
 }  // namespace
@@ -104,16 +91,16 @@ CommandLine split(int argc, char** argv) {
     }
     line.petsc.push_back(word);
     if (i + 1 < argc && !petsc_option(argv[i + 1]) && std::string(argv[i + 1]).rfind("--", 0) != 0 &&
-        std::string(argv[i + 1]) != "-o" && !scene_file(argv[i + 1]) && !(line.own.empty() && command(argv[i + 1])))
+        std::string(argv[i + 1]) != "-o" && !scene_file(argv[i + 1]) && !(line.own.empty() && is_command(argv[i + 1])))
       line.petsc.push_back(argv[++i]);
   }
   return line;
 }
 
-int in_session(const CommandLine& line, const std::function<void()>& work) {
+int in_session(const CommandLine& line, const std::string& command, const std::function<void()>& work) {
   std::vector<std::string> words = {"floe"};
   words.insert(words.end(), line.petsc.begin(), line.petsc.end());
-  const std::vector<std::string> unreadable = take_unreadable_files(words);
+  const std::vector<std::string> bad_files = take_bad_option_files(words);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -126,8 +113,8 @@ int in_session(const CommandLine& line, const std::function<void()>& work) {
     petsc::collect_errors();
     petsc::prepare_mumps();
     dynamics::register_generalized_alpha();
-    if (!unreadable.empty()) throw InputError(unreadable);
-    check_options();
+    if (!bad_files.empty()) throw InputError(bad_files);
+    check_options(command);
     int rank = 0;
     MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
     if (rank == 0 && output::provenance(PETSC_COMM_WORLD)["blas"]["name"] == "reference")

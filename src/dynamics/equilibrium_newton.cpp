@@ -8,6 +8,7 @@
 
 #include "floe/dynamics/start.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
 #include "floe/petsc/values.h"
 #include "resolution.h"
 #include "round_off.h"
@@ -141,6 +142,7 @@ NewtonSearch newton(const System& system, double t, Vec U, Vec V, Vec before, Ma
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
   petsc::check_options(SNESSetFromOptions(snes), "static_");
+  petsc::refuse_preconditioner_alone(ksp);
   NewtonSearch search;
   solve(snes, U, context, search);
   return search;

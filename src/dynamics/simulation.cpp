@@ -10,6 +10,7 @@
 #include "crossings.h"
 #include "floe/dynamics/generalized_alpha.h"
 #include "floe/dynamics/start.h"
+#include "floe/petsc/options.h"
 #include "happen.h"
 #include "simplified_newton.h"
 
@@ -153,7 +154,27 @@ void save_factorisations(SNES snes, Mat J) {
 }
 
 /// What -motion_ts_type may say: a type for motions, which are of second order, and one that knows rotations in space.
+/// Newton's convergence test measures Newton's updates; a step that passes the end, or an event, would be lost.
 void refuse_other_types(TS ts, const System& system, const std::string& prefix) {
+  SNES snes = nullptr;
+  SNESType newton = nullptr;
+  KSP ksp = nullptr;
+  TSExactFinalTimeOption at_end = TS_EXACTFINALTIME_MATCHSTEP;
+  check(TSGetExactFinalTime(ts, &at_end));
+  if (at_end != TS_EXACTFINALTIME_MATCHSTEP)
+    throw InputError(
+        fmt::format("option -{}ts_exact_final_time: a motion ends, and is interrupted by events, at the "
+                    "end of a step; expected matchstep",
+                    prefix));
+  check(TSGetSNES(ts, &snes));
+  check(SNESGetType(snes, &newton));
+  if (newton != std::string(simplified_newton) && newton != std::string(SNESNEWTONLS))
+    throw InputError(
+        fmt::format("option -{}snes_type {}: steps converge by the size of Newton's updates; expected {} "
+                    "or {}",
+                    prefix, newton, simplified_newton, SNESNEWTONLS));
+  check(SNESGetKSP(snes, &ksp));
+  petsc::refuse_preconditioner_alone(ksp);
   PetscBool second_order = PETSC_FALSE;
   check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(ts), &second_order, generalized_alpha, TSALPHA2, ""));
   TSType type = nullptr;

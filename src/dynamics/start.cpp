@@ -6,6 +6,7 @@
 
 #include "at_base.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
 #include "floe/petsc/values.h"
 #include "undetermined.h"
 
@@ -30,6 +31,7 @@ petsc::KspHandle tangent_solver(Mat J, const char* prefix) {
   check(KSPSetOperators(ksp, J, J));
   set_tangent_solver(ksp, J);
   petsc::check_options(KSPSetFromOptions(ksp), prefix);
+  petsc::refuse_preconditioner_alone(ksp);
   return ksp;
 }
 

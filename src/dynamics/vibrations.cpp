@@ -8,6 +8,7 @@
 
 #include "exponents.h"
 #include "floe/dynamics/steady_rotation.h"
+#include "floe/petsc/options.h"
 #include "null_space.h"
 
 namespace floe::dynamics {
@@ -147,8 +148,9 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   const double scale = swing > 0 ? swing : 1;
   const double noise = std::clamp(noise_of(problem), 1e-6 * scale, 1e-2 * scale);
   constexpr Index small = 150;
-  const Exponents found =
-      allowed.size() <= small ? all_exponents(problem, scale) : first_exponents(problem, scale, count);
+  const Exponents found = allowed.size() <= small && !petsc::user_sets("campbell_")
+                              ? all_exponents(problem, scale)
+                              : first_exponents(problem, scale, count);
   return slowest_vibrations(problem, found, noise, 1e-6 * scale, count);
 }
 

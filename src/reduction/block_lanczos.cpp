@@ -353,4 +353,6 @@ void register_block_lanczos() { petsc::check(EPSRegister(block_lanczos, create))
 
 PetscInt block_lanczos_space(PetscInt count) { return 2 * count + 10 * usual_block; }
 
+void register_eigensolvers() { register_block_lanczos(); }
+
 }  // namespace floe::reduction

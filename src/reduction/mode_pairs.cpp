@@ -11,6 +11,7 @@
 #include "canonical_modes.h"
 #include "eigenvalue_count.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
 #include "floe/petsc/values.h"
 #include "multigrid.h"
 
@@ -34,14 +35,6 @@ petsc::VecHandle rough_field(const fem::Structure& structure, const fem::Conditi
   check(VecRestoreArrayWrite(x, &values));
   fem::hold(x, conditions);
   return x;
-}
-
-bool user_sets(const std::string& prefix) {
-  char* all = nullptr;
-  check(PetscOptionsGetAll(nullptr, &all));
-  const bool found = (" " + std::string(all)).find(" -" + prefix) != std::string::npos;
-  check(PetscFree(all));
-  return found;
 }
 
 KSP solver_of(EPS eps) {
@@ -153,7 +146,7 @@ namespace {
 /// The user's subspace, or nothing.
 std::optional<PetscInt> user_subspace(EPS eps) {
   PetscInt subspace = 0;
-  if (!user_sets("modes_eps_ncv")) return std::nullopt;
+  if (!petsc::user_sets("modes_eps_ncv")) return std::nullopt;
   check(EPSGetDimensions(eps, nullptr, &subspace, nullptr));
   return subspace;
 }

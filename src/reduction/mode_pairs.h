@@ -11,9 +11,6 @@ namespace floe::reduction {
 /// the Krylov space, or one of them. Collective.
 petsc::VecHandle rough_field(const fem::Structure& structure, const fem::Conditions& conditions, int number = 0);
 
-/// Whether an option that begins so is set.
-bool user_sets(const std::string& prefix);
-
 /// Where pairs K phi = lambda M phi are looked for.
 struct PairSearch {
   EPS eps = nullptr;  ///< set up but for what changes from one solve to the next: dimensions, initial space, deflation

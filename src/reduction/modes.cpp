@@ -10,6 +10,7 @@
 #include "canonical_modes.h"
 #include "floe/fem/flat_body.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mode_pairs.h"
@@ -44,7 +45,7 @@ double low_frequency(const fem::Structure& structure, const Statics& statics, Ma
 bool own_transformation(EPS eps, double shift) {
   double target = 0;
   check(EPSGetTarget(eps, &target));
-  return target == shift && !user_sets("modes_st_");
+  return target == shift && !petsc::user_sets("modes_st_");
 }
 
 /// Lets the solver of `statics` invert K, unless the user wants another operator or another solver.
@@ -108,6 +109,20 @@ petsc::EpsHandle solver(Mat K, Mat M, double shift, double tolerance) {
   return eps;
 }
 
+/// K x = lambda M x is what every result is made from, and its transformed operator is solved with, not preconditioned.
+void refuse_other_operators(EPS eps) {
+  ST st = nullptr;
+  EPSProblemType type = EPS_GHEP;
+  PetscBool solves = PETSC_TRUE;
+  check(EPSGetProblemType(eps, &type));
+  if (type == EPS_HEP || type == EPS_NHEP)
+    throw InputError(
+        "options -modes_eps_hermitian, -modes_eps_non_hermitian: modes are those of two matrices, K and M");
+  check(EPSGetST(eps, &st));
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(st), &solves, STSINVERT, STCAYLEY, STSHIFT, ""));
+  if (solves) petsc::refuse_preconditioner_alone(solver_of(eps));
+}
+
 /// Takes blocks where K - s M is factored, which solves for many right-hand sides at once, and the body is not small;
 /// iterations solve one by one.
 void prefer_blocks(EPS eps, PetscInt count, PetscInt available) {
@@ -118,7 +133,8 @@ void prefer_blocks(EPS eps, PetscInt count, PetscInt available) {
   check(EPSGetWhichEigenpairs(eps, &which));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSINVERT, &inverts));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(solver_of(eps)), KSPPREONLY, &direct));
-  const bool chosen = user_sets("modes_eps_type") || user_sets("modes_eps_n") || user_sets("modes_eps_mpd");
+  const bool chosen =
+      petsc::user_sets("modes_eps_type") || petsc::user_sets("modes_eps_n") || petsc::user_sets("modes_eps_mpd");
   if (chosen || which != EPS_TARGET_MAGNITUDE || !inverts || !direct || !factors(solver_of(eps))) return;
   if (4 * block_lanczos_space(count) > available) return;
   check(EPSSetType(eps, block_lanczos));
@@ -177,6 +193,7 @@ void ModeSolver::create(int count) {
   eps_ = solver(shares ? statics_.stiffness() : Mat(K_), M_, shift, tolerance);
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
+  refuse_other_operators(eps_);
   exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
   if (!factors(solver_of(eps_)))
     precondition(eps_, shift, structure_, frame_, holding_.held);
@@ -185,7 +202,7 @@ void ModeSolver::create(int count) {
   else if (statics_.refines())
     refine(eps_, exact_, M_, shift, structure_, holding_.held);
   prefer_blocks(eps_, count, available());
-  if (!user_sets("modes_eps_n") && !user_sets("modes_eps_mpd"))
+  if (!petsc::user_sets("modes_eps_n") && !petsc::user_sets("modes_eps_mpd"))
     check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
 }
 

@@ -1,7 +1,5 @@
 #include "floe/reduction/statics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +7,7 @@
 
 #include "floe/fem/field_rows.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "multigrid.h"
@@ -22,25 +21,6 @@ bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& held) 
          std::includes(held.begin(), held.end(), frame.conditions.begin(), frame.conditions.end());
 }
 
-namespace {
-
-/// @throws InputError  the user's options leave a preconditioner alone
-void check_solver(KSP ksp) {
-  PC pc = nullptr;
-  PetscBool direct = PETSC_FALSE;
-  PCType preconditioner = nullptr;
-  check(KSPGetPC(ksp, &pc));
-  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(ksp), KSPPREONLY, &direct));
-  check(PCGetType(pc, &preconditioner));
-  if (direct && !factors(ksp))
-    throw InputError(
-        fmt::format("option -derivatives_pc_type {}: is no solver by itself; expected a factorisation "
-                    "(cholesky), or an iteration besides (-derivatives_ksp_type cg)",
-                    preconditioner));
-}
-
-}  // namespace
-
 Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding)
     : frame_(frame),
       conditions_(holding.statics),
@@ -48,7 +28,7 @@ Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& fra
       elements_(std::make_shared<fem::ElementStiffness>(structure)),
       exact_(fem::stiffness_operator(elements_, holding.statics)),
       ksp_(direct_solver(K_, "derivatives_")) {
-  check_solver(ksp_);
+  petsc::refuse_preconditioner_alone(ksp_);
   if (factors(ksp_)) return;
   K_ = for_multigrid(K_, frame, conditions_);
   check(KSPSetOperators(ksp_, K_, K_));

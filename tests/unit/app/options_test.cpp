@@ -22,6 +22,25 @@ TEST_CASE("options with another prefix are refused, with the one that is near") 
   CHECK_THAT(option_fault("foo_bar", "1"), Contains("expected -modes_..., -derivatives_..., -motion_..."));
 }
 
+TEST_CASE("options that would change what is solved, or end in PETSc, are refused by name") {
+  const auto refused = [](const char* name, const char* value) {
+    const std::string fault = option_fault(name, value);
+    return fault.find(std::string("option -") + name) == 0;
+  };
+  CHECK(refused("motion_ts_exact_final_time", "INTERPOLATE"));
+  CHECK(refused("ranking_ts_init_time", "1"));
+  CHECK(refused("motion_snes_type", "ksponly"));
+  CHECK(refused("static_snes_type", "vinewtonrsls"));
+  CHECK(refused("motion_start_ksp_type", "pipelcg"));
+  CHECK(refused("modes_eps_hermitian", ""));
+  CHECK(refused("modes_st_pc_factor_mat_ordering_type", "wbm"));
+  CHECK_FALSE(refused("motion_ts_exact_final_time", "MatchStep"));
+  CHECK_FALSE(refused("motion_ts_monitor_cancel", "false"));
+  CHECK_FALSE(refused("static_snes_type", "newtontr"));
+  CHECK_FALSE(refused("motion_ksp_type", "gmres"));
+  CHECK_FALSE(refused("modes_eps_gen_hermitian", ""));
+}
+
 TEST_CASE("times of the motion are positive and finite") {
   for (const char* value : {"-1", "0", "nan", "inf", "-1e-3"}) {
     CHECK_THAT(option_fault("motion_ts_dt", value), Contains("is not a positive number"));
