@@ -329,9 +329,7 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
         moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
       }
     }
-    if (!chosen.within())
-      moved.warnings.push_back(fmt::format("an error of {} was asked for; {} is supported", math::percent(chosen.asked),
-                                           math::percent(chosen.supported)));
+    if (!chosen.within()) moved.warnings.push_back(missed_words(chosen.asked, chosen.supported));
     return moved;
   });
   if (!petsc::first_rank(comm)) return;

@@ -20,4 +20,12 @@ std::string estimate_words(const scene::Estimate& estimate) {
   return words;
 }
 
+std::string missed_words(double asked, double supported) {
+  constexpr int most = 15;
+  int digits = 2;
+  while (digits < most && math::percent(asked, digits) == math::percent(supported, digits)) ++digits;
+  return fmt::format("an error of {} was asked for, and the best model found has an estimated error of {}",
+                     math::percent(asked, digits), math::percent(supported, digits));
+}
+
 }  // namespace floe::app

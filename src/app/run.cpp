@@ -149,20 +149,25 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
       petsc::agree(comm, [] {});
       told = false;
     };
+    std::optional<std::string> reason;
     fault = fault_of([&] {
       try {
         report = dynamics::simulate(*model.system, how, model.U, model.V, observe);
       } catch (const dynamics::MotionStopped& error) {
         report = error.report();
+        reason = error.reason();
         throw;
       }
     });
-    if (reduced && !told)
-      fault = fault_of([&] {
+    if (reduced && !told) {
+      const std::exception_ptr shared = fault_of([&] {
         petsc::agree(comm, [&] {
+          if (reason) throw RunError(*reason);  // when it stopped here is another time than elsewhere
           if (fault) std::rethrow_exception(fault);
         });
       });
+      if (!reason) fault = shared;
+    }
   }
   if (report.type == TSALPHA2)
     result.warnings.push_back(

@@ -383,7 +383,7 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
   const auto stop = [&](const std::string& why) {
     throw MotionStopped(fmt::format("the motion stopped at t = {:.6g} of {:.6g}, after {} steps: {}", report.end,
                                     context.end, report.steps, why),
-                        report);
+                        report, why);
   };
   try {
     context.guard.check(code);

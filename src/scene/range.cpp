@@ -149,6 +149,16 @@ bool stretches(const BodyReport& body) {
   });
 }
 
+/// What to do about slopes that are too large for the frames that the body has.
+std::string more_frames(const Model& model, const BodyReport& body, bool tangent) {
+  const std::string whole = body.name.substr(0, body.name.find('#'));
+  const auto frames = std::count_if(model.bodies.begin(), model.bodies.end(), [&](const BodyReport& other) {
+    return other.name.substr(0, other.name.find('#')) == whole;
+  });
+  if (frames > 1) return fmt::format("take more than {} (frames: {})", frames, 2 * frames);
+  return tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)";
+}
+
 void judge_slope(const Model& model, const BodyReport& body, const std::string& frame, double slope,
                  std::vector<OutOfRange>& out) {
   if (model.formulation == Formulation::lffr) {
@@ -168,7 +178,7 @@ void judge_slope(const Model& model, const BodyReport& body, const std::string& 
          fmt::format("body {}: slopes to {:.2g} in its {} frame, beyond {}: von Karman's strains err by about "
                      "{} there; {}",
                      body.name, slope, frame, tangent ? "0.5" : "0.89", math::percent(error, 1),
-                     tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)")});
+                     more_frames(model, body, tangent))});
 }
 
 /// Nothing can stretch with the bending: a linear elastic force, or no derivatives.

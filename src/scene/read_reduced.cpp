@@ -55,6 +55,7 @@ Body read_reduced(Document& document, const std::string& name, Reading& reading)
   }
   body.reduced->path = document.beside(body.reduced->path);
   read_file(document, *body.reduced);
+  if (!body.reduced->file) return body;  // nothing is known that the rest could be judged by
   const std::size_t sound = document.fault_count();
   body.initial = read_initial(document, reading);
   if (document.fault_count() == sound) refuse_deformation(document, reading);

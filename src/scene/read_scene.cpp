@@ -42,6 +42,21 @@ bool reduced_in_space(Document& document, const YAML::Node& body) {
   }
 }
 
+// Whether all bodies are from files, of which none can be read: nothing says in how many dimensions the scene is.
+bool unknown_dimension(Document& document, const YAML::Node& bodies) {
+  if (!bodies || !bodies.IsMap() || bodies.size() == 0) return false;
+  for (const auto& body : bodies) {
+    if (!body.second.IsMap() || !body.second["reduced"] || !body.second["reduced"].IsScalar() || body.second["mesh"])
+      return false;
+    try {
+      document.reduced_file(document.beside(body.second["reduced"].Scalar()));
+      return false;
+    } catch (const InputError&) {
+    }
+  }
+  return true;
+}
+
 // A scene is in space as soon as a mesh has a point of three coordinates, is a plate or comes from a file, or a reduced
 // body is.
 bool in_space(Document& document, const YAML::Node& root) {
@@ -79,6 +94,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   if (!root.node.IsMap()) document.throw_faults();
   scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
+  if (unknown_dimension(document, root.node["bodies"])) {  // coordinates would be judged by a guess
+    read_named<Body>(document, reading, "bodies", read_body);
+    document.throw_faults();
+  }
   scene.title = reading.text("title");
   scene.gravity = reading.force("gravity");
   if (const auto ground = reading.value("ground"))

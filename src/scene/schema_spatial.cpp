@@ -13,7 +13,7 @@ const SchemaSection plate_section{
         {"origin", Type::point, "m", "[0, 0, 0]", "the corner p1"},
         {"along", Type::point, "m", required, "from p1 to p2"},
         {"across", Type::point, "m", required, "from p1 to p4"},
-        {"elements", Type::integers, "", required, "along and across", counts},
+        {"elements", Type::pair, "", required, "along and across", counts},
         {"cells",
          Type::choice,
          "",

@@ -8,7 +8,7 @@ from typing import Callable, Optional, Union
 import reduced
 import runtime
 import space
-from results import absent, estimated, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands
+from results import absent, estimated, files, full, kept, killed, no_error_of, no_results, not_looked, nothing, stands, stopped_once
 from scenes import GAP, HELD_ROD, PLATE, RIGID, rod, scene
 
 ENVIRONMENT = dict(os.environ)
@@ -303,7 +303,7 @@ FAULTS = [
     *case("killed", formulations=("vm+md", "nlffr"), codes=(-9, 137), changes=LONG, signal=signal.SIGKILL,
           check=killed),
     *case("told to end", formulations=("vm+md", "nlffr"), codes=(1, 143, 130), changes=LONG, signal=signal.SIGTERM,
-          environment=PATIENT, check=files("failed", reason="interrupted")),
+          environment=PATIENT, check=stopped_once),
     Case("Ctrl-C in compare", ["compare", "scene.yaml", "--formulations", "vm,nlffr", "-o", "out"], (1, 130),
          lines=1, scene=scene(LONG), signal=signal.SIGINT, environment=PATIENT,
          check=lambda folder: (files("failed", reason="interrupted", out="out/vm")(folder),
@@ -629,4 +629,17 @@ SPACE = [
                           probes="{end: {at: a.end, quantity: deflection, relative_to: a.start}}")),
 ]
 
-CASES = SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+WORDS = [
+    Case("more frames than there are", ["static", "scene.yaml", "--steps", "20", "--at", "1", "-o", "out"], 0, lines=0,
+         shows=("take more than 4 (frames: 8)",), never=("frames: 2",),
+         scene=scene({"bodies.beam.frames": 4, "bodies.beam.frame": {"type": "clamped", "at": "start"},
+                      "loads.tip": {"type": "moment", "at": "beam.end", "moment": "2.6*t"}})),
+    Case("elements of a plate", ["check", "scene.yaml"], 2, lines=1, scene=PLATE.replace("[60, 30]", "1"),
+         says=('plate.elements: is "1"; expected two integers [i, j]',)),
+    *(Case(f"body's file that is {what}", ["check", "scene.yaml"], 2, lines=1, files={"junk.h5": "junk"}, says=(says,),
+           scene=f"bodies: {{f: {{reduced: {name}, initial: {{position: [0, 0, 1]}}}}}}\ngravity: [0, 0, -9.81]\njoints: {{r: {{type: "
+                 "fixed, between: [ground, f.root]}}\nloads: {t: {type: force, at: f.tip, force: [0, 0, 1]}}\n")
+      for what, name, says in (("not there", "none.h5", 'there is no file "none.h5"'), ("none", "junk.h5", "expected an HDF5 file"))),
+]
+
+CASES = WORDS + SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

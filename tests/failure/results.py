@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import re
 
 import h5py
 
@@ -29,6 +30,15 @@ def files(status, rows=None, reason=None, end=None, out="out"):
         assert rows is None or len(times) == rows, f"{len(times)} rows, not {rows}"
         assert not list((folder / out).glob(".*")), "drafts are left"
     return check
+
+
+def stopped_once(folder):
+    """A run that a signal ended: one time, that of the last row, whichever rank the signal came to first."""
+    files("failed", reason="interrupted")(folder)
+    summary = json.loads((folder / "out/summary.json").read_text())
+    times = re.findall(r"the motion stopped at t = (\S+) of", summary["reason"])
+    assert len(times) == 1, f"{summary['reason']!r} has {len(times)} times"
+    assert math.isclose(float(times[0]), summary["integration"]["reached"], rel_tol=1e-5), summary["reason"]
 
 
 def estimated(instants, probe, out="out"):

@@ -46,11 +46,15 @@ struct IntegrationReport {
 /// The motion stopped before its end. What was observed until then stands.
 class MotionStopped : public RunError {
  public:
-  MotionStopped(const std::string& text, IntegrationReport report) : RunError(text), report_(std::move(report)) {}
+  MotionStopped(const std::string& text, IntegrationReport report, std::string reason)
+      : RunError(text), report_(std::move(report)), reason_(std::move(reason)) {}
   const IntegrationReport& report() const { return report_; }
+  /// The text without when it stopped.
+  const std::string& reason() const { return reason_; }
 
  private:
   IntegrationReport report_;
+  std::string reason_;
 };
 
 /// Integrates F(t, U, U', U'') = 0 from (U, V) at t = 0 by a PETSc TS (default type generalized-alpha), with consistent

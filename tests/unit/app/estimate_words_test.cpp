@@ -5,6 +5,13 @@
 
 using namespace floe;
 
+TEST_CASE("an accuracy that is missed by little is told with the digits that show it") {
+  CHECK(app::missed_words(0.01, 0.0103) ==
+        "an error of 1 % was asked for, and the best model found has an estimated error of 1.03 %");
+  CHECK(app::missed_words(0.01, 0.05) ==
+        "an error of 1 % was asked for, and the best model found has an estimated error of 5 %");
+}
+
 TEST_CASE("an estimate is told in per cent, or why there is none, or that it is beyond all use") {
   scene::Estimate estimate;
   CHECK(app::estimate_words(estimate) == "No estimate of the error: it was not asked for\n");
