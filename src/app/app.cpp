@@ -172,8 +172,10 @@ int main(int argc, char** argv) {
   CLI::App* compare_command = app.add_subcommand("compare", "simulate in several formulations: one table, one picture");
   add_scene(compare_command, choices);
   compare_command
-      ->add_option("--formulations", choices.formulations,
-                   "which, separated by commas (bodies from files: lffr,vm,vm+md; in space and with shear without cfr)")
+      ->add_option(
+          "--formulations", choices.formulations,
+          "which, separated by commas (modal damping: vm,vm+md; bodies from files: lffr,vm,vm+md; in space and with "
+          "shear without cfr)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,
@@ -187,7 +189,12 @@ int main(int argc, char** argv) {
       const bool shears = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& body) {
         return !body.rigid && body.section.GA.has_value();
       });
-      if (files && given->count() == 0)
+      const bool modal = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                     [](const scene::Body& body) { return !body.damping.modal.empty(); });
+      if (modal && given->count() == 0) {
+        choices.formulations = {"vm", "vm+md"};  // those with modes to damp
+        on_first_rank([] { fmt::print("Note: modal damping is that of modes; compared are vm and vm+md\n"); });
+      } else if (files && given->count() == 0)
         choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
       else if (given->count() == 0 && (scene.dimension == 3 || shears))
         choices.formulations = {"nlffr", "lffr", "vm", "vm+md"};
@@ -326,7 +333,15 @@ int main(int argc, char** argv) {
 
   CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
   add_scene(check_command, choices);
-  check_command->callback([&] { work = [&] { check(read(choices.scene), PETSC_COMM_WORLD); }; });
+  check_command->add_option("--formulation", choices.formulation,
+                            "build the scene in this one, as run would (default: at full order, if it can be)");
+  check_command->callback([&, given = check_command->get_option("--formulation")] {
+    work = [&, given] {
+      const std::optional<scene::Formulation> formulation =
+          given->count() > 0 ? std::optional(scene::formulation_of(choices.formulation)) : std::nullopt;
+      check(read(choices.scene), PETSC_COMM_WORLD, formulation);
+    };
+  });
 
   CLI::App* schema_command = app.add_subcommand("schema", "print the grammar of scenes");
   schema_command->add_flag("--markdown", choices.markdown, "as Markdown, for the manual");

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -92,6 +93,7 @@ std::string frame_words(const scene::Body& body) {
 struct Size {
   std::int64_t elements, dofs;
   std::string frame;
+  std::vector<std::string> notices = {};  ///< of its mesh
 };
 
 /// In the plane a scene says it all; in space meshes come from files, and frames from joints.
@@ -101,7 +103,7 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
     for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
   else
     for (const scene::BodyReport& body : scene::body_sizes(scene, comm))
-      sizes.push_back({body.elements, body.dofs, body.frame});
+      sizes.push_back({body.elements, body.dofs, body.frame, body.notices});
   return sizes;
 }
 
@@ -114,6 +116,25 @@ std::string unresolved_words(const scene::BodyReport& body) {
   if (which.empty()) return "";
   const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
   return fmt::format("Note: {}\n", scene::sag_text(body.name, modes, most, scene::greatest_sag_of_modes));
+}
+
+/// `notices` of each, each once: the parts of a split body have the same mesh.
+template <class Bodies>
+std::vector<std::string> notices_of(const Bodies& bodies) {
+  std::vector<std::string> all;
+  for (const auto& body : bodies)
+    for (const std::string& notice : body.notices)
+      if (std::find(all.begin(), all.end(), notice) == all.end()) all.push_back(notice);
+  return all;
+}
+
+/// In which formulation `check` builds a scene: at full order, or where bodies are from files or their damping is of
+/// modes, in the first that has them.
+scene::Formulation first_possible(const scene::Scene& scene) {
+  const auto any = [&](const auto& is) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), is); };
+  if (any([](const scene::Body& body) { return !body.damping.modal.empty(); })) return scene::Formulation::vm_md;
+  return any([](const scene::Body& body) { return body.reduced.has_value(); }) ? scene::Formulation::lffr
+                                                                               : scene::Formulation::nlffr;
 }
 
 /// Numbers from 1, ascending, as `3, 7 to 9`.
@@ -153,15 +174,18 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
-  for (const auto& body : bodies)
+  for (const auto& body : bodies) {
+    for (int i = 0; i < body.free_motions; ++i) table.rows.push_back({body.name, "rigid", 0.0, 0.0, "-"});
     for (std::size_t i = 0; i < body.omega.size(); ++i)
       table.rows.push_back(
           {body.name, static_cast<std::int64_t>(i + 1), body.omega[i] / (2 * M_PI), body.omega[i], body.residual[i]});
+  }
   fmt::print("{}", output::to_text(table));
   for (const auto& body : bodies) {
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
     if (body.left_out > 0) fmt::print("Note: {}\n", scene::left_out_text(body.name, body));
   }
+  for (const std::string& notice : notices_of(bodies)) fmt::print("Note: {}\n", notice);
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
@@ -169,21 +193,16 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   fmt::print("Shapes: {}\n", *path);
 }
 
-void check(const scene::Scene& scene, MPI_Comm comm) {
+void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted) {
   const scene::Scene split = scene::split_frames(scene);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
   scene::check_modes(scene, comm);
   std::int64_t elements = 0;
-  bool files = false;  // their bodies have no full order, but a linear one
-  for (std::size_t b = 0; b < sizes.size(); ++b) {
-    if (split.bodies[b].reduced)
-      files = true;
-    else
-      elements += sizes[b].elements;
-  }
-  std::optional<scene::Model> model;  // at full order
-  const scene::Formulation formulation = files ? scene::Formulation::lffr : scene::Formulation::nlffr;
-  if (elements < greatest_built) model = scene::build(scene, formulation, comm);
+  for (std::size_t b = 0; b < sizes.size(); ++b)
+    if (!split.bodies[b].reduced) elements += sizes[b].elements;
+  std::optional<scene::Model> model;
+  const scene::Formulation formulation = wanted ? *wanted : first_possible(scene);
+  if (wanted || elements < greatest_built) model = scene::build(scene, formulation, comm);
   if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
@@ -194,9 +213,11 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
   if (model)
     fmt::print("{} coordinates and {} multipliers {}\n", model->coordinates, model->multipliers,
-               files ? "as lffr" : "at full order");
+               formulation == scene::Formulation::nlffr ? "at full order" : "as " + scene::name_of(formulation));
   else
-    fmt::print("the full-order system is not built here, from {} elements on\n", greatest_built);
+    fmt::print(
+        "the full-order system is not built here, from {} elements on (--formulation vm+md builds the reduced one)\n",
+        greatest_built);
   const bool moves = scene.motion.end > 0;
   if (moves)
     fmt::print("motion to t = {} s, ", scene.motion.end);
@@ -209,6 +230,11 @@ void check(const scene::Scene& scene, MPI_Comm comm) {
   if (model && model->velocity_correction > 1e-9)
     fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",
                model->velocity_correction);
+  std::vector<std::string> notes = notices_of(sizes);
+  if (model)
+    for (const std::string& warning : model->warnings)
+      if (std::find(notes.begin(), notes.end(), warning) == notes.end()) notes.push_back(warning);
+  for (const std::string& note : notes) fmt::print("Note: {}\n", note);
 }
 
 void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path,

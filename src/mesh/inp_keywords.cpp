@@ -83,7 +83,7 @@ std::size_t skip_steps(const std::vector<InpBlock>& blocks, std::size_t i, InpRe
   else
     reading.notices.push_back(reading.faults.text_of(step.where) + ": what stands between *STEP and *END STEP (line " +
                               std::to_string(blocks[i].where.at) + ") is left out" + inside +
-                              (inside.empty() ? "" : ")"));
+                              (inside.empty() ? "" : ")") + ": supports and loads are those of the scene");
   return i;
 }
 

@@ -37,7 +37,8 @@ std::optional<Ply> ply(std::string_view line, Where where, InpReading& reading) 
   fields.resize(std::max<std::size_t>(fields.size(), 4));
   const auto thickness = number<double>(fields[0]);
   if (!thickness || !(*thickness > 0) || fields[2].empty() || fields.size() > 5) {
-    reading.faults.add(where, "a ply is: thickness, (points), material[, angle or orientation], found " + in_quotes(line));
+    reading.faults.add(where,
+                       "a ply is: thickness, (points), material[, angle or orientation], found " + in_quotes(line));
     return std::nullopt;
   }
   Ply result{*thickness, std::string(fields[2]), "", 0};
@@ -146,8 +147,8 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   const std::string shape = value_of(block, "SECTION");
   if (!shape.empty() && upper(shape) != "GENERAL")
     return faults.add(block.where, block.name + " is read with SECTION=GENERAL only");
-  section.density = number_of(block, "DENSITY", reading);
-  if (block.parameters.contains("DENSITY") && section.density < 0)
+  if (block.parameters.contains("DENSITY")) section.density = number_of(block, "DENSITY", reading);
+  if (section.density < 0.0)
     faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
                                 in_quotes(value_of(block, "DENSITY")));
   const bool own = section.material.empty();

@@ -57,6 +57,7 @@ void generate(const Prepared& prepared, int index, int modes, Stage& stage, Body
   report.omega = stage.generators.modes.omega;
   report.residual = stage.generators.modes.residual;
   report.left_out = stage.generators.modes.left_out;
+  report.free_motions = static_cast<int>(stage.for_modes.left.cols());
   report.sag.clear();
   if (body.structure.dimension() == 3)
     for (const petsc::VecHandle& shape : stage.generators.modes.shapes)  // one by one, for their memory

@@ -21,6 +21,7 @@ std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
       report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = mesh.cell_count;
     }
     report.name = body.spec.name, report.rigid = body.spec.rigid;
+    report.notices = body.notices;
     report.frame = body.host < 0 ? name_of(body.frame.kind) : "of " + prepared.bodies[body.host].spec.name;
     reports.push_back(std::move(report));
   }

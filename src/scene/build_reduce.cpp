@@ -214,6 +214,7 @@ std::vector<BodyReport> modes_of_bodies(const Prepared& prepared) {
     BodyReport report;
     report.name = body.spec.name;
     report.rigid = body.spec.rigid;
+    report.notices = body.notices;
     report.nodes = body.structure.mesh.node_count, report.elements = body.structure.mesh.cell_count;
     report.dofs = body.structure.dofs();
     if (body.spec.reduced) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "floe/math/rounded.h"
 
 namespace floe::scene {
 namespace {
@@ -11,10 +14,14 @@ namespace {
 /// The deck with the part at work, for messages.
 struct Reader {
   const mesh::InpFile& file;
-  std::vector<std::string> faults;
+  std::vector<std::string> faults = {};
+  std::vector<std::string> massless = {};  ///< materials of the part at work
 
   void fault(const std::string& part, const std::string& text) {
     faults.push_back(fmt::format("{}: the section of {}: {}", file.mesh.source, part, text));
+  }
+  void add_massless(const std::string& what) {
+    if (std::find(massless.begin(), massless.end(), what) == massless.end()) massless.push_back(what);
   }
   const mesh::Material* material(const std::string& part, const std::string& name) {
     for (const mesh::Material& m : file.deck.materials) {
@@ -23,6 +30,7 @@ struct Reader {
         fault(part, fmt::format("material {} has no *ELASTIC", name));
         return nullptr;
       }
+      if (!(m.density > 0)) add_massless("material " + name);
       return &m;
     }
     fault(part, fmt::format("there is no material {}", name));
@@ -52,7 +60,7 @@ Eigen::Vector3d axis_of(const mesh::Orientation& o) {
   return Eigen::AngleAxisd(o.angle * M_PI / 180, axes.col(o.axis - 1)) * axes.col(0);
 }
 
-void add_shell(Reader& reader, const mesh::ShellSection& section, std::vector<PartSpec>& parts) {
+void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& deck) {
   std::vector<fem::Ply> plies;
   double thickness = 0;
   std::string orientation = section.orientation;
@@ -69,7 +77,8 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, std::vector<Pa
   for (const mesh::Orientation& o : reader.file.deck.orientations)
     if (o.name == orientation) axis = axis_of(o);
   try {
-    parts.push_back({section.part, fem::shell_section(plies, -section.offset * thickness, axis), {}});
+    deck.parts.push_back({section.part, fem::shell_section(plies, -section.offset * thickness, axis), {}});
+    deck.described.push_back({section.part, std::exchange(reader.massless, {}), thickness});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
   }
@@ -115,8 +124,15 @@ Eigen::Vector2d extent_of(const mesh::BeamSection& section) {
   }
 }
 
-void add_beam(Reader& reader, const mesh::BeamSection& section, std::vector<PartSpec>& parts) {
-  fem::BeamMaterial material{section.youngs, section.shear, section.density};
+/// Greatest dimension of a profile.
+double size_of(const mesh::BeamSection& section) {
+  if (section.profile == mesh::Profile::general) return std::sqrt(section.dimensions[0]);
+  return extent_of(section).maxCoeff();
+}
+
+void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& deck) {
+  fem::BeamMaterial material{section.youngs, section.shear, section.density.value_or(0)};
+  if (section.material.empty() && !section.density) reader.add_massless("its section");
   if (!section.material.empty()) {
     const mesh::Material* named = reader.material(section.part, section.material);
     if (!named) return;
@@ -128,10 +144,11 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, std::vector<Part
     Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
     if (section.offset_1 != 0 || section.offset_2 != 0)
       centroid = -Eigen::Vector2d(section.offset_1, section.offset_2).cwiseProduct(extent_of(section));
-    parts.push_back(
+    deck.parts.push_back(
         {section.part,
          fem::SpatialBeam{fem::spatial_section(shape_of(section), material, centroid), section.direction_1, {}},
          {}});
+    deck.described.push_back({section.part, std::exchange(reader.massless, {}), size_of(section)});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
   }
@@ -139,13 +156,61 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, std::vector<Part
 
 }  // namespace
 
-std::vector<PartSpec> deck_sections(const mesh::InpFile& file) {
-  Reader reader{file, {}};
-  std::vector<PartSpec> parts;
-  for (const mesh::ShellSection& section : file.deck.shell_sections) add_shell(reader, section, parts);
-  for (const mesh::BeamSection& section : file.deck.beam_sections) add_beam(reader, section, parts);
+DeckSections deck_sections(const mesh::InpFile& file) {
+  Reader reader{file};
+  DeckSections deck;
+  for (const mesh::ShellSection& section : file.deck.shell_sections) add_shell(reader, section, deck);
+  for (const mesh::BeamSection& section : file.deck.beam_sections) add_beam(reader, section, deck);
   if (!reader.faults.empty()) throw InputError(reader.faults);
-  return parts;
+  return deck;
+}
+
+namespace {
+
+/// How many cells each part of the mesh has. Collective.
+std::vector<long long> cells_of_parts(const mesh::RawMesh& mesh) {
+  std::vector<long long> counts(mesh.parts.size(), 0);
+  for (const auto& cell : mesh.cells) ++counts[cell.part];
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_LONG_LONG, MPI_SUM, mesh.comm);
+  return counts;
+}
+
+/// Diagonal of the box about all nodes. Collective.
+double extent_of(const mesh::RawMesh& mesh) {
+  constexpr double far = 1e300;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(far), high = -low;
+  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  return (high - low).norm();
+}
+
+}  // namespace
+
+std::vector<std::string> deck_notices(const mesh::InpFile& file, const DeckSections& deck,
+                                      const std::vector<std::string>& replaced, double scale) {
+  const mesh::RawMesh& mesh = file.mesh;
+  const std::vector<long long> cells = cells_of_parts(mesh);
+  const double extent = extent_of(mesh);
+  std::vector<std::string> notices;
+  const DeckPart* thickest = nullptr;
+  for (const DeckPart& part : deck.described) {
+    const auto number = std::find(mesh.parts.begin(), mesh.parts.end(), part.name) - mesh.parts.begin();
+    if (number == std::ssize(mesh.parts) || std::count(replaced.begin(), replaced.end(), part.name) > 0) continue;
+    if (!thickest || part.size > thickest->size) thickest = &part;
+    for (const std::string& what : part.massless)
+      notices.push_back(fmt::format(
+          "{}: {} has no density: it adds stiffness without mass to part {} ({} of {} elements); expected *DENSITY",
+          mesh.source, what, part.name, cells[number], mesh.cell_count));
+  }
+  if (scale != 1 && thickest)
+    notices.push_back(fmt::format(
+        "{}: scale {} applies to coordinates alone; sections, materials and masses of the deck remain as written: "
+        "part {} is {:.4g} thick, {} of the scaled extent {:.4g} ({} in the deck's own units); convert the deck, or "
+        "give its parts sections in the scene (parts)",
+        mesh.source, scale, thickest->name, thickest->size, math::percent(thickest->size / (scale * extent)),
+        scale * extent, math::percent(thickest->size / extent)));
+  return notices;
 }
 
 void add_masses(mesh::InpFile& file, std::vector<PartSpec>& parts) {

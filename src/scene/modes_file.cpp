@@ -80,6 +80,7 @@ std::vector<BodyReport> write_modes(const Scene& whole, MPI_Comm comm, const std
     }
     fields[b] = fields_of_body(prepared, static_cast<int>(b));
     fields[b].report.name = body.spec.name;
+    fields[b].report.notices = body.notices;
     reports.push_back(fields[b].report);
     grids.push_back(grid_of(body, fields[b]));
   }

@@ -30,7 +30,7 @@ const SchemaSection file_section{"file",
                                  "path: wing.msh\nscale: 1e-3",
                                  {
                                      {"path", Type::text, "", required, "relative to the folder of the scene"},
-                                     {"scale", Type::number, "", "1", "factor on all coordinates", positive},
+                                     {"scale", Type::number, "", "1", "factor on all coordinates; not on what a deck says besides", positive},
                                  }};
 
 const SchemaSection part_section{

@@ -31,10 +31,16 @@ struct Source {
   std::vector<mesh::Follower> followers = {};
 };
 
-std::vector<std::string> wanted_parts(const Body& body) {
-  std::vector<std::string> wanted;
+/// Parts that the scene gives a section by name.
+std::vector<std::string> named_parts(const Body& body) {
+  std::vector<std::string> names;
   for (const PartSpec& part : body.parts)
-    if (!part.part.empty()) wanted.push_back(part.part);
+    if (!part.part.empty()) names.push_back(part.part);
+  return names;
+}
+
+std::vector<std::string> wanted_parts(const Body& body) {
+  const std::vector<std::string> wanted = named_parts(body);
   const bool rest = wanted.size() < body.parts.size();
   return rest ? std::vector<std::string>() : wanted;
 }
@@ -60,10 +66,12 @@ Source read_file(const Body& body, MPI_Comm comm) {
     source = {std::move(read.mesh), {}, std::move(read.notices)};
   } else if (file.path.ends_with(".inp")) {
     mesh::InpFile read = mesh::read_inp(comm, file.path);
-    std::vector<PartSpec> parts = deck_sections(read);
-    add_masses(read, parts);
+    DeckSections deck = deck_sections(read);
+    std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
+    notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
+    add_masses(read, deck.parts);
     std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
-    source = {std::move(read.mesh), std::move(parts), std::move(read.notices), std::move(followers)};
+    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers)};
   } else {
     throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh or .inp",
                                  body.mesh.where.text(), file.path));

@@ -5,6 +5,7 @@ import pathlib
 import signal
 from typing import Callable, Optional, Union
 
+import decks
 import reduced
 import runtime
 import space
@@ -36,6 +37,15 @@ class Case:
 
     def __post_init__(self):
         self.codes = self.codes if isinstance(self.codes, tuple) else (self.codes,)
+
+
+MODAL = {"bodies.beam.damping": {"modal": [0.01]}}
+
+
+def rows_of(folder, word, count):
+    """So many rows of a table on standard output have this word."""
+    found = sum(word in line.split() for line in (folder / "stdout").read_text().splitlines())
+    assert found == count, f"{found} rows with {word!r}, not {count}"
 
 
 def run(formulation="vm+md", *more):
@@ -629,7 +639,22 @@ SPACE = [
                           probes="{end: {at: a.end, quantity: deflection, relative_to: a.start}}")),
 ]
 
+# A body in space that nothing holds; a beam that bends more than four frames can follow.
+FREE = "bodies: {a: %s}\n" % (space.BEAM % "")
 WORDS = [
+    Case("modes of a free body", ["modes", "scene.yaml"], 0, lines=0, scene=FREE,
+         check=lambda folder: rows_of(folder, "rigid", 6)),
+    Case("modes of a hinged body", ["modes", "scene.yaml"], 0, lines=0,
+         scene=FREE + "joints: {h: {type: revolute, between: [ground, a.start], axis: [0, 0, 1]}}\n",
+         check=lambda folder: rows_of(folder, "rigid", 1)),
+    Case("modes of a clamped body", ["modes", "scene.yaml"], 0, lines=0, never=("rigid",)),
+    Case("check of modal damping", ["check", "scene.yaml"], 0, lines=0, shows=("12 coordinates and 3 multipliers as vm+md",),
+         scene=scene(MODAL)),
+    Case("check in a formulation", ["check", "scene.yaml", "--formulation", "vm"], 0, lines=0, shows=("multipliers as vm\n",)),
+    Case("check in a formulation that the scene does not have", ["check", "scene.yaml", "--formulation", "nlffr"], 2, lines=1,
+         says=("modal damping needs a reduced formulation",), scene=scene(MODAL)),
+    Case("compare with modal damping", ["compare", "scene.yaml", "-o", "out"], 0, lines=0, never=("nlffr",),
+         shows=("Note: modal damping is that of modes; compared are vm and vm+md",), scene=scene(MODAL)),
     Case("more frames than there are", ["static", "scene.yaml", "--steps", "20", "--at", "1", "-o", "out"], 0, lines=0,
          shows=("take more than 4 (frames: 8)",), never=("frames: 2",),
          scene=scene({"bodies.beam.frames": 4, "bodies.beam.frame": {"type": "clamped", "at": "start"},
@@ -642,4 +667,4 @@ WORDS = [
       for what, name, says in (("not there", "none.h5", 'there is no file "none.h5"'), ("none", "junk.h5", "expected an HDF5 file"))),
 ]
 
-CASES = WORDS + SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL
+CASES = list(decks.cases(Case)) + WORDS + SPACE + runtime.cases(Case, run, case, nothing, kept) + REDUCED + IN_SPACE + COMMANDS + SCENES + FOLDERS + FAULTS + OPTIONS + UNUSUAL

@@ -2,6 +2,7 @@
 #include <petscsys.h>
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,9 +53,10 @@ struct BeamSection {
   std::string material;  // "" where the section has its own constants
   Profile profile = Profile::rectangle;
   std::vector<double> dimensions;
-  Eigen::Vector3d direction_1{0, 0, -1};      // local 1-axis of the section, roughly
-  double offset_1 = 0, offset_2 = 0;          // of the nodes from the centre, in thicknesses
-  double youngs = 0, shear = 0, density = 0;  // where `material` is ""
+  Eigen::Vector3d direction_1{0, 0, -1};  // local 1-axis of the section, roughly
+  double offset_1 = 0, offset_2 = 0;      // of the nodes from the centre, in thicknesses
+  double youngs = 0, shear = 0;           // where `material` is ""
+  std::optional<double> density;          // likewise; none where the deck gives none
 };
 
 /// *MASS at a node.

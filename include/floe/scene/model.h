@@ -93,11 +93,13 @@ struct BodyReport {
   std::string file = {};  ///< of a body that was reduced before
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
-  std::string frame = {};  ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
+  std::string frame = {};                 ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
+  std::vector<std::string> notices = {};  ///< of its mesh: what was left out, what may be meant
   int dimension = 2;
   int columns = 0;
   std::vector<double> omega, residual;
   int left_out = 0;              ///< reduction::Modes::left_out
+  int free_motions = 0;          ///< rigid motions that the conditions of the modes leave free
   std::vector<double> sag = {};  ///< of each mode of a body in space: fem::sags
   std::vector<reduction::ColumnOrigin> origins;
   double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;

@@ -1,0 +1,58 @@
+"""Decks whose units, densities, supports or loads are not what they seem: what every command says of them."""
+NODES = "*NODE\n1, 0, 0, 0\n2, {0}, 0, 0\n3, {1}, 0, 0\n4, 0, {0}, 0\n5, {0}, {0}, 0\n6, {1}, {0}, 0\n"
+SHELLS = "*ELEMENT, TYPE=S4, ELSET=LEFT\n1, 1, 2, 5, 4\n*ELEMENT, TYPE=S4, ELSET=RIGHT\n2, 2, 3, 6, 5\n*NSET, NSET=ROOT\n1, 4\n*NSET, NSET=TIP\n6\n"
+MATERIALS = "*MATERIAL, NAME=STEEL\n*ELASTIC\n{0}, 0.3\n*DENSITY\n{1}\n*MATERIAL, NAME=FOAM\n*ELASTIC\n{0}, 0.3\n"
+SECTIONS = "*SHELL SECTION, ELSET=LEFT, MATERIAL=STEEL\n{0}\n*SHELL SECTION, ELSET=RIGHT, MATERIAL={1}\n{0}\n"
+STEP = "*STEP\n*STATIC\n*BOUNDARY\nROOT, 1, 6\n*CLOAD\n6, 3, 1.0\n*DLOAD\nLEFT, P, 10.\n*END STEP\n"
+
+METRES = (NODES.format(1, 2), MATERIALS.format(2e11, 7800))
+MILLIMETRES = (NODES.format(1000, 2000), MATERIALS.format(2e5, 7.8e-9))
+
+
+def deck(units, thickness, material="STEEL", more=""):
+    nodes, materials = units
+    return nodes + SHELLS + materials + SECTIONS.format(thickness, material) + more
+
+
+def scene(mesh="path: part.inp", more=""):
+    return (f"bodies: {{p: {{mesh: {{file: {{{mesh}}}}}{more}, reduction: {{modes: 2, derivatives: none}}}}}}\n"
+            "joints: {root: {type: fixed, between: [ground, p.ROOT]}}\nloads: {f: {type: force, at: p.TIP, force: [0, 0, t]}}\n"
+            "probes: {tip: {at: p.TIP}}\nmotion: {end: 2e-4, step: 1e-4}\n")
+
+
+MASSLESS = ("part.inp: material FOAM has no density: it adds stiffness without mass to part RIGHT (1 of 2 elements); "
+            "expected *DENSITY")
+STEPS = "is left out (*STATIC, *BOUNDARY, *CLOAD, *DLOAD): supports and loads are those of the scene"
+BEFORE = "part.inp:28: *BOUNDARY is left out: supports are joints of the scene"
+# 2 mm in metres on a mesh whose diagonal is sqrt(5) m after scaling, sqrt(5) 1000 mm before
+SCALED = ("part.inp: scale 0.001 applies to coordinates alone", "part LEFT is 2 thick, 89 % of the scaled extent 2.236",
+          "(0.089 % in the deck's own units)")
+BY_NAME = ", parts: {%s}" % ", ".join(f"{part}: {{section: {{thickness: 0.002}}, material: {{E: 2e11, nu: 0.3, rho: 7800}}}}"
+                                     for part in ("LEFT", "RIGHT"))
+COMMANDS = {"run": ["run", "scene.yaml", "-o", "out"], "modes": ["modes", "scene.yaml"], "check": ["check", "scene.yaml"],
+            "static": ["static", "scene.yaml", "--steps", "1", "--at", "1e-3", "-o", "out"],
+            "compare": ["compare", "scene.yaml", "--formulations", "vm", "-o", "out"], "reduce": ["reduce", "scene.yaml", "-o", "p.h5"]}
+
+
+def once(*phrases):
+    """Each stands on stdout once."""
+    def check(folder):
+        text = (folder / "stdout").read_text()
+        for phrase in phrases:
+            assert text.count(phrase) == 1, f"stdout has {text.count(phrase)} times {phrase!r}"
+    return check
+
+
+def cases(Case):
+    for name, words in COMMANDS.items():
+        yield Case(f"deck: no density, {name}", words, 0, lines=0, shows=(MASSLESS,), check=once(MASSLESS), scene=scene(),
+                   files={"part.inp": deck(METRES, 0.01, "FOAM")})
+        yield Case(f"deck: supports and loads, {name}", words, 0, lines=0, check=once(STEPS, BEFORE), scene=scene(),
+                   files={"part.inp": deck(METRES, 0.01, more="*BOUNDARY\nROOT, 1, 6\n" + STEP)})
+        yield Case(f"deck: scale, {name}", words, 0, lines=0, check=once(*SCALED), scene=scene("path: part.inp, scale: 1e-3"),
+                   files={"part.inp": deck(MILLIMETRES, 2)})
+    silent = {"never": ("Note: part.inp", "has no density", "scale"), "lines": 0}
+    yield Case("deck: in millimetres throughout", ["modes", "scene.yaml"], 0, scene=scene(),
+               files={"part.inp": deck(MILLIMETRES, 2)}, **silent)
+    yield Case("deck: scaled, with sections of the scene", ["modes", "scene.yaml"], 0, files={"part.inp": deck(MILLIMETRES, 2)},
+               scene=scene("path: part.inp, scale: 1e-3", BY_NAME), **silent)
