@@ -157,7 +157,7 @@ TEST_CASE("generated meshes: faults of their keys and of their shape") {
     return faults_of(one_body(mesh, testing::thickness + testing::metal));
   };
   CHECK(faults("plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4]}") ==
-        Faults{"s.yaml:3:67: bodies.b.mesh.plate.elements: has length 1; expected an integer or a list of them"});
+        Faults{"s.yaml:3:67: bodies.b.mesh.plate.elements: has length 1; expected two integers [i, j]"});
   CHECK(faults("plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 0]}") ==
         Faults{"s.yaml:3:71: bodies.b.mesh.plate.elements[2]: is 0; expected an integer 1 <= value <= 100000000"});
   CHECK(faults("plate: {along: [2, 0, 0], across: [1, 0, 0], elements: [4, 2]}") ==
