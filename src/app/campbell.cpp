@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
+#include "floe/dynamics/deviation.h"
 #include "floe/output/progress.h"
+#include "floe/scene/range.h"
 #include "interruption.h"
 #include "run.h"
 
@@ -63,7 +67,7 @@ Eigen::Vector3d hub_position(const scene::Model& model, int dimension) {
 
 scene::Model prepared(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
   const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
-  return scene::build(scene, formulation, comm);
+  return scene::build(scene, formulation, comm, true);
 }
 
 dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
@@ -100,6 +104,27 @@ double visit(const dynamics::RotatingSystem& rotating, double from, int modes, V
   return point.speed;
 }
 
+/// The steady rotation in the model's unknowns.
+dynamics::State state_at(const scene::Model& model, const dynamics::RotationAxis& axis, double speed) {
+  const petsc::VecHandle rest = model.system->create_vector();
+  dynamics::State state = dynamics::state_of(*model.system, 0, model.U, rest, rest);
+  for (const scene::BodyReport& body : model.bodies) {
+    const int first = body.first_coordinate;
+    if (!body.attitude)
+      state.v[first + 2] = speed;
+    else
+      state.v.segment<3>(first + 3) =
+          speed * body.attitude->axes(state.q.segment<3>(first + 3)).transpose() * axis.direction;
+  }
+  return state;
+}
+
+/// What the fastest steady rotation says of the model.
+void warn(double speed, const std::vector<dynamics::State>& fastest, MPI_Comm comm, scene::Model& model) {
+  for (const scene::OutOfRange& one : scene::shapes_out_of_range(model, fastest, comm))
+    model.warnings.push_back(fmt::format("at {:.6g} rad/s: {}", speed, one.text));
+}
+
 }  // namespace
 
 CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm,
@@ -126,14 +151,18 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, static_cast<double>(speeds.size()));
-    double from = 0;
+    double from = 0, fastest = 0;
+    std::vector<dynamics::State> state;
     for (const double speed : speeds) {
       CampbellPoint point{speed, {}, 0, {}};
       from = visit(rotating, from, request.modes, diagram.model.U, point);
+      if (point.steady && std::abs(speed) >= std::abs(fastest))
+        fastest = speed, state = {state_at(diagram.model, diagram.axis, speed)};
       diagram.points.push_back(std::move(point));
       progress.update(static_cast<double>(diagram.points.size()), static_cast<PetscInt>(diagram.points.size()));
       interruption.check(comm);
     }
+    warn(fastest, state, comm, diagram.model);
   } catch (const std::exception&) {
     fault = std::current_exception();
   }

@@ -299,7 +299,7 @@ class Search {
     chosen.scene = with_step(step_);
     if (!pool_->has_responses(selection_)) chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
     chosen.selection = selection_;
-    chosen.model = pool_->model(selection_);
+    chosen.model = pool_->model(selection_, true);
     chosen.pool = std::move(pool_);
     chosen.trials = trials_;
     return chosen;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "assemble_cells.h"
 #include "floe/fem/field_rows.h"
 #include "floe/petsc/stage.h"
 #include "kept.h"
@@ -38,10 +39,10 @@ void hold(const Structure& structure, const Conditions& conditions, const std::v
       A.row(i).setZero(), A.col(i).setZero();
 }
 
-/// What `matrix_of` gives for each cell, under the conditions. Collective.
-template <class MatrixOf>
+}  // namespace
+
 petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& conditions, double diagonal,
-                                MatrixOf&& matrix_of) {
+                                const std::function<Eigen::MatrixXd(const Mesh::Cell&)>& matrix_of) {
   const petsc::Stage stage("assembly");
   petsc::MatHandle A = empty_matrix(structure);
   double largest = 0;
@@ -63,8 +64,6 @@ petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& co
   check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   return A;
 }
-
-}  // namespace
 
 petsc::MatHandle assemble(const Structure& structure, const Conditions& conditions, double diagonal, double k,
                           double m) {

@@ -29,6 +29,9 @@ Row4 cubics(double s, double l) {
 Row4 cubic_slopes(double s, double l) {
   return {6 * s * (s - 1) / l, 1 - 4 * s + 3 * s * s, 6 * s * (1 - s) / l, s * (3 * s - 2)};
 }
+Row4 cubic_curvatures(double s, double l) {
+  return {(12 * s - 6) / (l * l), (6 * s - 4) / l, (6 - 12 * s) / (l * l), (6 * s - 2) / l};
+}
 
 Row12 in_y(const Row4& h) {
   Row12 row = Row12::Zero();
@@ -44,6 +47,7 @@ Row12 in_z(const Row4& h) {
 /// l (s - 3 s^2 + 2 s^3) and its derivative with respect to x, on gamma.
 double sway(double s, double l) { return l * s * (1 - s) * (1 - 2 * s); }
 double sway_slope(double s) { return 1 - 6 * s + 6 * s * s; }
+double sway_curvature(double s, double l) { return (12 * s - 6) / l; }
 
 Eigen::Matrix2d bending_of(const SpatialBeamSection& section) {
   return (Eigen::Matrix2d() << section.EIz, section.EIyz, section.EIyz, section.EIy).finished();
@@ -107,6 +111,12 @@ Row12 deflection_z(double s, const BeamFrame& f) {
 }
 Row12 slope_y(double s, const BeamFrame& f) { return in_y(cubic_slopes(s, f.length)) + sway_slope(s) * f.shear.row(0); }
 Row12 slope_z(double s, const BeamFrame& f) { return in_z(cubic_slopes(s, f.length)) + sway_slope(s) * f.shear.row(1); }
+Row12 curvature_y(double s, const BeamFrame& f) {
+  return in_y(cubic_curvatures(s, f.length)) + sway_curvature(s, f.length) * f.shear.row(0);
+}
+Row12 curvature_z(double s, const BeamFrame& f) {
+  return in_z(cubic_curvatures(s, f.length)) + sway_curvature(s, f.length) * f.shear.row(1);
+}
 
 Row12 stretch_rate(double l) {
   Row12 row = Row12::Zero();

@@ -54,8 +54,10 @@ Row12 stretch(double s);
 Row12 twist(double s);
 Row12 deflection_y(double s, const BeamFrame& frame);
 Row12 deflection_z(double s, const BeamFrame& frame);
-Row12 slope_y(double s, const BeamFrame& frame);  // v_S'
-Row12 slope_z(double s, const BeamFrame& frame);  // w_S'
+Row12 slope_y(double s, const BeamFrame& frame);      // v_S'
+Row12 slope_z(double s, const BeamFrame& frame);      // w_S'
+Row12 curvature_y(double s, const BeamFrame& frame);  // v_S'', of line and sections alike
+Row12 curvature_z(double s, const BeamFrame& frame);  // w_S''
 
 /// u_C', v_C', w_C', rx'.
 Row12 stretch_rate(double l);

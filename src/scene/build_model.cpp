@@ -102,7 +102,7 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool kee
   ReducedBodies reduced = reduced_bodies(offline->prepared, formulation, keep_offline);
   Model model = assembled(offline->prepared, reduced);
   give_structures(offline, model);
-  if (!keep_offline || !is_reduced(formulation)) return model;
+  if (!keep_offline) return model;
   offline->reduced = std::move(reduced.bodies);
   model.offline = offline;
   return model;

@@ -226,7 +226,7 @@ void make(const Model& model, const KeptMotion& motion, const Allowance& time, E
 Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds) {
   Estimate estimate;
   estimate.none.clear();
-  if (!model.offline) {
+  if (!model.offline || !is_reduced(model.formulation)) {
     estimate.none = "it belongs to reduced models (vm, vm+md)";
     return estimate;
   }

@@ -247,7 +247,7 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
 Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& states, double seconds) {
   Estimate estimate;
   estimate.none.clear();
-  if (!model.offline) {
+  if (!model.offline || !is_reduced(model.formulation)) {
     estimate.none = "it belongs to reduced models (vm, vm+md)";
     return estimate;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "floe/fem/field_rows.h"
 #include "floe/math/rounded.h"
@@ -45,23 +46,6 @@ Greatest greatest_of(int dimension, const double* values, PetscInt dofs) {
 /// Of this rank's nodes of a body, three or six each.
 PetscInt own_dofs(const BodyReport& body) {
   return static_cast<PetscInt>(body.positions.size()) / body.dimension * (body.dimension == 2 ? 3 : 6);
-}
-
-/// Displacements in the floating frame; null where there are no columns, and of bodies from files, which have no nodes
-/// to look at. Collective.
-petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
-  petsc::VecHandle field;
-  if (!body.structure) return field;
-  if (body.first_dof >= 0) {
-    field = fem::field(*body.structure);
-    petsc::Values own(field);
-    std::copy_n(state.q.data() + body.first_dof, own.end - own.first, own.begin());
-  } else if (body.basis && body.columns > 0) {
-    field = fem::field(*body.structure);
-    VectorXd eta = state.q.segment(body.first_elastic, body.columns);
-    check(BVMultVec(body.basis->V, 1, 0, field, eta.data()));
-  }
-  return field;
 }
 
 Greatest greatest_of(const BodyReport& body, const State& state) {
@@ -213,7 +197,25 @@ void judge_shape(const Model& model, const BodyReport& body, const Seen& seen, s
 
 }  // namespace
 
-bool also_of_full_order(const OutOfRange& one) { return one.what == "slope" || one.what == "mesh"; }
+petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
+  petsc::VecHandle field;
+  if (!body.structure) return field;
+  if (body.first_dof >= 0) {
+    field = fem::field(*body.structure);
+    petsc::Values own(field);
+    std::copy_n(state.q.data() + body.first_dof, own.end - own.first, own.begin());
+  } else if (body.basis && body.columns > 0) {
+    field = fem::field(*body.structure);
+    VectorXd eta = state.q.segment(body.first_elastic, body.columns);
+    check(BVMultVec(body.basis->V, 1, 0, field, eta.data()));
+  }
+  return field;
+}
+
+bool also_of_full_order(const OutOfRange& one) {
+  static const std::set<std::string> those = {"slope", "mesh", "in-plane", "coupling", "rotary"};
+  return those.count(one.what) > 0;
+}
 
 std::string sag_text(const std::string& name, const std::string& what, double sag, double limit) {
   return fmt::format(
@@ -234,7 +236,10 @@ std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vecto
   if (states.empty() || model.formulation == Formulation::cfr) return out;
   const std::vector<Seen> seen = look(model, states, comm);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (!model.bodies[b].rigid) judge_shape(model, model.bodies[b], seen[b], out);
+    if (!model.bodies[b].rigid) {
+      judge_shape(model, model.bodies[b], seen[b], out);
+      judge_missing(model, b, samples_of(states), out);
+    }
   return out;
 }
 
@@ -251,6 +256,7 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
     const BodyReport& body = model.bodies[b];
     if (body.rigid) continue;
     judge_shape(model, body, seen[b], out);
+    judge_missing(model, b, samples_of(motion.states()), out);
     const std::vector<double>& omega = modes.empty() ? body.omega : modes[b].omega;
     if (model.formulation != Formulation::nlffr) judge_spin(body, seen[b], omega.empty() ? 0 : omega[0], linear, out);
   }

@@ -16,4 +16,15 @@ void judge_loads(const Scene& scene, const Model& model, std::vector<OutOfRange>
 /// The step against the fastest of what moves.
 void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>& seen, std::vector<OutOfRange>& out);
 
+/// Displacements in the floating frame; null where there are no columns, and of bodies from files, which have no nodes
+/// to look at. Collective.
+petsc::VecHandle deformation_of(const BodyReport& body, const dynamics::State& state);
+
+/// What the element's strains and inertia leave out at second order (fem::MissingStiffness), against the stiffness K of
+/// the undeformed body, where its energy and its spin are greatest: |reduction::StiffnessChange::relative()|, limit 5 %
+/// (2.5 % of a frequency). K stands as frame and ground hold the body. Collective. At most 48 solves with K, which is
+/// factored first where no factor was kept.
+void judge_missing(const Model& model, std::size_t b, const std::vector<const dynamics::State*>& states,
+                   std::vector<OutOfRange>& out);
+
 }  // namespace floe::scene

@@ -8,7 +8,7 @@ namespace floe::scene {
 
 /// A model that has left the range in which it is good: one line with the number, the limit and what to do.
 struct OutOfRange {
-  std::string what;  ///< `slope`, `mesh`, `spin`, `shortening`, `membrane`, `load`, `step`
+  std::string what;  ///< `slope`, `mesh`, `spin`, `shortening`, `membrane`, `load`, `step`, `in-plane`, ...
   std::string of;    ///< of a body or a load; `gravity`, `ground.acceleration`
   double value = 0, limit = 0;
   std::string text;
@@ -26,6 +26,11 @@ struct OutOfRange {
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
 ///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
 ///   membrane    energy over that of bending, without derivatives to relieve it; limit 2 %
+///   in-plane, coupling, rotary
+///               what strains and rotary inertia leave out at second order (fem::MissingStiffness): quadratic strains
+///               of shells in their plane, coupling of bending with torsion, rotation of sections under spin; its work
+///               against the stiffness, along the deformation or in the shape that it changes most; limit 5 %.
+///               `unchecked`: K could not be solved with
 ///   load        rms rate over rms value of a load, gravity or the ground's acceleration against the highest kept
 ///               frequency; limit 0.5
 ///   step        times the fastest rate of what moves (rms rate of the deformations over their rms, loads); limit 0.25,
@@ -34,11 +39,12 @@ struct OutOfRange {
 /// Collective on the communicator of the scene.
 std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, const KeptMotion& motion, MPI_Comm comm);
 
-/// What the shapes alone say: slope, shortening, mesh, membrane; for equilibria. Collective likewise.
+/// What the shapes alone say: slope, shortening, mesh, membrane, in-plane, coupling, rotary; for equilibria. Collective
+/// likewise.
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<dynamics::State>& states,
                                             MPI_Comm comm);
 
-/// Whether the full order of the same mesh errs in it, too: slope, mesh.
+/// Whether the full order of the same mesh errs in it, too: slope, mesh, in-plane, coupling, rotary.
 bool also_of_full_order(const OutOfRange& one);
 
 inline constexpr double greatest_sag = 0.05;

@@ -1,0 +1,205 @@
+#include "floe/fem/missing_stiffness.h"
+
+#include <algorithm>
+
+#include "assemble_cells.h"
+#include "floe/fem/shell.h"
+#include "floe/fem/spatial_beam_fixed.h"
+#include "shell_triangle.h"
+#include "spatial_beam_fields.h"
+
+namespace floe::fem {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Calls with (share, dofs among the corners', nodes) of the triangles of a shell element.
+template <class Act>
+void each_triangle(const Structure& structure, const Mesh::Cell& cell, Act&& act) {
+  const auto triangle = [&](double share, const std::array<int, 3>& of) {
+    TriangleNodes nodes;
+    std::array<int, 18> dofs{};
+    for (int i = 0; i < 3; ++i) {
+      nodes[i] = structure.mesh.positions[cell.corner[of[i]]];
+      for (int d = 0; d < 6; ++d) dofs[6 * i + d] = 6 * of[i] + d;
+    }
+    act(share, dofs, nodes);
+  };
+  if (cell.kind == CellKind::triangle) return triangle(1, {0, 1, 2});
+  for (const std::array<int, 3>& of : quadrilateral_triangles) triangle(0.5, of);
+}
+
+/// N_xx, N_yy, N_xy.
+Vector3d membrane_force(const ShellStrain& at, const VectorXd& q) {
+  const Eigen::Vector2d slope = at.G * q;
+  return at.D * (at.L * q + Vector3d(slope[0] * slope[0] / 2, slope[1] * slope[1] / 2, slope[0] * slope[1]));
+}
+
+MatrixXd in_plane(const Structure& structure, const Mesh::Cell& cell, const ShellSection& section, const VectorXd& q) {
+  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  each_triangle(structure, cell, [&](double share, const std::array<int, 18>& dofs, const TriangleNodes& nodes) {
+    const shell::Geometry g = shell::geometry(nodes, section.axis);
+    const ShellStrain at = shell_triangle_strain(nodes, section);
+    const Vector3d N = share * at.weight * membrane_force(at, q(dofs));
+    const Eigen::Matrix2d force = (Eigen::Matrix2d() << N[0], N[2], N[2], N[1]).finished();
+    const Eigen::Matrix3d projector = g.axes.leftCols<2>() * g.axes.leftCols<2>().transpose();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A.block<3, 3>(dofs[6 * i], dofs[6 * j]) += g.gradient[i].dot(force * g.gradient[j]) * projector;
+  });
+  return A;
+}
+
+/// A += c (a'b + b'a): twice the quadratic form c a b.
+void add_product(Matrix12& A, double c, const spatial::Row12& a, const spatial::Row12& b) {
+  const Matrix12 product = a.transpose() * b;
+  A += c * (product + product.transpose());
+}
+
+BeamPlace place_of(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam) {
+  return {structure.mesh.positions[cell.corner[0]], structure.mesh.positions[cell.corner[1]], beam.orientation};
+}
+
+/// 2 S per length on the element's own dofs, at one station.
+Matrix12 coupling_at(double s, const spatial::BeamFrame& frame, const SpatialBeamSection& section, const Vector12& q) {
+  using spatial::Row12;
+  const Row12 phi = spatial::twist(s), rate = spatial::twist_rate(frame.length);
+  const Row12 v1 = spatial::slope_y(s, frame), w1 = spatial::slope_z(s, frame);
+  const Row12 v2 = spatial::curvature_y(s, frame), w2 = spatial::curvature_z(s, frame);
+  const double f = phi * q, dv = v1 * q, dw = w1 * q, ddv = v2 * q, ddw = w2 * q;
+  // first variations of the curvatures and the twist rate at q: linear ones and what is missing
+  Eigen::Matrix<double, 3, 12> linear, more;
+  linear << v2, w2, rate;
+  more << ddw * phi + f * w2, -(ddv * phi + f * v2), 0.5 * (ddv * w1 + dw * v2 - ddw * v1 - dv * w2);
+  Eigen::Matrix3d EI = Eigen::Matrix3d::Zero();
+  EI.topLeftCorner<2, 2>() << section.EIz, section.EIyz, section.EIyz, section.EIy;
+  EI(2, 2) = section.GJ;
+  const Matrix12 crossed = linear.transpose() * EI * more;
+  Matrix12 A = crossed + crossed.transpose() + more.transpose() * EI * more;
+  const Vector3d M = EI * (linear * q);  // second variations
+  add_product(A, M[0], phi, w2);
+  add_product(A, -M[1], phi, v2);
+  add_product(A, M[2] / 2, w1, v2);
+  add_product(A, -M[2] / 2, v1, w2);
+  return A;
+}
+
+MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam, const VectorXd& q) {
+  const BeamPlace place = place_of(structure, cell, beam);
+  const spatial::BeamFrame frame = spatial::beam_frame(place, beam.section);
+  Eigen::Matrix<double, 12, 12> to_own = Matrix12::Zero();
+  to_own.topLeftCorner<6, 6>() = frame.node, to_own.bottomRightCorner<6, 6>() = frame.node;
+  const Vector12 own = to_own * q;
+  Matrix12 A = Matrix12::Zero();
+  for (const spatial::BeamStation& g : spatial::beam_gauss3)
+    A += g.weight * frame.length * coupling_at(g.at, frame, beam.section, own);
+  const Vector12 moments =
+      to_own.transpose().inverse() * (fixed_spatial_beam(place, beam.section, beam.strain.wagner).bending * q);
+  for (int node = 0; node < 12; node += 6) {  // slopes at the nodes from their rotation vectors
+    const double y = moments[node + 4] / 2, z = moments[node + 5] / 2;
+    A(node + 3, node + 4) += z, A(node + 4, node + 3) += z;
+    A(node + 3, node + 5) -= y, A(node + 5, node + 3) -= y;
+  }
+  return to_own.transpose() * A * to_own;
+}
+
+Eigen::Matrix3d cross(const Vector3d& a) {
+  return (Eigen::Matrix3d() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
+}
+
+/// 2 S of a rotation vector theta: theta' B theta. Theta^2 = theta theta' - |theta|^2, tr(Theta E Theta') =
+/// theta' (tr E - E) theta.
+Eigen::Matrix3d rotary_of(const Eigen::Matrix3d& E, const Vector3d& spin) {
+  const Vector3d EO = E * spin;
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), product = spin * EO.transpose();
+  return (product + product.transpose()) / 2 - spin.dot(EO) * one + spin.squaredNorm() * (E.trace() * one - E);
+}
+
+MatrixXd rotary(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam, const Vector3d& spin) {
+  const SpatialBeamSection& section = beam.section;
+  const spatial::BeamFrame frame = spatial::beam_frame(place_of(structure, cell, beam), section);
+  Eigen::Matrix3d E = Eigen::Matrix3d::Zero();
+  E.bottomRightCorner<2, 2>() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
+  const Eigen::Matrix3d B = rotary_of(E, frame.axes.transpose() * spin);
+  MatrixXd A = MatrixXd::Zero(12, 12);
+  for (const spatial::BeamStation& g : spatial::beam_gauss3) {
+    Eigen::Matrix<double, 3, 12> theta;
+    const spatial::SectionMotion motion = spatial::section_motion(g.at, frame);
+    theta << spatial::twist(g.at), motion.along_z.row(0), -motion.along_y.row(0);
+    const Eigen::Matrix<double, 3, 12> body = spatial::to_body<3>(theta, frame);
+    A += g.weight * frame.length * body.transpose() * B * body;
+  }
+  return A;
+}
+
+/// Rotary inertia is what a section without it lacks in the mass matrix.
+MatrixXd rotary(const Structure& structure, const Mesh::Cell& cell, const BeamSection& section, const Vector3d& spin) {
+  BeamSection slender = section;
+  slender.rhoI = 0;
+  const auto mass = [&](const BeamSection& of) {
+    const auto& at = structure.mesh.positions;
+    return planar_beam(at[cell.corner[0]].head<2>(), at[cell.corner[1]].head<2>(), of, structure.strain).mass_matrix();
+  };
+  return spin.squaredNorm() * (mass(section) - mass(slender));
+}
+
+/// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are
+/// none.
+template <class Section, class MatrixOf>
+petsc::MatHandle of_kind(const Structure& structure, MatrixOf&& matrix_of) {
+  const bool there = std::any_of(structure.sections.begin(), structure.sections.end(),
+                                 [](const auto& section) { return std::holds_alternative<Section>(section); });
+  if (!there) return {};
+  return assemble_cells(structure, {}, 0, [&](const Mesh::Cell& cell) -> MatrixXd {
+    const Section* section = std::get_if<Section>(&structure.sections[cell.part]);
+    const auto size = static_cast<Eigen::Index>(structure.dofs_per_node * cell.nodes().size());
+    if (!section) return MatrixXd::Zero(size, size);
+    if (!cell.follows()) return matrix_of(cell, *section, MatrixXd::Identity(size, size));
+    const MatrixXd T = following(structure.mesh, cell);
+    return T.transpose() * matrix_of(cell, *section, T) * T;
+  });
+}
+
+}  // namespace
+
+MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Vector3d& spin) {
+  const VectorXd all = structure.exchange.gather(q);
+  const auto of_corners = [&](const Mesh::Cell& cell, const MatrixXd& T) -> VectorXd {
+    return T * all(structure.cell_dofs(cell));
+  };
+  MissingStiffness missing;
+  missing.in_plane =
+      of_kind<ShellSection>(structure, [&](const Mesh::Cell& cell, const ShellSection& section, const MatrixXd& T) {
+        return in_plane(structure, cell, section, of_corners(cell, T));
+      });
+  missing.coupling =
+      of_kind<SpatialBeam>(structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) {
+        return coupling(structure, cell, beam, of_corners(cell, T));
+      });
+  if (spin.isZero(0)) return missing;
+  const auto rotary_of_cell = [&](const Mesh::Cell& cell, const auto& section, const MatrixXd&) {
+    return rotary(structure, cell, section, spin);
+  };
+  missing.rotary = structure.dimension() == 2 ? of_kind<BeamSection>(structure, rotary_of_cell)
+                                              : of_kind<SpatialBeam>(structure, rotary_of_cell);
+  return missing;
+}
+
+petsc::MatHandle initial_stress_stiffness(const Structure& structure, Vec q) {
+  const VectorXd all = structure.exchange.gather(q);
+  return assemble_cells(structure, {}, 0, [&](const Mesh::Cell& cell) {
+    const ElementMaps maps = structure.maps(cell);
+    const VectorXd own = all(structure.cell_dofs(cell));
+    MatrixXd A = MatrixXd::Zero(own.size(), own.size());
+    for (const StrainPoint& g : maps.membrane) {
+      const VectorXd slope = g.G * own, stress = g.D * (g.L * own + 0.5 * g.bilinear(slope, slope));
+      for (std::size_t s = 0; s < g.P.size(); ++s)
+        A += g.weight * stress[static_cast<Eigen::Index>(s)] * g.G.transpose() * g.P[s] * g.G;
+    }
+    return A;
+  });
+}
+
+}  // namespace floe::fem

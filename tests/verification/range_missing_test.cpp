@@ -1,0 +1,222 @@
+#include <catch2/catch.hpp>
+
+#include "../../src/app/campbell.h"
+#include "floe/scene/range.h"
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// By what they are about.
+std::map<std::string, scene::OutOfRange> by_name(const std::vector<scene::OutOfRange>& lines) {
+  std::map<std::string, scene::OutOfRange> all;
+  for (const scene::OutOfRange& line : lines) all[line.what] = line;
+  return all;
+}
+
+struct AtRest {
+  std::vector<double> probes;
+  std::map<std::string, scene::OutOfRange> said;
+};
+
+/// Equilibria in steps of the load; what is said of the last one.
+AtRest at_rest(const std::string& text, int steps, Formulation formulation = Formulation::nlffr,
+               const std::string& name = "scene") {
+  const scene::Model model = scene::build(scene::parse_scene(text, name), formulation, PETSC_COMM_WORLD, true);
+  for (int i = 1; i <= steps; ++i) dynamics::equilibrium(*model.system, double(i) / steps, model.U, model.V);
+  const petsc::VecHandle none = model.system->create_vector();
+  const dynamics::State state = dynamics::state_of(*model.system, 1, model.U, model.V, none);
+  return {scene::probe_values(model, 1, model.U, model.V),
+          by_name(scene::shapes_out_of_range(model, {state}, PETSC_COMM_WORLD))};
+}
+
+/// The warning of a campbell diagram that has these words; empty: none.
+std::string turned(const std::string& text, Formulation formulation, const std::string& speeds,
+                   const std::string& words) {
+  app::CampbellRequest request;
+  request.speeds = speeds;
+  std::exception_ptr fault;
+  const app::CampbellDiagram diagram =
+      app::campbell(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, request, fault);
+  if (fault) std::rethrow_exception(fault);
+  for (const std::string& warning : diagram.model.warnings)
+    if (warning.find(words) != std::string::npos) return warning;
+  return "";
+}
+
+/// The number in front of the limit of a warning: `... by 58 % (limit 5 %) ...`.
+double number_in(const std::string& warning) {
+  const std::size_t limit = warning.find(" % (limit");
+  REQUIRE(limit != std::string::npos);
+  return std::stod(warning.substr(warning.rfind(' ', limit - 1))) / 100;
+}
+
+/// A square tube of shells, side 1 and t = 0.05, as a deck: rings of 8 nodes.
+void write_tube(const std::string& path, int sides) {
+  constexpr int m = 2, ring = 4 * m;
+  std::string text = "*NODE\n";
+  for (int i = 0; i <= sides; ++i)
+    for (int j = 0; j < ring; ++j) {
+      const double s = double(j % m) / m;
+      const double y[] = {s - 0.5, 0.5, 0.5 - s, -0.5}, z[] = {-0.5, s - 0.5, 0.5, 0.5 - s};
+      text += fmt::format("{}, {}, {}, {}\n", i * ring + j + 1, double(i), y[j / m], z[j / m]);
+    }
+  text += "*ELEMENT, TYPE=S4, ELSET=ALL\n";
+  for (int i = 0; i < sides; ++i)
+    for (int j = 0; j < ring; ++j) {
+      const int a = i * ring + j + 1, b = i * ring + (j + 1) % ring + 1;
+      text += fmt::format("{}, {}, {}, {}, {}\n", i * ring + j + 1, a, a + ring, b + ring, b);
+    }
+  const auto set = [&](const char* name, int first) {
+    text += fmt::format("*NSET, NSET={}\n", name);
+    for (int j = 1; j <= ring; ++j) text += fmt::format("{}\n", first + j);
+  };
+  set("ROOT", 0), set("TIP", sides * ring);
+  text += "*MATERIAL, NAME=M\n*ELASTIC\n7e10, 0.3\n*DENSITY\n2700\n*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.05\n";
+  write_text(path, text);
+}
+
+/// @param deflection  of its length, by EI = 2/3 E a^3 t
+std::string tube(int sides, double deflection) {
+  const double EI = 7e10 * 0.05 * 2 / 3, L = sides;
+  return fill(R"yaml(
+bodies:
+  tube:
+    mesh: {file: {path: tube.inp}}
+joints: {root: {type: fixed, between: [ground, tube.ROOT]}}
+loads: {tip: {type: force, at: tube.TIP, force: [0, 0, "$P*t"]}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: tube.TIP}}
+)yaml",
+              {{"P", number(3 * EI * deflection / (L * L))}});
+}
+
+/// A narrow cantilever, EIy/EIz = 1e-4, bent in its stiff plane by a share of P_cr = 4.0126 sqrt(EI GJ) / L^2.
+std::string narrow(double share, const std::string& frames) {
+  const double P = share * 4.0126 * std::sqrt(7e10 * 1e-11 * 2.6e10 * 4e-11);
+  return fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 16}}
+    section: {A: 1e-4, Iy: 1e-11, Iz: 1e-7, J: 4e-11, orientation: [0, 1, 0]}
+    material: {E: 7e10, G: 2.6e10, rho: 2700}
+    frames: $frames
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "$P*t", 0]}}
+motion: {end: 1, step: 1e-2}
+)yaml",
+              {{"frames", frames}, {"P", number(P)}});
+}
+
+/// Driven about z.
+std::string driven(const std::string& mesh, const std::string& section, const std::string& root) {
+  return fill(R"yaml(
+bodies:
+  blade:
+    mesh: $mesh
+    $section
+    reduction: {modes: 8, derivatives: all}
+joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, blade.$root]}}
+)yaml",
+              {{"mesh", mesh}, {"section", section}, {"root", root}});
+}
+
+}  // namespace
+
+// Skins shorten by w'^2/2 and webs, which bend in their own plane, do not: self-stress, a cubic stiffness. The loss of
+// deflection against the linear response is that error, because the true tube stays linear to (d/L)^2; 7.5 % and 18 %
+// at a deflection of 4 % of the length are the figures for tubes of 10 and 15 sides with rigid ends.
+TEST_CASE("range: boxes of shells that bend far are too stiff, and the number is the deflection that they lose") {
+  const Scratch scratch;
+  const std::string name = (scratch.path / "scene.yaml").string();
+  const auto compare = [&](int sides, double deflection, double tolerance) {
+    write_tube((scratch.path / "tube.inp").string(), sides);
+    const double small = at_rest(tube(sides, 1e-4), 1, Formulation::nlffr, name).probes[2] * deflection / 1e-4;
+    const AtRest bent = at_rest(tube(sides, deflection), deflection > 0.1 ? 4 : 1, Formulation::nlffr, name);
+    INFO(sides << " sides, " << deflection);
+    REQUIRE(bent.said.count("in-plane"));
+    CHECK(bent.said.at("in-plane").value == Approx(1 - bent.probes[2] / small).epsilon(tolerance));
+    CHECK(bent.said.at("in-plane").text.find("too stiff") != std::string::npos);
+  };
+  compare(10, 0.04, 0.1);
+  compare(15, 0.04, 0.1);
+  compare(10, 0.2, 0.4);  // of second order in the deflection: says less than is lost
+  write_tube((scratch.path / "tube.inp").string(), 10);
+  CHECK(at_rest(tube(10, 0.02), 1, Formulation::nlffr, name).said.empty());
+}
+
+// lag^2 = flap^2 - gamma^2 (flap: independent converged computation, 4.1373196 at gamma = 2) for 3.5160153^2 - gamma^2
+// without the stretching of the line.
+TEST_CASE("range: rotation does not stiffen shells against bending in their plane") {
+  const double EI_rhoA = 7e10 * 0.05 * 0.05 / 12 / 2700, gamma = 2;
+  const std::string strip = driven("{plate: {along: [1, 0, 0], across: [0, 0.05, 0], elements: [40, 2]}}",
+                                   "section: {thickness: 2e-3}\n    material: {E: 7e10, nu: 0, rho: 2700}", "left");
+  const double expected = (std::pow(4.1373196, 2) - 4) / (std::pow(3.5160153, 2) - 4) - 1;
+  const std::string speeds = "0," + number(gamma * std::sqrt(EI_rhoA));
+  for (const auto formulation : {Formulation::vm_md, Formulation::nlffr}) {
+    const std::string said = turned(strip, formulation, speeds, "in the plane of its shells");
+    CHECK(number_in(said) == Approx(expected).epsilon(0.05));
+    CHECK(said.find("too soft") != std::string::npos);
+  }
+  CHECK(turned(strip, Formulation::vm_md, "0," + number(0.4 * std::sqrt(EI_rhoA)), "in the plane") == "");
+}
+
+// Without coupling the beam stays straight in its plane at any load. With it the lateral stiffness is 1 - (P/P_cr)^2 of
+// what it was (Timoshenko & Gere, Theory of elastic stability, art. 6.3), because twist follows statically.
+TEST_CASE("range: lateral buckling of spatial beams, which one frame does not have") {
+  for (const double share : {0.3, 0.9, 1.2}) {
+    const auto said = at_rest(narrow(share, "1"), 1).said;
+    REQUIRE(said.count("coupling"));
+    CHECK(said.at("coupling").value == Approx(share * share).epsilon(0.02));
+  }
+  CHECK(at_rest(narrow(0.2, "1"), 1).said.empty());
+  CHECK(at_rest(narrow(0.3, "4"), 1).said.empty());  // each frame has less of it
+}
+
+// CalculiX has 26.34 Hz where one frame gives 32.50: (26.34/32.50)^2 - 1 = -34 %, and -37 % in the next mode.
+TEST_CASE("range: a swept tip couples bending with torsion as it turns") {
+  const std::string said =
+      turned(driven("{polyline: {points: [[0, 0, 0], [0.8687, 0, 0], [0.9769, 0.1082, 0]], elements: [16, 4]}}",
+                    "section: {shape: rectangle, width: 0.0254, height: 1.6e-3, orientation: [0, 1, 0]}\n"
+                    "    material: {E: 7.1e10, nu: 0.33, rho: 2700}",
+                    "start"),
+             Formulation::nlffr, "0,78.54", "coupling of bending and torsion");
+  CHECK(number_in(said) > 0.3);
+  CHECK(number_in(said) < 0.6);
+}
+
+// 4.955 is the lag frequency at gamma = 10 with rhoI/(rhoA L^2) = 0.01, 4.565 what floe has.
+TEST_CASE("range: rotary inertia under spin in the plane") {
+  const auto lag = [](const std::string& rhoI, const std::string& speed) {
+    return turned(fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 20}}
+    section: {EA: 1e8, EI: 1, rhoA: 1, rhoI: $rhoI}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 8, derivatives: all}
+joints: {root: {type: driven, angle: "2*t", between: [ground, beam.start]}}
+)yaml",
+                       {{"rhoI", rhoI}}),
+                  Formulation::vm_md, "0," + speed, "rotary inertia");
+  };
+  CHECK(number_in(lag("0.01", "10")) == Approx(std::pow(4.955 / 4.565, 2) - 1).epsilon(0.15));
+  CHECK(lag("1e-4", "10") == "");
+  CHECK(lag("0.01", "2") == "");
+}
+
+// Torsion of a thin blade at Omega = omega_t: omega^2 is 2 omega_t^2 where its chord lies in the plane of rotation, and
+// 0, as floe has it, where the chord is along the axis.
+TEST_CASE("range: the propeller moment") {
+  const auto blade = [](const std::string& chord) {
+    return turned(driven("{line: {from: [0, 0, 0], to: [1, 0, 0], elements: 20}}",
+                         "section: {A: 1, Iy: 1e-6, Iz: 0.01, J: 0.4052847e-2, orientation: " + chord +
+                             "}\n    material: {E: 1e8, G: 100, rho: 1}",
+                         "start"),
+                  Formulation::nlffr, "0,10", "rotary inertia");
+  };
+  CHECK(number_in(blade("[0, 1, 0]")) == Approx(1).epsilon(0.02));
+  CHECK(blade("[0, 0, 1]") == "");
+}
