@@ -14,6 +14,7 @@ def main():
     expect("return a < b;", "return a <= b;", "return a >= b;")
     expect("return a == b || !c;", "return a != b || !c;", "return a == b && !c;", "return a == b || c;")
     expect("return -a + b[7];", "return a + b[7];", "return -a - b[7];", "return -a + b[6];", "return -a + b[8];")
+    expect("return a[1];", "return a[0];", "return a[2];")
     expect("return 0. + 2.5;", "return 1. + 2.5;", "return 0. - 2.5;")
     expect("return std::min(a, 1);", "return std::max(a, 1);", "return std::min(a, 0);", "return std::min(a, 2);")
     expect("if (a) b.c(d);", "if (!(a)) b.c(d);", "if (a)       ;")
@@ -24,7 +25,7 @@ def main():
            "for (int i = 3; i != n; --i) a[i] = {};", "for (int i = 3; i != n; ++i)          ;")
     # not: comments, strings, includes, types, messages, what deletes files or starts programs, a function's body
     for text in ("// a < b", "/* a\n + 1 */", '#include "a/b-1.h"', '#if A > 1 && \\\n  B\n', 'R"x(a + 1)")x"', "'+'",
-                 "std::vector<int>&& a", "const double* b = &c;", 'return "a" + b + "c";', "f(double a) { }",
+                 "std::vector<int>&& a", "const double* b = &c;", "double a[3];", "Matrix<double, 6, 6> a;", 'return "a" + b + "c";', "f(double a) { }",
                  'throw InputError(fmt::format("{}", a + 1));', "{ fs::remove(a + 1); }", "return std::system(a, 0);"):
         expect(text)
     print("mutants: as they are written out")

@@ -103,6 +103,16 @@ def spared(tokens):
     return inside
 
 
+def of_type(text, tokens, i):
+    """Whether the number at token i is a template's argument or the length of an array that is declared."""
+    begin, end = text.rfind("\n", 0, tokens[i].start) + 1, text.find("\n", tokens[i].end)
+    if re.search(r"\w<[\w:\s,]*$", text[begin:tokens[i].start]) and re.match(r"[\w:\s,]*>", text[tokens[i].end:end]):
+        return True
+    around = [t.text for t in tokens[i - 1:i + 2:2]]
+    return (around == ["[", "]"] and i > 2 and tokens[i - 2].kind == tokens[i - 3].kind == "word"
+            and tokens[i - 3].text not in ("return", "case", "throw"))
+
+
 def blank(text):
     return re.sub(r"[^\n]", " ", text)
 
@@ -176,7 +186,7 @@ def mutants_of(text):
             elif token.text == "-" and not text[token.end:token.end + 1].isspace() and (
                     before.text == "return" or before.kind == "operator" and before.text not in (")", "]")):
                 choices = [Mutant(token.start, token.end, "", "sign")]
-        elif token.kind == "number" and not (before and before.text in ("<", "using")):
+        elif token.kind == "number" and not of_type(text, tokens, i):
             choices = [Mutant(token.start, token.end, put, "constant") for put in whole_number(token.text)]
         elif token.kind == "word" and token.text in WORDS:
             choices = [Mutant(token.start, token.end, put, "word") for put in WORDS[token.text]]
