@@ -280,8 +280,10 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
                event["what"].get<std::string>(),
                event.contains("impulses") ? fmt::format(", impulses {}, {:.4g} J lost", event["impulses"].dump(),
                                                         event["kinetic_energy_lost"].get<double>())
-               : event.contains("speed")  ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
-                                          : "");
+               : event.contains("kinetic_energy_gained")
+                   ? fmt::format(", {:.4g} J gained", event["kinetic_energy_gained"].get<double>())
+               : event.contains("speed") ? fmt::format(", speed {:.4g}", event["speed"].get<double>())
+                                         : "");
   }
   if (!s["events"].empty()) fmt::print("\n");
   output::Table table;

@@ -123,6 +123,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   Recorder recorder(scene, model, comm, folder, result, plan);
   dynamics::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   how.events = scene::events_of(scene, model, end);
+  how.kinks = scene::kinks_of(scene, end);
   how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
   const std::optional<dynamics::MotionState> from =
       plan.from ? std::optional(state_of(*plan.from)) : std::optional<dynamics::MotionState>();

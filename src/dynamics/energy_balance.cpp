@@ -55,6 +55,11 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
   ++count_, t_ = t;
 }
 
+void EnergyBalance::add_impulse(double energy) {
+  work_ += energy, turnover_ += std::abs(energy);
+  known_ = 0;
+}
+
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
   return {count_, t_, power_, known_, start_, work_, turnover_, growth_};
 }

@@ -24,4 +24,17 @@ EventReport happen(const System& system, const Event& event, double t, Vec U, Ve
   return report;
 }
 
+EventReport pass(const System& system, const Kink& kink, Vec U, Vec V) {
+  EventReport report{kink.name, kink.what, 0.5 * (kink.before + kink.after)};
+  if (kink.what.empty()) return report;
+  const double before = system.energy(kink.after, U, V).kinetic;
+  try {
+    consistent_velocities(system, kink.after, U, V);
+  } catch (const RunError& error) {
+    throw RunError(kink.name + " (" + kink.what + "): " + error.what());
+  }
+  report.work = system.energy(kink.after, U, V).kinetic - before;
+  return report;
+}
+
 }  // namespace floe::dynamics

@@ -9,4 +9,8 @@ namespace floe::dynamics {
 /// @throws RunError  the rows that close contradict or repeat others. Collective.
 EventReport happen(const System& system, const Event& event, double t, Vec U, Vec V);
 
+/// Takes velocities before a kink to those after it. The next step must start anew, at kink.after.
+/// @throws RunError  the drives contradict one another. Collective.
+EventReport pass(const System& system, const Kink& kink, Vec U, Vec V);
+
 }  // namespace floe::dynamics

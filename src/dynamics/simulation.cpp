@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <utility>
 
 #include "crossings.h"
 #include "floe/dynamics/generalized_alpha.h"
@@ -24,6 +25,7 @@ struct Context {
   const System& system;
   const std::function<void(const Instant&)>& observe;
   const std::vector<Event>& events;
+  const std::vector<Kink>& kinks;
   double end = 0;  ///< [s]
   bool adaptive = false;
   double nominal = 0;  ///< the fixed step [s]
@@ -35,6 +37,7 @@ struct Context {
   std::function<void(double, Vec, Vec)> between = {};
   std::unique_ptr<Crossings> crossings = {};
   std::vector<double> happened = {};  ///< of each event
+  bool observed = false;              ///< the instant that TS begins with, before a kink
 };
 
 PetscErrorCode residual(TS, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* context) {
@@ -101,7 +104,9 @@ void refuse_not_finite(Vec U, Vec V) {
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
   auto& c = *static_cast<Context*>(context);
   return c.guard.run([&] {
+    if (std::exchange(c.observed, false)) return;
     if (c.crossings && c.crossings->going_back()) return;  // this instant was observed before
+    if (step == 0) t = 0;                                  // not behind a kink that the motion begins with
     Vec V = nullptr, A = nullptr;
     check(TS2GetSolution(ts, nullptr, &V));
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
@@ -265,9 +270,18 @@ std::string ending(TS ts, TSConvergedReason reason, const Context& context, cons
       iterations, report.rejected, prefix_of(ts), prefix_of(ts), remedy(ts, context, true));
 }
 
-/// The next event at a time given, of those that have not happened; none: the motion's end.
+/// The first that the motion is not behind.
+std::vector<Kink>::const_iterator next_kink(const Context& context, double t) {
+  return std::partition_point(context.kinks.begin(), context.kinks.end(),
+                              [&](const Kink& kink) { return kink.after <= t; });
+}
+
+/// The next event or kink at a time given, of those that have not happened; none: the motion's end.
 double next_stop(const Context& context) {
-  double next = context.end;
+  double next = context.end, t = 0;
+  check(TSGetTime(context.ts, &t));
+  const auto kink = next_kink(context, t);
+  if (kink != context.kinks.end()) next = std::min(next, kink->before);
   for (std::size_t i = 0; i < context.events.size(); ++i)
     if (!context.events[i].watched() && context.happened[i] == 0) next = std::min(next, context.events[i].at);
   return next;
@@ -296,13 +310,33 @@ void take_up(TS ts, const MotionState& state, Context& context) {
   if (!context.adaptive && next_stop(context) > state.stop * (1 + 1e-12)) check(TSSetTimeStep(ts, context.nominal));
 }
 
+/// Takes the motion over the kinks that are due.
+bool pass_kinks(TS ts, const Integration& how, Context& context) {
+  double t = 0;
+  Vec U = nullptr, V = nullptr;
+  PetscInt step = 0;
+  check(TSGetTime(ts, &t));
+  check(TSGetStepNumber(ts, &step));
+  if (t >= context.end * (1 - 1e-12)) return false;
+  const auto first = next_kink(context, t);
+  auto kink = first;
+  for (; kink != context.kinks.end() && kink->before <= t + 1e-12 * context.end; ++kink) {
+    check(TS2GetSolution(ts, &U, &V));
+    const EventReport report = pass(context.system, *kink, U, V);
+    check(TSSetTime(ts, kink->after));
+    context.observed = step > 0;
+    if (!kink->what.empty() && how.on_event) how.on_event(report);
+  }
+  return kink != first;
+}
+
 /// Has the events happen that are due. Returns whether the motion goes on.
 bool act(TS ts, const Integration& how, Context& context, double nominal) {
   double t = 0;
   Vec U = nullptr, V = nullptr;
+  bool changed = pass_kinks(ts, how, context), stopped = false;
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
-  bool changed = false, stopped = false;
   for (std::size_t i = 0; i < context.events.size(); ++i) {
     const Event& event = context.events[i];
     const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
@@ -342,7 +376,7 @@ bool go(TS ts, const Integration& how, Context& context, double nominal) {
 
 IntegrationReport simulate(const System& system, const Integration& how, Vec U, Vec V,
                            const std::function<void(const Instant&)>& observe) {
-  Context context{system, observe, how.events, how.end, how.tolerance.has_value()};
+  Context context{system, observe, how.events, how.kinks, how.end, how.tolerance.has_value()};
   const petsc::VecHandle F = system.create_vector();
   const petsc::MatHandle J = system.create_tangent();
   petsc::TsHandle ts;

@@ -11,21 +11,33 @@ namespace floe::math {
 
 using Arguments = std::vector<Jet>;
 using Operation = std::function<Jet(const Arguments&)>;
+using Switches = std::function<void(const Arguments&, std::vector<Jet>&)>;
 using NodePointer = std::shared_ptr<const Expression::Node>;
 
 struct Expression::Node {
-  Operation operation;  // none: a number or a variable
+  Operation operation;     // none: a number or a variable
+  Switches switches = {};  // none: smooth wherever it is finite
   std::vector<NodePointer> children;
   double number = 0;
   int variable = -1;
   bool choice = false;  // children: condition, then, else; only the one that is taken is looked at
 
-  Jet evaluate(const std::vector<double>& variables) const {
-    if (choice) return children[children[0]->evaluate(variables).value != 0 ? 1 : 2]->evaluate(variables);
+  Jet evaluate(const std::vector<double>& variables, std::vector<Jet>* seen) const {
+    if (choice) {
+      const Jet condition = children[0]->evaluate(variables, seen);
+      if (seen) seen->push_back(condition);
+      return children[condition.value != 0 ? 1 : 2]->evaluate(variables, seen);
+    }
     if (!operation) return variable < 0 ? Jet{number} : Jet{variables[variable], variable == 0 ? 1.0 : 0.0, 0};
     Arguments arguments;
-    for (const NodePointer& child : children) arguments.push_back(child->evaluate(variables));
+    for (const NodePointer& child : children) arguments.push_back(child->evaluate(variables, seen));
+    if (seen && switches) switches(arguments, *seen);
     return operation(arguments);
+  }
+  bool has_switches() const {
+    return choice || switches || std::any_of(children.begin(), children.end(), [](const NodePointer& child) {
+             return child->has_switches();
+           });
   }
 };
 
@@ -60,7 +72,39 @@ Jet sum(const Arguments& a) {
 struct Function {
   Operation operation;
   int arguments = 1;  // 0: one or more
+  Switches switches = {};
 };
+
+/// Of functions with a kink or a jump at 0.
+void by_value(const Arguments& a, std::vector<Jet>& switches) { switches.push_back(a[0]); }
+
+/// Of those with an end at 0: also where the argument touches 0.
+void by_sign(const Arguments& a, std::vector<Jet>& switches) {
+  switches.push_back(a[0]);
+  switches.push_back({a[0].first, a[0].second, 0});
+}
+
+/// Of ramp and pulse.
+void between_two(const Arguments& a, std::vector<Jet>& switches) {
+  switches.insert(switches.end(), {a[0] - a[1], a[0] - a[2]});
+}
+
+/// Of min and max: each pair.
+void by_order(const Arguments& a, std::vector<Jet>& switches) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = i + 1; j < a.size(); ++j) switches.push_back(a[i] - a[j]);
+}
+
+/// Of a power: none of a whole exponent >= 0.
+void by_base(const Arguments& a, std::vector<Jet>& switches) {
+  if (!a[1].constant() || a[1].value < 0 || a[1].value != std::floor(a[1].value)) by_sign(a, switches);
+}
+
+/// Of asin and the like, which end at -1 and 1.
+void by_ends(const Arguments& a, std::vector<Jet>& switches) {
+  switches.push_back(Jet{1} - a[0] * a[0]);
+  switches.push_back({a[0].first, a[0].second, 0});
+}
 
 const std::map<std::string, Function>& functions() {
   using D = double;
@@ -75,11 +119,13 @@ const std::map<std::string, Function>& functions() {
            [](D x) { return 2 * std::tan(x) * (1 + std::pow(std::tan(x), 2)); })}},
       {"asin",
        {of_one(
-           std::asin, [](D x) { return 1 / std::sqrt(1 - x * x); }, [](D x) { return x / std::pow(1 - x * x, 1.5); })}},
+            std::asin, [](D x) { return 1 / std::sqrt(1 - x * x); }, [](D x) { return x / std::pow(1 - x * x, 1.5); }),
+        1, by_ends}},
       {"acos",
        {of_one(
-           std::acos, [](D x) { return -1 / std::sqrt(1 - x * x); },
-           [](D x) { return -x / std::pow(1 - x * x, 1.5); })}},
+            std::acos, [](D x) { return -1 / std::sqrt(1 - x * x); },
+            [](D x) { return -x / std::pow(1 - x * x, 1.5); }),
+        1, by_ends}},
       {"atan",
        {of_one(
            std::atan, [](D x) { return 1 / (1 + x * x); }, [](D x) { return -2 * x / std::pow(1 + x * x, 2); })}},
@@ -117,16 +163,23 @@ const std::map<std::string, Function>& functions() {
            [](D x) { return -std::numbers::log10e / (x * x); })}},
       {"sqrt",
        {of_one(
-           std::sqrt, [](D x) { return 0.5 / std::sqrt(x); }, [](D x) { return -0.25 / (x * std::sqrt(x)); })}},
+            std::sqrt, [](D x) { return 0.5 / std::sqrt(x); }, [](D x) { return -0.25 / (x * std::sqrt(x)); }),
+        1, by_sign}},
       {"abs",
        {of_one(
-           std::fabs, [](D x) { return x < 0   ? -1.0
-                                       : x > 0 ? 1.0
-                                               : 0.0; }, zero)}},
+            std::fabs, [](D x) { return x < 0   ? -1.0
+                                        : x > 0 ? 1.0
+                                                : 0.0; }, zero),
+        1, by_value}},
       {"sign", {steps([](D x) { return x < 0   ? -1.0
                                        : x > 0 ? 1.0
-                                               : 0.0; })}},
-      {"rint", {steps([](D x) { return std::floor(x + 0.5); })}},
+                                               : 0.0; }), 1, by_value}},
+      {"rint",
+       {steps([](D x) { return std::floor(x + 0.5); }), 1,
+        [](const Arguments& a, std::vector<Jet>& switches) {  // x = k + 1/2
+          const double y = std::numbers::pi * a[0].value;
+          switches.push_back(chain(a[0], std::cos(y), -std::numbers::pi * std::sin(y), 0));
+        }}},
       {"atan2",
        {[](const Arguments& a) {
           Jet angle = Jet{std::atan2(a[0].value, a[1].value)};
@@ -139,9 +192,13 @@ const std::map<std::string, Function>& functions() {
           angle.second = (change - angle.first * square.first) / square.value;
           return angle;
         },
-        2}},
-      {"min", {[](const Arguments& a) { return extreme(a, false); }, 0}},
-      {"max", {[](const Arguments& a) { return extreme(a, true); }, 0}},
+        2,
+        [](const Arguments& a, std::vector<Jet>& switches) {  // the cut along the negative axis
+          switches.push_back(a[1]);
+          if (a[1].value < 0) switches.push_back(a[0]);
+        }}},
+      {"min", {[](const Arguments& a) { return extreme(a, false); }, 0, by_order}},
+      {"max", {[](const Arguments& a) { return extreme(a, true); }, 0, by_order}},
       {"sum", {sum, 0}},
       {"avg", {[](const Arguments& a) { return sum(a) / Jet{static_cast<double>(a.size())}; }, 0}},
       {"triangle",
@@ -150,24 +207,34 @@ const std::map<std::string, Function>& functions() {
           if (t.value < 0 || t.value >= rise.value + fall.value) return Jet{};
           return t.value < rise.value ? t / rise : (rise + fall - t) / fall;
         },
-        3}},
+        3,
+        [](const Arguments& a, std::vector<Jet>& switches) {
+          switches.insert(switches.end(), {a[0], a[0] - a[1], a[0] - a[1] - a[2]});
+        }}},
       {"ramp",
        {[](const Arguments& a) {
           if (a[0].value < a[1].value) return Jet{0};
           if (a[0].value >= a[2].value) return Jet{1};
           return (a[0] - a[1]) / (a[2] - a[1]);
         },
-        3}},
+        3, between_two}},
       {"pulse",
-       {[](const Arguments& a) { return Jet{a[1].value <= a[0].value && a[0].value < a[2].value ? 1.0 : 0.0}; }, 3}},
+       {[](const Arguments& a) { return Jet{a[1].value <= a[0].value && a[0].value < a[2].value ? 1.0 : 0.0}; }, 3,
+        between_two}},
   };
   return all;
 }  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): they are static
 
-NodePointer make(Operation operation, std::vector<NodePointer> children) {
+NodePointer make(Operation operation, std::vector<NodePointer> children, Switches switches = {}) {
   auto node = std::make_shared<Expression::Node>();
-  node->operation = std::move(operation), node->children = std::move(children);
+  node->operation = std::move(operation), node->children = std::move(children), node->switches = std::move(switches);
   return node;
+}
+
+/// Of a comparison.
+NodePointer comparing(std::function<bool(double, double)> holds, const NodePointer& left, const NodePointer& right) {
+  return make([holds = std::move(holds)](const Arguments& a) { return Jet{holds(a[0].value, a[1].value) ? 1.0 : 0.0}; },
+              {left, right}, [](const Arguments& a, std::vector<Jet>& switches) { switches.push_back(a[0] - a[1]); });
 }
 
 Operation compared(std::function<bool(double, double)> holds) {
@@ -218,17 +285,17 @@ struct Reader {
     NodePointer left = addition();
     for (;;) {
       if (take("<="))
-        left = make(compared(std::less_equal<>()), {left, addition()});
+        left = comparing(std::less_equal<>(), left, addition());
       else if (take(">="))
-        left = make(compared(std::greater_equal<>()), {left, addition()});
+        left = comparing(std::greater_equal<>(), left, addition());
       else if (take("!="))
-        left = make(compared(std::not_equal_to<>()), {left, addition()});
+        left = comparing(std::not_equal_to<>(), left, addition());
       else if (take("=="))
-        left = make(compared(std::equal_to<>()), {left, addition()});
+        left = comparing(std::equal_to<>(), left, addition());
       else if (take("<"))
-        left = make(compared(std::less<>()), {left, addition()});
+        left = comparing(std::less<>(), left, addition());
       else if (take(">"))
-        left = make(compared(std::greater<>()), {left, addition()});
+        left = comparing(std::greater<>(), left, addition());
       else
         return left;
     }
@@ -260,7 +327,7 @@ struct Reader {
     if (take("+")) return signed_power();
     NodePointer base = primary();
     if (!take("^")) return base;
-    return make([](const Arguments& a) { return power(a[0], a[1]); }, {base, signed_power()});
+    return make([](const Arguments& a) { return power(a[0], a[1]); }, {base, signed_power()}, by_base);
   }
   NodePointer primary() {
     skip_blanks();
@@ -293,7 +360,7 @@ struct Reader {
     if (name == "e") return node->number = std::numbers::e, node;
     const auto function = functions().find(name);
     if (function == functions().end()) throw Unknown{};
-    return make(function->second.operation, arguments(function->second.arguments));
+    return make(function->second.operation, arguments(function->second.arguments), function->second.switches);
   }
   std::vector<NodePointer> arguments(int count) {
     std::vector<NodePointer> all;
@@ -322,6 +389,10 @@ std::shared_ptr<const Expression> Expression::read(const std::string& text, cons
   }
 }
 
-Jet Expression::operator()(const std::vector<double>& variables) const { return root_->evaluate(variables); }
+Jet Expression::operator()(const std::vector<double>& variables) const { return root_->evaluate(variables, nullptr); }
+Jet Expression::operator()(const std::vector<double>& variables, std::vector<Jet>& switches) const {
+  return root_->evaluate(variables, &switches);
+}
+bool Expression::has_switches() const { return root_->has_switches(); }
 
 }  // namespace floe::math

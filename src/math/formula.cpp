@@ -161,6 +161,8 @@ const Expression& Formula::tree() const {
   return *parser_->tree;
 }
 
+const Expression* Formula::expression() const { return constant() ? nullptr : parser_->tree.get(); }
+
 bool Formula::constant() const { return parser_->constant; }
 const std::string& Formula::text() const { return parser_->text; }
 

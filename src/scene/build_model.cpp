@@ -2,6 +2,7 @@
 
 #include "build_assembly.h"
 #include "build_space.h"
+#include "drive.h"
 #include "floe/dynamics/simulation.h"
 #include "floe/scene/variation.h"
 #include "offline.h"
@@ -33,8 +34,9 @@ std::vector<Eigen::MatrixXd> interactions(const Prepared& prepared, const std::v
     }
   };
   try {
-    dynamics::simulate(*model.system, {motion.end, motion.step, motion.spectral_radius, {}, "ranking_"}, model.U,
-                       model.V, observe);
+    dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, {}, "ranking_"};
+    how.kinks = kinks_of(prepared.scene, motion.end);
+    dynamics::simulate(*model.system, how, model.U, model.V, observe);
   } catch (const dynamics::MotionStopped&) {
     // A linear body that is turned too fast diverges: what it did until then ranks the pairs.
   }
@@ -85,6 +87,7 @@ ReducedBodies reduced_bodies(const Prepared& prepared, Formulation formulation, 
 Model assembled(const Prepared& prepared, const ReducedBodies& reduced) {
   Model model = assemble(prepared, reduced.formulation, reduced.bodies);
   model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
+  for (std::string& words : smoothed_drives(prepared.scene)) model.warnings.push_back(std::move(words));
   return model;
 }
 

@@ -221,7 +221,9 @@ Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(s
     KeptMotion motion(model);
     const Motion& how = scene.motion;
     try {
-      dynamics::simulate(*model.system, {how.end, how.step, how.spectral_radius, {}, "ranking_"}, model.U, model.V,
+      dynamics::Integration with{how.end, how.step, how.spectral_radius, {}, "ranking_"};
+      with.kinks = kinks_of(scene, how.end);
+      dynamics::simulate(*model.system, with, model.U, model.V,
                          [&](const dynamics::Instant& instant) { motion.keep(instant); });
     } catch (const dynamics::MotionStopped&) {
       // A linear body that is turned too fast diverges: what it did until then ranks its columns.

@@ -67,7 +67,11 @@ probes: {tip: {at: arm.end}}
 STOPS = (BEAM.replace("beam.start]}", "beam.start], limits: {lower: -0.5, stiffness: 500, damping: 0.1, width: 0.01}}")
          + "events: {never: {stop: true, when: \"t + 1\"}}\n")
 FIXED, ADAPTIVE = "motion: {end: 1.2, step: 1e-3}", "motion: {end: 1.2, step: 1e-3, tolerance: 1e-5}"
+# a drive whose speed jumps and a load that jumps, on the steps' instants and between them
+KINKS = (BEAM.replace("type: revolute", 'type: driven, angle: "0.5*ramp(t, 0.2, 0.73123)"').replace("3*sin(7*t)", "2*pulse(t, 0.33337, 0.6)"))
 CASES = {
+    "plane, kinks": (KINKS + FIXED, "vm+md"),
+    "plane, kinks, adaptive": (KINKS + ADAPTIVE, "vm+md"),
     "plane, reduced": (BEAM + EVENTS + FIXED, "vm+md"),
     "plane, reduced, adaptive": (BEAM + EVENTS + ADAPTIVE, "vm+md"),
     "plane, full order": (BEAM + EVENTS + FIXED, "nlffr"),

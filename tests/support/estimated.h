@@ -16,12 +16,12 @@ inline Estimated move_and_estimate(const std::string& text, Formulation formulat
   const scene::Motion& motion = scene.motion;
   const scene::Model& model = all.history.model;
   scene::KeptMotion kept(model);
-  all.history.report =
-      dynamics::simulate(*model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance}, model.U,
-                         model.V, [&](const dynamics::Instant& at) {
-                           store(all.history, at.t, at.U, at.V);
-                           kept.keep(at);
-                         });
+  dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
+  how.kinks = scene::kinks_of(scene, motion.end);
+  all.history.report = dynamics::simulate(*model.system, how, model.U, model.V, [&](const dynamics::Instant& at) {
+    store(all.history, at.t, at.U, at.V);
+    kept.keep(at);
+  });
   all.estimate = scene::estimate_error(model, kept, seconds);
   return all;
 }

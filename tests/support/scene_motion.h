@@ -77,6 +77,7 @@ inline History move(const std::string& text, Formulation formulation) {
   const scene::Motion& motion = scene.motion;
   dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
   how.events = scene::events_of(scene, history.model, motion.end);
+  how.kinks = scene::kinks_of(scene, motion.end);
   how.on_event = [&](const dynamics::EventReport& event) { history.events.push_back(event); };
   history.report = dynamics::simulate(*history.model.system, how, history.model.U, history.model.V,
                                       [&](const dynamics::Instant& at) { store(history, at.t, at.U, at.V); });

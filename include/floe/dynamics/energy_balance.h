@@ -23,6 +23,8 @@ class EnergyBalance {
  public:
   /// An instant. @param energy  total, of U, V; A null: not known yet (at the start). Collective.
   void add(const System& system, double t, Vec U, Vec V, Vec A, double energy);
+  /// Energy that the impulses of drives bring at an instant, which belongs to W; the power behind it is another one.
+  void add_impulse(double energy);
   double work() const { return work_; }          ///< W [J]
   double growth() const { return growth_; }      ///< [J]
   double turnover() const { return turnover_; }  ///< int |P| dt [J]

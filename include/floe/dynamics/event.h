@@ -47,6 +47,17 @@ struct EventReport {
   double lost = 0;                    ///< kinetic energy [J]
   std::vector<double> impulses = {};  ///< on the rows that were closed [N s], [N m s]
   std::optional<double> speed = {};   ///< at a stop: of the places against one another [m/s], [rad/s]
+  std::optional<double> work = {};    ///< at a kink of drives: what their impulses add to the kinetic energy [J]
+};
+
+/// An instant at which drives or loads are not smooth in time. A step ends `before` it, with what drives and loads are
+/// there; the next one starts `after` it, which differs by round-off, from consistent accelerations and multipliers.
+struct Kink {
+  double before = 0, after = 0;  ///< [s]
+  std::string name = {};
+  /// Where velocities jump: `speed of the drive jumps from 0 to 5 rad/s`. They go to the nearest ones, in kinetic
+  /// energy, that the drives allow. Empty: they do not jump, and nothing is reported.
+  std::string what = {};
 };
 
 }  // namespace floe::dynamics

@@ -17,6 +17,7 @@ struct Integration {
   std::string prefix = "motion_";
   std::vector<Event> events = {};  ///< those that do not repeat happen once, in the order of their times
   std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
+  std::vector<Kink> kinks = {};       ///< ascending, none within another
   const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };
 
@@ -62,7 +63,8 @@ class MotionStopped : public RunError {
 /// over at the beginning of every step: at each instant, and at return, A = base exp(x) of the U that belongs to it.
 ///
 /// A motion that is taken up again (`from`) begins at the state's time, which `observe` sees once more; U, V are
-/// overwritten. Events at one time happen in their order; a motion without a step before one has it at its start.
+/// overwritten. Events at one time happen in their order; a motion without a step before one has it at its start. Where
+/// a motion is among kinks its time tells, so that kinks behind its end need not be known.
 ///
 /// @param observe  called at the start and after every step (at an event before it); what it throws ends the motion
 /// @throws InputError     an option has a value that it cannot have, or the TS type is for first-order systems, or is

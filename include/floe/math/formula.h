@@ -49,6 +49,8 @@ class Formula {
   /// Mentions none of its variables.
   bool constant() const;
   const std::string& text() const;
+  /// The formula as a tree, for breaks(); null where it has no derivatives, and of a number.
+  const Expression* expression() const;
 
  private:
   double finite(double value, const char* what, double first, double second, double third = 0) const;

@@ -1,0 +1,187 @@
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "space_twin.h"
+
+using namespace floe;
+using namespace floe::test;
+
+// Drives with kinks, and loads with jumps: velocities jump by the impulse of the drive, and what comes after is right
+// to the order of the method. Closed forms of rigid bodies; for an elastic one the modes of a beam that is struck.
+
+namespace {
+
+/// A bar of mass 3 and length 1 that turns about its end, inertia 1; a second one hinged to its tip.
+std::string bars(const std::string& drive, const std::string& motion, bool two = false) {
+  return fill(R"yaml(
+bodies:
+  bar:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}
+    section: {rhoA: 3}
+$second
+joints:
+  motor: {type: driven, between: [ground, bar.start], $drive}
+$hinge
+motion: $motion
+probes: {tip: {at: bar.end, quantity: velocity}, root: {at: bar.end, quantity: rotation}}
+)yaml",
+              {{"drive", drive},
+               {"motion", motion},
+               {"second", two ? R"yaml(
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [0.8, 0], elements: 2}}
+    section: {rhoA: 2.5}
+    initial: {position: [1, 0]})yaml"
+                              : ""},
+               {"hinge", two ? "  hinge: {type: revolute, between: [bar.end, rod.start]}" : ""}});
+}
+
+double speed(const History& at, std::size_t i) { return std::hypot(at["tip.x"][i], at["tip.y"][i]); }
+
+}  // namespace
+
+TEST_CASE("a ramp of the angle: the speed is that of the ramp, with fixed and adaptive steps, on and off the grid") {
+  for (const std::string motion :
+       {"{end: .5, step: .01}", "{end: .5, step: .0137}", "{end: .5, step: .01, tolerance: 1e-6}"}) {
+    INFO(motion);
+    const History at = move(bars("angle: \"ramp(t, .1, .3)\"", motion), Formulation::vm_md);
+    for (std::size_t i = 0; i < at.t.size(); ++i) {
+      const bool turns = at.t[i] > 0.1 + 1e-9 && at.t[i] < 0.3 + 1e-9;
+      CHECK(speed(at, i) == Approx(turns ? 5 : 0).margin(1e-7));
+      CHECK(at.energy[i].kinetic == Approx(turns ? 12.5 : 0).margin(1e-6));
+    }
+    REQUIRE(at.events.size() == 2);
+    CHECK(at.events[0].t == Approx(0.1).epsilon(1e-14));
+    CHECK(at.events[0].name == "motor");
+    CHECK(at.events[0].what == "speed of the drive jumps from 0 to 5 rad/s");
+    CHECK(at.events[0].work.value() == Approx(12.5));
+    CHECK(at.events[1].what == "speed of the drive jumps from 5 to 0 rad/s");
+    CHECK(at.events[1].work.value() == Approx(-12.5));
+  }
+}
+
+// The rod is free but for the force J at its end: v_end = J (1/m + (l/2)^2/(m l^2/12)) = 4 J/m, so that J = m v/4 and
+// the energy is J v/2 = m v^2/8; it turns against the bar by 3 v/(2 l).
+TEST_CASE("a drive that starts at once strikes what hangs on it: impulse, energy and motion as of a free rod") {
+  const double step = 0.002;
+  const History at = move(bars("angle: \"ramp(t, .1, 10.1)*40\"", fmt::format("{{end: .2, step: {}}}", step), true),
+                          Formulation::vm_md);
+  REQUIRE(at.events.size() == 1);
+  CHECK(at.events[0].work.value() == Approx(0.5 * 16 + 2 * 16. / 8).epsilon(1e-10));
+  for (std::size_t i = 0; i < at.t.size(); ++i)
+    CHECK(speed(at, i) == Approx(at.t[i] > 0.1 + 1e-9 ? 4 : 0).margin(1e-4));
+}
+
+TEST_CASE("kinks of abs, of a speed that jumps and of a slide in space") {
+  const History back = move(bars("angle: \"abs(t - .233) - .233\"", "{end: .5, step: .01}"), Formulation::vm_md);
+  for (std::size_t i = 0; i < back.t.size(); ++i) CHECK(speed(back, i) == Approx(1).epsilon(1e-9));
+  REQUIRE(back.events.size() == 1);
+  CHECK(back.events[0].t == Approx(0.233).epsilon(1e-14));
+  CHECK(back.events[0].work.value() == Approx(0).margin(1e-12));
+
+  const History jump = move(bars("speed: \"t < .123 ? 2 : 3 + t\"", "{end: .5, step: .01}"), Formulation::vm_md);
+  REQUIRE(jump.events.size() == 1);
+  CHECK(jump.t.back() == Approx(0.5));
+  CHECK(jump["root.angle"].back() == Approx(0.246 + 3 * 0.377 + (0.25 - 0.123 * 0.123) / 2));
+  CHECK(speed(jump, jump.t.size() - 1) == Approx(3.5).epsilon(1e-6));
+
+  const Turned turn;
+  const History slide = move(fill(R"yaml(
+bodies:
+  cube:
+    rigid: true
+    mesh: {line: {from: [-0.1, 0, 0], to: [0.1, 0, 0], elements: 2}}
+    section: {shape: rectangle, width: 0.2, height: 0.2, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 125}
+    initial: {rotation: $turn}
+joints: {drive: {type: driven_slide, between: [ground, cube.middle], axis: $axis, position: "max(0, 2*(t - .105))"}}
+motion: {end: .3, step: .01}
+probes: {middle: {at: cube.middle, quantity: velocity}}
+)yaml",
+                                  {{"turn", turn.rotation()}, {"axis", turn(0, 0, 1)}}),
+                             Formulation::vm_md);
+  REQUIRE(slide.events.size() == 1);
+  CHECK(slide.events[0].what == "speed of the drive jumps from 0 to 2 m/s");
+  CHECK(slide.events[0].work.value() == Approx(2));  // 1 kg
+  for (std::size_t i = 0; i < slide.t.size(); ++i)
+    CHECK(vector_at(slide, "middle", i).norm() == Approx(slide.t[i] > 0.105 + 1e-9 ? 2 : 0).margin(1e-9));
+}
+
+TEST_CASE("a kink at the start is no kink: the motion begins with the speed just after it") {
+  for (const std::string angle : {"abs(t)", "ramp(t, 0, 10)*10", "t > 0 ? t : 0"}) {
+    const History at = move(bars("angle: \"" + angle + "\"", "{end: .1, step: .01}"), Formulation::vm_md);
+    CHECK(at.events.empty());
+    for (std::size_t i = 0; i < at.t.size(); ++i) CHECK(speed(at, i) == Approx(1).epsilon(1e-9));
+  }
+}
+
+// r = 0.2 t^1.5: w = 0.3 sqrt(t); the angular acceleration is infinite at t = 0.
+TEST_CASE("a drive of infinite acceleration is smoothed for ten steps, said so, and right after them") {
+  const History at = move(bars("angle: \".2*sqrt(t^3)\"", "{end: .5, step: .005}"), Formulation::vm_md);
+  REQUIRE(at.model.warnings.size() == 1);
+  CHECK_THAT(at.model.warnings[0],
+             Catch::Matchers::Contains("is infinite at t = 0 s") && Catch::Matchers::Contains("for 0.05 s (10 steps)"));
+  for (std::size_t i = 0; i < at.t.size(); ++i)
+    CHECK(speed(at, i) == Approx(0.3 * std::sqrt(at.t[i])).margin(at.t[i] < 0.05 ? 0.03 : 2e-3));
+}
+
+// m v = F (t - t1): forces that begin and end between the steps' instants of a whole step.
+TEST_CASE("a force that jumps acts for as long as it says, gravity and the ground's acceleration likewise") {
+  const std::string text = R"yaml(
+bodies:
+  bar: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {rhoA: 3}}
+$load
+motion: {end: .5, step: .01}
+probes: {m: {at: bar.middle, quantity: velocity}}
+)yaml";
+  for (const std::string load :
+       {"loads: {push: {type: force, at: bar.middle, force: [0, \"30*pulse(t, .1033, .3577)\"]}}",
+        "gravity: [0, \"10*pulse(t, .1033, .3577)\"]", "ground: {acceleration: [0, \"-10*pulse(t, .1033, .3577)\"]}"}) {
+    INFO(load);
+    const History at = move(fill(text, {{"load", load}}), Formulation::vm_md);
+    CHECK(at.events.empty());
+    for (std::size_t i = 0; i < at.t.size(); ++i)
+      CHECK(at["m.y"][i] == Approx(10 * std::clamp(at.t[i] - 0.1033, 0.0, 0.2544)).margin(1e-10));
+  }
+}
+
+// Steps that resolve the vibrations which the kink excites.
+TEST_CASE("order 2 behind a kink, in every formulation") {
+  const auto swing = [](double step, Formulation formulation) {
+    return move(fill(R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {EA: 1e5, EI: 20, rhoA: 1, rhoI: 1e-3}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 2, derivatives: all}
+joints: {motor: {type: driven, between: [ground, arm.start], angle: ".5*ramp(t, .0511, .3)"}}
+motion: {end: .2, step: $step, spectral_radius: .9}
+probes: {tip: {at: arm.end, quantity: position}}
+)yaml",
+                     {{"step", number(step)}}),
+                formulation);
+  };
+  for (const Formulation formulation : {Formulation::vm_md, Formulation::vm}) {
+    const History fine = swing(2e-5, formulation);
+    const double coarse = std::abs(swing(2e-4, formulation)["tip.y"].back() - fine["tip.y"].back()),
+                 middle = std::abs(swing(1e-4, formulation)["tip.y"].back() - fine["tip.y"].back());
+    INFO(coarse << ", " << middle);
+    CHECK(std::log2(coarse / middle) == Approx(2).margin(0.4));
+  }
+  // All formulations of the same mesh agree on the way that the root goes, and on the energy that the kink brings.
+  const History full = swing(1e-3, Formulation::nlffr), corotational = swing(1e-3, Formulation::cfr);
+  REQUIRE(full.events.size() == 1);
+  REQUIRE(corotational.events.size() == 1);
+  CHECK(full.events[0].work.value() == Approx(corotational.events[0].work.value()).epsilon(0.02));
+}
+
+TEST_CASE("an angle that jumps is refused, and so is an infinite speed") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(move(bars("angle: \"t < .105 ? 0 : .5\"", "{end: .5, step: .01}"), Formulation::vm_md),
+                    Contains("motor.angle: ") && Contains("jumps from 0 to 0.5 rad at t = 0.105"));
+  CHECK_THROWS_WITH(move(bars("angle: \"sqrt(t)\"", "{end: .5, step: .01}"), Formulation::vm_md),
+                    Contains("the rate of \"sqrt(t)\" is infinite at t = 0"));
+}
