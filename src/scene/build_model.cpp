@@ -6,6 +6,7 @@
 #include "floe/dynamics/simulation.h"
 #include "floe/scene/variation.h"
 #include "offline.h"
+#include "start_vectors.h"
 
 namespace floe::scene {
 
@@ -74,6 +75,7 @@ ReducedBodies reduced_bodies(const Prepared& prepared, Formulation formulation, 
     all.bodies = reduce_bodies(
         prepared, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(prepared, linear); },
         all.warnings, keep_offline);
+    for (std::size_t b = 0; b < all.bodies.size(); ++b) join_start(prepared.bodies[b], all.bodies[b]);
     return all;
   }
   for (std::size_t b = 0; b < all.bodies.size(); ++b)

@@ -17,6 +17,7 @@
 #include "matching_pursuit.h"
 #include "offline.h"
 #include "pool_text.h"
+#include "start_vectors.h"
 
 namespace floe::scene {
 
@@ -97,7 +98,7 @@ struct Pool::Parts {
     std::vector<char> all(sources.size(), 0);
     for (std::size_t b = 0; b < sources.size(); ++b) {
       const std::vector<char> taken = taken_of(b, selection);
-      all[b] = flexible(b) && std::find(taken.begin(), taken.end(), 1) == taken.end();
+      all[b] = flexible(b) && !starts_deformed(body(b)) && std::find(taken.begin(), taken.end(), 1) == taken.end();
     }
     return all;
   }
@@ -119,8 +120,9 @@ const ReducedBody& Pool::Parts::reduced_body(std::size_t b, const std::vector<ch
   const PreparedBody& prepared = body(b);
   std::vector<Vec> some;
   std::vector<ColumnOrigin> origins;
+  const bool none = std::find(taken.begin(), taken.end(), 1) == taken.end();  // of a body with a start of its own
   for (std::size_t i = 0; i < taken.size(); ++i)
-    if (taken[i]) some.push_back(source.columns[i]), origins.push_back(source.origins[i]);
+    if (taken[i] || (none && i == 0)) some.push_back(source.columns[i]), origins.push_back(source.origins[i]);
   ReducedBody one;
   one.report = source.report;
   const double start = MPI_Wtime();
@@ -133,6 +135,7 @@ const ReducedBody& Pool::Parts::reduced_body(std::size_t b, const std::vector<ch
          source.stage.generators.modes, one);
   one.report.seconds_projection = MPI_Wtime() - start;
   one.statics = source.statics;
+  join_start(prepared, one);
   return reduced.emplace(std::pair{b, taken}, std::move(one)).first->second;
 }
 
