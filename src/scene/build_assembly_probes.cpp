@@ -1,4 +1,7 @@
+#include <cmath>
+
 #include "build_assembly.h"
+#include "floe/scene/places.h"
 
 namespace floe::scene {
 
@@ -15,6 +18,10 @@ void Assembly::add_probes(Model& model, const Eigen::VectorXd& q) {
       for (const PreparedPlace& node : body.frame_places)
         probe.frame.push_back(marker({place.body, node.node, node.x}));
     }
+    if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && compact(place.body))
+      if (probe.marker.S.size() == 0 ||
+          probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[place.body].body.inertia.m) < 1e-9)
+        model.warnings.push_back(never_deflects(spec, prepared_.bodies[place.body].spec));
     if (spec.relative_to) probe.relative_to = marker(prepared_.probes[p][1]);
     if (owner_) {
       probe.start = pose_at(probe.marker, q);

@@ -4,6 +4,7 @@
 #include "build_space.h"
 #include "drive.h"
 #include "floe/dynamics/simulation.h"
+#include "floe/scene/places.h"
 #include "floe/scene/variation.h"
 #include "offline.h"
 #include "start_vectors.h"
@@ -89,6 +90,7 @@ ReducedBodies reduced_bodies(const Prepared& prepared, Formulation formulation, 
 Model assembled(const Prepared& prepared, const ReducedBodies& reduced) {
   Model model = assemble(prepared, reduced.formulation, reduced.bodies);
   model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
+  for (std::string& words : middles_beside_nodes(prepared.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : smoothed_drives(prepared.scene)) model.warnings.push_back(std::move(words));
   return model;
 }

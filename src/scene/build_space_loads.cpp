@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include "build_space.h"
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/spatial_force.h"
+#include "floe/scene/places.h"
 #include "weight.h"
 
 namespace floe::scene {
@@ -174,6 +177,11 @@ void SpaceAssembly::add_probes(Model& model) {
   for (std::size_t p = 0; p < prepared_.probes.size(); ++p) {
     const Probe& spec = prepared_.scene.probes[p];
     SpatialProbe probe{marker(prepared_.probes[p][0]), {}};
+    const int b = prepared_.probes[p][0].body;
+    if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b))
+      if (probe.marker.S.size() == 0 ||
+          probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)
+        model.warnings.push_back(never_deflects(spec, prepared_.bodies[b].spec));
     if (prepared_.probes[p][0].body >= 0) probe.mesh = prepared_.bodies[prepared_.probes[p][0].body].axes;
     if (spec.relative_to) probe.relative_to = marker(prepared_.probes[p][1]);
     if (owner_) {

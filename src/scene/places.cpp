@@ -47,14 +47,43 @@ Nearest find_nearest(const MeshSpec& mesh, const Point& p) {
   return best;
 }
 
-Point middle(const MeshSpec& mesh) {
+/// Half the total length, as a segment and elements of it.
+struct Half {
+  std::size_t segment;
+  double steps;
+};
+
+Half half_of(const MeshSpec& mesh) {
   double left = total_length(mesh) / 2;
   for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
     const double steps = left / segment_length(mesh, i) * mesh.elements[i] * (1 + 1e-12);  // rounding loses no node
-    if (steps <= mesh.elements[i]) return node_of(mesh, i, std::floor(steps + 1e-9));
+    if (steps <= mesh.elements[i]) return {i, steps};
     left -= segment_length(mesh, i);
   }
-  return mesh.points.back();
+  return {mesh.segments.size() - 1, static_cast<double>(mesh.elements.back())};
+}
+
+/// The node there, or the last one before it.
+double steps_to_node(const Half& half) { return std::floor(half.steps + 1e-9); }
+
+}  // namespace
+
+bool has_middle(const MeshSpec& mesh) {
+  if (!unbranched(mesh)) return false;
+  const Half half = half_of(mesh);
+  return half.segment > 0 || steps_to_node(half) > 0;
+}
+
+namespace {
+
+Point middle(const MeshSpec& mesh, const Place& place) {
+  const Half half = half_of(mesh);
+  if (!has_middle(mesh))
+    throw InputError(
+        fmt::format("{}: {} has no node between its start and half of its length; expected a mesh of an even "
+                    "number of elements, start, end or coordinates",
+                    place.where.text(), place.body));
+  return node_of(mesh, half.segment, steps_to_node(half));
 }
 
 }  // namespace
@@ -81,7 +110,7 @@ bool unbranched(const MeshSpec& mesh) {
 
 std::vector<std::string> place_names(const MeshSpec& mesh) {
   std::vector<std::string> names{"start", "end"};
-  if (unbranched(mesh)) names.push_back("middle");
+  if (has_middle(mesh)) names.push_back("middle");
   return names;
 }
 
@@ -98,7 +127,7 @@ Point place_point(const MeshSpec& mesh, const Place& place) {
   }
   if (place.name == "start") return mesh.points.front();
   if (place.name == "end") return mesh.points.back();
-  if (place.name == "middle" && unbranched(mesh)) return middle(mesh);
+  if (place.name == "middle" && unbranched(mesh)) return middle(mesh, place);
   std::size_t number = 0;
   const char* last = place.name.data() + place.name.size();
   if (place.name.starts_with("p") && std::from_chars(place.name.data() + 1, last, number).ptr == last && number > 0 &&
@@ -112,7 +141,50 @@ Point place_point(const MeshSpec& mesh, const Place& place) {
 }
 
 Point place_point(const Body& body, const Place& place) {
-  return body.rigid && place.point ? *place.point : place_point(body.mesh, place);
+  if (body.rigid && place.point) return *place.point;
+  if (body.rigid && place.name == "middle" && unbranched(body.mesh)) {
+    const Half half = half_of(body.mesh);
+    const double node = std::round(half.steps);
+    return node_of(body.mesh, half.segment, std::abs(half.steps - node) < 1e-9 ? node : half.steps);
+  }
+  return place_point(body.mesh, place);
+}
+
+double short_of_middle(const MeshSpec& mesh) {
+  const Half half = half_of(mesh);
+  return std::max(0.0, half.steps - steps_to_node(half)) * segment_length(mesh, half.segment) /
+         mesh.elements[half.segment];
+}
+
+std::string never_deflects(const Probe& probe, const Body& body) {
+  return fmt::format(
+      "probe {}: its deflection is 0 throughout, because {}; use quantity displacement, with relative_to", probe.name,
+      body.rigid ? fmt::format("body {} is rigid", body.name)
+                 : fmt::format("the floating frame of body {} is attached to that place", body.name));
+}
+
+std::vector<std::string> middles_beside_nodes(const Scene& scene) {
+  std::vector<std::string> words;
+  const auto look = [&](const Place& place) {
+    for (const Body& body : scene.bodies) {
+      if (place.name != "middle" || place.point || body.name != place.body || !unbranched(body.mesh)) continue;
+      if (body.reduced || (body.rigid && scene.dimension == 2) || body.mesh.points.empty()) continue;
+      const double away = short_of_middle(body.mesh), length = total_length(body.mesh);
+      if (!(away > 1e-6 * length)) continue;
+      std::string text = fmt::format(
+          "place {}.middle: no node at half of the length; it is the node {:.3g} m before it, {:.2g} % of the length "
+          "(limit 0.0001 %); use an even number of elements",
+          body.name, away, 100 * away / length);
+      if (std::find(words.begin(), words.end(), text) == words.end()) words.push_back(std::move(text));
+    }
+  };
+  for (const Joint& joint : scene.joints) look(joint.first), look(joint.second);
+  for (const Load& load : scene.loads) look(load.at);
+  for (const Probe& probe : scene.probes) {
+    look(probe.at);
+    if (probe.relative_to) look(*probe.relative_to);
+  }
+  return words;
 }
 
 }  // namespace floe::scene

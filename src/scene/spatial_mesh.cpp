@@ -188,7 +188,7 @@ std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& 
 
 /// The place `middle` of what is one line from start to end. Collective.
 void add_middle(const Body& body, SpatialMesh& found) {
-  if (!unbranched(body.mesh)) return;
+  if (!has_middle(body.mesh)) return;
   Place middle;
   middle.name = "middle";
   found.places["middle"] = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};

@@ -16,8 +16,10 @@ double total_length(const MeshSpec& mesh);
 /// Segment i runs from point i to point i + 1: a line or an unbranched polyline, where `middle` has a meaning.
 bool unbranched(const MeshSpec& mesh);
 
-/// The names that a place of every such mesh has: start, end, middle (unbranched meshes); beside them p1, p2, ...
-/// points.
+/// Whether it is unbranched and has a node between its start and half its length.
+bool has_middle(const MeshSpec& mesh);
+
+/// The names that a place of every such mesh has: start, end, middle (has_middle); beside them p1, p2, ... points.
 std::vector<std::string> place_names(const MeshSpec& mesh);
 
 /// The node nearest to a point. O(segments).
@@ -28,9 +30,19 @@ Point nearest_node(const MeshSpec& mesh, const Point& point);
 /// start, end: first and last point; pN: N-th point; middle: the node at half the total length, or the last one before
 /// it; coordinates: the node within 1e-6 of its element's length.
 /// @param place  of the body that has this mesh, not of the ground
-/// @throws InputError (with place.where) when there is no such node; names the nearest
+/// @throws InputError (with place.where) when there is no such node; names the nearest. So where `middle` would be the
+/// first point
 Point place_point(const MeshSpec& mesh, const Place& place);
-/// Likewise; on a rigid body any point is a place.
+/// Likewise; on a rigid body any point is a place, and `middle` is at half the total length.
 Point place_point(const Body& body, const Place& place);
+
+/// How far before half the total length the node `middle` is, along the line; 0 but for round-off: it is there. [m]
+double short_of_middle(const MeshSpec& mesh);
+
+/// Words about a probe of the deflection at a place where the body never deflects from its floating frame.
+std::string never_deflects(const Probe& probe, const Body& body);
+
+/// Words about every place `middle` of the scene that has no node at half the length.
+std::vector<std::string> middles_beside_nodes(const Scene& scene);
 
 }  // namespace floe::scene
