@@ -16,7 +16,7 @@ double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0],
 
 std::string part_name(const std::string& body, int i) { return fmt::format("{}#{}", body, i + 1); }
 
-Body part_of(const Body& body, int i, bool in_space) {
+Body part_of(const Body& body, int i) {
   if (body.mesh.segments.size() != 1)
     throw InputError(body.where.text() + ": frames splits one straight line; this mesh has " +
                      std::to_string(body.mesh.segments.size()) + " segments");
@@ -36,7 +36,6 @@ Body part_of(const Body& body, int i, bool in_space) {
   }
   part.frame.from.name = part.frame.at.name = "start";
   part.frame.to.name = "end";
-  if (in_space && !body.frame.given) part.frame.kind = FrameSpec::Kind::pinned, part.frame.given = true;
   return part;
 }
 
@@ -72,7 +71,7 @@ Scene split_frames(const Scene& scene) {
       continue;
     }
     for (int i = 0; i < body.frames; ++i) {
-      split.bodies.push_back(part_of(body, i, scene.dimension == 3));
+      split.bodies.push_back(part_of(body, i));
       if (i == 0) continue;
       Joint joint;
       joint.kind = Joint::Kind::fixed;

@@ -201,6 +201,23 @@ void Pool::Parts::add_derivatives(std::size_t b, const std::set<std::string>& of
   }
 }
 
+std::vector<Participation> Pool::linear_participation(const Scene& scene) const {
+  Selection linear = whole();
+  linear.linear = true;
+  const Model model = this->model(linear);
+  KeptMotion motion(model);
+  const Motion& how = scene.motion;
+  try {
+    dynamics::Integration with{how.end, how.step, how.spectral_radius, {}, "ranking_"};
+    with.kinks = kinks_of(scene, how.end);
+    dynamics::simulate(*model.system, with, model.U, model.V,
+                       [&](const dynamics::Instant& instant) { motion.keep(instant); });
+  } catch (const dynamics::MotionStopped&) {
+    // A linear body that is turned too fast diverges: what it did until then ranks its columns.
+  }
+  return participation(model, motion.states());
+}
+
 Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(scene, comm)) {
   Parts& parts = *parts_;
   const Prepared& prepared = parts.offline->prepared;
@@ -218,20 +235,11 @@ Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(s
   }
   std::vector<Participation> order;
   if (many) {
-    Selection linear = whole();
-    linear.linear = true;
-    const Model model = this->model(linear);
-    KeptMotion motion(model);
-    const Motion& how = scene.motion;
     try {
-      dynamics::Integration with{how.end, how.step, how.spectral_radius, {}, "ranking_"};
-      with.kinks = kinks_of(scene, how.end);
-      dynamics::simulate(*model.system, with, model.U, model.V,
-                         [&](const dynamics::Instant& instant) { motion.keep(instant); });
-    } catch (const dynamics::MotionStopped&) {
-      // A linear body that is turned too fast diverges: what it did until then ranks its columns.
+      order = linear_participation(scene);
+    } catch (const InputError&) {
+      // A shape at the start that only derivatives bring to the joints (it stretches the body): no ranking.
     }
-    order = participation(model, motion.states());
   }
   std::map<std::string, std::set<std::string>> offered;  // derivatives of a body's pieces
   for (std::size_t b = 0; b < prepared.bodies.size(); ++b)

@@ -71,7 +71,7 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
     choice = {fem::ReferenceFrame::Kind::clamped, node, node, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
   };
   if (!body.frame.given) {
-    if (const Place* clamp = clamp_of(scene, body)) clamped(*clamp);
+    if (const Place* clamp = clamp_of(scene, body); clamp && clamped_by_default(body)) clamped(*clamp);
   } else if (body.frame.kind == FrameSpec::Kind::clamped) {
     clamped(body.frame.at);
   } else if (body.frame.kind == FrameSpec::Kind::pinned) {

@@ -28,12 +28,13 @@ const SchemaSection body_section{
         {"rigid", Type::flag, "", "false",
          "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},
         part("frame", Type::frame, "",
-             "where the floating frame is attached; absent: pinned from start to end; in space clamped where the "
-             "ground holds the body, else mean-axis",
+             "where the floating frame is attached; absent: in the plane pinned from start to end; in space mean-axis, "
+             "but clamped for plates and meshes from files where a joint clamps them to the ground or to a rigid body",
              "frame"),
         {"frames", Type::integer, "", "1",
-         "split a straight line into so many floating frames, joined rigidly; divides the elements. In space they are "
-         "pinned ones unless `frame` says otherwise",
+         "split a straight line into so many floating frames of the kind that `frame` says, joined rigidly; divides "
+         "the "
+         "elements",
          counts},
         part("reduction", Type::section, "", "the reduced basis", "reduction"),
         part("damping", Type::section, "", "absent: none", "damping"),

@@ -39,11 +39,13 @@ bool may_be_guest(const Scene& scene, const Body& guest, const Place& at, const 
   if (guest.reduced || host.reduced || !host.rigid || joined_to_ground(scene, guest)) return false;
   if (!moves_with(guest.initial, host.initial)) return false;
   if (guest.initial.spatial_deformation || guest.initial.spatial_deformation_rate) return false;
-  return guest.rigid || !guest.frame.given ||
-         (guest.frame.kind == FrameSpec::Kind::clamped && same(guest.frame.at, at));
+  return guest.rigid || (!guest.frame.given && clamped_by_default(guest)) ||
+         (guest.frame.given && guest.frame.kind == FrameSpec::Kind::clamped && same(guest.frame.at, at));
 }
 
 }  // namespace
+
+bool clamped_by_default(const Body& body) { return body.rigid || body.mesh.plate || body.mesh.file; }
 
 std::vector<SharedFrame> shared_frames(const Scene& scene) {
   std::vector<SharedFrame> shared(scene.bodies.size());

@@ -305,7 +305,10 @@ TEST_CASE("campbell: scenes that cannot turn are refused in words") {
   CHECK_THAT(fault(spatial("4", drive), {"", "1,0,0", {}}), Contains("joint root does not turn"));
   CHECK_THAT(fault(spatial("4", drive), {"", "0,0,1", "0,0.1,0"}), Contains("joint root does not turn"));
   CHECK(fault(spatial("4", drive), {"", "0,0,1", "0,0,7"}) == "");
-  CHECK_THAT(fault(spatial("4", "type: fixed"), {"", "0,0,1", {}}), Contains("clamped to the ground"));
+  CHECK_THAT(fault(spatial("4", "type: fixed"), {"", "0,0,1", {}}), Contains("joint root does not turn"));
+  std::string still = spatial("4", "type: fixed");
+  still.replace(still.find("    reduction"), 0, "    frame: {type: clamped, at: start}\n");
+  CHECK_THAT(fault(still, {"", "0,0,1", {}}), Contains("clamped to the ground"));
   CHECK_THAT(fault(planar("pinned", driven, "4") + "gravity: [0, -9.81]\n"), Contains("gravity"));
   CHECK(fault(spatial("4", drive) + "gravity: [0, 0, -9.81]\n") == "");
   CHECK_THAT(fault(spatial("4", drive) + "gravity: [0, -9.81, 0]\n"), Contains("gravity"));

@@ -48,6 +48,7 @@ bodies:
     mesh: {polyline: {points: [[0, 0, 0], $a, $b, $c], elements: [4, 4, 4]}}
     section: {shape: circle, radius: $r, orientation: $o}
     material: {E: 7e10, nu: 0.3, rho: 2700}
+    frame: {type: clamped, at: start}
     reduction: {modes: 6, attachment: loads}
 joints: {root: {type: fixed, between: [ground, f.start]}}
 loads: {pull: {type: force, at: f.p2, force: $force}}

@@ -58,6 +58,9 @@ class Pool {
                                  bool overwrite) const;
 
  private:
+  /// Of all columns so far along the linear motion. @throws InputError  its start does not meet the joints
+  std::vector<Participation> linear_participation(const Scene& scene) const;
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
