@@ -133,36 +133,13 @@ bool stretches(const BodyReport& body) {
   });
 }
 
-/// What to do about slopes that are too large for the frames that the body has.
-std::string more_frames(const Model& model, const BodyReport& body, bool tangent) {
-  const std::string whole = body.name.substr(0, body.name.find('#'));
-  const auto frames = std::count_if(model.bodies.begin(), model.bodies.end(), [&](const BodyReport& other) {
-    return other.name.substr(0, other.name.find('#')) == whole;
-  });
-  if (frames > 1) return fmt::format("take more than {} (frames: {})", frames, 2 * frames);
-  return tangent ? "take a pinned frame, or several (frames: 2)" : "take several (frames: 2)";
-}
-
-void judge_slope(const Model& model, const BodyReport& body, const std::string& frame, double slope,
-                 std::vector<OutOfRange>& out) {
-  if (model.formulation == Formulation::lffr) {
-    const double shortening = slope * slope / 2;
-    if (shortening > 0.01)
-      out.push_back({"shortening", body.name, shortening, 0.01,
-                     fmt::format("body {}: slopes to {:.2g} shorten it by {}, which a linear elastic force does "
-                                 "not know (limit 1 %): take vm+md or nlffr",
-                                 body.name, slope, math::percent(shortening))});
-    return;
-  }
-  const bool tangent = frame == "clamped";
-  const double error = tangent ? 0.04 * std::pow(slope, 3) : 0.008 * std::pow(slope, 4);
-  if (error > 0.005)
-    out.push_back(
-        {"slope", body.name, slope, tangent ? 0.5 : 0.89,
-         fmt::format("body {}: slopes to {:.2g} in its {} frame, beyond {}: von Karman's strains err by about "
-                     "{} there; {}",
-                     body.name, slope, frame, tangent ? "0.5" : "0.89", math::percent(error, 1),
-                     more_frames(model, body, tangent))});
+void judge_shortening(const BodyReport& body, double slope, std::vector<OutOfRange>& out) {
+  const double shortening = slope * slope / 2;
+  if (shortening > 0.01)
+    out.push_back({"shortening", body.name, shortening, 0.01,
+                   fmt::format("body {}: slopes to {:.2g} shorten it by {}, which a linear elastic force does "
+                               "not know (limit 1 %): take vm+md or nlffr",
+                               body.name, slope, math::percent(shortening))});
 }
 
 /// Nothing can stretch with the bending: a linear elastic force, or no derivatives.
@@ -187,11 +164,11 @@ void judge_stretching(const BodyReport& body, const Seen& seen, std::vector<OutO
 
 /// What its deformations alone tell, however they came about.
 void judge_shape(const Model& model, const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
-  judge_slope(model, body, body.frame, seen.slope, out);
+  const bool linear = model.formulation == Formulation::lffr;
+  if (linear) judge_shortening(body, seen.slope, out);
   if (seen.sag > greatest_sag)
     out.push_back({"mesh", body.name, seen.sag, greatest_sag,
                    sag_text(body.name, "where it bends most", seen.sag, greatest_sag)});
-  const bool linear = model.formulation == Formulation::lffr;
   if (model.formulation != Formulation::nlffr && !linear) judge_stretching(body, seen, out);
 }
 
@@ -235,6 +212,7 @@ std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vecto
   std::vector<OutOfRange> out;
   if (states.empty() || model.formulation == Formulation::cfr) return out;
   const std::vector<Seen> seen = look(model, states, comm);
+  judge_slopes(model, samples_of(states), seen, comm, out);
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
     if (!model.bodies[b].rigid) {
       judge_shape(model, model.bodies[b], seen[b], out);
@@ -248,6 +226,7 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
   if (motion.states().empty() || model.formulation == Formulation::cfr) return out;
   const Scene scene = split_frames(whole);
   const std::vector<Seen> seen = look(model, motion.states(), comm);
+  judge_slopes(model, samples_of(motion.states()), seen, comm, out);
   const bool linear = model.formulation == Formulation::lffr;
   std::vector<BodyReport> modes;
   const bool turns = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.spin > 0; });

@@ -11,14 +11,17 @@ struct Seen {
   double rate = 0, size = 0;         // sums of squares of deformations
 };
 
+/// Displacements in the floating frame; null where there are no columns, and of bodies from files, which have no nodes
+/// to look at. Collective.
+petsc::VecHandle deformation_of(const BodyReport& body, const dynamics::State& state);
+
+/// Slopes against the floating frames of each body, of all its frames together (moderate_rotations.h).
+void judge_slopes(const Model& model, const std::vector<const dynamics::State*>& states, const std::vector<Seen>& seen,
+                  MPI_Comm comm, std::vector<OutOfRange>& out);
 /// Loads, gravity, the ground's acceleration against the frequencies that are kept.
 void judge_loads(const Scene& scene, const Model& model, std::vector<OutOfRange>& out);
 /// The step against the fastest of what moves.
 void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>& seen, std::vector<OutOfRange>& out);
-
-/// Displacements in the floating frame; null where there are no columns, and of bodies from files, which have no nodes
-/// to look at. Collective.
-petsc::VecHandle deformation_of(const BodyReport& body, const dynamics::State& state);
 
 /// What the element's strains and inertia leave out at second order (fem::MissingStiffness), against the stiffness K of
 /// the undeformed body, where its energy and its spin are greatest: |reduction::StiffnessChange::relative()|, limit 5 %
