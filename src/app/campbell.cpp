@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "floe/dynamics/deviation.h"
@@ -91,7 +92,7 @@ dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const Campbe
 /// From the steady rotation at `from` to the vibrations at `speed`. Returns where the next search begins.
 double visit(const dynamics::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
   try {
-    point.iterations = dynamics::steady_rotation(rotating, from, point.speed, U);
+    point.iterations = dynamics::steady_rotation(rotating, from, point.speed, U, &point.jump);
   } catch (const RunError& error) {
     point.fault = error.what(), point.steady = false;
     return from;
@@ -123,6 +124,49 @@ dynamics::State state_at(const scene::Model& model, const dynamics::RotationAxis
 void warn(double speed, const std::vector<dynamics::State>& fastest, MPI_Comm comm, scene::Model& model) {
   for (const scene::OutOfRange& one : scene::shapes_out_of_range(model, fastest, comm))
     model.warnings.push_back(fmt::format("at {:.6g} rad/s: {}", speed, one.text));
+}
+
+void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
+  if (point.jump.ratio == 0) return;
+  diagram.model.warnings.push_back(fmt::format(
+      "between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: it changes {:.2g} times as much as "
+      "its tangents predict (limit {:.2g}). What follows belongs to that branch; start from the speed or the shape "
+      "(`initial`) whose branch is meant",
+      point.jump.from, point.jump.to, point.jump.ratio, dynamics::least_jump));
+}
+
+bool is_unstable(const CampbellPoint& point) {
+  return std::any_of(point.vibrations.begin(), point.vibrations.end(),
+                     [](const dynamics::Vibration& v) { return v.unstable(); });
+}
+
+/// Looks whether what a reduced model says of the first unstable speed is so at full order of the same mesh, from rest.
+void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
+                       CampbellDiagram& diagram) {
+  const auto unstable = std::find_if(diagram.points.begin(), diagram.points.end(), is_unstable);
+  if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation)) return;
+  const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
+  CampbellPoint point{unstable->speed, {}, 0, {}};
+  try {
+    CampbellDiagram full{{}, diagram.axis, prepared(scene, scene::Formulation::nlffr, comm), {}};
+    const PetscInt unknowns = full.model.coordinates + full.model.multipliers;
+    if (unknowns > dynamics::largest_rotating_system)
+      point.fault = fmt::format("{} unknowns (limit {})", unknowns, dynamics::largest_rotating_system);
+    else
+      visit(rotating_system(given, full), 0, modes, full.model.U, point);
+  } catch (const InputError& error) {
+    point.fault = error.what();
+  } catch (const RunError& error) {
+    point.fault = error.what();
+  }
+  if (!point.fault.empty())
+    diagram.model.warnings.push_back(
+        fmt::format("{} was not looked at with the full-order model: {}; compare with more modes", what, point.fault));
+  else if (!is_unstable(point))
+    diagram.model.warnings.push_back(fmt::format(
+        "{} is that of the reduced model: the full-order model of the same mesh is stable there (growth below 0, its "
+        "first frequency {:.4g} rad/s); take more modes and derivatives, or nlffr",
+        what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
 }
 
 }  // namespace
@@ -158,11 +202,13 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
       from = visit(rotating, from, request.modes, diagram.model.U, point);
       if (point.steady && std::abs(speed) >= std::abs(fastest))
         fastest = speed, state = {state_at(diagram.model, diagram.axis, speed)};
+      warn_of_jump(point, diagram);
       diagram.points.push_back(std::move(point));
       progress.update(static_cast<double>(diagram.points.size()), static_cast<PetscInt>(diagram.points.size()));
       interruption.check(comm);
     }
     warn(fastest, state, comm, diagram.model);
+    check_instability(given, look ? with_hub(given, *hub) : given, request.modes, comm, diagram);
   } catch (const std::exception&) {
     fault = std::current_exception();
   }

@@ -34,6 +34,7 @@ struct CampbellPoint {
   PetscInt iterations = 0;
   std::vector<dynamics::Vibration> vibrations;
   bool steady = true;
+  dynamics::BranchJump jump = {};  ///< on the way from the speed before; ratio 0: none
 };
 
 struct CampbellDiagram {

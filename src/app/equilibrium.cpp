@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "estimate_words.h"
+#include "floe/dynamics/branch.h"
 #include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
@@ -41,31 +43,32 @@ void warn_of_instability(const scene::Model& model, double t, RunResult& result)
       t, directions, directions == 1 ? "direction" : "directions"));
 }
 
-/// From the state at `t` to the equilibrium at `next`, in halved steps where a whole one finds none, as where a drive
-/// turns by more than Newton can follow. Attitudes begin each step at their bases. Counts iterations.
-void advance(const scene::Model& model, double t, double next, double least, PetscInt& iterations) {
-  const petsc::VecHandle before = model.system->create_vector();
-  check(VecCopy(model.U, before));
-  try {
-    iterations += dynamics::equilibrium(*model.system, next, model.U, model.V);
-    model.system->rebase(model.U);
-  } catch (const dynamics::NothingHolds&) {
-    throw;
-  } catch (const dynamics::LostInRoundOff&) {
-    throw;
-  } catch (const RunError&) {
-    check(VecCopy(before, model.U));
-    if (next - t < 2 * least) throw;
-    advance(model, t, (t + next) / 2, least, iterations);
-    advance(model, (t + next) / 2, next, least, iterations);
-  }
+/// Says of a jump where it is and what the probe that it changes most did.
+void warn_of_jump(const scene::Model& model, const dynamics::BranchJump& jump, Vec before, Vec after,
+                  RunResult& result) {
+  const std::vector<double> was = scene::probe_values(model, jump.from, before, model.V),
+                            is = scene::probe_values(model, jump.to, after, model.V);
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < is.size(); ++i)
+    if (std::abs(is[i] - was[i]) > std::abs(is[most] - was[most])) most = i;
+  const std::string probe =
+      is.empty() ? ""
+                 : fmt::format(" ({} from {:.4g} to {:.4g})", result.series.columns[most].name, was[most], is[most]);
+  const std::string words = fmt::format(
+      "the equilibrium jumps between t = {:.6g} and {:.6g}{}: it changes {:.2g} times as much as its tangents predict "
+      "(limit {:.2g}): it snaps through, or the load jumps. What follows is another branch of equilibria, not the only "
+      "one there may be: simulate the snap as a damped motion (floe run)",
+      jump.from, jump.to, probe, jump.ratio, dynamics::least_jump);
+  result.warnings.push_back(words);
+  if (!result.summary.contains("jumps")) result.summary["jumps"] = nlohmann::ordered_json::array();
+  result.summary["jumps"].push_back({{"from", jump.from}, {"to", jump.to}, {"ratio", jump.ratio}});
 }
 
 /// The equilibrium at t = 0. Where no load has grown yet that would hold the configuration there is none that is
 /// determined: then U stays at the start, and the note says so.
 std::string start_of_table(const scene::Model& model, const LoadSteps& load, PetscInt& iterations) {
   try {
-    iterations += dynamics::equilibrium(*model.system, 0, model.U, model.V);
+    iterations += dynamics::equilibrium(*model.system, 0, model.U, model.V, true);
   } catch (const dynamics::NothingHolds& error) {
     return fmt::format("{}: the table begins at t = {:.6g}",
                        std::string(error.what()).substr(0, std::string(error.what()).rfind(';')), load.at / load.steps);
@@ -110,13 +113,18 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, load.at);
-    if (const std::string none = start_of_table(model, load, report.newton); none.empty())
+    const std::string none = start_of_table(model, load, report.newton);
+    if (none.empty())
       recorder.observe({0, 0, model.U, model.V, nullptr, false});
     else
       result.warnings.push_back(none);
     for (int step = 1; step <= load.steps; ++step) {
       const double t = load.at * step / load.steps;
-      advance(model, report.end, t, load.at / 1000, report.newton);
+      report.newton += dynamics::follow_equilibrium(*model.system, report.end, t, load.at / 1000, model.U, model.V,
+                                                    [&](const dynamics::BranchJump& jump, Vec before, Vec after) {
+                                                      if (step > 1 || none.empty())
+                                                        warn_of_jump(model, jump, before, after, result);
+                                                    });
       report.steps = step, report.end = t;
       warn_of_instability(model, t, result);
       recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});

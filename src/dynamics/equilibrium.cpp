@@ -145,6 +145,11 @@ void check_place(const System& system, double t, Vec before, Vec U) {
         "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
 }
 
+/// Whether forces act at U and its tangent is indefinite.
+bool goes_uphill(const System& system, double t, Vec U, Vec V) {
+  return !is_at_rest(system, t, U, V) && unstable_directions(system, t, U, V).value_or(0) > 0;
+}
+
 /// From U to the equilibrium near it. `before`: where all began. @return  Newton's, with the corrections
 NewtonSearch search_from(const System& system, double t, Vec U, Vec V, Vec before) {
   const petsc::MatHandle J = system.create_tangent();
@@ -172,7 +177,7 @@ PetscInt search_below(const System& system, double t, Vec before, Vec U, Vec V) 
 
 }  // namespace
 
-PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
+PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend) {
   const petsc::VecHandle before = system.create_vector();
   check(VecCopy(U, before));
   const PetscInt relaxed = prepare_search(system, t, U, V);
@@ -180,7 +185,7 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V) {
   NewtonSearch found;
   try {
     found = search_from(system, t, U, V, before);
-    if (!found.far) return relaxed + found.iterations;
+    if (!found.far && !(descend && goes_uphill(system, t, before, V))) return relaxed + found.iterations;
   } catch (const LostInRoundOff&) {
     throw;
   } catch (const RunError&) {

@@ -116,6 +116,16 @@ void KeptState::restore(Vec U) const {
   for (std::size_t i = 0; i < bases_.size(); ++i) system_.attitudes()[i].second->base = bases_[i];
 }
 
+VectorXd KeptState::change_to(Vec U) const {
+  VectorXd change = everywhere(system_, U) - everywhere(system_, U_);
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const auto& [first, attitude] = system_.attitudes()[i];
+    change.segment<3>(system_.coordinates().global()[first]) =
+        math::rotation_vector(bases_[i].conjugate() * attitude->base);
+  }
+  return change;
+}
+
 void turn(const RotatingSystem& rotating, double angle, Vec U) {
   const System& system = rotating.system;
   system.rebase(U);

@@ -46,6 +46,8 @@ class KeptState {
  public:
   KeptState(const System& system, Vec U);
   void restore(Vec U) const;
+  /// From here to U, whose attitudes are their own bases: their rotations as rotation vectors.
+  Eigen::VectorXd change_to(Vec U) const;
 
  private:
   const System& system_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "everywhere.h"
@@ -114,24 +115,89 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   throw RunError("Newton's method found none");
 }
 
-PetscInt advance(const RotatingSystem& rotating, double from, double speed, double least, Vec U) {
-  const KeptState before(rotating.system, U);
-  try {
-    return newton(rotating, speed, U);
-  } catch (const RunError&) {
-    before.restore(U);
-    if (std::abs(speed - from) < 2 * least || speed == from) throw;
-  }
-  const PetscInt half = advance(rotating, from, (from + speed) / 2, least, U);
-  return half + advance(rotating, (from + speed) / 2, speed, least, U);
+/// Newton's step at `speed` from U for the forces at `other`.
+VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
+  const VectorXd F = rotating_tangent(rotating, other, U).F;
+  RotatingTangent at = rotating_tangent(rotating, speed, U);
+  VectorXd turn = rotating_motion(rotating, 1, everywhere(rotating.system, U)).V;
+  if (!turns_freely(at, turn)) turn.setZero();
+  at.F = F;
+  return newton_step(at, turn).change;
 }
+
+/// From one steady rotation to another.
+class Follower {
+ public:
+  Follower(const RotatingSystem& rotating, double from, double speed, Vec U)
+      : rotating_(rotating), least_(std::abs(speed - from) / 1000), U_(U) {
+    const MassScale mass = mass_scale(rotating, rotating_tangent(rotating, from, U).M);
+    follows_ = size_of(step_towards(rotating, from, from, U), mass) <= 1e-6;
+  }
+  PetscInt go(double from, double speed) {
+    const KeptState before(rotating_.system, U_);
+    PetscInt iterations = 0;
+    try {
+      iterations = newton(rotating_, speed, U_);
+    } catch (const RunError&) {
+      before.restore(U_);
+      if (std::abs(speed - from) < 2 * least_ || speed == from) throw;
+      return halves(from, speed);
+    }
+    if (!follows_ || speed == from) return iterations;
+    const BranchJump found = jump_of(from, before, speed);
+    return found.ratio > 0 ? iterations + shorter(found, before) : iterations;
+  }
+  BranchJump jump;  ///< the greatest
+
+ private:
+  PetscInt halves(double from, double speed) {
+    const PetscInt first = go(from, (from + speed) / 2);
+    return first + go((from + speed) / 2, speed);
+  }
+
+  PetscInt shorter(const BranchJump& found, const KeptState& before) {
+    const KeptState there(rotating_.system, U_);
+    if (std::abs(found.to - found.from) >= 2 * least_) {
+      before.restore(U_);
+      try {
+        return halves(found.from, found.to);
+      } catch (const RunError&) {  // none on the way: it was left
+        there.restore(U_);
+      }
+    }
+    if (found.ratio > std::max(least_jump, jump.ratio)) jump = found;
+    return 0;
+  }
+
+  BranchJump jump_of(double from, const KeptState& before, double speed) const {
+    const petsc::VecHandle start = rotating_.system.create_vector();
+    rotating_.system.rebase(U_);
+    const KeptState there(rotating_.system, U_);
+    const VectorXd change = before.change_to(U_), back = -step_towards(rotating_, speed, from, U_);
+    const MassScale mass = mass_scale(rotating_, rotating_tangent(rotating_, speed, U_).M);
+    before.restore(start);
+    const VectorXd predicted = (step_towards(rotating_, from, speed, start) + back) / 2;
+    there.restore(U_);
+    const double size = size_of(change, mass);
+    if (!(size > 1e-9) || size_of(change - predicted, mass) <= most_departure * size) return {};
+    return {from, speed, size / std::max(size_of(predicted, mass), 1e-12 * size)};
+  }
+
+  const RotatingSystem& rotating_;
+  double least_;
+  bool follows_ = false;
+  Vec U_;
+};
 
 }  // namespace
 
-PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U) {
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump) {
   const KeptState before(rotating.system, U);
   try {
-    return advance(rotating, from, speed, std::abs(speed - from) / 1000, U);
+    Follower follower(rotating, from, speed, U);
+    const PetscInt iterations = follower.go(from, speed);
+    if (jump) *jump = follower.jump;
+    return iterations;
   } catch (const RunError& error) {
     before.restore(U);
     throw RunError(fmt::format("no steady rotation at {:.6g} rad/s: {}", speed, error.what()));

@@ -51,12 +51,15 @@ class LostInRoundOff : public RunError {
 /// or uphill (pseudo-transient continuation; Kelley and Keyes 1998): of several equilibria the one that a slow damped
 /// motion comes to.
 ///
+/// Where U need not be near an equilibrium (`descend`) and the tangent is indefinite there, as between two shapes that
+/// a buckled body can have, Newton's method goes uphill to any of them: these steps come first, too.
+///
 /// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6
 /// of 1 rad in every turn, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
 /// then further steps are taken.
 /// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
 /// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
-PetscInt equilibrium(const System& system, double t, Vec U, Vec V);
+PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend = false);
 
 /// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for
 /// each multiplier, counted by the signs of an LDL' factor (Sylvester), whatever the size.

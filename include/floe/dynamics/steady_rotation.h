@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "floe/dynamics/branch.h"
 #include "floe/dynamics/system.h"
 
 namespace floe::dynamics {
@@ -47,10 +48,14 @@ void check_turns(const RotatingSystem& rotating, Vec U);
 /// steps of the speed where a whole one fails, down to a thousandth of the way.
 ///
 /// Where the equations leave directions open (a hub that turns freely, a hinge at rest) the nearest solution is taken.
+/// Where U is steady at `from`, it is followed in shorter steps likewise where it does not continue (branch.h, with
+/// speeds in place of t).
+///
+/// @param jump  where the shortest step does not continue; ratio 0: it does
 /// Returns the iterations. Attitudes of U are their own bases afterwards.
 /// @throws RunError  none found, or a moment about the axis is left that spins the scene up; U is then as before.
 /// Collective, the same on every rank.
-PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U);
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump = nullptr);
 
 /// A small motion e^(growth t) cos(omega t) about the steady rotation, as seen in the turning axes.
 struct Vibration {

@@ -1,0 +1,152 @@
+#include <catch2/catch.hpp>
+
+#include "../../src/app/campbell.h"
+#include "../../src/app/equilibrium.h"
+#include "scene_motion.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+app::RunResult at_rest(const std::string& text, Formulation formulation, int steps, double at = 1) {
+  return app::rest(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, {at, steps}, std::nullopt, false);
+}
+
+int jumps_of(const app::RunResult& result) {
+  return static_cast<int>(std::count_if(result.warnings.begin(), result.warnings.end(), [](const std::string& words) {
+    return words.find("the equilibrium jumps between t = ") != std::string::npos;
+  }));
+}
+
+/// Two hinged bars of half span 1 and rise h that a force pushes through at their apex (von Mises' truss), P L^3/(EA)
+/// of a shallow one x (h^2 - x^2), x its height: it snaps at 2 h^3/(3 sqrt 3).
+std::string truss(double h) {
+  return fill(R"yaml(
+bodies:
+  a:
+    mesh: {line: {from: [-1, 0], to: [0, $h], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1}
+  b:
+    mesh: {line: {from: [0, $h], to: [1, 0], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1}
+joints:
+  left: {type: revolute, between: [ground, a.start]}
+  apex: {type: revolute, between: [a.end, b.start]}
+  right: {type: revolute, between: [ground, b.end]}
+loads: {push: {type: force, at: a.end, force: [0, -t]}}
+probes: {apex: {at: a.end}}
+)yaml",
+              {{"h", number(h)}});
+}
+
+}  // namespace
+
+// The limit load to (h/L)^2; the tangents vanish with the step, the snap does not.
+TEST_CASE("static: a snap is said, with where it is") {
+  const double h = 0.05, limit = 1e3 * 2 * std::pow(h, 3) / (3 * std::sqrt(3.));
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md})
+    for (const int steps : {1, 10}) {
+      const app::RunResult through = at_rest(truss(h), formulation, steps, 1.5 * limit);
+      REQUIRE(jumps_of(through) == 1);
+      const auto& jump = through.summary["jumps"].at(0);
+      CHECK(jump["ratio"].get<double>() > 3);
+      CHECK(jump["from"].get<double>() < 1.003 * limit);
+      CHECK(jump["to"].get<double>() > 0.997 * limit);
+      CHECK(jump["to"].get<double>() - jump["from"].get<double>() < 0.01 * limit);
+      CHECK(jumps_of(at_rest(truss(h), formulation, steps, 0.98 * limit)) == 0);
+    }
+}
+
+TEST_CASE("static: large steps along one branch are no jumps") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e5, EI: 1, rhoA: 1}
+    reduction: {modes: 6}
+joints: {a: {type: revolute, between: [ground, beam.start]}, b: {type: revolute, between: [ground, beam.end]}}
+loads: {q: {type: distributed, body: beam, force: [0, 100*t]}}
+probes: {middle: {at: beam.middle}}
+)yaml";
+  for (const int steps : {1, 10}) CHECK(jumps_of(at_rest(text, Formulation::nlffr, steps)) == 0);
+}
+
+// A strut that is shortened by s = .004 L between hinges bows by +-(2/pi) sqrt(s - pi^2 EI/EA) L: .0398 for EA = 1e5
+// EI.
+TEST_CASE("static: a strut that starts bowed to one side comes to rest there") {
+  const auto middle = [](const std::string& bow, Formulation formulation) {
+    const app::RunResult result = at_rest(fill(R"yaml(
+bodies:
+  strut:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}
+    section: {EA: 1e5, EI: 1, rhoA: 1}
+    reduction: {modes: 4}
+    initial: {deformation: ["-0.004*x", "$bow*sin(pi*x)"]}
+joints: {a: {type: revolute, between: [ground, strut.start]}, b: {type: revolute, between: [ground, strut.end]}}
+probes: {middle: {at: strut.middle, quantity: position}}
+)yaml",
+                                               {{"bow", bow}}),
+                                          formulation, 1);
+    return result.series.values.back().at(1);
+  };
+  const double bow = 2 / M_PI * std::sqrt(0.004 - M_PI * M_PI * 1e-5);
+  for (const std::string start : {"0.02", "0.01", "0.06"}) {
+    INFO(start);
+    CHECK(middle(start, Formulation::nlffr) == Approx(bow).epsilon(2e-3));
+    CHECK(middle("-" + start, Formulation::nlffr) == Approx(-bow).epsilon(2e-3));
+  }
+}
+
+// A rigid rod of length L, hinged at the distance e from a vertical axis, hangs outwards at all speeds; inwards it can
+// stand, too, unstably.
+TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
+  constexpr double L = 0.75, e = 0.02, g = 9.81;
+  const auto points = [&](const std::string& speeds) {
+    app::CampbellRequest request;
+    request.speeds = speeds, request.modes = 1;
+    std::exception_ptr fault;
+    const app::CampbellDiagram found = app::campbell(scene::parse_scene(fill(R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [$e, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [$L, 0, 0], elements: 6}}
+    section: {A: 1e-4, Iy: 1e-20, Iz: 1e-20, J: 1e-20, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    initial: {rotation: [0, 0.5, 0], position: [$e, 0, 0]}
+joints:
+  drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
+  hinge: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
+)yaml",
+                                                                             {{"e", number(e)}, {"L", number(L)}}),
+                                                                        "scene"),
+                                                     Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
+    if (fault) std::rethrow_exception(fault);
+    return found;
+  };
+  // b from the downward vertical, outwards: f(b) = W^2 cos b (e/2 + L sin b/3) - g sin b/2 = 0, omega^2 = -3 f'(b)/L
+  const auto closed_form = [&](double W) {
+    double low = 0.01, high = M_PI / 2;
+    const auto f = [&](double b) { return W * W * std::cos(b) * (e / 2 + L * std::sin(b) / 3) - g * std::sin(b) / 2; };
+    for (int i = 0; i < 60; ++i) (f((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+    return std::sqrt(-3 / L * (f(low + 1e-6) - f(low - 1e-6)) / 2e-6);
+  };
+  for (const std::string speeds : {"4,5,6", "4,6", "3,4,4.2,4.4,4.6,4.8,5,6"}) {
+    const auto found = points(speeds);
+    INFO(speeds);
+    CHECK(std::none_of(found.model.warnings.begin(), found.model.warnings.end(),
+                       [](const std::string& words) { return words.find("another branch") != std::string::npos; }));
+    for (const app::CampbellPoint& point : found.points) {
+      REQUIRE(point.fault == "");
+      CHECK(point.jump.ratio == 0);
+      CHECK(point.vibrations.at(0).growth == 0);
+      CHECK(point.vibrations.at(0).omega == Approx(closed_form(point.speed)).epsilon(1e-4));
+    }
+  }
+}
