@@ -150,3 +150,39 @@ joints:
     }
   }
 }
+
+// A strip of shells, swept by 0.5 rad: its sixth mode is in its plane. At full order it is stable.
+TEST_CASE("campbell: an instability that only the reduced model has is said to be that") {
+  const std::string strip = R"yaml(
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [0.1, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.05, height: 0.05, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+  strip:
+    mesh: {plate: {along: ["cos(0.5)", "sin(0.5)", 0], across: ["-0.1*sin(0.5)", "0.1*cos(0.5)", 0], elements: [10, 2]}}
+    section: {thickness: 2e-3}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    frame: {type: clamped, at: left}
+    reduction: {modes: $modes}
+    initial: {position: ["0.1 + 0.05*sin(0.5)", "-0.05*cos(0.5)", 0]}
+joints:
+  drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
+  weld: {type: fixed, between: [hub.end, strip.left]}
+)yaml";
+  for (const std::string modes : {"6", "8"}) {
+    app::CampbellRequest request;
+    request.speeds = "50", request.modes = 2;
+    std::exception_ptr fault;
+    const app::CampbellDiagram found = app::campbell(scene::parse_scene(fill(strip, {{"modes", modes}}), "strip"),
+                                                     Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
+    if (fault) std::rethrow_exception(fault);
+    const auto& all = found.points.at(0).vibrations;
+    const bool unstable = std::any_of(all.begin(), all.end(), [](const auto& v) { return v.unstable(); });
+    CHECK(unstable == (modes == "6"));
+    CHECK(std::count_if(found.model.warnings.begin(), found.model.warnings.end(), [](const std::string& words) {
+            return words.find("the full-order model of the same mesh is stable there") != std::string::npos;
+          }) == (unstable ? 1 : 0));
+  }
+}
