@@ -19,8 +19,8 @@ const SchemaSection scene_section{
         {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
         part("ground", Type::section, "", "how the ground moves; absent: it stands", "ground"),
         {"share_frames", Type::flag, "", "true",
-         "in space: a body that a fixed joint makes one with a rigid body has its frame, without coordinates and "
-         "multipliers of its own; false: never"},
+         "in space: a body that a fixed joint makes one with a rigid body has its frame (beams where `frame` clamps "
+         "them there), without coordinates and multipliers of its own; false: never"},
         part("bodies", Type::named_sections, required, "the bodies by name", "body"),
         part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "the loads by name", "load"),
