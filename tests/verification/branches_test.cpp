@@ -106,7 +106,7 @@ TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
     app::CampbellRequest request;
     request.speeds = speeds, request.modes = 1;
     std::exception_ptr fault;
-    const app::CampbellDiagram found = app::campbell(scene::parse_scene(fill(R"yaml(
+    app::CampbellDiagram found = app::campbell(scene::parse_scene(fill(R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
   hub:
