@@ -35,8 +35,7 @@ reduction::Attachment unit_load(const PreparedBody& body, const PreparedPlace& p
     if (dof < values.first || dof >= values.end) continue;
     if (n < 6 || component < 3) values[dof + component] = lever.share;
     if (n < 6) continue;
-    const Eigen::Vector3d moment = component < 3 ? Eigen::Vector3d(lever.arm.cross(Eigen::Vector3d::Unit(component)))
-                                                 : Eigen::Vector3d(lever.turn.row(component - 3));
+    const Eigen::Vector3d moment = component < 3 ? lever.arm.row(component) : lever.turn.row(component - 3);
     for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }
   return attachment;

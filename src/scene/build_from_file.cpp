@@ -5,6 +5,7 @@
 
 #include "build_reduce.h"
 #include "floe/reduction/place_set.h"
+#include "place_weights.h"
 
 namespace floe::scene {
 namespace {
@@ -98,8 +99,9 @@ body::PlaceMap place_map(const Prepared& prepared, const ReducedBody& reduced, c
     return {place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k)};
   }
   const fem::Structure& structure = prepared.bodies[place.body].structure;
-  return place.nodes.empty() ? reduction::place_map(structure, *reduced.basis, place.node)
-                             : reduction::place_map(structure, *reduced.basis, place.nodes);
+  return place.nodes.empty()
+             ? reduction::place_map(structure, *reduced.basis, place.node)
+             : reduction::place_map(structure, *reduced.basis, place_weights(structure.mesh, place.nodes));
 }
 
 }  // namespace floe::scene

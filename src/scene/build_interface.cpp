@@ -7,7 +7,7 @@
 namespace floe::scene {
 
 std::vector<Lever> PreparedPlace::moved_by() const {
-  return levers.empty() ? std::vector<Lever>{{node, 1, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}} : levers;
+  return levers.empty() ? std::vector<Lever>{{node, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}} : levers;
 }
 
 bool PreparedPlace::moved_by(PetscInt other) const {

@@ -56,7 +56,7 @@ SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
         continue;
       }
       at.psi.col(6 * i + d) = lever.turn.col(d - 3);
-      at.S.col(6 * i + d) = Eigen::Vector3d::Unit(d - 3).cross(lever.arm);
+      at.S.col(6 * i + d) = lever.arm.col(d - 3);
     }
   return at;
 }

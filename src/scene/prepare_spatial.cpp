@@ -240,8 +240,8 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedB
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const auto line = line_of(body.structure.mesh, place);
   const Eigen::Vector3d axis = axis_within(W, body, line);
-  const Eigen::Vector3d& arm = place.levers.front().arm;
-  const bool carried = pinned ? arm.cross(axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
+  const Eigen::Matrix3d& arm = place.levers.front().arm;
+  const bool carried = pinned ? (arm * axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
                               : place.line || place.levers.size() < place.nodes.size() || !arm.isZero(0);
   if (place.nodes.size() > 1 && !pinned) {
     if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)

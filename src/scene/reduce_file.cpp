@@ -11,6 +11,7 @@
 #include "floe/scene/places.h"
 #include "floe/scene/reduced.h"
 #include "mesh_copy.h"
+#include "place_weights.h"
 
 namespace floe::scene {
 
@@ -96,7 +97,8 @@ std::vector<output::ReducedPlace> places_of(const Prepared& prepared, const Prep
   }
   std::vector<output::ReducedPlace> places;
   for (const auto& [name, at] : nodes)
-    if (!at.empty()) places.push_back({name, reduction::place_map(body.structure, basis, at)});
+    if (!at.empty())
+      places.push_back({name, reduction::place_map(body.structure, basis, place_weights(body.structure.mesh, at))});
   return places;
 }
 

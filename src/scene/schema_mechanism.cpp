@@ -38,7 +38,7 @@ const SchemaSection joint_section{
              in_space(choice(
                  "edges", "",
                  "rigid: a place of many nodes moves as one rigid piece; line: as a rigid line, about which "
-                 "each node turns by itself (a hinge along a straight edge); mean: the mean of its nodes is "
+                 "each node turns by itself (a hinge along a straight edge); mean: the weighted mean of its nodes is "
                  "held. Absent: rigid where the joint holds all rotations, line at revolute and cylindrical "
                  "joints along a straight edge, else mean. To the ground, fixed and driven joints hold every "
                  "node, and a hinge with edges: mean the displacements of its edge; so do hinges whose edges meet",
@@ -83,7 +83,9 @@ const SchemaSection load_section{
     {
         choice("type", required, "at a place, distributed along all segments of a body, or pressure on its shells",
                {"force", "moment", "distributed", "pressure"}),
-        only({"force", "moment"}, {"at", Type::place, "", required, "where it acts"}),
+        only({"force", "moment"},
+             {"at", Type::place, "", required,
+              "where it acts; a place of many nodes shares it: edges by lengths, areas by areas, points alike"}),
         only({"distributed", "pressure"}, {"body", Type::body, "", required, "on which it acts"}),
         only({"pressure"}, in_space({"part", Type::text, "", "", "of the mesh, on which it acts; absent: all shells"})),
         only({"pressure"},

@@ -7,6 +7,7 @@
 
 #include "deck_sections.h"
 #include "floe/math/nearest.h"
+#include "floe/math/rotation.h"
 #include "floe/mesh/exchange.h"
 #include "floe/mesh/generate.h"
 #include "floe/mesh/gmsh.h"
@@ -16,6 +17,7 @@
 #include "floe/mesh/pieces.h"
 #include "floe/scene/places.h"
 #include "hinge_lines.h"
+#include "place_weights.h"
 #include "prepare_spatial.h"
 
 namespace floe::scene {
@@ -237,9 +239,10 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
 
 namespace {
 
-/// What moves the mean of the nodes. Collective.
-std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
-  std::vector<PetscInt> sorted = nodes;
+/// What moves the weighted mean of the nodes. Collective.
+std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::WeightedNode>& nodes) {
+  std::vector<PetscInt> sorted;
+  for (const reduction::WeightedNode& at : nodes) sorted.push_back(at.node);
   std::sort(sorted.begin(), sorted.end());
   struct Carried {
     PetscInt node, leader;
@@ -262,25 +265,31 @@ std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<PetscInt>& no
   for (const Carried& c :
        mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values)
     carried.emplace(c.node, c);
-  const double share = 1 / static_cast<double>(nodes.size());
   std::vector<Lever> all;
   std::map<PetscInt, std::size_t> place;
   const auto lever = [&](PetscInt node) -> Lever& {
     const auto [at, fresh] = place.emplace(node, all.size());
-    if (fresh) all.push_back({node, 0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()});
+    if (fresh) all.push_back({node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
     return all[at->second];
   };
-  for (PetscInt node : nodes) {
+  for (const auto& [node, share, arm] : nodes) {
     const auto c = carried.find(node);
     Lever& moves = lever(c == carried.end() ? node : c->second.leader);
     moves.share += share;
-    moves.turn += share * Eigen::Matrix3d::Identity();
-    if (c == carried.end()) continue;
-    moves.arm += share * Eigen::Map<const Eigen::Vector3d>(c->second.arm);
+    if (c == carried.end()) {
+      moves.arm += arm;
+      moves.turn += share * Eigen::Matrix3d::Identity();
+      continue;
+    }
     const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
+    const Eigen::Matrix3d led =
+        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the leader
+    moves.arm += arm * led - share * math::skew(Eigen::Map<const Eigen::Vector3d>(c->second.arm));
+    moves.turn += share * led;
     if (axis.isZero(0)) continue;
-    moves.turn -= share * axis * axis.transpose();
-    lever(node).turn += share * fem::spin(axis);
+    Lever& own = lever(node);
+    own.arm += arm * fem::spin(axis);
+    own.turn += share * fem::spin(axis);
   }
   return all;
 }
@@ -306,7 +315,7 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
   if (place.point && body.rigid) {
     found.x = axes.axes.transpose() * (vector(*place.point) - axes.origin);
     found.nodes = {0};  // of no account
-    found.levers = {{0, 1, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()}};
+    found.levers = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
     return found;
   }
   if (place.point) {
@@ -339,14 +348,16 @@ PreparedPlace spatial_place(const Body& body, const fem::Structure& structure,
     found.nodes = set->second;
   }
   const fem::Mesh& m = structure.mesh;
-  found.levers = levers(m, found.nodes);
+  const std::vector<reduction::WeightedNode> weights = place_weights(m, found.nodes);
+  found.levers = levers(m, weights);
   found.node = found.levers.front().node;
   found.line = on_hinge_line(m, found);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (PetscInt node : found.nodes)
-    if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) sum += m.positions[local];
+  for (const reduction::WeightedNode& at : weights)
+    if (const PetscInt local = at.node - m.first_node; local >= 0 && local < m.owned_nodes)
+      sum += at.weight * m.positions[local];
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
-  found.x = sum / static_cast<double>(found.nodes.size());
+  found.x = sum;
   return found;
 }
 

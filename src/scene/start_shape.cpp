@@ -22,7 +22,7 @@ Vector3d displacement_at(const PreparedBody& body, const PreparedPlace& place, V
       const PetscInt first = n * lever.node;
       if (first < own.first || first >= own.end) continue;
       for (int i = 0; i < d; ++i) u[i] += lever.share * own[first + i];
-      if (d == 3) u += Vector3d(own[first + 3], own[first + 4], own[first + 5]).cross(lever.arm);
+      if (d == 3) u += lever.arm * Vector3d(own[first + 3], own[first + 4], own[first + 5]);
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, u.data(), 3, MPI_DOUBLE, MPI_SUM, body.structure.mesh.comm);

@@ -3,9 +3,16 @@
 
 namespace floe::reduction {
 
-/// The mean over nodes of position, displacement and rotation: how a set of nodes moves as one place. Collective;
-/// replicated.
-/// @param nodes  global, at least one
-body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, const std::vector<PetscInt>& nodes);
+/// A node in the mean of a place: x += weight x_node, u += weight u_node + arm theta_node, theta += weight theta_node.
+struct WeightedNode {
+  PetscInt node;                                  ///< global
+  double weight;                                  ///< their sum is 1
+  Eigen::Matrix3d arm = Eigen::Matrix3d::Zero();  ///< in space; their sum is 0
+};
+
+/// The weighted mean over nodes of position, displacement and rotation: how a set of nodes moves as one place.
+/// Collective; replicated.
+/// @param nodes  at least one, the same on all ranks
+body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, const std::vector<WeightedNode>& nodes);
 
 }  // namespace floe::reduction

@@ -29,11 +29,11 @@ Formulation formulation_of(const std::string& name);
 std::vector<std::string> formulation_names();
 bool is_reduced(Formulation formulation);
 
-/// How a node moves a place in space: u += share u_node + theta_node x arm, theta += turn theta_node.
+/// How a node moves a place in space: u += share u_node + arm theta_node, theta += turn theta_node.
 struct Lever {
   PetscInt node;  ///< global
   double share;
-  Eigen::Vector3d arm;
+  Eigen::Matrix3d arm;
   Eigen::Matrix3d turn;
 };
 

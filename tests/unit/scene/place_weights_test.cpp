@@ -1,0 +1,72 @@
+#include "../../../src/scene/place_weights.h"
+
+#include <catch2/catch.hpp>
+
+#include "floe/mesh/generate.h"
+#include "floe/mesh/partition.h"
+#include "floe/petsc/error.h"
+
+using namespace floe;
+
+namespace {
+
+/// 4 by 2 elements of 0.25 x 0.5 and their nodes by number, i along, j across.
+struct Grid {
+  mesh::RawMesh raw;
+  fem::Mesh mesh;
+  explicit Grid(mesh::ShellCells cells) {
+    mesh::Plate plate;
+    plate.a = Eigen::Vector3d(1, 0, 0), plate.b = Eigen::Vector3d(0, 1, 0), plate.na = 4, plate.nb = 2;
+    plate.cells = cells;
+    raw = mesh::plate(PETSC_COMM_WORLD, plate);
+    mesh = fem::mesh_of(raw, mesh::partition(raw));
+  }
+  /// Weights of nodes by their places; the sum of x by weight has to be `centre`.
+  std::vector<double> weights(const std::vector<std::array<double, 2>>& points, const Eigen::Vector3d& centre) const {
+    std::vector<PetscInt> nodes;
+    for (const auto& [x, y] : points) nodes.push_back(fem::nearest_node(mesh, Eigen::Vector3d(x, y, 0)).node);
+    std::vector<double> found;
+    Eigen::Vector3d sum = -centre;
+    Eigen::Matrix3d arms = Eigen::Matrix3d::Zero();
+    for (const auto& [node, weight, arm] : scene::place_weights(mesh, nodes)) {
+      const auto& [x, y] = points[found.size()];
+      sum += weight * Eigen::Vector3d(x, y, 0);
+      arms += arm;
+      found.push_back(weight);
+    }
+    CHECK(sum.norm() < 1e-14);
+    CHECK(arms.norm() < 1e-14);  // a rigid rotation about the middle moves it nowhere
+    return found;
+  }
+};
+
+void check_equal(const std::vector<double>& found, const std::vector<double>& expected) {
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(expected[i]).epsilon(1e-14));
+}
+
+}  // namespace
+
+TEST_CASE("weights of places: edges by lengths, areas by areas, points alike") {
+  for (const mesh::ShellCells cells : {mesh::ShellCells::triangles, mesh::ShellCells::quadrilaterals}) {
+    const Grid grid(cells);
+    const bool quads = cells == mesh::ShellCells::quadrilaterals;
+    check_equal(grid.weights({{1, 0.5}, {1, 0}, {1, 1}}, {1, 0.5, 0}), {0.5, 0.25, 0.25});                // an edge
+    check_equal(grid.weights({{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, {0.5, 0.5, 0}), {0.25, 0.5, 0.25});  // inside
+    // around a corner, half of each side: 0.5 along and 0.5 across; of triangles one may belong to it as a whole
+    check_equal(grid.weights({{0.5, 0}, {0.25, 0}, {0, 0}, {0, 0.5}}, {0.125, 0.125, 0}), {0.125, 0.25, 0.375, 0.25});
+    check_equal(grid.weights({{0.5, 1}, {0.75, 1}, {1, 1}, {1, 0.5}}, {0.875, 0.875, 0}), {0.125, 0.25, 0.375, 0.25});
+    check_equal(grid.weights({{0.5, 0}, {0.75, 0}, {1, 0}, {1, 0.5}}, {0.875, 0.125, 0}), {0.125, 0.25, 0.375, 0.25});
+    if (quads)
+      check_equal(grid.weights({{0, 0}, {0.25, 0}, {0.25, 0.5}, {0, 0.5}, {0.5, 0}, {0.5, 0.5}}, {0.25, 0.25, 0}),
+                  {0.125, 0.25, 0.25, 0.125, 0.125, 0.125});  // two elements
+    check_equal(grid.weights({{0, 0}, {0.5, 0.5}, {1, 1}, {1, 0}}, {0.625, 0.375, 0}), {0.25, 0.25, 0.25, 0.25});
+    check_equal(grid.weights({{0.5, 0.5}}, {0.5, 0.5, 0}), {1});
+    std::vector<std::array<double, 2>> all;
+    for (int j = 0; j <= 2; ++j)
+      for (int i = 0; i <= 4; ++i) all.push_back({0.25 * i, 0.5 * j});
+    const std::vector<double> area = grid.weights(all, {0.5, 0.5, 0});
+    if (quads) CHECK(area[0] == Approx(1.0 / 32));
+    if (quads) CHECK(area[6] == Approx(1.0 / 8));
+  }
+}
