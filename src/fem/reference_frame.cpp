@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "floe/fem/held_frame.h"
+
 namespace floe::fem {
 
 using petsc::check;
@@ -19,19 +21,19 @@ petsc::VecHandle unit(const Structure& structure, PetscInt dof) {
 }
 
 /// Entries of the rigid motions at some dofs, (dofs x motions), rotations scaled by 1 / extent. Collective.
-Eigen::MatrixXd rigid_rows(const Structure& structure, const ReferenceFrame& frame, const Conditions& dofs,
-                           double length) {
+Eigen::MatrixXd rigid_rows(const Structure& structure, const std::vector<petsc::VecHandle>& rigid,
+                           const Conditions& dofs, double length) {
   const int motions = structure.rigid_motion_count(), d = structure.dimension();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(dofs.size()), motions);
   for (int motion = 0; motion < motions; ++motion) {
     PetscInt first = 0, end = 0;
     const double* values = nullptr;
-    check(VecGetOwnershipRange(frame.rigid[motion], &first, &end));
-    check(VecGetArrayRead(frame.rigid[motion], &values));
+    check(VecGetOwnershipRange(rigid[motion], &first, &end));
+    check(VecGetArrayRead(rigid[motion], &values));
     for (std::size_t i = 0; i < dofs.size(); ++i)
       if (dofs[i] >= first && dofs[i] < end)
         rows(i, motion) = values[dofs[i] - first] * (dofs[i] % structure.dofs_per_node >= d ? length : 1);
-    check(VecRestoreArrayRead(frame.rigid[motion], &values));
+    check(VecRestoreArrayRead(rigid[motion], &values));
   }
   rows.rightCols(motions - d) /= length;
   MPI_Allreduce(MPI_IN_PLACE, rows.data(), static_cast<int>(rows.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
@@ -42,6 +44,25 @@ int rank_of(const Eigen::MatrixXd& rows) {
   if (rows.rows() == 0) return 0;
   Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows);
   return static_cast<int>((svd.singularValues().array() > 1e-9).count());
+}
+
+/// (f' Phi_r)^-1. @throws InputError  a rigid motion is free
+void invert(const Structure& structure, ReferenceFrame& frame) {
+  const int r = structure.rigid_motion_count();
+  Eigen::MatrixXd values(r, r);
+  for (int i = 0; i < r; ++i)
+    for (int j = 0; j < r; ++j) check(VecDot(frame.functionals[i], frame.rigid[j], &values(i, j)));
+  // lengths and angles stand beside one another: judged without their units
+  const auto scale_of = [](const auto& line) {
+    return line.cwiseAbs().maxCoeff() > 0 ? 1 / line.cwiseAbs().maxCoeff() : 1;
+  };
+  Eigen::VectorXd rows(r), columns(r);
+  for (int j = 0; j < r; ++j) columns[j] = scale_of(values.col(j));
+  const Eigen::MatrixXd by_columns = values * columns.asDiagonal();
+  for (int i = 0; i < r; ++i) rows[i] = scale_of(by_columns.row(i));
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(rows.asDiagonal() * by_columns);
+  if (!lu.isInvertible()) throw InputError("the reference conditions leave a rigid motion of the body free");
+  frame.inverse = columns.asDiagonal() * lu.inverse() * rows.asDiagonal();
 }
 
 }  // namespace
@@ -66,22 +87,33 @@ ReferenceFrame reference_frame(const Structure& structure, ReferenceFrame::Kind 
     for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
     std::sort(frame.conditions.begin(), frame.conditions.end());
   }
-  const int r = structure.rigid_motion_count();
-  Eigen::MatrixXd values(r, r);
-  for (int i = 0; i < r; ++i)
-    for (int j = 0; j < r; ++j) check(VecDot(frame.functionals[i], frame.rigid[j], &values(i, j)));
-  // lengths and angles stand beside one another: judged without their units
-  const auto scale_of = [](const auto& line) {
-    return line.cwiseAbs().maxCoeff() > 0 ? 1 / line.cwiseAbs().maxCoeff() : 1;
-  };
-  Eigen::VectorXd rows(r), columns(r);
-  for (int j = 0; j < r; ++j) columns[j] = scale_of(values.col(j));
-  const Eigen::MatrixXd by_columns = values * columns.asDiagonal();
-  for (int i = 0; i < r; ++i) rows[i] = scale_of(by_columns.row(i));
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(rows.asDiagonal() * by_columns);
-  if (!lu.isInvertible()) throw InputError("the reference conditions leave a rigid motion of the body free");
-  frame.inverse = columns.asDiagonal() * lu.inverse() * rows.asDiagonal();
+  invert(structure, frame);
   return frame;
+}
+
+ReferenceFrame held_frame(const Structure& structure, const Conditions& dofs) {
+  ReferenceFrame frame;
+  frame.kind = ReferenceFrame::Kind::clamped;
+  frame.rigid = rigid_motions(structure);
+  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, dofs, extent(structure));
+  Eigen::MatrixXd chosen(0, rows.cols());
+  for (Eigen::Index i = 0; i < rows.rows() && chosen.rows() < rows.cols(); ++i) {
+    Eigen::MatrixXd more(chosen.rows() + 1, rows.cols());
+    more << chosen, rows.row(i);
+    if (rank_of(more) < more.rows()) continue;
+    chosen = std::move(more);
+    frame.conditions.push_back(dofs[i]);
+  }
+  std::sort(frame.conditions.begin(), frame.conditions.end());
+  for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
+  if (chosen.rows() < rows.cols()) throw InputError("the reference conditions leave a rigid motion of the body free");
+  invert(structure, frame);
+  return frame;
+}
+
+bool determine_rigid_motions(const Structure& structure, const Conditions& dofs) {
+  return rank_of(rigid_rows(structure, rigid_motions(structure), dofs, extent(structure))) ==
+         structure.rigid_motion_count();
 }
 
 namespace {
@@ -133,7 +165,7 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
   Holding result;
   result.held = held;
   const int d = structure.dimension(), motions = structure.rigid_motion_count();
-  const Eigen::MatrixXd rows = rigid_rows(structure, frame, held, length);
+  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, held, length);
   if (held.empty()) {
     result.left = Eigen::MatrixXd::Identity(motions, motions);
   } else {
@@ -150,8 +182,8 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
   for (PetscInt dof : candidates) {
     Conditions more = result.statics;
     more.push_back(dof);
-    if (rank_of(rigid_rows(structure, frame, more, length)) >
-        rank_of(rigid_rows(structure, frame, result.statics, length)))
+    if (rank_of(rigid_rows(structure, frame.rigid, more, length)) >
+        rank_of(rigid_rows(structure, frame.rigid, result.statics, length)))
       result.statics = std::move(more);
   }
   std::sort(result.statics.begin(), result.statics.end());

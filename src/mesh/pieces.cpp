@@ -64,13 +64,25 @@ std::vector<PetscInt> in_common(const HingeLine& one, const HingeLine& other) {
   return both;
 }
 
-/// Lines with two nodes in common made one; nodes ascend.
+double angle(const HingeLine& one, const HingeLine& other) {
+  const Eigen::Map<const Eigen::Vector3d> a(one.axis.data()), b(other.axis.data());
+  return a.cross(b).norm();
+}
+
+bool parallel(const HingeLine& one, const HingeLine& other) { return angle(one, other) < 1e-6; }
+
+bool one_line(const HingeLine& one, const HingeLine& other) {
+  const std::size_t common = in_common(one, other).size();
+  return common > 1 || (common == 1 && !one.holder.empty() && one.holder == other.holder && parallel(one, other));
+}
+
+/// Lines that are parts of one line made one; nodes ascend.
 std::vector<HingeLine> joined(std::vector<HingeLine> lines) {
   std::vector<HingeLine> all;
   for (HingeLine& line : lines) {
     std::sort(line.nodes.begin(), line.nodes.end());
     for (auto other = all.begin(); other != all.end();) {
-      if (in_common(line, *other).size() < 2) {
+      if (!one_line(line, *other)) {
         ++other;
         continue;
       }
@@ -86,56 +98,98 @@ std::vector<HingeLine> joined(std::vector<HingeLine> lines) {
   return all;
 }
 
-}  // namespace
+/// Lines of one holder that meet at angles, directly or through others; or a single line.
+using Rim = std::vector<HingeLine>;
 
-namespace {
+std::vector<Rim> rims_of(const std::vector<HingeLine>& lines) {
+  std::vector<Rim> rims;
+  for (const HingeLine& line : lines) {
+    const auto meets = [&](const HingeLine& other) {
+      return !line.holder.empty() && line.holder == other.holder && !in_common(line, other).empty();
+    };
+    Rim rim{line};
+    for (auto other = rims.begin(); other != rims.end();)
+      if (std::any_of(other->begin(), other->end(), meets)) {
+        rim.insert(rim.end(), other->begin(), other->end());
+        other = rims.erase(other);
+      } else {
+        ++other;
+      }
+    rims.push_back(std::move(rim));
+  }
+  return rims;
+}
 
-/// What leads a line, if not a node of its own choice: more than one where that cannot be.
-std::set<PetscInt> leaders_of(const HingeLine& line, const std::vector<HingeLine>& all,
-                              const std::vector<Follower>& followers) {
+/// The lines of the rim that go through a node.
+int lines_through(const Rim& rim, PetscInt node) {
+  return static_cast<int>(std::count_if(rim.begin(), rim.end(), [&](const HingeLine& line) {
+    return std::binary_search(line.nodes.begin(), line.nodes.end(), node);
+  }));
+}
+
+std::set<PetscInt> nodes_of(const Rim& rim) {
+  std::set<PetscInt> nodes;
+  for (const HingeLine& line : rim) nodes.insert(line.nodes.begin(), line.nodes.end());
+  return nodes;
+}
+
+/// Nodes in common with lines of other rims.
+std::set<PetscInt> shared_nodes(const Rim& rim, const std::vector<Rim>& all) {
+  std::set<PetscInt> shared;
+  const std::set<PetscInt> nodes = nodes_of(rim);
+  for (const Rim& other : all)
+    if (&other != &rim)
+      for (PetscInt node : nodes_of(other))
+        if (nodes.contains(node)) shared.insert(node);
+  return shared;
+}
+
+/// What leads a rim, if not a node of its own choice: more than one where that cannot be.
+std::set<PetscInt> leaders_of(const Rim& rim, const std::vector<Rim>& all, const std::vector<Follower>& followers) {
   std::set<PetscInt> leaders;
   const auto leads = [&](PetscInt node) {
     return std::any_of(followers.begin(), followers.end(), [&](const Follower& f) { return f.leader == node; });
   };
-  for (PetscInt node : line.nodes)
+  for (PetscInt node : nodes_of(rim))
     if (const PetscInt leader = leader_of(followers, node); leader != node || leads(node)) leaders.insert(leader);
-  for (const HingeLine& other : all)
-    if (&other != &line)
-      for (PetscInt node : in_common(line, other)) leaders.insert(leader_of(followers, node));
+  for (PetscInt node : shared_nodes(rim, all)) leaders.insert(leader_of(followers, node));
   return leaders;
 }
 
-/// Whether the ground holds the line and another one that meets it at an angle.
-bool crosses_held(const HingeLine& line, const std::vector<HingeLine>& all) {
-  const auto angle = [&](const HingeLine& other) {
-    const Eigen::Map<const Eigen::Vector3d> a(line.axis.data()), b(other.axis.data());
-    return a.cross(b).norm();
-  };
-  return line.held && std::any_of(all.begin(), all.end(), [&](const HingeLine& other) {
-           return &other != &line && other.held && angle(other) > 1e-6 && !in_common(line, other).empty();
-         });
+/// Whether no node can lead the rim: two would, or a line of another holder pivots about a node of a rim that cannot.
+bool is_torn(const Rim& rim, const std::vector<Rim>& all, const std::vector<Follower>& followers) {
+  if (leaders_of(rim, all, followers).size() > 1) return true;
+  const auto corner = [](const Rim& of) { return of.size() > 1; };
+  if (corner(rim)) return !shared_nodes(rim, all).empty();
+  return false;
+}
+
+bool is_held(const Rim& rim) {
+  return std::all_of(rim.begin(), rim.end(), [](const HingeLine& line) { return line.held; });
 }
 
 /// Without those that the ground holds and that cannot be lines beside others.
-std::vector<HingeLine> without_torn(const std::vector<HingeLine>& lines, const std::vector<Follower>& followers,
-                                    std::vector<std::string>* left_out) {
-  std::vector<HingeLine> apart, kept;
-  const auto leave_out = [&](const HingeLine& line) {
-    if (left_out) left_out->push_back(line.where);
-  };
-  for (const HingeLine& line : lines)
-    if (crosses_held(line, lines))
-      leave_out(line);
-    else
-      apart.push_back(line);
-  const auto torn = [&](const HingeLine& line) { return leaders_of(line, apart, followers).size() > 1; };
-  if (std::none_of(apart.begin(), apart.end(), torn)) return apart;
-  for (const HingeLine& line : apart)
-    if (!line.held || leaders_of(line, apart, followers).empty())
-      kept.push_back(line);
-    else
-      leave_out(line);
+std::vector<Rim> without_torn(const std::vector<Rim>& rims, const std::vector<Follower>& followers,
+                              std::vector<std::string>* left_out) {
+  const auto torn = [&](const Rim& rim) { return is_torn(rim, rims, followers); };
+  if (std::none_of(rims.begin(), rims.end(), torn)) return rims;
+  std::vector<Rim> kept;
+  for (const Rim& rim : rims)
+    if (!is_held(rim) || leaders_of(rim, rims, followers).empty())
+      kept.push_back(rim);
+    else if (left_out)
+      for (const HingeLine& line : rim) left_out->push_back(line.where);
   return kept;
+}
+
+/// Of a rim that nothing else leads.
+PetscInt own_leader(const Rim& rim, const std::vector<PetscInt>& preferred) {
+  std::vector<PetscInt> candidates;
+  for (PetscInt node : nodes_of(rim))
+    if (rim.size() == 1 || lines_through(rim, node) > 1) candidates.push_back(node);
+  for (PetscInt node : candidates)
+    if (std::count(preferred.begin(), preferred.end(), node) > 0) return node;
+  return rim.size() == 1 ? candidates[candidates.size() / 2] : candidates.front();
 }
 
 }  // namespace
@@ -144,21 +198,22 @@ std::vector<Follower> with_lines(const std::vector<Follower>& followers, std::ve
                                  const std::vector<PetscInt>& preferred, std::vector<std::string>* left_out) {
   std::map<PetscInt, Follower> all;
   for (const Follower& f : followers) all.emplace(f.node, f);
-  lines = without_torn(joined(std::move(lines)), followers, left_out);
+  const std::vector<Rim> rims = without_torn(rims_of(joined(std::move(lines))), followers, left_out);
   std::vector<std::string> faults;
-  for (const HingeLine& line : lines) {
-    std::set<PetscInt> leaders = leaders_of(line, lines, followers);
-    if (leaders.size() > 1) {
-      faults.push_back(line.where +
-                       ": its edge has nodes in common with two others that joints or links hold; expected one such "
-                       "node at most, or edges: rigid or mean");
+  for (const Rim& rim : rims) {
+    if (is_torn(rim, rims, followers)) {
+      for (const HingeLine& line : rim)
+        faults.push_back(line.where +
+                         ": its edge has nodes in common with two others that joints or links hold; expected one such "
+                         "node at most, or edges: rigid or mean");
       continue;
     }
-    for (PetscInt node : line.nodes)
-      if (leaders.empty() && std::count(preferred.begin(), preferred.end(), node) > 0) leaders.insert(node);
-    const PetscInt leader = leaders.empty() ? line.nodes[line.nodes.size() / 2] : *leaders.begin();
-    for (PetscInt node : line.nodes)
-      if (node != leader && leader_of(followers, node) == node) all.emplace(node, Follower{node, leader, line.axis});
+    const std::set<PetscInt> leaders = leaders_of(rim, rims, followers);
+    const PetscInt leader = leaders.empty() ? own_leader(rim, preferred) : *leaders.begin();
+    for (const HingeLine& line : rim)
+      for (PetscInt node : line.nodes)
+        if (node != leader && leader_of(followers, node) == node)
+          all.emplace(node, lines_through(rim, node) > 1 ? Follower{node, leader} : Follower{node, leader, line.axis});
   }
   if (!faults.empty()) throw InputError(faults);
   std::vector<Follower> ascending;

@@ -178,7 +178,7 @@ void keep_held(const PreparedBody& body, Vec moved, double small) {
 
 void add_spatial_constraint_modes(const Prepared& prepared, int index, Attachments& all) {
   const PreparedBody& body = prepared.bodies[index];
-  const bool still = clamp_of(prepared, index) >= 0;
+  const bool still = has_fixed_frame(prepared, index);
   const std::vector<Support> supports = supports_of(prepared, index);
   std::size_t held = 0;
   for (const Support& support : supports) held += support.components.size();

@@ -33,6 +33,8 @@ Eigen::Matrix3d attitude_of_mesh(const Body& body) {
   return math::rotation({r[0], r[1], r[2]});
 }
 
+bool is_drive(Joint::Kind kind) { return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide; }
+
 /// Where a point of the undeformed mesh is at the start.
 Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
   const Point& p = body.initial.position;
@@ -57,6 +59,25 @@ int clamp_of(const Prepared& prepared, int b) {
   return -1;
 }
 
+bool has_fixed_frame(const Prepared& prepared, int b) {
+  if (clamp_of(prepared, b) >= 0) return true;
+  const PreparedBody& body = prepared.bodies[b];
+  const fem::Conditions& conditions = body.frame.conditions;
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || body.spec.rigid || body.spec.reduced) return false;
+  const std::map<std::string, JointLatches> latches = latches_of(prepared.scene);
+  bool firm = false;
+  for (std::size_t j = 0; j < prepared.joints.size(); ++j) {
+    const Joint& joint = prepared.scene.joints[j];
+    const PreparedPlace* place = held_place(prepared, j);
+    if (!place || place->body != b || !prepared.joint_held[j]) continue;
+    if (std::none_of(conditions.begin(), conditions.end(), [&](PetscInt dof) { return place->moved_by(dof / 6); }))
+      continue;
+    if (is_drive(joint.kind) || latches.contains(joint.name)) return false;
+    firm = true;
+  }
+  return firm && std::includes(body.held.begin(), body.held.end(), conditions.begin(), conditions.end());
+}
+
 SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced)
     : prepared_(prepared),
       formulation_(formulation),
@@ -65,7 +86,7 @@ SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, 
       coordinates_(comm_of(prepared, formulation)),
       slots_(prepared.bodies.size()),
       latches_(latches_of(prepared.scene)) {
-  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = clamp_of(prepared, owner_of_frame(b)) >= 0;
+  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = has_fixed_frame(prepared, owner_of_frame(b));
 }
 
 int SpaceAssembly::owner_of_frame(std::size_t body) const {
@@ -83,7 +104,10 @@ bool SpaceAssembly::stands(int j) const {
     if (prepared_.bodies[b].host_joint == j) return true;
     if (slots_[b].still && clamp_of(prepared_, static_cast<int>(b)) == j) return true;
   }
-  return false;
+  const Joint& joint = prepared_.scene.joints[j];
+  const PreparedPlace* place = held_place(prepared_, j);
+  return place && place->body >= 0 && slots_[place->body].still && prepared_.joint_held[j] && !is_drive(joint.kind) &&
+         !latches_.contains(joint.name);
 }
 
 const fem::Conditions& SpaceAssembly::held(int b) const {

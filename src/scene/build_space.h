@@ -80,6 +80,10 @@ class SpaceAssembly {
 /// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.
 int clamp_of(const Prepared& prepared, int body);
 
+/// Whether the body's frame is fixed to the ground: by clamp_of, or because joints to the ground that neither move nor
+/// are switched hold the dofs of its conditions (fixed_rims, fix_frames).
+bool has_fixed_frame(const Prepared& prepared, int body);
+
 /// Rows that the kind of joint holds in space; none: a spring or bushing.
 int spatial_rows(Joint::Kind kind);
 

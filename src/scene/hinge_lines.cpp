@@ -62,8 +62,12 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
       if (place->point || found == places.end() || found->second.size() < 2) continue;
       const std::optional<Vector3d> line = line_of(positions(mesh, found->second));
       if (line && (!joint.axis_given || (to_mesh * vector(joint.axis).normalized()).cross(*line).norm() < 1e-6)) {
-        const bool held = joint.first.ground() || joint.second.ground();
-        lines.push_back({found->second, {line->x(), line->y(), line->z()}, joint.where.text(), held});
+        const Place& other = place == &joint.first ? joint.second : joint.first;
+        lines.push_back({found->second,
+                         {line->x(), line->y(), line->z()},
+                         joint.where.text(),
+                         other.ground(),
+                         other.ground() ? "ground" : "body " + other.body});
         continue;
       }
       const std::string why = fmt::format(
@@ -84,12 +88,13 @@ void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out,
   for (const Joint& joint : scene.joints) {
     if (std::find(left_out.begin(), left_out.end(), joint.where.text()) == left_out.end()) continue;
     if (joint.edges_given)
-      faults.push_back(joint.where.text() +
-                       ".edges: is line, but its edge has a node in common with another edge that is held; expected "
-                       "mean, by which the ground holds each node of the edge by itself, or edges that do not meet");
+      faults.push_back(
+          joint.where.text() +
+          ".edges: is line, but its edge meets edges of other bodies or rigid pieces; expected mean, by which the "
+          "ground holds each node of the edge by itself, or edges that do not meet");
     else
       notices.push_back(
-          fmt::format("joint {}: its edge meets another one that is held and is no hinge line; the ground "
+          fmt::format("joint {}: its edge meets edges of other bodies or rigid pieces and is no hinge line; the ground "
                       "holds each of its nodes by itself (edges: mean)",
                       joint.name));
   }

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 
 #include "build_spatial_start.h"
 #include "floe/math/rotation.h"
 #include "ground_axes.h"
 #include "prepare_reduced.h"
+#include "prepare_spatial_joints.h"
+#include "rims.h"
 #include "shared_frames.h"
 
 namespace floe::scene {
@@ -20,11 +21,6 @@ const Body* body_of(const Scene& scene, const Place& place) {
   for (const Body& body : scene.bodies)
     if (body.name == place.body) return &body;
   return nullptr;
-}
-
-bool clamps(const Joint& joint) {
-  return joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven ||
-         joint.kind == Joint::Kind::driven_slide;
 }
 
 }  // namespace
@@ -63,6 +59,14 @@ Eigen::Matrix3d chord_axes(const Eigen::Vector3d& chord) {
   return axes;
 }
 
+/// The first that the ground holds, else the first that a body holds.
+std::optional<PetscInt> leader_of_rim(const std::map<PetscInt, Rim>& rims) {
+  for (const auto& [leader, rim] : rims)
+    if (rim.holder == "ground") return leader;
+  if (rims.empty()) return {};
+  return rims.begin()->first;
+}
+
 FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh& mesh) {
   FrameChoice choice;
   const auto find = [&](const Place& place) { return spatial_place(body, mesh.structure, mesh.places, place); };
@@ -71,7 +75,11 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
     choice = {fem::ReferenceFrame::Kind::clamped, node, node, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
   };
   if (!body.frame.given) {
-    if (const Place* clamp = clamp_of(scene, body); clamp && clamped_by_default(body)) clamped(*clamp);
+    if (const Place* clamp = clamp_of(scene, body)) {
+      if (clamped_by_default(body)) clamped(*clamp);
+    } else if (const auto rim = leader_of_rim(fixed_rims(scene, body, mesh.structure, mesh.places))) {
+      choice = {fem::ReferenceFrame::Kind::clamped, *rim, *rim, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
+    }
   } else if (body.frame.kind == FrameSpec::Kind::clamped) {
     clamped(body.frame.at);
   } else if (body.frame.kind == FrameSpec::Kind::pinned) {
@@ -172,106 +180,6 @@ PreparedPlace find(const Scene& scene, const std::vector<PreparedBody>& bodies, 
   return found;
 }
 
-/// The axis that the joint turns about or slides along, in world axes at the start. @throws InputError  a hinge
-/// without.
-Eigen::Vector3d axis_of(const Prepared& prepared, const Joint& joint, const std::array<PreparedPlace, 2>& places) {
-  using Kind = Joint::Kind;
-  if (joint.axis_given) return Eigen::Vector3d(joint.axis[0], joint.axis[1], joint.axis[2]).normalized();
-  if (joint.kind != Kind::revolute && joint.kind != Kind::driven) return Eigen::Vector3d::UnitZ();
-  for (const PreparedPlace& place : places) {
-    if (place.body < 0 || place.map) continue;
-    const PreparedBody& body = prepared.bodies[place.body];
-    if (const auto line = line_of(body.structure.mesh, place)) return body.attitude * *line;
-  }
-  throw InputError(joint.where.text() +
-                   ".axis: is missing, and the joint's places are no edges whose line could be it; expected three "
-                   "numbers [x, y, z]");
-}
-
-Eigen::Matrix3d joint_axes(const Prepared& prepared, const Joint& joint, const std::array<PreparedPlace, 2>& places) {
-  if (joint.kind == Joint::Kind::bushing) return Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d W;
-  W.col(2) = axis_of(prepared, joint, places);
-  if (joint.kind == Joint::Kind::universal) {
-    const Eigen::Vector3d second(joint.second_axis[0], joint.second_axis[1], joint.second_axis[2]);
-    if (std::abs(second.normalized().dot(W.col(2))) > 1e-9)
-      throw InputError(joint.where.text() +
-                       ".second_axis: is not normal to axis; expected two axes that cross at 90 deg");
-    W.col(0) = second.normalized();
-  } else {
-    W.col(0) = W.col(2).unitOrthogonal();
-  }
-  W.col(1) = W.col(2).cross(W.col(0));
-  return W;
-}
-
-double extent_of_mesh(const fem::Mesh& mesh) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
-  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
-  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
-  return (high - low).norm();
-}
-
-/// The joint's axis in those of the frame. An edge's own line, where they are one but for rounded numbers or a
-/// deformation at the start.
-Eigen::Vector3d axis_within(const Eigen::Matrix3d& W, const PreparedBody& body,
-                            const std::optional<Eigen::Vector3d>& line) {
-  const Point& r = body.spec.initial.rotation;
-  const Eigen::Matrix3d undeformed = math::rotation({r[0], r[1], r[2]}) * body.axes;
-  for (const Eigen::Matrix3d& frame : {body.attitude, undeformed})
-    if (line && line->cross(frame.transpose() * W.col(2)).norm() < 1e-6) return *line;
-  return body.attitude.transpose() * W.col(2);
-}
-
-/// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
-/// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at
-/// one node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
-bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PreparedBody& body, const PreparedPlace& place,
-                   fem::Conditions& held) {
-  using Kind = Joint::Kind;
-  const bool pinned = place.line && (joint.kind == Kind::revolute || joint.kind == Kind::cylindrical);
-  const auto hold = [&](std::initializer_list<int> dofs) {
-    for (const Lever& lever : place.levers)
-      for (int dof : dofs)
-        if (!pinned || lever.node == place.node) held.push_back(6 * lever.node + dof);
-  };
-  if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
-  if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
-  const auto line = line_of(body.structure.mesh, place);
-  const Eigen::Vector3d axis = axis_within(W, body, line);
-  const Eigen::Matrix3d& arm = place.levers.front().arm;
-  const bool carried = pinned ? (arm * axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
-                              : place.line || place.levers.size() < place.nodes.size() || !arm.isZero(0);
-  if (place.nodes.size() > 1 && !pinned) {
-    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
-      return false;
-    if (carried)
-      throw InputError(joint.where.text() +
-                       ": its edge has nodes of a rigid piece or hinge line that a link or another joint makes; "
-                       "expected places without a node in common, or edges: mean at the other joint");
-    return hold({0, 1, 2}), true;
-  }
-  if (carried) return false;
-  if (joint.kind == Kind::spherical || joint.kind == Kind::universal)
-    return hold({0, 1, 2}), joint.kind == Kind::spherical;
-  Eigen::Index along = 0;
-  const bool aligned = axis.cwiseAbs().maxCoeff(&along) > 1 - 1e-12;
-  const int z = static_cast<int>(along), x = (z + 1) % 3, y = (z + 2) % 3;
-  if (joint.kind == Kind::revolute) {
-    hold({0, 1, 2});
-    if (aligned) hold({3 + x, 3 + y});
-    return aligned;
-  }
-  if (!aligned) return false;
-  if (joint.kind == Kind::planar)
-    hold({z, 3 + x, 3 + y});
-  else
-    hold({x, y, 3 + x, 3 + y});
-  if (joint.kind == Kind::prismatic) hold({3 + z});
-  return true;
-}
-
 /// Hosts first, for their guests' meshes are expressed in their frames.
 std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
   const std::vector<SharedFrame> shared = shared_frames(scene);
@@ -289,30 +197,6 @@ std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
   return bodies;
 }
 
-/// Axes of all joints, and what those to the ground hold of their bodies.
-void prepare_joints(Prepared& prepared, const std::function<PreparedPlace(const Place&)>& place) {
-  for (const Joint& joint : prepared.scene.joints) {
-    prepared.joints.push_back({place(joint.first), place(joint.second)});
-    prepared.joint_axes.push_back(joint_axes(prepared, joint, prepared.joints.back()));
-    prepared.joint_held.push_back(0);
-    const PreparedPlace* held = held_place(prepared, prepared.joints.size() - 1);
-    if (!held || held->map || held->body < 0) continue;
-    const PreparedPlace& at = *held;
-    PreparedBody& body = prepared.bodies[at.body];
-    const std::size_t before = body.held.size();
-    prepared.joint_held.back() = hold_by_joint(joint, prepared.joint_axes.back(), body, at, body.held);
-    if (at.line && !prepared.joint_held.back() && (joint.first.ground() || joint.second.ground()))
-      body.notices.push_back(fmt::format(
-          "joint {}: its edge is oblique to the other joints that hold body {}, whose modes know that it stays in its "
-          "place but not that it keeps its direction; columns at the joint (attachment: joints) make up for it",
-          joint.name, body.spec.name));
-    const bool here =
-        body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
-    if (clamps(joint) && here && !is_unlocked(prepared.scene, joint.name))
-      body.clamp.assign(body.held.begin() + static_cast<long>(before), body.held.end());
-  }
-}
-
 }  // namespace
 
 Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
@@ -323,6 +207,7 @@ Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
     prepared.extent = std::max(
         prepared.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
   prepare_joints(prepared, place);
+  fix_frames(prepared);
   check_pairs(prepared);
   for (PreparedBody& body : prepared.bodies) {
     if (body.spec.reduced) continue;

@@ -41,7 +41,7 @@ const SchemaSection joint_section{
                  "each node turns by itself (a hinge along a straight edge); mean: the weighted mean of its nodes is "
                  "held. Absent: rigid where the joint holds all rotations, line at revolute and cylindrical "
                  "joints along a straight edge, else mean. To the ground, fixed and driven joints hold every "
-                 "node, and a hinge with edges: mean the displacements of its edge; so do hinges whose edges meet",
+                 "node, and a hinge with edges: mean the displacements of its edge",
                  {"rigid", "mean", "line"}))),
         only({"driven"}, {"angle", Type::formula, "rad", "",
                           "turn of the second place against the first since the start; 0 at t = 0"}),

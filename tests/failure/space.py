@@ -73,10 +73,18 @@ joints:
 motion: {{end: 1, step: 1e-2}}
 """
 THREE_LINES = f"""
-bodies: {{a: {PLATE}, b: {RIGID % ""}}}
+bodies: {{a: {PLATE}, b: {RIGID % ""}, c: {RIGID % ""}}}
 joints:
   h: {{type: revolute, between: [{{body: b, node: [0, 0.1, 0]}}, a.left]}}
-  i: {{type: revolute, between: [{{body: b, node: [0.5, 0, 0]}}, a.bottom]}}
+  i: {{type: revolute, between: [{{body: c, node: [0.5, 0, 0]}}, a.bottom]}}
+  j: {{type: revolute, between: [{{body: b, node: [1, 0.1, 0]}}, a.right]}}
+motion: {{end: 1e-3, step: 1e-3}}
+"""
+MEETING_LINES = f"""
+bodies: {{a: {PLATE}, b: {RIGID % ""}}}
+joints:
+  h: {{type: revolute, between: [ground, a.left]}}
+  i: {{type: revolute, between: [ground, a.bottom], edges: line}}
   j: {{type: revolute, between: [{{body: b, node: [1, 0.1, 0]}}, a.right]}}
 motion: {{end: 1e-3, step: 1e-3}}
 """

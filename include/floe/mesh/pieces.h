@@ -13,19 +13,25 @@ namespace floe::mesh {
 /// Rank-local.
 std::vector<Follower> with_pieces(const std::vector<Follower>& links, const std::vector<std::vector<PetscInt>>& pieces);
 
-/// A straight hinge line: its nodes move as those of a rigid line, and each turns about it by itself.
+/// A straight hinge line: its nodes move as those of a rigid line, and each rotates about it by itself.
 struct HingeLine {
   std::vector<PetscInt> nodes;
   std::array<double, 3> axis{};  ///< along the line, unit vector
   std::string where = {};        ///< for messages: the joint
   bool held = false;             ///< by the ground: may be left out, for its nodes can be held one by one
+  std::string holder = {};       ///< what the joint connects the line to: a body, or the ground
 };
 
 /// Followers with hinge lines besides. A line is led by the piece or link that it has a node in common with, else by
-/// the node that it shares with another line, else by its first one among `preferred`, else by the node in the middle
-/// of its numbers; lines with two nodes in common are one. Lines that the ground holds and that meet at an angle are
-/// left out: both would be one rigid piece, which two hinges hold but to second order in its turn. Where a line would
-/// have two leaders, those that the ground holds are left out if they touch another one.
+/// the node that it shares with the line of another holder, else by its first one among `preferred`, else by the node
+/// in the middle of its numbers. Lines with two nodes in common, and parallel ones of one holder that meet, are one.
+///
+/// Lines of one holder that meet at an angle are one rigid rim: their pins are fixed to that holder and hence to one
+/// another. One node leads them, a corner where no piece does; a node where lines cross has no rotation of its own, as
+/// the slopes along both edges are those of the rim.
+///
+/// Where a line or rim would have two leaders, or a rim meets the line of another holder, those that the ground holds
+/// are left out if they touch another one.
 ///
 /// @param followers  as with_pieces gives them
 /// @param preferred  nodes that something else holds, which a leader can be and a follower cannot

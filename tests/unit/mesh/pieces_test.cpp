@@ -54,10 +54,40 @@ TEST_CASE("a hinge line is led by what it touches, else by a node that is prefer
   const HingeLine held{{3, 4, 5}, y, "", true}, apart{{8, 9}, x, "", true};  // by the ground
   CHECK(led({}, {{{1, 2, 3}, x}, held, {{5, 6, 7}, x}, apart}, {}) == Pairs{{1, 2}, {3, 2}, {5, 6}, {7, 6}, {8, 9}});
   CHECK(led({}, {{{1, 2, 3}, x}, held}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
-  const HingeLine first{{1, 2, 3}, x, "s.yaml:3: joints.a", true}, second{{3, 4, 5}, y, "s.yaml:4: joints.b", true},
-      along{{3, 6, 7}, x, "s.yaml:5: joints.c", true};
+}
+
+TEST_CASE("hinge lines of one holder that meet are one rigid rim, led by a corner") {
+  const std::array<double, 3> x{1, 0, 0}, y{0, 1, 0};
+  // nodes 1 2 3 below, 7 8 9 above, 4 and 6 between them
+  const HingeLine bottom{{1, 2, 3}, x, "s.yaml:3: joints.a", true, "ground"},
+      right{{3, 6, 9}, y, "s.yaml:4: joints.b", true, "ground"},
+      top{{7, 8, 9}, x, "s.yaml:5: joints.c", true, "ground"}, left{{1, 4, 7}, y, "s.yaml:6: joints.d", true, "ground"};
+  const auto led = [](const std::vector<Follower>& links, const std::vector<HingeLine>& lines,
+                      const std::vector<PetscInt>& preferred, bool spins) {
+    Pairs followers;
+    for (const Follower& f : with_lines(links, lines, preferred))
+      if (f.spins() == spins) followers.push_back({f.node, f.leader});
+    return followers;
+  };
+  CHECK(led({}, {bottom, right}, {}, true) == Pairs{{1, 3}, {2, 3}, {6, 3}, {9, 3}});
+  CHECK(led({}, {bottom, right}, {}, false).empty());
+  CHECK(led({}, {bottom, right, top}, {}, true) == Pairs{{1, 3}, {2, 3}, {6, 3}, {7, 3}, {8, 3}});
+  CHECK(led({}, {bottom, right, top}, {}, false) == Pairs{{9, 3}});
+  CHECK(led({}, {top, bottom, right, left}, {7, 8}, true) == Pairs{{2, 7}, {4, 7}, {6, 7}, {8, 7}});
+  CHECK(led({}, {top, bottom, right, left}, {7, 8}, false) == Pairs{{1, 7}, {3, 7}, {9, 7}});
+  // a piece on the left leads the three others; its own nodes do not rotate by themselves
+  const std::vector<Follower> piece{{1, 4}, {7, 4}};
+  CHECK(led(piece, {bottom, right, top}, {}, true) == Pairs{{2, 4}, {6, 4}, {8, 4}});
+  CHECK(led(piece, {bottom, right, top}, {}, false) == Pairs{{1, 4}, {3, 4}, {7, 4}, {9, 4}});
+  // parts of one line
+  const HingeLine more{{9, 10}, y, "s.yaml:7: joints.e", true, "ground"};
+  CHECK(led({}, {right, more}, {}, true) == Pairs{{3, 9}, {6, 9}, {10, 9}});
+  // a line of another holder pivots about a node of the rim, which has no such rotation
+  const HingeLine flap{{1, 4, 7}, y, "s.yaml:8: joints.f", false, "body flap"};
   std::vector<std::string> left_out;
-  CHECK(with_lines({}, {first, second}, {}, &left_out).empty());  // that stand at an angle
-  CHECK(left_out == std::vector<std::string>{first.where, second.where});
-  CHECK(led({}, {first, along}, {}) == Pairs{{1, 3}, {2, 3}, {6, 3}, {7, 3}});
+  CHECK(with_lines({}, {bottom, right, flap}, {}, &left_out).size() == 2);
+  CHECK(left_out == std::vector<std::string>{right.where, bottom.where});
+  HingeLine lower = bottom, side = right;
+  lower.held = side.held = false, lower.holder = side.holder = "body hub";
+  CHECK_THROWS_AS(with_lines({}, {lower, side, flap}, {}), floe::InputError);
 }
