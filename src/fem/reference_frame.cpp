@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floe/fem/held_frame.h"
+#include "floe/fem/joint_frame.h"
 
 namespace floe::fem {
 
@@ -46,8 +47,8 @@ int rank_of(const Eigen::MatrixXd& rows) {
   return static_cast<int>((svd.singularValues().array() > 1e-9).count());
 }
 
-/// (f' Phi_r)^-1. @throws InputError  a rigid motion is free
-void invert(const Structure& structure, ReferenceFrame& frame) {
+/// (f' Phi_r)^-1 of the frame's functionals. @throws InputError  they leave a rigid motion free
+void set_inverse(const Structure& structure, ReferenceFrame& frame) {
   const int r = structure.rigid_motion_count();
   Eigen::MatrixXd values(r, r);
   for (int i = 0; i < r; ++i)
@@ -87,7 +88,7 @@ ReferenceFrame reference_frame(const Structure& structure, ReferenceFrame::Kind 
     for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
     std::sort(frame.conditions.begin(), frame.conditions.end());
   }
-  invert(structure, frame);
+  set_inverse(structure, frame);
   return frame;
 }
 
@@ -107,7 +108,7 @@ ReferenceFrame held_frame(const Structure& structure, const Conditions& dofs) {
   std::sort(frame.conditions.begin(), frame.conditions.end());
   for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
   if (chosen.rows() < rows.cols()) throw InputError("the reference conditions leave a rigid motion of the body free");
-  invert(structure, frame);
+  set_inverse(structure, frame);
   return frame;
 }
 
@@ -188,6 +189,65 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
   }
   std::sort(result.statics.begin(), result.statics.end());
   return result;
+}
+
+ReferenceFrame joint_frame(const Structure& structure, const ReferenceFrame& frame, const Conditions& held) {
+  const int motions = structure.rigid_motion_count(), d = structure.dimension();
+  const PetscInt n = structure.dofs_per_node;
+  const double length = extent(structure);
+  const Eigen::MatrixXd rows = rigid_rows(structure, frame, held, length);  // of motions with rotations times length
+  Eigen::MatrixXd seen(motions, 0), free = Eigen::MatrixXd::Identity(motions, motions);
+  if (!held.empty()) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
+    const int rank = static_cast<int>((svd.singularValues().array() > 1e-9).count());
+    seen = svd.matrixV().leftCols(rank), free = svd.matrixV().rightCols(motions - rank);
+  }
+  ReferenceFrame joints;
+  joints.kind = ReferenceFrame::Kind::mean_axis;
+  joints.rigid = rigid_motions(structure);
+  for (Eigen::Index j = 0; j < seen.cols(); ++j) {
+    const Eigen::VectorXd weights = rows * seen.col(j);
+    joints.functionals.push_back(field(structure));
+    Vec f = joints.functionals.back();
+    PetscInt first = 0, end = 0;
+    check(VecGetOwnershipRange(f, &first, &end));
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (held[i] >= first && held[i] < end)
+        check(VecSetValue(f, held[i], weights[static_cast<Eigen::Index>(i)] * (held[i] % n >= d ? length : 1),
+                          INSERT_VALUES));
+    check(VecAssemblyBegin(f));
+    check(VecAssemblyEnd(f));
+  }
+  free.bottomRows(motions - d) /= length;
+  const petsc::MatHandle M = mass(structure, {});
+  const petsc::VecHandle rigid = field(structure);
+  for (Eigen::Index j = 0; j < free.cols(); ++j) {
+    check(VecSet(rigid, 0));
+    add(rigid, free.col(j), joints.rigid);
+    joints.functionals.push_back(field(structure));
+    check(MatMult(M, rigid, joints.functionals.back()));
+  }
+  set_inverse(structure, joints);
+  return joints;
+}
+
+Eigen::MatrixXd mass_seen(const Structure& structure, const ReferenceFrame& joints,
+                          const std::vector<petsc::VecHandle>& V) {
+  const petsc::MatHandle M = mass(structure, {});
+  const petsc::VecHandle force = field(structure);
+  std::vector<petsc::VecHandle> vibrations;
+  for (const petsc::VecHandle& column : V) {
+    vibrations.push_back(field(structure));
+    check(VecCopy(column, vibrations.back()));
+    to_frame(joints, vibrations.back());
+  }
+  const auto k = static_cast<Eigen::Index>(V.size());
+  Eigen::MatrixXd products(k, k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    check(MatMult(M, vibrations[j], force));
+    products.col(j) = dots(force, vibrations);
+  }
+  return 0.5 * (products + products.transpose());
 }
 
 }  // namespace floe::fem

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "floe/dynamics/damping.h"
 #include "floe/dynamics/floating_body.h"
 
 namespace floe::reference {
@@ -59,7 +60,7 @@ NodeCoordinates::NodeCoordinates(dynamics::Coordinates& coordinates, const fem::
 std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structure& structure,
                                                               const fem::ReferenceFrame& reference,
                                                               const NodeCoordinates& nodes, int frame, int multipliers,
-                                                              ElasticForce force, Rayleigh damping) {
+                                                              ElasticForce force, double viscosity) {
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   const bool mean_axis = reference.kind == fem::ReferenceFrame::Kind::mean_axis;
   std::vector<Eigen::VectorXd> rigid;
@@ -75,9 +76,11 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
     body::Elasticity elasticity = fem::elasticity(maps, V);
     if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);
     const body::PlanarInertia inertia = body::planar(fem::inertia(maps, V));
-    Eigen::MatrixXd C;
-    if (damping.mass != 0 || damping.stiffness != 0)
-      C = damping.mass * inertia.M + damping.stiffness * elasticity.linear_stiffness();
+    if (viscosity != 0) {
+      std::vector<int> elastic = with_frame(frame, free, nodes);
+      elastic.erase(elastic.begin(), elastic.begin() + 3);
+      terms.push_back(std::make_unique<dynamics::StrainRateDamping>(std::move(elastic), elasticity, viscosity));
+    }
     stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
     if (mean_axis) {
       Eigen::MatrixXd rows(3, static_cast<Eigen::Index>(all.size()));
@@ -87,8 +90,8 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
       for (int i = 0; i < 3; ++i) coordinates.push_back(multipliers + i);
       terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
     }
-    terms.push_back(std::make_unique<dynamics::FloatingBody>(with_frame(frame, free, nodes), inertia,
-                                                             std::move(elasticity), std::move(C)));
+    terms.push_back(
+        std::make_unique<dynamics::FloatingBody>(with_frame(frame, free, nodes), inertia, std::move(elasticity)));
   }
   for (PetscInt dof : reference.conditions) {
     const PetscInt local = dof - dofs * structure.mesh.first_node;

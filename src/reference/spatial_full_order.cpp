@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "floe/dynamics/damping.h"
+
 namespace floe::reference {
 namespace {
 
@@ -76,7 +78,7 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem
 
 std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
     const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
-    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, Rayleigh damping) {
+    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity) {
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   const bool mean_axis = reference.kind == fem::ReferenceFrame::Kind::mean_axis;
   std::vector<Eigen::VectorXd> rigid;
@@ -89,10 +91,8 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
     body::Elasticity elasticity = fem::elasticity(maps, free.V);
     if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);
     const body::Inertia inertia = inertia_of(structure, cell, maps, free.V);
-    Eigen::MatrixXd C;
-    if (damping.mass != 0 || damping.stiffness != 0)
-      C = damping.mass * (inertia.M[0][0] + inertia.M[1][1] + inertia.M[2][2]) +
-          damping.stiffness * elasticity.linear_stiffness();
+    if (viscosity != 0)
+      terms.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, viscosity));
     if (mean_axis) {
       const std::vector<int> all = structure.cell_dofs(cell);
       Eigen::MatrixXd rows(6, free.V.cols());
@@ -103,8 +103,7 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
       terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
     }
     terms.push_back(std::make_unique<dynamics::SpatialBody>(behind_frame(frame, free.coordinates), frame.attitude,
-                                                            body::spatial(inertia), std::move(elasticity),
-                                                            std::move(C)));
+                                                            body::spatial(inertia), std::move(elasticity)));
   }
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
   for (PetscInt dof : held) {

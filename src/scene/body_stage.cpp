@@ -17,22 +17,21 @@ using petsc::check;
 
 namespace {
 
-/// C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)' + alpha V'MV + beta V'KV.
+/// Modal: C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)'.
 ///
 /// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
 /// the frame, phi_i'K phi_i = omega_i^2.
-Eigen::MatrixXd damping_matrix(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
-  const DampingSpec& spec = body.spec.damping;
+Eigen::MatrixXd modal_damping(const PreparedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
+  const std::vector<double>& ratios = body.spec.damping.modal;
   const int k = reduced.body.coordinates();
-  if (spec.mass == 0 && spec.stiffness == 0 && spec.modal.empty()) return {};
+  if (ratios.empty()) return {};
   const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
-  Eigen::MatrixXd C = spec.stiffness * K;
-  C.diagonal().array() += spec.mass;
-  for (std::size_t i = 0; i < std::min(spec.modal.size(), modes.omega.size()); ++i) {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(k, k);
+  for (std::size_t i = 0; i < std::min(ratios.size(), modes.omega.size()); ++i) {
     Eigen::VectorXd phi(k);
     check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
     const Eigen::VectorXd force = K * phi;
-    C += 2 * spec.modal[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
+    C += 2 * ratios[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
   }
   return C;
 }
@@ -161,7 +160,7 @@ void put_on(const PreparedBody& body, std::shared_ptr<reduction::Basis> basis, c
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
   if (body.spec.reduction.linear) reduced.body.elasticity = body::linearised(reduced.body.elasticity);
-  reduced.damping = damping_matrix(body, reduced, modes);
+  reduced.damping = modal_damping(body, reduced, modes);
   reduced.report.columns = reduced.basis->columns;
   reduced.report.origins = reduced.basis->origins;
   reduced.report.basis = reduced.basis;

@@ -52,7 +52,7 @@ reduction::DerivativeColumns derivatives_of(const PreparedBody& body, const Stag
 void end_stage(const PreparedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives,
                ReducedBody& reduced);
 
-/// The body on a basis, with its damping; `reduced` gets all but statics and what the report knows of modes.
+/// The body on a basis, with its modal damping; `reduced` gets all but statics and what the report knows of modes.
 /// Collective.
 void put_on(const PreparedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
             ReducedBody& reduced);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 
 #include "build_redundant.h"
+#include "damping.h"
 #include "floe/dynamics/floating_body.h"
 #include "floe/dynamics/start.h"
 #include "floe/petsc/values.h"
@@ -76,6 +78,8 @@ void Assembly::add_coordinates() {
         coordinates_.add_angle(slot.nodes->first() + 3 * static_cast<int>(node) + 2, false);
     if (formulation_ != Formulation::cfr && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(3, true);
+    if (formulation_ != Formulation::cfr)
+      slot.damping = full_order_damping(prepared_, index, body.frame.conditions, coordinates_);
   }
   joint_rows_ = standing_rows(prepared_, reduced_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
@@ -99,9 +103,11 @@ void Assembly::add_body_terms(int b) {
     const int k = reduced_[b].body.coordinates();
     for (int i = 0; i < 3; ++i) coordinates.push_back(slot.frame + i);
     for (int i = 0; i < k; ++i) coordinates.push_back(slot.elastic + i);
-    if (owner_)
-      terms_.push_back(std::make_unique<dynamics::FloatingBody>(coordinates, body::planar(reduced_[b].body.inertia),
-                                                                reduced_[b].body.elasticity, reduced_[b].damping));
+    auto dampers = damping_terms(prepared_, b, reduced_[b], {coordinates.begin() + 3, coordinates.end()});
+    if (!owner_) return;
+    terms_.push_back(std::make_unique<dynamics::FloatingBody>(coordinates, body::planar(reduced_[b].body.inertia),
+                                                              reduced_[b].body.elasticity));
+    std::move(dampers.begin(), dampers.end(), std::back_inserter(terms_));
     return;
   }
   if (!damping.modal.empty())
@@ -111,7 +117,10 @@ void Assembly::add_body_terms(int b) {
     auto more = reference::full_order_terms(
         body.structure, body.frame, *slot.nodes, slot.frame, slot.multipliers,
         formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman,
-        {damping.mass, damping.stiffness});
+        damping.stiffness);
+    if (slot.damping)
+      for (auto& term : reference::mass_damping_terms(body.structure, *slot.damping, *slot.nodes))
+        more.push_back(std::move(term));
     for (auto& term : more) terms_.push_back(std::move(term));
     return;
   }
@@ -233,6 +242,7 @@ Model Assembly::model() {
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
     model.bodies.push_back(std::move(report));
   }
+  model.warnings = damping_warnings(prepared_);
   set_start(model);
   Eigen::VectorXd q;
   {

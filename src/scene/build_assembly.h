@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "build_reduce.h"
 #include "floe/reference/full_order.h"
+#include "floe/reference/mass_damping.h"
 
 namespace floe::scene {
 
@@ -17,9 +20,10 @@ class Assembly {
 
  private:
   struct Slot {
-    int frame = -1;        // local index of (R_x, R_y, theta); -1: none (corotational)
-    int elastic = -1;      // local index of reduced coordinates
-    int multipliers = -1;  // of the mean axes
+    int frame = -1;                                      // local index of (R_x, R_y, theta); -1: none (corotational)
+    int elastic = -1;                                    // local index of reduced coordinates
+    int multipliers = -1;                                // of the mean axes
+    std::optional<reference::MassDamping> damping = {};  // at full order
     std::unique_ptr<reference::NodeCoordinates> nodes;
   };
   bool compact(int body) const;  // described by a ReducedBody

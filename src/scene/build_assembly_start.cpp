@@ -1,5 +1,6 @@
 #include "build_assembly.h"
 #include "build_start.h"
+#include "damping.h"
 #include "floe/petsc/values.h"
 #include "start_shape.h"
 
@@ -42,6 +43,7 @@ void Assembly::set_start(Model& model) {
     const PreparedBody& body = prepared_.bodies[b];
     const Slot& slot = slots_[b];
     if (!compact(static_cast<int>(b))) set_full_order_start(static_cast<int>(b), model.U, model.V);
+    if (slot.damping) set_rigid_part(*slot.damping, body, coordinates_, owner_, model.U, model.V);
     Eigen::VectorXd shape, rate;
     const int k = compact(static_cast<int>(b)) ? reduced_[b].body.coordinates() : 0;
     shape.setZero(k), rate.setZero(k);

@@ -7,6 +7,7 @@
 
 #include "build_start.h"
 #include "floe/scene/places.h"
+#include "hold_by_joint.h"
 #include "prepare_reduced.h"
 #include "prepare_spatial.h"
 
@@ -176,6 +177,13 @@ int body_index(const Scene& scene, const std::string& name) {
 }
 
 }  // namespace
+
+void hold_place_by_joint(const Prepared& prepared, std::size_t joint, const PreparedPlace& place,
+                         fem::Conditions& held) {
+  const PreparedBody& body = prepared.bodies[place.body];
+  if (body.structure.dimension() == 3) return hold_spatial_place_by_joint(prepared, joint, place, held);
+  hold_by_joint(prepared.scene.joints[joint], place.node, body.spec.initial.angle + body.frame_angle, held);
+}
 
 Prepared prepare(const Scene& scene, MPI_Comm comm) {
   if (scene.dimension == 3) return prepare_spatial(scene, comm);

@@ -9,7 +9,7 @@ namespace floe::scene {
 struct ReducedBody {
   body::FlexibleBody body;
   std::shared_ptr<reduction::Basis> basis;
-  Eigen::MatrixXd damping;
+  Eigen::MatrixXd damping;    ///< modal, or all of a body from a file; k x k, or empty
   Eigen::MatrixXd of_fields;  ///< coordinates of the generating fields from those of V; ranking's linear run only
   BodyReport report;
   std::shared_ptr<const reduction::Statics> statics = {};  ///< if they were to be kept

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "build_space_rows.h"
+#include "damping.h"
+#include "floe/dynamics/damping.h"
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/start.h"
 #include "floe/math/rotation.h"
@@ -189,6 +192,7 @@ void SpaceAssembly::add_coordinates() {
     slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6);
     if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(6, true);
+    slot.damping = full_order_damping(prepared_, index, held(index), coordinates_);
   }
   for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
     coordinates_.belongs_to("joint " + prepared_.scene.joints[j].name);
@@ -217,22 +221,29 @@ void SpaceAssembly::add_body(int b) {
   const PreparedBody& body = prepared_.bodies[b];
   const Slot& slot = slots_[b];
   if (compact(b)) {
-    if (!owner_) return;
     const ReducedBody& reduced = reduced_[b];
+    const std::vector<int> coordinates = coordinates_of(b);
+    auto damping =
+        damping_terms(prepared_, b, reduced, {coordinates.end() - reduced.body.coordinates(), coordinates.end()});
+    if (!owner_) return;
     const body::Inertia& in = reduced.body.inertia;
     if (!slot.still)
-      terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates_of(b), slot.attitude, body::spatial(in),
-                                                               reduced.body.elasticity, reduced.damping));
+      terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates, slot.attitude, body::spatial(in),
+                                                               reduced.body.elasticity));
     else if (reduced.body.coordinates() > 0)
-      terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates_of(b), in.M[0][0] + in.M[1][1] + in.M[2][2],
-                                                            reduced.body.elasticity, reduced.damping));
+      terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
+                                                            reduced.body.elasticity));
+    std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
     return;
   }
+  if (slot.damping)
+    for (auto& term : reference::mass_damping_terms(body.structure, *slot.damping, *slot.nodes))
+      terms_.push_back(std::move(term));
   if (slot.still) return add_still_cells(b);
   const auto force =
       formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
   for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, held(b), *slot.nodes, frame_of(b),
-                                                        force, {body.spec.damping.mass, body.spec.damping.stiffness}))
+                                                        force, body.spec.damping.stiffness))
     terms_.push_back(std::move(term));
 }
 
@@ -240,7 +251,7 @@ void SpaceAssembly::add_body(int b) {
 void SpaceAssembly::add_still_cells(int b) {
   const PreparedBody& body = prepared_.bodies[b];
   const fem::Structure& structure = body.structure;
-  const DampingSpec& damping = body.spec.damping;
+  const double beta = body.spec.damping.stiffness;
   double stiffest = 1e-300;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
     const fem::ElementMaps maps = structure.maps(cell);
@@ -251,10 +262,8 @@ void SpaceAssembly::add_still_cells(int b) {
     if (formulation_ == Formulation::lffr) elasticity = body::linearised(elasticity);
     const Eigen::MatrixXd M =
         free.V.transpose() * reference::with_drilling_inertia(structure, cell, maps.mass_matrix()) * free.V;
-    Eigen::MatrixXd C;
-    if (damping.mass != 0 || damping.stiffness != 0)
-      C = damping.mass * M + damping.stiffness * elasticity.linear_stiffness();
-    terms_.push_back(std::make_unique<dynamics::HeldBody>(free.coordinates, M, std::move(elasticity), std::move(C)));
+    if (beta != 0) terms_.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, beta));
+    terms_.push_back(std::make_unique<dynamics::HeldBody>(free.coordinates, M, std::move(elasticity)));
   }
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
   for (PetscInt dof : held(b)) {
@@ -297,6 +306,7 @@ void SpaceAssembly::set_start(Model& model) {
     const PreparedBody& body = prepared_.bodies[b];
     set_deformation(static_cast<int>(b), body.deformation, model.U);
     set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
+    if (slots_[b].damping) set_rigid_part(*slots_[b].damping, body, coordinates_, owner_, model.U, model.V);
   }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PreparedBody& body = prepared_.bodies[b];
@@ -321,6 +331,7 @@ Model SpaceAssembly::model() {
   Model model;
   model.formulation = formulation_;
   if (prepared_.extent > 0) model.extent = prepared_.extent;
+  model.warnings = damping_warnings(prepared_);
   add_coordinates();
   set_start(model);
   for (std::size_t b = 0; b < slots_.size(); ++b) {

@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "build_reduce.h"
 #include "floe/dynamics/spatial_joint.h"
+#include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"
 
 namespace floe::scene {
@@ -21,10 +24,11 @@ class SpaceAssembly {
  private:
   struct Slot {
     bool still = false;
-    std::shared_ptr<dynamics::Attitude> attitude;  // none: stands still
-    int frame = -1;                                // local index of R, x; -1: stands still
-    int elastic = -1;                              // local index of reduced coordinates
-    int multipliers = -1;                          // of the mean axes
+    std::shared_ptr<dynamics::Attitude> attitude;        // none: stands still
+    int frame = -1;                                      // local index of R, x; -1: stands still
+    int elastic = -1;                                    // local index of reduced coordinates
+    int multipliers = -1;                                // of the mean axes
+    std::optional<reference::MassDamping> damping = {};  // at full order
     std::unique_ptr<reference::NodeCoordinates> nodes;
   };
   /// A joint with rows, or a spring, ready to become a term.

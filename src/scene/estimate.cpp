@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "combination.h"
+#include "damping.h"
 #include "estimate_columns.h"
 #include "estimate_lift.h"
 #include "estimate_parts.h"
@@ -78,6 +79,7 @@ class Residuals {
       const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
       for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
     }
+    if (body.spec.damping.mass != 0) add_mass_damping(b, state, load);
     VectorXd along = products(*reduced.basis, load);
     if (!body.spec.damping.modal.empty()) {
       const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
@@ -91,6 +93,19 @@ class Residuals {
     unbalanced_ = std::max(unbalanced_, along.norm());
     forces_ = std::max(forces_, (reduced.body.elasticity.linear_stiffness() * eta).norm());
     loads_[b].push_back({std::move(load), eta});
+  }
+
+  /// load -= alpha P'MP q', which the full-order terms leave to this (full_order()).
+  void add_mass_damping(int b, const State& state, Vec load) {
+    const PreparedBody& body = offline_.prepared.bodies[b];
+    const BodyReport& report = reduced_.bodies[b];
+    const fem::ReferenceFrame joints = damping_frame(offline_.prepared, b);
+    const petsc::VecHandle rate = fem::field(body.structure), force = fem::field(body.structure);
+    combine(*offline_.reduced[b].basis, state.v.segment(report.first_elastic, report.columns), rate);
+    fem::to_frame(joints, rate);
+    check(MatMult(fem::mass(body.structure, {}), rate, force));
+    fem::balance(joints, force);
+    check(VecAXPY(load, -body.spec.damping.mass, force));
   }
 
   const Model& reduced_;

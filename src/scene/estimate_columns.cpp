@@ -112,9 +112,7 @@ ReducedBody with_columns(const PreparedBody& body, const ReducedBody& reduced, c
   more.report.basis = more.basis;
   more.report.columns = more.basis->columns;
   if (reduced.damping.size() > 0) {
-    const DampingSpec& spec = body.spec.damping;
-    more.damping = spec.stiffness * more.body.elasticity.linear_stiffness();
-    more.damping.diagonal().array() += spec.mass;
+    more.damping.setZero(more.body.coordinates(), more.body.coordinates());
     more.damping.topLeftCorner(k, k) = reduced.damping;
   }
   return more;

@@ -35,13 +35,18 @@ std::string without_estimate(const Offline& offline) {
 Model full_order(Offline& offline) {
   std::vector<ReducedBody> compact(offline.reduced.size());
   std::vector<std::vector<double>> modal;
+  std::vector<double> mass;
   for (std::size_t b = 0; b < compact.size(); ++b) {
     PreparedBody& body = offline.prepared.bodies[b];
     if (!has_structure(body)) compact[b] = offline.reduced[b];
     modal.push_back(std::exchange(body.spec.damping.modal, {}));
+    mass.push_back(std::exchange(body.spec.damping.mass, 0));
   }
   const auto restore = [&] {
-    for (std::size_t b = 0; b < modal.size(); ++b) offline.prepared.bodies[b].spec.damping.modal = modal[b];
+    for (std::size_t b = 0; b < modal.size(); ++b) {
+      DampingSpec& damping = offline.prepared.bodies[b].spec.damping;
+      damping.modal = modal[b], damping.mass = mass[b];
+    }
   };
   try {
     Model model = assemble(offline.prepared, Formulation::nlffr, compact);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "build_reduce.h"
+#include "damping.h"
 #include "floe/math/nearest.h"
 #include "floe/output/claim.h"
 #include "floe/petsc/values.h"
@@ -147,7 +148,9 @@ output::ReducedBodyFile file_of(const Prepared& prepared, const PreparedBody& bo
   file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
   file.cells = body.structure.mesh.cell_count;
   file.body = reduced.body;
-  file.damping = reduced.damping;
+  for (std::size_t b = 0; b < prepared.bodies.size(); ++b)
+    if (prepared.bodies[b].spec.name == body.spec.name)
+      file.damping = linear_damping(prepared, static_cast<int>(b), reduced);
   file.places = places_of(prepared, body, *reduced.basis);
   file.columns = columns_of(report);
   file.omega = report.omega, file.residual = report.residual;
@@ -179,6 +182,18 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const Prepared prepared = prepare(part, comm);
   const PreparedBody& body = prepared.bodies[0];
   warnings = body.notices;
+  if (body.spec.damping.stiffness != 0)
+    warnings.push_back(fmt::format(
+        "body {}: a file holds damping.stiffness as C = beta K of the undeformed body, which damps foreshortening, "
+        "too, "
+        "where deflections are large (beyond a few percent of the length); keep the body's mesh in the scene for these",
+        body.spec.name));
+  if (body.spec.damping.mass != 0 && scene.bodies.size() > 1)
+    warnings.push_back(
+        fmt::format("body {}: a file holds damping.mass as the body's joints to the ground see it; joints to the other "
+                    "{} bodies of the "
+                    "scene do not count there",
+                    body.spec.name, scene.bodies.size() - 1));
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(
       prepared, Formulation::vm_md,

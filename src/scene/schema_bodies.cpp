@@ -161,11 +161,13 @@ const SchemaSection modes_section{
 
 const SchemaSection damping_section{
     "damping",
-    "Linear, of the elastic coordinates.",
+    "Of vibrations: rigid motions that the joints leave free are not damped.",
     "stiffness: 1e-4\nmodal: [0.01, 0.01]",
     {
-        {"mass", Type::number, "1/s", "0", "Rayleigh alpha", nonnegative},
-        {"stiffness", Type::number, "s", "0", "Rayleigh beta", nonnegative},
+        {"mass", Type::number, "1/s", "0",
+         "alpha: ratios alpha/(2 omega) of the modes of the body as its joints hold it", nonnegative},
+        {"stiffness", Type::number, "s", "0", "beta: Kelvin-Voigt damping of the strain rates, ratios beta omega/2",
+         nonnegative},
         {"modal", Type::numbers, "", "[]", "damping ratios of the first modes, with an interface those that hold it",
          nonnegative},
     }};

@@ -47,11 +47,11 @@ probes: {tip: {at: beam.end}}
               Formulation::vm_md);
 }
 
-/// ln(x_0 / x_n) / sqrt((n pi)^2 + ln^2) over the extremes of `x` from t = 1 on: the ratio of a decaying oscillation.
-double ratio_of_decay(const std::vector<double>& t, const std::vector<double>& x) {
+/// ln(x_0 / x_n) / sqrt((n pi)^2 + ln^2) over the extremes of `x` after a time: the ratio of a decaying oscillation.
+double ratio_of_decay(const std::vector<double>& t, const std::vector<double>& x, double from = 1) {
   std::vector<double> extremes;
   for (std::size_t i = 1; i + 1 < x.size(); ++i)
-    if (t[i] > 1 && std::abs(x[i]) > std::abs(x[i - 1]) && std::abs(x[i]) >= std::abs(x[i + 1]))
+    if (t[i] > from && std::abs(x[i]) > std::abs(x[i - 1]) && std::abs(x[i]) >= std::abs(x[i + 1]))
       extremes.push_back(std::abs(x[i]));
   REQUIRE(extremes.size() > 4);
   const double logarithm = std::log(extremes.front() / extremes.back());
@@ -70,6 +70,93 @@ void check_decay(const History& at, double ratio) {
   CHECK(worst < 5e-4);
 }
 
+/// A beam with L = EI = rhoA = 1 in the plane, or in space (a rectangle that bends in x, y).
+std::string unit_beam(int dimension, const std::string& rest) {
+  const double height = 0.04, E = 12 / std::pow(height, 4), rho = 1 / (height * height);
+  const bool space = dimension == 3;
+  return fill(
+      R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0$z], to: [1, 0$z], elements: 10}}
+    $section$rest)yaml",
+      {{"rest", rest},
+       {"section", space ? fmt::format("section: {{shape: rectangle, width: {}, height: {}, orientation: [0, 0, "
+                                       "1]}}\n    material: {{E: {}, nu: 0.3, rho: {}}}",
+                                       height, height, number(E), number(rho))
+                         : "section: {EA: 7500, EI: 1, rhoA: 1}"},
+       {"z", space ? ", 0" : ""}});
+}
+
+struct Held {
+  std::string name, shape, joint;  ///< its first mode, amplitude about 1
+  double omega;
+};
+
+/// First modes of beams of unit constants (Blevins, Formulas for natural frequency and mode shape, table 8-1).
+std::vector<Held> ways_to_hold(int dimension) {
+  const std::string axis = dimension == 3 ? ", axis: [0, 0, 1]" : "";
+  const double b = 1.875104068711961, c = 3.926602312047919, f = 4.730040744862704;
+  const double s_b = (std::cosh(b) + std::cos(b)) / (std::sinh(b) + std::sin(b)),
+               s_f = (std::cosh(f) - std::cos(f)) / (std::sinh(f) - std::sin(f));
+  const auto shape = [](const std::string& text, double k, double s) {
+    return fill(text, {{"k", number(k)}, {"s", number(s)}});
+  };
+  return {{"clamped", shape("cosh($k*x) - cos($k*x) - $s*(sinh($k*x) - sin($k*x))", b, s_b),
+           "{type: fixed, between: [ground, beam.start]}", b * b},
+          {"hinged", shape("sin($k*x) + $s*sinh($k*x)", c, std::sin(c) / std::sinh(c)),
+           "{type: revolute, between: [ground, beam.start]" + axis + "}", c * c},
+          {"free", shape("cosh($k*x) + cos($k*x) - $s*(sinh($k*x) + sin($k*x))", f, s_f), "", f * f}};
+}
+
+/// Some ten half periods of the first mode, with alpha = 0.1 omega.
+History vibrating(int dimension, const Held& held, const std::string& frame, Formulation formulation) {
+  const std::string z = dimension == 3 ? ", 0" : "";
+  return move(unit_beam(dimension, fill(R"yaml(
+    frame: $frame
+    damping: {mass: $alpha}
+    reduction: {modes: $modes, derivatives: none, attachment: none}
+    initial: {deformation: [0, "1e-5*($shape)"$z]}
+$joints
+motion: {end: $end, step: $step, spectral_radius: 0.99}
+probes: {tip: {at: beam.end, quantity: position}}
+)yaml",
+                                        {{"frame", frame},
+                                         {"alpha", number(0.1 * held.omega)},
+                                         {"modes", dimension == 3 ? "6" : "3"},
+                                         {"shape", held.shape},
+                                         {"z", z},
+                                         {"joints", held.joint.empty() ? "" : "joints: {root: " + held.joint + "}"},
+                                         {"end", number(33 / held.omega)},
+                                         {"step", number(0.02 / held.omega)}})),
+              formulation);
+}
+
+/// Of a cantilever with EI = 1.67, bent to a third of its length and let go: the last extreme of its tip, a mean over
+/// the times when frames differ little.
+double last_extreme(const std::string& frames, const std::string& modes, Formulation formulation) {
+  const History at = move(fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 20}}
+    section: {EA: 2e4, EI: 1.67, rhoA: 0.16}
+    damping: {stiffness: 1e-3}
+    frames: $frames
+    reduction: {modes: $modes, derivatives: all}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "t < 1 ? 2*(1 - cos(pi*t))/2 : 0"]}}
+motion: {end: 3, step: 2e-3}
+probes: {tip: {at: beam.end}}
+)yaml",
+                               {{"frames", frames}, {"modes", modes}}),
+                          formulation);
+  const std::vector<double>& y = at["tip.y"];
+  double last = 0;
+  for (std::size_t i = 1; i + 1 < y.size(); ++i)
+    if (y[i] < y[i - 1] && y[i] <= y[i + 1]) last = -y[i];
+  return last;
+}
+
 }  // namespace
 
 TEST_CASE("damping: decay of one mode, modal") { check_decay(plucked(Formulation::vm_md, "modal: [0.03]"), 0.03); }
@@ -85,6 +172,91 @@ TEST_CASE("damping: a mode's ratio is the same in every frame") {
     const History tip = let_go(frame);
     CHECK(ratio_of_decay(tip.t, tip["tip.y"]) == Approx(0.02).epsilon(0.01));
   }
+}
+
+// z = alpha / (2 w) of the modes of the body as its joints hold it, whatever frame measures the deformation.
+TEST_CASE("damping: mass-proportional, the same in every frame and formulation") {
+  const int dimension = GENERATE(2, 3);
+  for (const Held& held : ways_to_hold(dimension))
+    for (const std::string frame : {"pinned", "{type: clamped, at: start}", "mean-axis"})
+      for (const Formulation formulation :
+           {Formulation::vm_md, Formulation::vm, Formulation::nlffr, Formulation::lffr}) {
+        INFO(dimension << " " << held.name << " " << frame << " " << name_of(formulation));
+        const History at = vibrating(dimension, held, frame, formulation);
+        CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.004));
+      }
+}
+
+// The hub weighs a million times the beam: as if it were the ground.
+TEST_CASE("damping: mass-proportional, of a beam on a body that moves") {
+  const Held held = ways_to_hold(2).front();
+  const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr);
+  const std::string frame = GENERATE("pinned", "mean-axis");
+  const History at = move(unit_beam(2, fill(R"yaml(
+    frame: $frame
+    damping: {mass: 0.35}
+    reduction: {modes: 10, derivatives: all}
+    initial: {velocity: [3, 0], deformation: [0, "1e-5*($shape)"]}
+  hub:
+    rigid: true
+    mesh: {line: {from: [-1, 0], to: [0, 0], elements: 1}}
+    section: {EA: 1, EI: 1, rhoA: 1e6}
+    initial: {velocity: [3, 0]}
+joints: {root: {type: fixed, between: [hub.end, beam.start]}}
+motion: {end: 9, step: 5e-3, spectral_radius: 0.99}
+probes: {tip: {at: beam.end, quantity: position}}
+)yaml",
+                                            {{"frame", frame}, {"shape", held.shape}})),
+                          formulation);
+  CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.35 / (2 * held.omega)).epsilon(0.01));
+  CHECK(at["tip.x"].back() == Approx(1 + 3 * 9).epsilon(1e-6));  // the flight is not damped
+}
+
+// alpha = 20/s would stop these motions within a tenth of a second.
+TEST_CASE("damping: rigid motions that joints leave free are not damped") {
+  const int dimension = GENERATE(2, 3);
+  const std::string frame = GENERATE("pinned", "mean-axis");
+  const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr);
+  const bool space = dimension == 3;
+  const std::string tail = R"yaml(
+    frame: $frame
+    damping: {mass: 20}
+    initial: {$start}
+    reduction: {modes: 4, derivatives: none}
+$more
+motion: {end: 1, step: 2e-3, spectral_radius: 0.99}
+probes: {tip: {at: beam.end, quantity: position}}
+)yaml";
+  INFO(dimension << " " << frame << " " << name_of(formulation));
+  const auto total = [](const dynamics::Energy& e) { return e.kinetic + e.elastic + e.potential; };
+  const History thrown =
+      move(unit_beam(dimension, fill(tail, {{"frame", frame},
+                                            {"start", space ? "velocity: [1, 2, 3], angular_velocity: [0, 0.01, 0.02]"
+                                                            : "velocity: [1, 2], angular_velocity: 0.02"},
+                                            {"more", ""}})),
+           formulation);
+  CHECK(total(thrown.energy.back()) == Approx(total(thrown.energy.front())).epsilon(1e-5));
+  const History swing = move(
+      unit_beam(dimension, fill(tail, {{"frame", frame},
+                                       {"start", space ? "angular_velocity: [0, 0, 0.1]" : "angular_velocity: 0.1"},
+                                       {"more", std::string("joints: {root: {type: revolute, between: [ground, "
+                                                            "beam.start]") +
+                                                    (space ? ", axis: [0, 0, 1]}}" : "}}")}})),
+      formulation);
+  CHECK(swing["tip.y"].back() == Approx(std::sin(0.1)).epsilon(1e-3));
+  CHECK(total(swing.energy.back()) == Approx(total(swing.energy.front())).epsilon(1e-3));
+}
+
+// Foreshortening is no strain and not damped: with C = beta K one frame gave a third of what four gave. The decay is
+// that of the linear mode, beta omega^2 / 2.
+TEST_CASE("damping: a large deflection decays alike in one frame and in several, reduced and at full order") {
+  const double one = last_extreme("1", "6", Formulation::vm_md), two = last_extreme("2", "4", Formulation::vm_md),
+               four = last_extreme("4", "3", Formulation::vm_md), full = last_extreme("1", "6", Formulation::nlffr);
+  CHECK(one == Approx(four).epsilon(0.01));
+  CHECK(two == Approx(four).epsilon(0.01));
+  CHECK(full == Approx(one).epsilon(0.002));
+  const double omega_squared = std::pow(1.875104068711961, 4) * 1.67 / 0.16;
+  CHECK(four == Approx(0.3648 * std::exp(-1e-3 * omega_squared / 2 * 1.93)).epsilon(0.03));
 }
 
 // alpha M + beta K: z = alpha / (2 w) + beta w / 2.

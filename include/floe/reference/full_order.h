@@ -31,21 +31,17 @@ class NodeCoordinates {
 
 enum class ElasticForce { von_karman, linear };
 
-/// Rayleigh damping C = mass * M + stiffness * K. [1/s], [s]
-struct Rayleigh {
-  double mass = 0, stiffness = 0;
-};
-
 /// Terms of one full-order body in its floating frame (formulations nlffr and lffr): one FloatingBody for each element,
 /// the equations that hold the frame's conditions, and for mean_axis the constraints Phi_r' M q = 0.
 ///
 /// @param frame        local index of (R_x, R_y, theta)
 /// @param multipliers  local index of three multipliers (mean_axis only)
+/// @param viscosity    beta of Kelvin-Voigt damping on the strain rates [s]
 /// Rank-local: each rank gets the terms of its own cells.
 std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structure& structure,
                                                               const fem::ReferenceFrame& reference,
                                                               const NodeCoordinates& nodes, int frame, int multipliers,
-                                                              ElasticForce force, Rayleigh damping);
+                                                              ElasticForce force, double viscosity = 0);
 
 /// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or [m] of line.
 ///

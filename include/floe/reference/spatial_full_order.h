@@ -31,11 +31,12 @@ struct SpatialFrame {
 /// Terms of one full-order body that floats in space (formulations nlffr and lffr): a SpatialBody for each element, the
 /// equations that hold the dofs of `held` at zero, and for mean_axis the constraints Phi_r' M q = 0.
 ///
-/// @param held  dofs that the frame holds, and those of nodes that follow others
+/// @param held       dofs that the frame holds, and those of nodes that follow others
+/// @param viscosity  beta of Kelvin-Voigt damping on the strain rates [s]
 /// Each rank gets the terms of its own cells. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
     const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
-    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, Rayleigh damping);
+    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity = 0);
 
 /// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or of line and area.
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,

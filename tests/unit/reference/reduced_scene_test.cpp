@@ -38,7 +38,7 @@ probes:
 const std::string rod = R"yaml(
     mesh: {polyline: {points: [[0, 0], [0.1, 0.1], [0.4, 0.1]], elements: [3, 9]}}
     section: {EA: 1e5, EI: 1, rhoA: 0.4, rhoI: 1e-5}
-    damping: {stiffness: 1e-5, modal: [$modal]}
+    damping: {modal: [$modal]}
     frame: {type: $frame}
     reduction: {modes: {count: 3, alone: 3}})yaml";
 

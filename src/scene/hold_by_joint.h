@@ -1,0 +1,14 @@
+#pragma once
+#include "build_prepare.h"
+
+namespace floe::scene {
+
+/// Appends the dofs of a body that a joint holds at one of its places, in frame axes, as far as dofs hold what it does;
+/// what the other side is does not matter. Collective.
+void hold_place_by_joint(const Prepared& prepared, std::size_t joint, const PreparedPlace& place,
+                         fem::Conditions& held);
+/// The same in space.
+void hold_spatial_place_by_joint(const Prepared& prepared, std::size_t joint, const PreparedPlace& place,
+                                 fem::Conditions& held);
+
+}  // namespace floe::scene
