@@ -25,6 +25,8 @@
 
 namespace floe::app {
 
+using nlohmann::ordered_json;
+
 namespace {
 
 std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
@@ -266,8 +268,11 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
   const bool estimated = result.estimate.none.empty();
-  const auto probes_estimate = [&](const std::string& column) {
-    return 100 * s["estimate"]["probes"][column.substr(0, column.rfind('.'))].get<double>();
+  const ordered_json step = s.contains("estimate") ? s["estimate"].value("step", ordered_json()) : ordered_json();
+  const bool knows_step = step.is_object() && step.contains("deformation");
+  const auto per_cent_of = [](const ordered_json& errors, const std::string& column) -> output::Cell {
+    const double error = 100 * errors["probes"][column.substr(0, column.rfind('.'))].get<double>();
+    return std::isfinite(error) ? output::Cell(error) : output::Cell("> 10000");
   };
   constexpr std::size_t shown = 20;  // a body that rests on a stop bounces many times
   std::size_t number = 0;
@@ -294,14 +299,20 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
     table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
                           result.series.columns[c].unit});
     if (!estimated) continue;
-    if (const double error = probes_estimate(result.series.columns[c].name); std::isfinite(error))
-      table.rows.back().emplace_back(error);
-    else
-      table.rows.back().emplace_back("> 10000");
+    const output::Cell reduction = per_cent_of(s["estimate"], result.series.columns[c].name);
+    if (!knows_step) {
+      table.rows.back().push_back(reduction);
+      continue;
+    }
+    const output::Cell of_step = per_cent_of(step, result.series.columns[c].name);
+    const double *one = std::get_if<double>(&reduction), *other = std::get_if<double>(&of_step);
+    table.rows.back().insert(table.rows.back().end(), {reduction, of_step});
+    table.rows.back().push_back(one && other ? output::Cell(*one + *other) : output::Cell("> 10000"));
   }
+  if (estimated && knows_step) table.columns.insert(table.columns.end(), {{"reduction", "%", 2}, {"step", "%", 2}});
   if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
-  if (plan.estimate) fmt::print("{}", estimate_words(result.estimate));
+  if (plan.estimate) fmt::print("{}{}", estimate_words(result.estimate), step_words(step, result.end));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

@@ -417,7 +417,7 @@ void Recorder::finish(const dynamics::IntegrationReport& report, const std::stri
   if (fault) std::rethrow_exception(fault);
 }
 
-void Recorder::conclude() {
+void Recorder::conclude(const ordered_json& step) {
   ordered_json& j = result_.summary;
   j.erase("assessment");
   j["warnings"] = result_.warnings;
@@ -425,6 +425,7 @@ void Recorder::conclude() {
     j["out_of_range"].push_back(
         {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
+  if (!step.is_null()) j["estimate"]["step"] = step;
   if (!folder_) return;
   output::write_summary(comm_, *folder_, j);
   if (!has_estimate() && j.dump(2) == written_) return;

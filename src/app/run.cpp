@@ -7,8 +7,10 @@
 #include <limits>
 
 #include "floe/dynamics/generalized_alpha.h"
+#include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "floe/petsc/together.h"
+#include "floe/scene/step_error.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -79,6 +81,33 @@ void check_range(const scene::Scene& scene, const scene::Model& model, const sce
   if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
 }
 
+/// What the step does, for the summary, by the motion with another step; warns where it does much. Collective.
+ordered_json step_error(const scene::Model& model, const scene::MotionStart& start, const scene::KeptMotion& kept,
+                        const dynamics::Integration& how, double took, MPI_Comm comm, RunResult& result) {
+  constexpr double limit = 0.01;
+  double times[2] = {took, scene::estimate_seconds(result.offline_seconds + result.motion_seconds)};
+  MPI_Bcast(times, 2, MPI_DOUBLE, 0, comm);
+  scene::StepError error;
+  const std::string why = petsc::failed_together(
+      comm, [&] { error = scene::estimate_step_error(model, start, kept, how, times[0], times[1]); });
+  if (!why.empty()) error.none = "with another step: " + why;
+  if (!error.none.empty()) return {{"none", error.none}};
+  ordered_json j{{"deformation", error.deformation}};
+  std::size_t worst = 0;
+  for (std::size_t p = 0; p < error.probes.size(); ++p) {
+    j["probes"][model.probes[p].name] = error.probes[p];
+    if (error.probes[p] > error.probes[worst]) worst = p;
+  }
+  j["by"] = error.halved ? "half the step" : "twice the step";
+  j["until"] = error.until;
+  j["seconds"] = error.seconds;
+  if (!error.probes.empty() && error.probes[worst] > limit)
+    result.warnings.push_back(fmt::format("motion.step {:.3g} s: its error in probe {} is {} (limit {}): take {:.2g} s",
+                                          how.step, model.probes[worst].name, math::percent(error.probes[worst]),
+                                          math::percent(limit), how.step * std::sqrt(limit / error.probes[worst])));
+  return j;
+}
+
 }  // namespace
 
 std::string label_of(const scene::Model& model) {
@@ -125,6 +154,9 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   how.events = scene::events_of(scene, model, end);
   how.kinks = scene::kinks_of(scene, end);
   how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
+  const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
+  std::optional<scene::MotionStart> start;
+  if (estimates && !plan.quiet) start = scene::start_of(model);
   const std::optional<dynamics::MotionState> from =
       plan.from ? std::optional(state_of(*plan.from)) : std::optional<dynamics::MotionState>();
   if (from) how.from = &*from;
@@ -188,7 +220,6 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   if (plan.keep_states) result.states = kept.states();
   if (plan.estimate && plan.from) result.estimate.none = "the run was taken up from a checkpoint";
   if (plan.estimate && !plan.from && changes_joints(scene)) result.estimate.none = "events change the joints";
-  const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
   const bool assesses = !fault && (estimates || plan.check_range);
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
@@ -201,6 +232,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to tell
   if (fault) std::rethrow_exception(fault);
   if (!assesses) return result;
+  ordered_json of_step;
   try {
     if (plan.check_range) check_range(scene, model, kept, comm, plan, result);
     if (estimates) {
@@ -209,12 +241,13 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
           model, kept,
           plan.estimate_seconds.value_or(
               scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
+      if (start) of_step = step_error(model, *start, kept, how, report.processor_seconds, comm, result);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());
     throw;
   }
-  recorder.conclude();
+  recorder.conclude(of_step);
   return result;
 }
 
