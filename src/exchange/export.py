@@ -6,7 +6,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from reduced_body import Fault, open_file, read  # noqa: E402
+from reduced_body import Fault, damage, open_file, read  # noqa: E402
 
 ENDINGS = {".npz": "npz", ".sid": "sid", ".sid_fem": "sid", ".xml": "mbsim", ".h5mbs": "mbsim-hdf5", ".mtx": "mtx"}
 FORMATS = ["npz", "sid", "mbsim", "mbsim-hdf5", "mtx"]
@@ -50,6 +50,11 @@ def drafts(paths):
         yield names
         for path, draft in names.items():
             os.replace(draft, path)
+    except OSError as error:
+        for path, draft in names.items():
+            if error.errno is not None and error.filename in (None, draft):
+                raise OSError(error.errno, os.strerror(error.errno), path) from error
+        raise
     finally:
         for draft in names.values():
             with contextlib.suppress(OSError):
@@ -66,7 +71,7 @@ def export(options):
         targets = [f"{stem}-{letter}.mtx" for letter in matrix_market.matrices(body)]
     for path in targets:
         check_target(path, options)
-    with drafts(targets) as draft:
+    with drafts(targets) as draft, damage(options.body):
         write(chosen, [draft[path] for path in targets], body, options)
     for path in targets:
         print(f"Written: {path}")
@@ -120,6 +125,7 @@ def main():
     """@return  floe's exit codes: 0, 1 the run failed, 2 the input is bad; what went wrong in one line"""
     try:
         export(read_options())
+        sys.stdout.flush()
         return 0
     except Fault as fault:
         print(f"floe: export: {fault}", file=sys.stderr)
@@ -127,10 +133,11 @@ def main():
     except ImportError as error:
         print(f"floe: export: {error}; install python3-numpy and python3-h5py", file=sys.stderr)
     except BrokenPipeError:
-        pass
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     except OSError as error:
-        print(f"floe: export: cannot read or write {error.filename or 'a file'}: {error.strerror or error}",
+        print(f"floe: export: cannot read or write {error.filename or 'standard output'}: {error.strerror or error}",
               file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what waits for it would be tried again
     return 1
 
 

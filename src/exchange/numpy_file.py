@@ -1,4 +1,6 @@
 """NumPy's .npz with the names of docs/exchange.md: what the reduced body's file holds, and the linear K and M."""
+import io
+
 import numpy as np
 
 from reduced_body import from_hdf5, texts
@@ -42,5 +44,7 @@ def write(path, source, shapes=False):
     if shapes:
         content.update({name: source[at][()] for name, at in SHAPE_ARRAYS.items()})
         content.update({name: words(source[at]) for name, at in SHAPE_TEXTS.items()})
-    with open(path, "wb") as file:
-        np.savez_compressed(file, **content)
+    with io.BytesIO() as memory:
+        np.savez_compressed(memory, **content)
+        with open(path, "wb") as file:
+            file.write(memory.getvalue())

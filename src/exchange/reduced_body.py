@@ -1,4 +1,5 @@
 """A reduced body as `floe reduce` wrote it: plain arrays, and the same body in three dimensions."""
+import contextlib
 import dataclasses
 
 import numpy as np
@@ -6,6 +7,18 @@ import numpy as np
 
 class Fault(Exception):
     """Something that the user should read, in one line."""
+
+
+@contextlib.contextmanager
+def damage(path):
+    """@throws Fault  for what reading a file runs into that is not what floe wrote; h5py's OSErrors have no number"""
+    try:
+        yield
+    except (ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError,
+            OSError) as error:
+        if isinstance(error, OSError) and error.errno is not None:
+            raise
+        raise Fault(f"{path}: is damaged: {' '.join(str(error).split())} (floe info says more)") from None
 
 
 @dataclasses.dataclass
@@ -87,12 +100,8 @@ def texts(dataset):
 
 def read(path):
     """@throws Fault  as open_file; datasets that are missing or do not fit"""
-    file = open_file(path)
-    with file:
-        try:
-            body = from_hdf5(file)
-        except (KeyError, ValueError, IndexError, OSError) as error:
-            raise Fault(f"{path}: is damaged: {' '.join(str(error).split())} (floe info says more)") from None
+    with damage(path), open_file(path) as file:
+        body = from_hdf5(file)
     for field in dataclasses.fields(body):
         value = getattr(body, field.name)
         if isinstance(value, np.ndarray) and value.dtype.kind == "f" and not np.isfinite(value).all():

@@ -1,11 +1,10 @@
 """The mechanism in motion: a GIF, or an MP4 through ffmpeg."""
-import os
 import shutil
 
 import numpy as np
 
 from deformed import need_bodies, titled
-from style import Fault, MAP, pyplot
+from style import Fault, MAP, drafted, pyplot
 from view import Box, View, draw_mesh, draw_scale, set_frame, with_scale
 
 WIDTH = 6.4  # inches
@@ -52,8 +51,7 @@ def draw(run, path, dpi, count=100, fps=20.0, amplify=1.0, direction=(-60.0, 25.
     bar.formatter.set_powerlimits((-3, 4))
     bar.formatter.set_useMathText(True)
     writer = writer_of(path, fps)
-    draft = os.path.join(os.path.dirname(path), ".floe-" + os.path.basename(path))
-    with writer.saving(figure, draft, min(dpi, 100)):
+    with drafted(path) as draft, writer.saving(figure, draft, min(dpi, 100)):
         for row in rows:
             axes.clear()
             moved = [(body, *run.moved(body, row, amplify)) for body in run.bodies]
@@ -65,5 +63,4 @@ def draw(run, path, dpi, count=100, fps=20.0, amplify=1.0, direction=(-60.0, 25.
             axes.set_title(f"{titled(run, amplify)}\nt = {run.t[row]:.4g} s", fontsize=10)
             writer.grab_frame()
     plt.close(figure)
-    os.replace(draft, path)
     return path

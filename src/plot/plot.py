@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import Fault, guarded  # noqa: E402
+from style import Damaged, Fault, guarded, reading  # noqa: E402
 
 KINDS = ["probes", "energy", "deformed", "animation", "shapes", "campbell", "compare", "tradeoff", "sweep"]
 OF_RUN = ["probes", "energy", "deformed"]  # without being asked
@@ -136,22 +136,29 @@ def work():
             raise Fault(f"--{word}: goes with --kind {kind}, which is not drawn here")
     several = len(chosen) > 1
     targets = [target(options, path, kind, several) for kind, path in chosen]
-    runs, skipped = {}, []
+    runs, skipped, damaged = {}, [], None
 
     def run(path):
         from results import Run
-        return runs.setdefault(path, Run(path))
+        if path not in runs:
+            runs[path] = Run(path)
+        return runs[path]
 
     for (kind, path), out in zip(chosen, targets):
         try:
-            draw(kind, path, out, options, run)
+            with reading(path):
+                draw(kind, path, out, options, run)
             print(f"Picture: {out}")
+        except Damaged as fault:  # the other pictures are drawn all the same
+            damaged = damaged or fault
         except Fault as fault:  # of a picture that nobody asked for by its name
             if options.kind or kind in asked or not several:
                 raise
             skipped.append(f"Note: no picture of {kind}: {fault}")
     for line in skipped:
         print(line)
+    if damaged:
+        raise damaged
     if len(skipped) == len(chosen):
         raise Fault("there is nothing to draw")
 

@@ -11,7 +11,7 @@ import tempfile
 sys.dont_write_bytecode = True
 from plot import kinds_of  # noqa: E402
 import style  # noqa: E402
-from style import Fault, duration, guarded, read_json  # noqa: E402
+from style import Damaged, Fault, drafted, duration, guarded, read_json, reading  # noqa: E402
 
 THREE = ["/usr/share/javascript/three/three.min.js", "/usr/share/nodejs/three/build/three.min.js"]
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -227,8 +227,11 @@ def pictures(folder, kinds, run):
         for kind in kinds:
             path = os.path.join(scratch, kind + ".png")
             try:
-                plot.draw(kind, folder, path, options, lambda _: run)
+                with reading(folder):
+                    plot.draw(kind, folder, path, options, lambda _: run)
                 text += image(path, CAPTIONS[kind])
+            except Damaged:  # a report would hide it among its parts
+                raise
             except Fault as fault:
                 text += f'<p class="quiet">No picture of {escaped(kind)}: {escaped(fault)}</p>'
     return text
@@ -258,6 +261,8 @@ def mechanism(run):
         return '<p class="quiet">No moving view: three.js is missing (package libjs-three).</p>', ""
     try:
         data, none = script_data(run)
+    except Damaged:
+        raise
     except Fault as fault:
         data, none = None, str(fault)
     if data is None:
@@ -284,6 +289,8 @@ def of_run(folder, run):
         run.load()
         scene = (f"<p>{escaped(summary.get('scene', {}).get('file', ''))}, as it was read:</p>"
                  f"<pre>{escaped(run.scene_text)}</pre>")
+    except Damaged:
+        raise
     except Fault:
         scene = ""
     return [("overview", "Overview", overview(summary)), ("warnings", "Warnings", warnings(summary)),
@@ -356,6 +363,14 @@ def work():
     kinds, _, folder = kinds_of(folder)
     out = options.out or os.path.join(folder, "report.html")
     check_target(out)
+    with reading(folder):
+        text = page_of(folder, kinds)
+    with drafted(out) as draft, open(draft, "w", encoding="utf-8") as file:
+        file.write(text)
+    print(f"Report: {out}")
+
+
+def page_of(folder, kinds):
     from results import Run
     if kinds[0] in ("compare", "tradeoff"):
         description = read_json(os.path.join(folder, kinds[0] + ".json"))
@@ -368,12 +383,7 @@ def work():
         parts, scripts = of_run(folder, run) if kinds[0] == "probes" else of_others(folder, kinds[0], run.summary)
         if kinds[0] != "probes":
             parts.append(("provenance", "Provenance", provenance(run.summary)))
-    text = page(title, parts, scripts)
-    draft = os.path.join(os.path.dirname(out), f".{os.path.basename(out)}.partial")
-    with open(draft, "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(draft, out)
-    print(f"Report: {out}")
+    return page(title, parts, scripts)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import os
 
 import numpy as np
 
-from style import Fault, read_json, read_series, read_units
+from style import Damaged, Fault, read_json, read_series, read_units
 
 CORNERS = {1: 1, 3: 2, 5: 3, 9: 4}  # of VTK's kinds of cells
 
@@ -22,7 +22,7 @@ def open_hdf5(path):
     except TypeError:  # an h5py that knows no locking
         return h5py.File(path, "r")
     except OSError as error:
-        raise Fault(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0][:80]})") from error
+        raise Damaged(f"{path}: cannot be read as HDF5 ({str(error).splitlines()[0][:80]})") from error
 
 
 def text_of(value):

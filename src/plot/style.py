@@ -1,9 +1,13 @@
 """What the pictures of floe have in common: colours that everybody can tell apart, reading, saving."""
+import contextlib
 import csv
 import io
 import json
 import math
+import os
+import subprocess
 import sys
+import warnings
 
 COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
 DASHES = [(), (6, 2), (2, 1.5), (7, 2, 1.5, 2), (10, 2.5), (4, 1.5, 1, 1.5, 1, 1.5), (1, 1)]
@@ -15,25 +19,79 @@ class Fault(Exception):
     """Something that the user should read, in one line."""
 
 
+class Damaged(Fault):
+    """Files that are not what floe wrote."""
+
+
+# What reading runs into where a file is cut off, changed, or of another kind; h5py's OSErrors have no number.
+OF_DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError, EOFError,
+             StopIteration, csv.Error)
+
+
+@contextlib.contextmanager
+def reading(what):
+    """@throws Damaged  for what does not fit in the files of `what`"""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is not None:
+            raise
+        raise damage(what, error) from error
+    except OF_DAMAGE as error:
+        raise damage(what, error) from error
+
+
+def damage(what, error):
+    words = " ".join(str(error).split())[:120]
+    return Damaged(f"{what}: is damaged, or of another version of floe ({type(error).__name__}: {words})")
+
+
+@contextlib.contextmanager
+def drafted(path):
+    """A name beside `path` for what is to be written: it gets that name once it is whole, nothing is left of it else.
+
+    @throws OSError  with the file's own name
+    """
+    folder, name = os.path.split(path)
+    draft = os.path.join(folder, f".floe-{os.getpid()}-{name}")
+    try:
+        yield draft
+        os.replace(draft, path)
+    except subprocess.CalledProcessError as error:  # ffmpeg, which says nothing of what it lacked
+        raise OSError(5, f"{os.path.basename(str(error.cmd[0]))} failed", path) from error
+    except OSError as error:
+        if error.errno is None or (error.filename and error.filename != draft):
+            raise
+        raise OSError(error.errno, os.strerror(error.errno), path) from error
+    finally:
+        with contextlib.suppress(OSError):
+            os.remove(draft)
+
+
 def guarded(name, attempt):
     """Runs it; tells what the user should know in one line, with floe's exit codes."""
+    def told(code, text):
+        print(f"floe: {name}: {text}", file=sys.stderr)
+        return code
+
+    warnings.simplefilter("ignore")  # of numbers that are none, for instance
     try:
         attempt()
+        sys.stdout.flush()
         return 0
     except Fault as fault:
-        print(f"floe: {name}: {fault}", file=sys.stderr)
-        return 2
+        return told(2, fault)
     except ImportError as error:
         package = {"matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "numpy": "python3-numpy",
                    "PIL": "python3-pil"}.get((error.name or "").split(".")[0], "python3-matplotlib, python3-h5py")
-        print(f"floe: {name}: {error}; install the package {package}", file=sys.stderr)
-        return 1
+        return told(1, f"{error}; install the package {package}")
     except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
         return 1
     except OSError as error:
-        print(f"floe: {name}: cannot read or write {error.filename or 'a file'}: {error.strerror or error}",
-              file=sys.stderr)
-        return 1
+        code = told(1, f"cannot read or write {error.filename or 'standard output'}: {error.strerror or error}")
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what waits for it would be tried again
+        return code
 
 
 def read_json(path):
@@ -121,11 +179,14 @@ def duration(value):
 
 def save(figure, path, dpi, colours=64):
     """A PNG has a palette: lines in few colours take a third of the bytes then."""
-    if not path.endswith(".png"):
-        figure.savefig(path)
-        return
-    from PIL import Image  # matplotlib needs it, too
-
     with io.BytesIO() as drawn:
-        figure.savefig(drawn, format="png", dpi=dpi)
-        Image.open(drawn).convert("RGB").quantize(colours).save(path, optimize=True, dpi=(dpi, dpi))
+        if path.endswith(".png"):
+            from PIL import Image  # matplotlib needs it, too
+
+            with io.BytesIO() as many:
+                figure.savefig(many, format="png", dpi=dpi)
+                Image.open(many).convert("RGB").quantize(colours).save(drawn, format="png", optimize=True, dpi=(dpi, dpi))
+        else:
+            figure.savefig(drawn, format=os.path.splitext(path)[1][1:])
+        with drafted(path) as draft, open(draft, "wb") as file:
+            file.write(drawn.getvalue())

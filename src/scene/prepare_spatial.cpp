@@ -9,7 +9,6 @@
 #include "build_spatial_start.h"
 #include "floe/math/rotation.h"
 #include "ground_axes.h"
-#include "hold_by_joint.h"
 #include "prepare_reduced.h"
 #include "prepare_spatial_joints.h"
 #include "rims.h"
@@ -199,14 +198,6 @@ std::vector<PreparedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
 }
 
 }  // namespace
-
-void hold_spatial_place_by_joint(const Prepared& prepared, std::size_t joint, const PreparedPlace& place,
-                                 fem::Conditions& held) {
-  try {
-    hold_by_joint(prepared.scene.joints[joint], prepared.joint_axes[joint], prepared.bodies[place.body], place, held);
-  } catch (const InputError&) {  // a hinge that dofs cannot hold
-  }
-}
 
 Prepared prepare_spatial(const Scene& scene, MPI_Comm comm) {
   Prepared prepared{scene, comm, {}, {}, {}, {}, 0};

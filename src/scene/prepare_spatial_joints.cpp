@@ -11,6 +11,7 @@
 #include "floe/fem/held_frame.h"
 #include "floe/math/rotation.h"
 #include "ground_axes.h"
+#include "hold_by_joint.h"
 #include "rims.h"
 
 namespace floe::scene {
@@ -215,6 +216,14 @@ void fix_frames(Prepared& prepared) {
     if (!fem::determine_rigid_motions(body.structure, firm)) continue;
     body.frame = fem::held_frame(body.structure, firm);
     start_spatial_body(body);
+  }
+}
+
+void hold_spatial_place_by_joint(const Prepared& prepared, std::size_t joint, const PreparedPlace& place,
+                                 fem::Conditions& held) {
+  try {
+    hold_by_joint(prepared.scene.joints[joint], prepared.joint_axes[joint], prepared.bodies[place.body], place, held);
+  } catch (const InputError&) {  // a hinge that dofs cannot hold
   }
 }
 
