@@ -71,9 +71,9 @@ SlopeError greatest_error(const Model& model, const Whole& whole, const std::vec
 
 std::string remedy(const Whole& whole, const BodyReport& body, bool splits) {
   if (!splits) return "divide it into several bodies that are joined rigidly";
-  const std::string several = fmt::format("take more frames (frames: {})", 2 * whole.frames());
-  if (body.frame != "clamped") return several;
-  return fmt::format("take frame: {}, or {}", body.dimension == 2 ? "pinned" : "mean-axis", several.substr(5));
+  if (whole.frames() > 1) return fmt::format("take more than {} (frames: {})", whole.frames(), 2 * whole.frames());
+  if (body.frame != "clamped") return "take several (frames: 2)";
+  return fmt::format("take a {} frame, or several (frames: 2)", body.dimension == 2 ? "pinned" : "mean-axis");
 }
 
 }  // namespace
