@@ -76,7 +76,7 @@ Vector3d tangent(const Vector3d& e, const Vector3d& p) {
 /// Of a path: what the moments change by, and what is wrong of its places.
 class PathError {
  public:
-  explicit PathError(Path path) : path_(std::move(path)) {
+  PathError(Path path, int degree) : path_(std::move(path)), degree_(degree) {
     for (const Link& link : path_) moments_.push_back(link.moment());
     gradients_ = gradients();
     hinged_ = find_hinged();
@@ -98,10 +98,10 @@ class PathError {
     return moment_at(false) < 0.1 * most && moment_at(true) < 0.1 * most;
   }
 
-  /// M' h of each element from a cubic through M, least squares with weights that vanish at both ends: what modes make
+  /// M' h of each element from a polynomial through M, least squares with weights that vanish at both ends: what modes make
   /// of a moment at an end, waves that drop to zero there, is no force.
   std::vector<Vector3d> gradients() const {
-    const Eigen::Index n = static_cast<Eigen::Index>(path_.size()), terms = std::min<Eigen::Index>(4, n);
+    const Eigen::Index n = static_cast<Eigen::Index>(path_.size()), terms = std::min<Eigen::Index>(degree_ + 1, n);
     double length = 0, at = 0;
     for (const Link& link : path_) length += link.element.length;
     Eigen::MatrixXd powers(n, terms), slopes = Eigen::MatrixXd::Zero(n, terms), M(n, 3);
@@ -191,6 +191,7 @@ class PathError {
   }
 
   Path path_;
+  int degree_;
   std::vector<Vector3d> moments_, gradients_, rotations_;
   bool hinged_ = false;
 };
@@ -249,11 +250,11 @@ Path reversed(Path path) {
 }
 
 /// From its end with the greater moment on.
-double error_of(const Path& path) {
+double error_of(const Path& path, int degree) {
   if (path.empty()) return 0;
-  PathError forth(path);
+  PathError forth(path, degree);
   if (forth.moment_at(false) >= 0.99 * forth.moment_at(true)) return forth();
-  return PathError(reversed(path))();
+  return PathError(reversed(path), degree)();
 }
 
 }  // namespace
@@ -288,8 +289,8 @@ std::vector<BentElement> bent_elements(const fem::Structure& structure, Vec defo
   return elements;
 }
 
-double rotation_error(const std::vector<std::vector<BentElement>>& parts) {
-  if (parts.size() > 1) return error_of(joined(parts));
+double rotation_error(const std::vector<std::vector<BentElement>>& parts, int degree) {
+  if (parts.size() > 1) return error_of(joined(parts), degree);
   if (parts.empty() || parts[0].empty()) return 0;
   const Meeting meeting = meeting_of(parts[0]);
   PetscInt root = meeting.begin()->first;
@@ -301,7 +302,7 @@ double rotation_error(const std::vector<std::vector<BentElement>>& parts) {
     if (moment > 1.01 * most) most = moment, root = node;
   }
   double error = 0;
-  for (const Path& path : paths_from(root, meeting)) error = std::max(error, PathError(path)());
+  for (const Path& path : paths_from(root, meeting)) error = std::max(error, PathError(path, degree)());
   return error;
 }
 

@@ -34,6 +34,8 @@ std::vector<BentElement> bent_elements(const fem::Structure& structure, Vec defo
 ///
 /// @param parts  the line's floating frames one after another (`frames: N`), joined end to start; one may branch, then
 ///               every tip is looked at
-double rotation_error(const std::vector<std::vector<BentElement>>& parts);
+/// @param degree  of the polynomial that is fitted to the moments along the line: 3 at full order, 2 for a basis, whose
+///               modes make waves of a moment at an end
+double rotation_error(const std::vector<std::vector<BentElement>>& parts, int degree);
 
 }  // namespace floe::scene

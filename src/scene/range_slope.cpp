@@ -63,7 +63,7 @@ SlopeError greatest_error(const Model& model, const Whole& whole, const std::vec
       parts.push_back(bent_elements(*body.structure, field));
       if (parts.back().empty()) return error_of_shells(body, slope);
     }
-    most.error = std::max(most.error, rotation_error(parts));
+    most.error = std::max(most.error, rotation_error(parts, is_reduced(model.formulation) ? 2 : 3));
     most.splits = whole.frames() > 1 || is_straight(parts[0]);
   }
   return most;
