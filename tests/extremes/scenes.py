@@ -26,6 +26,7 @@ def spatial_cantilever(width, height, elements=16, modes=5, E=1.0, rho=1.0, atta
             "mesh": {"line": {"from": [0, 0, 0], "to": [1, 0, 0], "elements": elements}},
             "section": {"shape": "rectangle", "width": width, "height": height, "orientation": [0, 1, 0]},
             "material": {"E": E, "nu": 0.3, "rho": rho},
+            "frame": {"type": "clamped", "at": "start"},  # whose closed forms are known
             "reduction": {"modes": modes, "derivatives": "all", "attachment": attachment}}},
         "joints": {"clamp": {"type": "fixed", "between": ["ground", "beam.start"]}},
         "motion": {"end": 1, "step": 1e-3},
