@@ -195,7 +195,8 @@ ReferenceFrame joint_frame(const Structure& structure, const ReferenceFrame& fra
   const int motions = structure.rigid_motion_count(), d = structure.dimension();
   const PetscInt n = structure.dofs_per_node;
   const double length = extent(structure);
-  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, held, length);  // of motions with rotations times length
+  const Eigen::MatrixXd rows =
+      rigid_rows(structure, frame.rigid, held, length);  // of motions with rotations times length
   Eigen::MatrixXd seen(motions, 0), free = Eigen::MatrixXd::Identity(motions, motions);
   if (!held.empty()) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);

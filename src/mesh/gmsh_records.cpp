@@ -56,7 +56,8 @@ std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faul
     if (i < 3) position[i] = *read;
   }
   if (next_word(line).empty()) return position;
-  faults.add(where, "expected " + std::to_string(reals) + " coordinates of a node and no more, found " + in_quotes(whole));
+  faults.add(where,
+             "expected " + std::to_string(reals) + " coordinates of a node and no more, found " + in_quotes(whole));
   return std::nullopt;
 }
 

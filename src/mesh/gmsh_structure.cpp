@@ -154,7 +154,8 @@ GmshStructure gmsh_structure(const MappedFile& file) {
   GmshStructure result;
   std::string name(cursor.word("'$MeshFormat'"));
   for (; name == "$Comments"; name = cursor.word("'$MeshFormat'")) skip_section(cursor, name);
-  if (name != "$MeshFormat") cursor.refuse("expected '$MeshFormat', found " + in_quotes(name) + ": is this a Gmsh file?");
+  if (name != "$MeshFormat")
+    cursor.refuse("expected '$MeshFormat', found " + in_quotes(name) + ": is this a Gmsh file?");
   read_format(cursor);
   while (!cursor.done()) {
     const char* place = cursor.at;

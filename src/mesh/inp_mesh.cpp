@@ -94,7 +94,8 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
       good = value.has_value();
       position[static_cast<Eigen::Index>(i) - 1] = value.value_or(0);
     }
-    if (!good) return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + in_quotes(line));
+    if (!good)
+      return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + in_quotes(line));
     reading.mesh.node_labels.push_back(*label);
     reading.mesh.positions.push_back(position);
     reading.mesh.node_where.push_back(where);
@@ -108,7 +109,8 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
   if (!nodes && !type.empty()) {
     std::vector<std::string> known;
     for (const auto& [name, unused] : element_nodes()) known.push_back(name);
-    reading.faults.add(block.where, "elements of type " + in_quotes(type) + " are not read (" + listed(known) + " are)");
+    reading.faults.add(block.where,
+                       "elements of type " + in_quotes(type) + " are not read (" + listed(known) + " are)");
   }
   const auto named = block.parameters.find("ELSET");
   const int set = named == block.parameters.end() ? -1 : reading.element_sets.named(named->second, block.where);

@@ -68,8 +68,8 @@ std::vector<std::vector<int>> sets_of_uses(InpReading& reading) {
     const auto& use = reading.uses[i];
     const int set = reading.element_sets.find(use.set);
     if (set < 0)
-      reading.faults.add(
-          use.where, "there is no element set " + in_quotes(use.set) + suggestion(use.set, reading.element_sets.names()));
+      reading.faults.add(use.where, "there is no element set " + in_quotes(use.set) +
+                                        suggestion(use.set, reading.element_sets.names()));
     for (std::size_t j = 0; j < i; ++j)
       if (upper(reading.uses[j].set) == upper(use.set))
         reading.faults.add(use.where, "element set " + in_quotes(use.set) + " has a section already");

@@ -174,8 +174,8 @@ std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading) {
     const auto node = number<long long>(link.nodes);
     const int set = node ? -1 : reading.node_sets.find(without_instance(link.nodes, reading));
     if (!node && set < 0)
-      reading.faults.add(
-          link.where, "there is no node set " + in_quotes(link.nodes) + suggestion(link.nodes, reading.node_sets.names()));
+      reading.faults.add(link.where, "there is no node set " + in_quotes(link.nodes) +
+                                         suggestion(link.nodes, reading.node_sets.names()));
     if (!reference || (!node && set < 0)) continue;
     LinkMentions mentions{mesh.mentions.size(), {}};
     mesh.mentions.push_back({*reference, link.where});

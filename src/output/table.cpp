@@ -133,7 +133,8 @@ std::string to_markdown(const Table& table) {
 
 std::string to_csv(const Table& table) {
   std::string text;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) text += (i ? "," : "") + in_quotes(with_unit(table.columns[i]));
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    text += (i ? "," : "") + in_quotes(with_unit(table.columns[i]));
   text += '\n';
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) text += (i ? "," : "") + in_quotes(exact(row[i]));

@@ -98,8 +98,8 @@ class PathError {
     return moment_at(false) < 0.1 * most && moment_at(true) < 0.1 * most;
   }
 
-  /// M' h of each element from a polynomial through M, least squares with weights that vanish at both ends: what modes make
-  /// of a moment at an end, waves that drop to zero there, is no force.
+  /// M' h of each element from a polynomial through M, least squares with weights that vanish at both ends: what modes
+  /// make of a moment at an end, waves that drop to zero there, is no force.
   std::vector<Vector3d> gradients() const {
     const Eigen::Index n = static_cast<Eigen::Index>(path_.size()), terms = std::min<Eigen::Index>(degree_ + 1, n);
     double length = 0, at = 0;

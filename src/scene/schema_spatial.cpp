@@ -23,15 +23,16 @@ const SchemaSection plate_section{
          {"triangles", "quadrilaterals"}},
     }};
 
-const SchemaSection file_section{"file",
-                                 "Parts and places are physical groups (.msh) or element and node sets (.inp). A deck "
-                                 "may bring its own sections and "
-                                 "materials.",
-                                 "path: wing.msh\nscale: 1e-3",
-                                 {
-                                     {"path", Type::text, "", required, "relative to the folder of the scene"},
-                                     {"scale", Type::number, "", "1", "factor on all coordinates; not on what a deck says besides", positive},
-                                 }};
+const SchemaSection file_section{
+    "file",
+    "Parts and places are physical groups (.msh) or element and node sets (.inp). A deck "
+    "may bring its own sections and "
+    "materials.",
+    "path: wing.msh\nscale: 1e-3",
+    {
+        {"path", Type::text, "", required, "relative to the folder of the scene"},
+        {"scale", Type::number, "", "1", "factor on all coordinates; not on what a deck says besides", positive},
+    }};
 
 const SchemaSection part_section{
     "part",

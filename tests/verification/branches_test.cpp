@@ -124,9 +124,9 @@ joints:
   drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
   hinge: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
 )yaml",
-                                                                             {{"e", number(e)}, {"L", number(L)}}),
-                                                                        "scene"),
-                                                     Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
+                                                                       {{"e", number(e)}, {"L", number(L)}}),
+                                                                  "scene"),
+                                               Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
     if (fault) std::rethrow_exception(fault);
     return found;
   };

@@ -186,8 +186,8 @@ Model build(const Scene& scene, Formulation formulation, MPI_Comm comm, bool kee
 /// outlive them. Those whose formula of t does not change sign until then never happen. @throws InputError  a probe
 /// that the model does not have
 std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end);
-/// Where drives and loads are not smooth in time, until `end` (dynamics::Kink). @throws InputError  an angle or position
-/// that jumps
+/// Where drives and loads are not smooth in time, until `end` (dynamics::Kink). @throws InputError  an angle or
+/// position that jumps
 std::vector<dynamics::Kink> kinks_of(const Scene& scene, double end);
 /// No latch, one, or two for each joint that events name; and whether an event unlocks it.
 std::map<std::string, JointLatches> latches_of(const Scene& scene);

@@ -16,11 +16,12 @@ struct OutOfRange {
 
 /// What the states of a motion say about the model that made them.
 ///
-///   slope       of a body's line or surface in its frame, against von Karman's moderate rotations: the error of its tip
-///               over its length, limit 1 %; of beams from slopes and moments along the line, all frames of a split body
-///               together (rotation_error in src/scene/moderate_rotations.h); of shells, at the greatest slope s, about
-///               0.1 s^3 in a tangent frame and 0.03 s^4 in another one: the middle of what moments (0.04, 0.008) and
-///               forces (0.27, 0.14) of beams have
+///   slope       of a body's line or surface in its frame, against von Karman's moderate rotations: the error of its
+///   tip
+///               over its length, limit 1 %; of beams from slopes and moments along the line, all frames of a split
+///               body together (rotation_error in src/scene/moderate_rotations.h); of shells, at the greatest slope s,
+///               about 0.1 s^3 in a tangent frame and 0.03 s^4 in another one: the middle of what moments (0.04, 0.008)
+///               and forces (0.27, 0.14) of beams have
 ///   mesh        how far shells bend within single cells, of how far they are bent (fem::sags) where the slope is
 ///   greatest;
 ///               limit 5 %, a wave of ten cells
