@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floe/dynamics/deviation.h"
+#include "floe/assess/validity.h"
 #include "floe/output/progress.h"
-#include "floe/scene/range.h"
+#include "floe/solve/deviation.h"
 #include "interruption.h"
 #include "run.h"
 
@@ -59,21 +59,21 @@ scene::Scene with_hub(scene::Scene scene, const scene::Joint& hub) {
   return scene;
 }
 
-Eigen::Vector3d hub_position(const scene::Model& model, int dimension) {
-  const std::vector<double> values = scene::probe_values(model, 0, model.U, model.V);
+Eigen::Vector3d hub_position(const assembly::Model& model, int dimension) {
+  const std::vector<double> values = assembly::probe_values(model, 0, model.U, model.V);
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
   for (int i = 0; i < dimension; ++i) at[i] = values[values.size() - dimension + i];
   return at;
 }
 
-scene::Model prepared(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
+assembly::Model plan(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
   const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
-  return scene::build(scene, formulation, comm, true);
+  return assembly::build(scene, formulation, comm, true);
 }
 
-dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
-  dynamics::RotatingSystem rotating{*diagram.model.system, {}, diagram.axis, {}};
-  for (const scene::BodyReport& body : diagram.model.bodies) {
+solve::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
+  solve::RotatingSystem rotating{*diagram.model.system, {}, diagram.axis, {}};
+  for (const assembly::BodyReport& body : diagram.model.bodies) {
     if (body.first_coordinate < 0)
       throw InputError(
           fmt::format("{}: body {} is clamped to the ground, and cannot turn; expected a joint of type "
@@ -90,15 +90,15 @@ dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const Campbe
 }
 
 /// From the steady rotation at `from` to the vibrations at `speed`. Returns where the next search begins.
-double visit(const dynamics::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
+double visit(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
   try {
-    point.iterations = dynamics::steady_rotation(rotating, from, point.speed, U, &point.jump);
+    point.iterations = solve::steady_rotation(rotating, from, point.speed, U, &point.jump);
   } catch (const RunError& error) {
     point.fault = error.what(), point.steady = false;
     return from;
   }
   try {
-    point.vibrations = dynamics::vibrations(rotating, point.speed, U, modes);
+    point.vibrations = solve::vibrations(rotating, point.speed, U, modes);
   } catch (const RunError& error) {
     point.fault = error.what();
   }
@@ -106,10 +106,10 @@ double visit(const dynamics::RotatingSystem& rotating, double from, int modes, V
 }
 
 /// The steady rotation in the model's unknowns.
-dynamics::State state_at(const scene::Model& model, const dynamics::RotationAxis& axis, double speed) {
+solve::State state_at(const assembly::Model& model, const solve::RotationAxis& axis, double speed) {
   const petsc::VecHandle rest = model.system->create_vector();
-  dynamics::State state = dynamics::state_of(*model.system, 0, model.U, rest, rest);
-  for (const scene::BodyReport& body : model.bodies) {
+  solve::State state = solve::state_of(*model.system, 0, model.U, rest, rest);
+  for (const assembly::BodyReport& body : model.bodies) {
     const int first = body.first_coordinate;
     if (!body.attitude)
       state.v[first + 2] = speed;
@@ -121,8 +121,8 @@ dynamics::State state_at(const scene::Model& model, const dynamics::RotationAxis
 }
 
 /// What the fastest steady rotation says of the model.
-void warn(double speed, const std::vector<dynamics::State>& fastest, MPI_Comm comm, scene::Model& model) {
-  for (const scene::OutOfRange& one : scene::shapes_out_of_range(model, fastest, comm))
+void warn(double speed, const std::vector<solve::State>& fastest, MPI_Comm comm, assembly::Model& model) {
+  for (const assess::OutOfRange& one : assess::shapes_out_of_range(model, fastest, comm))
     model.warnings.push_back(fmt::format("at {:.6g} rad/s: {}", speed, one.text));
 }
 
@@ -132,12 +132,12 @@ void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
       "between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: it changes {:.2g} times as much as "
       "its tangents predict (limit {:.2g}). What follows belongs to that branch; start from the speed or the shape "
       "(`initial`) whose branch is meant",
-      point.jump.from, point.jump.to, point.jump.ratio, dynamics::least_jump));
+      point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
 }
 
 bool is_unstable(const CampbellPoint& point) {
   return std::any_of(point.vibrations.begin(), point.vibrations.end(),
-                     [](const dynamics::Vibration& v) { return v.unstable(); });
+                     [](const solve::Vibration& v) { return v.unstable(); });
 }
 
 /// Looks whether what a reduced model says of the first unstable speed is so at full order of the same mesh, from rest.
@@ -148,10 +148,10 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
   const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
   CampbellPoint point{unstable->speed, {}, 0, {}};
   try {
-    CampbellDiagram full{{}, diagram.axis, prepared(scene, scene::Formulation::nlffr, comm), {}};
+    CampbellDiagram full{{}, diagram.axis, plan(scene, scene::Formulation::nlffr, comm), {}};
     const PetscInt unknowns = full.model.coordinates + full.model.multipliers;
-    if (unknowns > dynamics::largest_rotating_system)
-      point.fault = fmt::format("{} unknowns (limit {})", unknowns, dynamics::largest_rotating_system);
+    if (unknowns > solve::largest_rotating_system)
+      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
     else
       visit(rotating_system(given, full), 0, modes, full.model.U, point);
   } catch (const InputError& error) {
@@ -185,18 +185,18 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
     throw InputError(given.file +
                      ": the axis is not that of one driven or revolute joint to the ground; expected --through X,Y");
   const double begin = MPI_Wtime();
-  diagram.model = prepared(look ? with_hub(given, *hub) : given, formulation, comm);
+  diagram.model = plan(look ? with_hub(given, *hub) : given, formulation, comm);
   if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
   diagram.label = label_of(diagram.model);
-  const dynamics::RotatingSystem rotating = rotating_system(given, diagram);
-  dynamics::check_turns(rotating, diagram.model.U);
+  const solve::RotatingSystem rotating = rotating_system(given, diagram);
+  solve::check_turns(rotating, diagram.model.U);
   const double started = MPI_Wtime();
   diagram.offline_seconds = started - begin;
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, static_cast<double>(speeds.size()));
     double from = 0, fastest = 0;
-    std::vector<dynamics::State> state;
+    std::vector<solve::State> state;
     for (const double speed : speeds) {
       CampbellPoint point{speed, {}, 0, {}};
       from = visit(rotating, from, request.modes, diagram.model.U, point);

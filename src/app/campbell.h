@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "floe/dynamics/steady_rotation.h"
+#include "floe/assembly/model.h"
 #include "floe/output/folder.h"
 #include "floe/output/table.h"
-#include "floe/scene/model.h"
+#include "floe/solve/steady_rotation.h"
 
 namespace floe::app {
 
@@ -32,15 +32,15 @@ struct CampbellPoint {
   double speed = 0;
   std::string fault;  ///< why there is no steady rotation, or why its vibrations are not found; empty: there is
   PetscInt iterations = 0;
-  std::vector<dynamics::Vibration> vibrations;
+  std::vector<solve::Vibration> vibrations;
   bool steady = true;
-  dynamics::BranchJump jump = {};  ///< on the way from the speed before; ratio 0: none
+  solve::BranchJump jump = {};  ///< on the way from the speed before; ratio 0: none
 };
 
 struct CampbellDiagram {
   std::vector<CampbellPoint> points;
-  dynamics::RotationAxis axis;
-  scene::Model model;  ///< at the last steady rotation
+  solve::RotationAxis axis;
+  assembly::Model model;  ///< at the last steady rotation
   std::string label;
   double offline_seconds = 0, seconds = 0;
 };

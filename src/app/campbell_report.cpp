@@ -23,7 +23,7 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
                                         : point.steady      ? "vibrations not found"
                                                             : "no steady rotation")});
     for (std::size_t i = 0; i < point.vibrations.size(); ++i) {
-      const dynamics::Vibration& v = point.vibrations[i];
+      const solve::Vibration& v = point.vibrations[i];
       table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
                             v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
                             std::string(v.unstable() ? "unstable"
@@ -53,7 +53,7 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
       at["reason"] = point.fault;
     else
       at["newton_iterations"] = point.iterations, at["vibrations"] = ordered_json::array();
-    for (const dynamics::Vibration& v : point.vibrations)
+    for (const solve::Vibration& v : point.vibrations)
       at["vibrations"].push_back(
           {{"Hz", v.omega / (2 * M_PI)}, {"rad_per_s", v.omega}, {"growth_per_s", v.growth}, {"zero", v.zero}});
     for (std::size_t i = 0; i < point.vibrations.size(); ++i)

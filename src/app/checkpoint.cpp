@@ -86,7 +86,7 @@ void check_identity(const ordered_json& of_checkpoint, const ordered_json& now, 
   if (!faults.empty()) throw InputError(faults);
 }
 
-void put_state(const dynamics::MotionState& state, output::Checkpoint& checkpoint) {
+void put_state(const solve::MotionState& state, output::Checkpoint& checkpoint) {
   checkpoint.shared["motion"] = state.numbers;
   checkpoint.shared["events"] = state.events;
   checkpoint.shared["stop"] = {state.stop};
@@ -97,8 +97,8 @@ void put_state(const dynamics::MotionState& state, output::Checkpoint& checkpoin
     checkpoint.own[fmt::format("{}{:02}/{}", vector_name, number++, name)] = entries;
 }
 
-dynamics::MotionState state_of(const output::Checkpoint& checkpoint) {
-  dynamics::MotionState state;
+solve::MotionState state_of(const output::Checkpoint& checkpoint) {
+  solve::MotionState state;
   state.numbers = checkpoint.shared.at("motion");
   state.events = checkpoint.shared.at("events");
   state.stop = checkpoint.shared.at("stop").at(0);

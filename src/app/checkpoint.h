@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "floe/dynamics/motion_state.h"
+#include "floe/assembly/model.h"
 #include "floe/output/checkpoint_file.h"
-#include "floe/scene/model.h"
+#include "floe/solve/motion_state.h"
 
 namespace floe::app {
 
@@ -26,7 +26,7 @@ void check_identity(const nlohmann::ordered_json& of_checkpoint, const nlohmann:
                     const std::string& folder);
 
 /// A state of the motion among the numbers of a checkpoint.
-void put_state(const dynamics::MotionState& state, output::Checkpoint& checkpoint);
-dynamics::MotionState state_of(const output::Checkpoint& checkpoint);
+void put_state(const solve::MotionState& state, output::Checkpoint& checkpoint);
+solve::MotionState state_of(const output::Checkpoint& checkpoint);
 
 }  // namespace floe::app

@@ -30,7 +30,7 @@ struct Trial {
 class Search {
  public:
   Search(const scene::Scene& scene, double accuracy, MPI_Comm comm)
-      : scene_(scene), accuracy_(accuracy), comm_(comm), pool_(std::make_unique<scene::Pool>(scene, comm)) {}
+      : scene_(scene), accuracy_(accuracy), comm_(comm), pool_(std::make_unique<assess::Pool>(scene, comm)) {}
 
   Chosen result() {
     enrich();
@@ -41,7 +41,7 @@ class Search {
   }
 
  private:
-  using Selection = scene::Selection;
+  using Selection = assess::Selection;
 
   scene::Scene with_step(double step) const {
     scene::Scene other = scene_;
@@ -55,7 +55,7 @@ class Search {
     plan.quiet = true, plan.check_range = false;
     plan.estimate = estimate, plan.keep_states = keep_states;
     plan.estimate_seconds = 1e9;
-    scene::Model model = pool_->model(selection, estimate);
+    assembly::Model model = pool_->model(selection, estimate);
     ++trials_;
     return move(with_step(step), model, 0, comm_, std::nullopt, plan);
   }
@@ -165,14 +165,14 @@ class Search {
     richest_ = space_ + time_;
   }
 
-  Selection first_of(const std::vector<scene::Participation>& order, std::size_t count) const {
+  Selection first_of(const std::vector<assess::Participation>& order, std::size_t count) const {
     Selection selection{std::vector<char>(pool_->columns().size(), 0), false};
     for (std::size_t i = 0; i < count; ++i) selection.taken[order[i].column] = 1;
     return selection;
   }
 
   /// The fewest columns with at most this error; all of `order` where none will do.
-  std::size_t fewest(const std::vector<scene::Participation>& order, std::size_t most, double step, double error,
+  std::size_t fewest(const std::vector<assess::Participation>& order, std::size_t most, double step, double error,
                      bool linear = false) {
     std::size_t enough = most;
     long too_few = -1;
@@ -221,8 +221,8 @@ class Search {
   /// Linear, without derivatives: they would follow nothing.
   void choose_force() {
     if (count_ == 0) return;
-    std::vector<scene::Participation> plain;
-    for (const scene::Participation& one : order_)
+    std::vector<assess::Participation> plain;
+    for (const assess::Participation& one : order_)
       if (!pool_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
     Selection all = first_of(plain, plain.size());
     all.linear = true;
@@ -308,11 +308,11 @@ class Search {
   const scene::Scene& scene_;
   double accuracy_;
   MPI_Comm comm_;
-  std::unique_ptr<scene::Pool> pool_;
-  std::vector<dynamics::State> states_;  // of the richest model
-  Series truth_;                         // its motion, in fine steps
+  std::unique_ptr<assess::Pool> pool_;
+  std::vector<solve::State> states_;  // of the richest model
+  Series truth_;                      // its motion, in fine steps
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
-  std::vector<scene::Participation> order_;
+  std::vector<assess::Participation> order_;
   std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
   std::size_t count_ = 0;
   double step_ = 0;

@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "floe/assess/candidate_basis.h"
 #include "floe/output/table.h"
-#include "floe/scene/pool.h"
 #include "run.h"
 
 namespace floe::app {
@@ -15,10 +15,10 @@ struct Decision {
 
 /// The cheapest model found of a scene within an accuracy.
 struct Chosen {
-  std::unique_ptr<scene::Pool> pool;  ///< that the model stands on
-  scene::Selection selection;
+  std::unique_ptr<assess::Pool> pool;  ///< that the model stands on
+  assess::Selection selection;
   scene::Scene scene;  ///< with the step that was chosen
-  scene::Model model;
+  assembly::Model model;
   double asked = 0;
   double supported = 0;  ///< estimate of the richest model's error, and how far the chosen one is from that
   double richest = 0;    ///< of which the richest model's: estimate, and that of its step
@@ -31,8 +31,8 @@ struct Chosen {
 /// Chooses columns, elastic force and step of a scene's reduced model for an error of its probes (each as a vector,
 /// root mean square over that of the probe, against the full order of the same mesh, exact in time).
 ///
-/// The richest model of a pool (scene::Pool) is moved; its error is estimated without full order
-/// (scene::estimate_error), the responses that the estimate finds join it until it is small, and its step is halved
+/// The richest model of a pool (assess::Pool) is moved; its error is estimated without full order
+/// (assess::estimate_error), the responses that the estimate finds join it until it is small, and its step is halved
 /// until that changes little. It then stands for the truth: cheaper models are moved, too, and measured against it.
 /// Columns go in the order of their participation, the least important first, by bisection; the step is doubled for as
 /// long as it may be; what is left of the allowance goes to columns again, and to a linear elastic force.

@@ -15,12 +15,12 @@
 
 #include "choose.h"
 #include "estimate_words.h"
+#include "floe/assembly/check_modes.h"
+#include "floe/assembly/reduced_bodies_file.h"
+#include "floe/assess/validity.h"
 #include "floe/math/rounded.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
-#include "floe/scene/check.h"
-#include "floe/scene/range.h"
-#include "floe/scene/reduced.h"
 #include "run.h"
 
 namespace floe::app {
@@ -104,20 +104,20 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
   if (scene.dimension == 2)
     for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
   else
-    for (const scene::BodyReport& body : scene::body_sizes(scene, comm))
+    for (const assembly::BodyReport& body : assembly::body_sizes(scene, comm))
       sizes.push_back({body.elements, body.dofs, body.frame, body.notices});
   return sizes;
 }
 
 /// Of modes that bend within single cells; empty if there are none.
-std::string unresolved_words(const scene::BodyReport& body) {
+std::string unresolved_words(const assembly::BodyReport& body) {
   std::vector<std::size_t> which;
   double most = 0;
   for (std::size_t i = 0; i < body.sag.size(); ++i)
-    if (body.sag[i] > scene::greatest_sag_of_modes) which.push_back(i + 1), most = std::max(most, body.sag[i]);
+    if (body.sag[i] > assembly::greatest_sag_of_modes) which.push_back(i + 1), most = std::max(most, body.sag[i]);
   if (which.empty()) return "";
   const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
-  return fmt::format("Note: {}\n", scene::sag_text(body.name, modes, most, scene::greatest_sag_of_modes));
+  return fmt::format("Note: {}\n", assembly::sag_text(body.name, modes, most, assembly::greatest_sag_of_modes));
 }
 
 /// `notices` of each, each once: the parts of a split body have the same mesh.
@@ -153,7 +153,7 @@ std::string ranges_of(const std::vector<std::size_t>& numbers) {
 }
 
 /// Of modes whose equations are not met; empty if there are none.
-std::string unsolved_words(const scene::BodyReport& body) {
+std::string unsolved_words(const assembly::BodyReport& body) {
   constexpr double greatest = 1e-4;
   std::vector<std::size_t> which;
   double most = 0;
@@ -170,9 +170,9 @@ std::string unsolved_words(const scene::BodyReport& body) {
 
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
            const std::optional<std::string>& matrices, bool overwrite) {
-  if (matrices) scene::write_matrices(scene, comm, *matrices, overwrite);
-  const std::vector<scene::BodyReport> bodies =
-      path ? scene::write_modes(scene, comm, *path, overwrite) : scene::body_modes(scene, comm);
+  if (matrices) assembly::write_matrices(scene, comm, *matrices, overwrite);
+  const std::vector<assembly::BodyReport> bodies =
+      path ? assembly::write_modes(scene, comm, *path, overwrite) : assembly::body_modes(scene, comm);
   if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"mode", ""}, {"frequency", "Hz", 6}, {"frequency", "rad/s", 6}, {"residual", "", 2}};
@@ -185,7 +185,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   fmt::print("{}", output::to_text(table));
   for (const auto& body : bodies) {
     fmt::print("{}{}", unsolved_words(body), unresolved_words(body));
-    if (body.left_out > 0) fmt::print("Note: {}\n", scene::left_out_text(body.name, body));
+    if (body.left_out > 0) fmt::print("Note: {}\n", assembly::left_out_text(body.name, body));
   }
   for (const std::string& notice : notices_of(bodies)) fmt::print("Note: {}\n", notice);
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
@@ -196,15 +196,15 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
 }
 
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted) {
-  const scene::Scene split = scene::split_frames(scene);
+  const scene::Scene split = plan::split_frames(scene);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
-  scene::check_modes(scene, comm);
+  assembly::check_modes(scene, comm);
   std::int64_t elements = 0;
   for (std::size_t b = 0; b < sizes.size(); ++b)
     if (!split.bodies[b].reduced) elements += sizes[b].elements;
-  std::optional<scene::Model> model;
+  std::optional<assembly::Model> model;
   const scene::Formulation formulation = wanted ? *wanted : first_possible(scene);
-  if (wanted || elements < greatest_built) model = scene::build(scene, formulation, comm);
+  if (wanted || elements < greatest_built) model = assembly::build(scene, formulation, comm);
   if (!petsc::first_rank(comm)) return;
   output::Table table;
   table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
@@ -242,7 +242,7 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
 void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path,
             bool overwrite) {
   std::vector<std::string> warnings;
-  const output::ReducedBodyFile file = scene::reduce_body(scene, body, comm, path, overwrite, warnings);
+  const output::ReducedBodyFile file = assembly::reduce_body(scene, body, comm, path, overwrite, warnings);
   if (!petsc::first_rank(comm)) return;
   fmt::print("{}", output::describe(file));
   for (const std::string& warning : warnings) fmt::print("Note: {}\n", warning);

@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
+#include "floe/assembly/model.h"
 #include "floe/output/folder.h"
-#include "floe/scene/model.h"
 #include "run.h"
 
 namespace floe::app {

@@ -7,7 +7,7 @@ namespace floe::app {
 
 namespace {
 
-using scene::probe_of;
+using assess::probe_of;
 
 double duration(const Series& series) { return series.t.empty() ? 0 : series.t.back() - series.t.front(); }
 
@@ -55,7 +55,7 @@ Sizes sizes(const Series& series, const Series& reference) {
 
 }  // namespace
 
-std::vector<std::string> probes(const std::vector<scene::ProbeColumn>& columns) {
+std::vector<std::string> probes(const std::vector<assembly::ProbeColumn>& columns) {
   std::vector<std::string> names;
   for (const auto& column : columns)
     if (std::find(names.begin(), names.end(), probe_of(column)) == names.end()) names.push_back(probe_of(column));
@@ -70,7 +70,7 @@ std::vector<std::optional<double>> relative_errors(const Series& series, const S
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), probe_of(series.columns[c])) - names.begin());
   };
   for (std::size_t c = 0; c < of.size.size(); ++c) whole[probe(c)] = std::hypot(whole[probe(c)], of.size[c]);
-  const std::vector<double> least = scene::reference_sizes(series.columns, whole, duration(series));
+  const std::vector<double> least = assess::reference_sizes(series.columns, whole, duration(series));
   std::vector<std::optional<double>> errors(of.size.size());
   for (std::size_t c = 0; c < errors.size(); ++c)
     if (whole[probe(c)] >= least[probe(c)] && of.size[c] > 0 && of.size[c] >= 1e-9 * whole[probe(c)])
@@ -79,7 +79,7 @@ std::vector<std::optional<double>> relative_errors(const Series& series, const S
 }
 
 std::vector<double> vector_errors(const Series& series, const Series& reference) {
-  scene::ProbeErrors errors(series.columns);
+  assess::ProbeErrors errors(series.columns);
   std::vector<double> error(series.columns.size()), value(series.columns.size());
   for_each_instant(series, reference, [&](std::size_t i, std::size_t k, double s) {
     for (std::size_t c = 0; c < value.size(); ++c) {
@@ -112,7 +112,7 @@ std::vector<double> peak_errors(const Series& series, const Series& reference) {
       error[p] = std::max(error[p], std::sqrt(difference)), size[p] = std::max(size[p], std::sqrt(whole));
     }
   });
-  size = scene::reference_sizes(series.columns, size, duration(series));
+  size = assess::reference_sizes(series.columns, size, duration(series));
   for (std::size_t p = 0; p < names.size(); ++p) error[p] = error[p] == 0 ? 0 : error[p] / size[p];
   return error;
 }

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "estimate_words.h"
-#include "floe/dynamics/branch.h"
-#include "floe/dynamics/start.h"
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
 #include "floe/petsc/together.h"
+#include "floe/solve/branch.h"
+#include "floe/solve/start.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -30,9 +30,9 @@ scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
 }
 
 /// Says once from which t on the equilibria give way, or that nobody looks.
-void warn_of_instability(const scene::Model& model, double t, RunResult& result) {
+void warn_of_instability(const assembly::Model& model, double t, RunResult& result) {
   if (result.summary.contains("unstable_from")) return;
-  const std::optional<int> looked = dynamics::unstable_directions(*model.system, t, model.U, model.V);
+  const std::optional<int> looked = solve::unstable_directions(*model.system, t, model.U, model.V);
   result.summary["stability"] = looked ? "looked at" : "not looked at: the tangent is not symmetric, or has no factor";
   const int directions = looked.value_or(0);
   if (directions == 0) return;
@@ -44,10 +44,10 @@ void warn_of_instability(const scene::Model& model, double t, RunResult& result)
 }
 
 /// Says of a jump where it is and what the probe that it changes most did.
-void warn_of_jump(const scene::Model& model, const dynamics::BranchJump& jump, Vec before, Vec after,
+void warn_of_jump(const assembly::Model& model, const solve::BranchJump& jump, Vec before, Vec after,
                   RunResult& result) {
-  const std::vector<double> was = scene::probe_values(model, jump.from, before, model.V),
-                            is = scene::probe_values(model, jump.to, after, model.V);
+  const std::vector<double> was = assembly::probe_values(model, jump.from, before, model.V),
+                            is = assembly::probe_values(model, jump.to, after, model.V);
   std::size_t most = 0;
   for (std::size_t i = 1; i < is.size(); ++i)
     if (std::abs(is[i] - was[i]) > std::abs(is[most] - was[most])) most = i;
@@ -58,7 +58,7 @@ void warn_of_jump(const scene::Model& model, const dynamics::BranchJump& jump, V
       "the equilibrium jumps between t = {:.6g} and {:.6g}{}: it changes {:.2g} times as much as its tangents predict "
       "(limit {:.2g}): it snaps through, or the load jumps. What follows is another branch of equilibria, not the only "
       "one there may be: simulate the snap as a damped motion (floe run)",
-      jump.from, jump.to, probe, jump.ratio, dynamics::least_jump);
+      jump.from, jump.to, probe, jump.ratio, solve::least_jump);
   result.warnings.push_back(words);
   if (!result.summary.contains("jumps")) result.summary["jumps"] = nlohmann::ordered_json::array();
   result.summary["jumps"].push_back({{"from", jump.from}, {"to", jump.to}, {"ratio", jump.ratio}});
@@ -66,10 +66,10 @@ void warn_of_jump(const scene::Model& model, const dynamics::BranchJump& jump, V
 
 /// The equilibrium at t = 0. Where no load has grown yet that would hold the configuration there is none that is
 /// determined: then U stays at the start, and the note says so.
-std::string start_of_table(const scene::Model& model, const LoadSteps& load, PetscInt& iterations) {
+std::string start_of_table(const assembly::Model& model, const LoadSteps& load, PetscInt& iterations) {
   try {
-    iterations += dynamics::equilibrium(*model.system, 0, model.U, model.V, true);
-  } catch (const dynamics::NothingHolds& error) {
+    iterations += solve::equilibrium(*model.system, 0, model.U, model.V, true);
+  } catch (const solve::NothingHolds& error) {
     return fmt::format("{}: the table begins at t = {:.6g}",
                        std::string(error.what()).substr(0, std::string(error.what()).rfind(';')), load.at / load.steps);
   }
@@ -93,19 +93,19 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   const scene::Scene scene = in_steps(given, load);
   RunResult result;
   const double begin = MPI_Wtime();
-  scene::Model model = [&] {
+  assembly::Model model = [&] {
     const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
-    return scene::build(scene, formulation, comm, true);
+    return assembly::build(scene, formulation, comm, true);
   }();
   check(VecSet(model.V, 0));
   result.offline_seconds = MPI_Wtime() - begin;
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
-  result.series.columns = scene::probe_columns(model);
+  result.series.columns = assembly::probe_columns(model);
   Recorder recorder(scene, model, comm, folder, result);
-  scene::KeptMotion kept(model, 100);
-  dynamics::IntegrationReport report;
+  assess::KeptMotion kept(model, 100);
+  solve::IntegrationReport report;
   report.type = "static";
   std::exception_ptr fault;
   std::string why;
@@ -120,11 +120,11 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
       result.warnings.push_back(none);
     for (int step = 1; step <= load.steps; ++step) {
       const double t = load.at * step / load.steps;
-      report.newton += dynamics::follow_equilibrium(*model.system, report.end, t, load.at / 1000, model.U, model.V,
-                                                    [&](const dynamics::BranchJump& jump, Vec before, Vec after) {
-                                                      if (step > 1 || none.empty())
-                                                        warn_of_jump(model, jump, before, after, result);
-                                                    });
+      report.newton += solve::follow_equilibrium(*model.system, report.end, t, load.at / 1000, model.U, model.V,
+                                                 [&](const solve::BranchJump& jump, Vec before, Vec after) {
+                                                   if (step > 1 || none.empty())
+                                                     warn_of_jump(model, jump, before, after, result);
+                                                 });
       report.steps = step, report.end = t;
       warn_of_instability(model, t, result);
       recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});
@@ -141,14 +141,14 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   if (fault) std::rethrow_exception(fault);
   try {
     const std::string unchecked = petsc::failed_together(
-        comm, [&] { result.out_of_range = scene::shapes_out_of_range(model, kept.states(), comm); });
+        comm, [&] { result.out_of_range = assess::shapes_out_of_range(model, kept.states(), comm); });
     if (!unchecked.empty()) result.warnings.push_back("the model's range was not checked: " + unchecked);
-    for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+    for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
     if (estimate) {
       const output::Waiting waiting(comm, "estimating the error");
-      result.estimate = scene::estimate_error_at_rest(
+      result.estimate = assess::estimate_error_at_rest(
           model, kept.states(),
-          scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
+          assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());

@@ -13,7 +13,7 @@ struct LoadSteps {
 /// probes, then one row for each step; a step that finds none is halved, down to a thousandth of `at`.
 ///
 /// @param folder    none: nothing is written
-/// @param estimate  of the error, of reduced formulations (scene::estimate_error_at_rest)
+/// @param estimate  of the error, of reduced formulations (assess::estimate_error_at_rest)
 /// @throws InputError; RunError: no equilibrium, with the t. What was reached before is written. Collective.
 RunResult rest(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
                const std::optional<output::ResultFolder>& folder, bool estimate);

@@ -8,7 +8,7 @@
 
 namespace floe::app {
 
-std::string estimate_words(const scene::Estimate& estimate) {
+std::string estimate_words(const assess::Estimate& estimate) {
   if (!estimate.none.empty()) return fmt::format("No estimate of the error: {}\n", estimate.none);
   const std::string error =
       std::isfinite(estimate.deformation)

@@ -2,12 +2,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "floe/scene/estimate.h"
+#include "floe/assess/estimate.h"
 
 namespace floe::app {
 
 /// What the terminal says of an estimate, or why there is none: lines.
-std::string estimate_words(const scene::Estimate& estimate);
+std::string estimate_words(const assess::Estimate& estimate);
 
 /// Of an accuracy that was asked for and is not reached, with as many digits as tell the two apart.
 std::string missed_words(double asked, double supported);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "floe/dynamics/generalized_alpha.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/handle.h"
 #include "floe/reduction/eigensolvers.h"
+#include "floe/solve/generalized_alpha.h"
 
 namespace floe::app {
 
@@ -65,7 +65,7 @@ void read_motion(const std::string& prefix) {
   check(TSCreate(PETSC_COMM_SELF, ts.out()));
   check(TSSetOptionsPrefix(ts, prefix.c_str()));
   check(TSSetProblemType(ts, TS_NONLINEAR));
-  check(TSSetType(ts, dynamics::generalized_alpha));
+  check(TSSetType(ts, solve::generalized_alpha));
   check(TSGetSNES(ts, &snes));
   give_operators(snes, matrix);
   petsc::check_options(TSSetFromOptions(ts), prefix);

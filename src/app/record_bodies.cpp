@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "floe/petsc/values.h"
-#include "floe/scene/body_mesh.h"
+#include "floe/plan/body_mesh.h"
 
 namespace floe::app {
 namespace {
@@ -13,20 +13,20 @@ namespace {
 using petsc::check;
 
 /// Column of motion/U of a local unknown; -1: there is none.
-double column_of(const scene::Model& model, int local) {
+double column_of(const assembly::Model& model, int local) {
   return local < 0 ? -1 : static_cast<double>(model.system->coordinates().global()[local]);
 }
 
 /// Origin, then axes: the rows of [R'; A'].
-void write_frame(output::ResultFile& file, const std::string& group, const scene::BodyReport& body) {
+void write_frame(output::ResultFile& file, const std::string& group, const assembly::BodyReport& body) {
   Eigen::Matrix<double, 4, 3, Eigen::RowMajor> rows;
   rows << body.place.transpose(), body.axes.transpose();
   file.write_array(group + "/frame_at_start", {4, 3}, {rows.data(), 12},
                    {"m, then 1", "of the floating frame in the world: its origin; its axes, a row each"});
 }
 
-void write_columns(output::ResultFile& file, const std::string& group, const scene::Model& model,
-                   const scene::BodyReport& body) {
+void write_columns(output::ResultFile& file, const std::string& group, const assembly::Model& model,
+                   const assembly::BodyReport& body) {
   const bool still = body.first_coordinate < 0 || (body.dimension == 3 && !body.attitude);
   const bool nodes = body.first_dof >= 0;  // full order
   const double where[2] = {still ? -1 : column_of(model, body.first_coordinate),
@@ -40,7 +40,7 @@ void write_columns(output::ResultFile& file, const std::string& group, const sce
 }
 
 /// Column j of the basis at this rank's nodes.
-void copy_column(const scene::BodyReport& body, int j, std::span<double> values) {
+void copy_column(const assembly::BodyReport& body, int j, std::span<double> values) {
   Vec column = nullptr;
   check(BVGetColumn(body.basis->V, j, &column));
   {
@@ -51,7 +51,7 @@ void copy_column(const scene::BodyReport& body, int j, std::span<double> values)
   body.mesh->let_follow(values);
 }
 
-void write_mesh(output::ResultFile& file, const std::string& group, const scene::BodyReport& body) {
+void write_mesh(output::ResultFile& file, const std::string& group, const assembly::BodyReport& body) {
   output::ReducedShapes shapes = body.mesh->shapes;
   shapes.column = [&](int j, std::span<double> values) { copy_column(body, j, values); };
   file.write_shapes(group + "/shapes", body.nodes, body.basis ? body.columns : 0, shapes,
@@ -61,9 +61,9 @@ void write_mesh(output::ResultFile& file, const std::string& group, const scene:
 }
 
 /// Of full order, the dofs of each node in the motion's states.
-void write_nodes(output::ResultFile& file, const std::string& group, const scene::Model& model,
-                 const scene::BodyReport& body) {
-  const scene::BodyMesh& mesh = *body.mesh;
+void write_nodes(output::ResultFile& file, const std::string& group, const assembly::Model& model,
+                 const assembly::BodyReport& body) {
+  const assembly::BodyMesh& mesh = *body.mesh;
   const bool in_world = model.formulation == scene::Formulation::cfr;
   std::vector<double> rows;
   for (std::size_t i = 0; i < mesh.shapes.nodes.size(); ++i) {
@@ -80,10 +80,10 @@ void write_nodes(output::ResultFile& file, const std::string& group, const scene
 
 }  // namespace
 
-void write_bodies(output::ResultFile& file, const scene::Model& model) {
+void write_bodies(output::ResultFile& file, const assembly::Model& model) {
   const double dimension[1] = {model.bodies.empty() ? 0. : model.bodies.front().dimension};
   file.write_array("motion/dimension", {}, dimension, {"", "2: in the plane, 3: in space"});
-  for (const scene::BodyReport& body : model.bodies) {
+  for (const assembly::BodyReport& body : model.bodies) {
     const std::string group = "bodies/" + body.name;
     write_frame(file, group, body);
     write_columns(file, group, model, body);

@@ -1,6 +1,6 @@
 #pragma once
+#include "floe/assembly/model.h"
 #include "floe/output/result_file.h"
-#include "floe/scene/model.h"
 
 namespace floe::app {
 
@@ -10,6 +10,6 @@ namespace floe::app {
 ///
 /// bodies/NAME: frame_at_start, columns_of_motion, shapes (mesh and basis; of a body from a file a link to it), and of
 /// full order nodes_of_motion. Collective.
-void write_bodies(output::ResultFile& file, const scene::Model& model);
+void write_bodies(output::ResultFile& file, const assembly::Model& model);
 
 }  // namespace floe::app

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floe/dynamics/start.h"
 #include "floe/output/provenance.h"
 #include "floe/output/summary.h"
 #include "floe/petsc/values.h"
+#include "floe/solve/start.h"
 #include "record_bodies.h"
 
 namespace floe::app {
@@ -28,7 +28,7 @@ const char* kind_name(reduction::ColumnOrigin::Kind kind) {
   }
 }
 
-ordered_json body_json(const scene::BodyReport& body) {
+ordered_json body_json(const assembly::BodyReport& body) {
   ordered_json j;
   j["name"] = body.name;
   j["nodes"] = body.nodes;
@@ -56,7 +56,7 @@ ordered_json body_json(const scene::BodyReport& body) {
   return j;
 }
 
-ordered_json first_summary(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
+ordered_json first_summary(const scene::Scene& scene, const assembly::Model& model, MPI_Comm comm,
                            const RunResult& result) {
   ordered_json j;
   j["status"] = "running";
@@ -80,7 +80,7 @@ ordered_json first_summary(const scene::Scene& scene, const scene::Model& model,
 constexpr const char* unassessed =
     "not done: the run was ended while its model's range was checked or its error estimated; its results are whole";
 
-ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& model) {
+ordered_json estimate_json(const assess::Estimate& estimate, const assembly::Model& model) {
   if (!estimate.none.empty()) return {{"none", estimate.none}};
   ordered_json j;
   j["deformation"] = estimate.deformation;
@@ -96,7 +96,7 @@ ordered_json estimate_json(const scene::Estimate& estimate, const scene::Model& 
 
 }  // namespace
 
-Recorder::Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
+Recorder::Recorder(const scene::Scene& scene, const assembly::Model& model, MPI_Comm comm,
                    const std::optional<output::ResultFolder>& folder, RunResult& result, const RunPlan& plan)
     : scene_(scene),
       model_(model),
@@ -157,7 +157,7 @@ std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_seri
       {"motion/V", unknowns, {"", "their rates"}},
       {"motion/energy", 3, {"J", "kinetic, elastic, potential"}},
       {"motion/constraints", 2, {"", "greatest violation of the constraints, and of their rates"}}};
-  if (const int frames = scene::moving_frames(model_); frames > 0)
+  if (const int frames = assembly::moving_frames(model_); frames > 0)
     all.emplace_back(
         "motion/attitude", 4 * frames,
         output::Label{"",
@@ -171,7 +171,7 @@ void Recorder::take_up_files(const output::Checkpoint& from) {
   const auto rows = static_cast<std::int64_t>(record[0]);
   energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];
   change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
-  std::array<double, dynamics::EnergyBalance::numbers> balance{};
+  std::array<double, solve::EnergyBalance::numbers> balance{};
   std::copy_n(record.begin() + 7, balance.size(), balance.begin());
   balance_.load(balance);
   first_step_ = kept_step_ = from.words.at("step");
@@ -200,7 +200,7 @@ void Recorder::note(const dynamics::EventReport& event) {
   result_.summary["events"].push_back(j);
 }
 
-void Recorder::checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending) {
+void Recorder::checkpoint_if_due(const solve::Instant& instant, const std::function<bool()>& ending) {
   if (!folder_ || !checkpoint_every_.any() || !instant.state) return;
   const auto [steps, seconds] = checkpoint_every_;
   int due = seconds > 0 && MPI_Wtime() - kept_at_ > seconds;
@@ -218,7 +218,7 @@ void Recorder::checkpoint_if_due(const dynamics::Instant& instant, const std::fu
 }
 
 /// Results first: a checkpoint never comes after what is on disk. Where all ranks move copies, rank 0 writes.
-void Recorder::write_checkpoint(const dynamics::Instant& instant) {
+void Recorder::write_checkpoint(const solve::Instant& instant) {
   int rank = 0;
   MPI_Comm_rank(comm_, &rank);
   if (alone_ && rank != 0) return;
@@ -250,7 +250,7 @@ void Recorder::write_checkpoint(const dynamics::Instant& instant) {
 bool Recorder::has_estimate() const { return result_.estimate.none.empty() && !result_.estimate.t.empty(); }
 
 void Recorder::write_estimate() {
-  const scene::Estimate& estimate = result_.estimate;
+  const assess::Estimate& estimate = result_.estimate;
   if (!has_estimate()) return;
   const auto rows = static_cast<std::int64_t>(estimate.t.size());
   const auto columns = static_cast<std::int64_t>(result_.series.columns.size());
@@ -278,14 +278,14 @@ void Recorder::store_state(Vec U, Vec V) {
 }
 
 /// Whether an instant is one of those that the scene wants: every so many steps, or, with `output`, at a multiple.
-bool Recorder::due(const dynamics::Instant& instant) const {
+bool Recorder::due(const solve::Instant& instant) const {
   if (instant.last || instant.step == 0) return true;
   if (!scene_.motion.output) return instant.step % scene_.motion.every == 0;
   const double number = instant.t / *scene_.motion.output;
   return std::abs(number - std::round(number)) < 1e-9 * std::max(1.0, number);
 }
 
-void Recorder::observe(const dynamics::Instant& instant) {
+void Recorder::observe(const solve::Instant& instant) {
   bool some = false;  // stored within the step
   if (scene_.motion.output && instant.between && !result_.series.t.empty()) {
     const double interval = *scene_.motion.output, last = result_.series.t.back();
@@ -310,7 +310,7 @@ void Recorder::observe(const dynamics::Instant& instant) {
 Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   const double begin = MPI_Wtime();
   const auto violation = [&](dynamics::ConstraintLevel level) {
-    return dynamics::constraint_violation(*model_.system, t, U, V, level);
+    return solve::constraint_violation(*model_.system, t, U, V, level);
   };
   const Measured all{model_.system->energy(t, U, V),
                      {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)}};
@@ -318,7 +318,7 @@ Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   return all;
 }
 
-void Recorder::look_after(const dynamics::Instant& instant, const Measured& now) {
+void Recorder::look_after(const solve::Instant& instant, const Measured& now) {
   const dynamics::Energy& energy = now.energy;
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late
@@ -344,12 +344,12 @@ std::string Recorder::growth_warning() const {
 
 void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
   const double begin = MPI_Wtime();
-  const std::vector<double> values = scene::probe_values(model_, t, U, V);
+  const std::vector<double> values = assembly::probe_values(model_, t, U, V);
   result_.series.t.push_back(t);
   result_.series.values.push_back(values);
   result_.series.energy.push_back(now.energy);
   if (folder_) {
-    const std::vector<double> attitudes = scene::attitudes(model_, U);
+    const std::vector<double> attitudes = assembly::attitudes(model_, U);
     const auto write = [&] {
       probes_->row(t, values);
       const double at[1] = {t}, e[3] = {now.energy.kinetic, now.energy.elastic, now.energy.potential};
@@ -367,7 +367,7 @@ void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
   seconds_ += MPI_Wtime() - begin;
 }
 
-void Recorder::finish(const dynamics::IntegrationReport& report, const std::string& stopped, bool assesses) {
+void Recorder::finish(const solve::IntegrationReport& report, const std::string& stopped, bool assesses) {
   ordered_json& j = result_.summary;
   j["status"] = stopped.empty() ? "finished" : "failed";
   if (!stopped.empty()) j["reason"] = stopped;
@@ -421,7 +421,7 @@ void Recorder::conclude(const ordered_json& step) {
   ordered_json& j = result_.summary;
   j.erase("assessment");
   j["warnings"] = result_.warnings;
-  for (const scene::OutOfRange& one : result_.out_of_range)
+  for (const assess::OutOfRange& one : result_.out_of_range)
     j["out_of_range"].push_back(
         {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);

@@ -4,10 +4,10 @@
 #include <memory>
 #include <tuple>
 
-#include "floe/dynamics/energy_balance.h"
 #include "floe/output/result_file.h"
 #include "floe/output/series_file.h"
 #include "floe/petsc/handle.h"
+#include "floe/solve/energy_balance.h"
 #include "run.h"
 
 namespace floe::app {
@@ -15,19 +15,19 @@ namespace floe::app {
 /// Keeps what a run shows: probes, states, energy and constraint drift, and the summary.
 class Recorder {
  public:
-  Recorder(const scene::Scene& scene, const scene::Model& model, MPI_Comm comm,
+  Recorder(const scene::Scene& scene, const assembly::Model& model, MPI_Comm comm,
            const std::optional<output::ResultFolder>& folder, RunResult& result, const RunPlan& plan = {});
   /// Called at the start and after each step.
-  void observe(const dynamics::Instant& instant);
+  void observe(const solve::Instant& instant);
   /// Writes a checkpoint where the plan wants one, at the end of the motion, and where it is about to be ended.
   /// @param ending  whether that is so; collective over those who move one copy
-  void checkpoint_if_due(const dynamics::Instant& instant, const std::function<bool()>& ending);
+  void checkpoint_if_due(const solve::Instant& instant, const std::function<bool()>& ending);
   /// An event that happened.
   void note(const dynamics::EventReport& event);
   /// The results are whole on disk then. @param stopped  why the motion ended early, or empty
   /// @param assesses  whether conclude() is to follow; until then the summary says that this is not done
   /// Collective.
-  void finish(const dynamics::IntegrationReport& report, const std::string& stopped, bool assesses);
+  void finish(const solve::IntegrationReport& report, const std::string& stopped, bool assesses);
   /// Adds what was found about the finished run: the estimate of its error, where it leaves the model's range, and
   /// warnings. The results stand, whatever happens here. @param step  for the summary's estimate; null: none.
   /// Collective.
@@ -44,7 +44,7 @@ class Recorder {
   void take_up_files(const output::Checkpoint& from);
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
-  void write_checkpoint(const dynamics::Instant& instant);
+  void write_checkpoint(const solve::Instant& instant);
   bool has_estimate() const;
   void write_estimate();
   void store_state(Vec U, Vec V);
@@ -56,10 +56,10 @@ class Recorder {
   Measured measured(double t, Vec U, Vec V);
   void store(double t, Vec U, Vec V, const Measured& now);
   /// For the summary: of the ends of steps; between them all this has the error of the interpolation.
-  void look_after(const dynamics::Instant& instant, const Measured& now);
-  bool due(const dynamics::Instant& instant) const;
+  void look_after(const solve::Instant& instant, const Measured& now);
+  bool due(const solve::Instant& instant) const;
   const scene::Scene& scene_;
-  const scene::Model& model_;
+  const assembly::Model& model_;
   MPI_Comm comm_;
   std::optional<output::ResultFolder> folder_;
   RunResult& result_;
@@ -72,7 +72,7 @@ class Recorder {
   std::string written_;  // the summary in result.h5
   double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
-  dynamics::EnergyBalance balance_;
+  solve::EnergyBalance balance_;
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
   double kept_at_ = 0, kept_seconds_ = 0;   // wall clock

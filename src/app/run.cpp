@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "floe/dynamics/generalized_alpha.h"
+#include "floe/assess/step_error.h"
 #include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "floe/petsc/together.h"
-#include "floe/scene/step_error.h"
+#include "floe/solve/generalized_alpha.h"
 #include "interruption.h"
 #include "recorder.h"
 
@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-std::string columns_label(const scene::Model& model) {
+std::string columns_label(const assembly::Model& model) {
   int count[3] = {0, 0, 0};
   for (const auto& body : model.bodies)
     for (const auto& origin : body.origins)
@@ -67,29 +67,29 @@ std::string text_of(const std::exception_ptr& fault) {
 }
 
 /// Warns where the finished motion leaves the range of its model. Collective.
-void check_range(const scene::Scene& scene, const scene::Model& model, const scene::KeptMotion& kept, MPI_Comm comm,
+void check_range(const scene::Scene& scene, const assembly::Model& model, const assess::KeptMotion& kept, MPI_Comm comm,
                  const RunPlan& plan, RunResult& result) {
   const std::string why =
-      petsc::failed_together(comm, [&] { result.out_of_range = scene::out_of_range(scene, model, kept, comm); });
+      petsc::failed_together(comm, [&] { result.out_of_range = assess::out_of_range(scene, model, kept, comm); });
   if (!why.empty()) {  // as of frequencies that nothing else asked for
     result.out_of_range.clear();
     result.warnings.push_back("the model's range was not checked: " + why);
   }
   if (plan.measured)
-    std::erase_if(result.out_of_range, [](const scene::OutOfRange& one) { return !scene::also_of_full_order(one); });
-  for (const scene::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
+    std::erase_if(result.out_of_range, [](const assess::OutOfRange& one) { return !assess::also_of_full_order(one); });
+  for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
   if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
 }
 
 /// What the step does, for the summary, by the motion with another step; warns where it does much. Collective.
-ordered_json step_error(const scene::Model& model, const scene::MotionStart& start, const scene::KeptMotion& kept,
-                        const dynamics::Integration& how, double took, MPI_Comm comm, RunResult& result) {
+ordered_json step_error(const assembly::Model& model, const assess::MotionStart& start, const assess::KeptMotion& kept,
+                        const solve::Integration& how, double took, MPI_Comm comm, RunResult& result) {
   constexpr double limit = 0.01;
-  double times[2] = {took, scene::estimate_seconds(result.offline_seconds + result.motion_seconds)};
+  double times[2] = {took, assess::estimate_seconds(result.offline_seconds + result.motion_seconds)};
   MPI_Bcast(times, 2, MPI_DOUBLE, 0, comm);
-  scene::StepError error;
+  assess::StepError error;
   const std::string why = petsc::failed_together(
-      comm, [&] { error = scene::estimate_step_error(model, start, kept, how, times[0], times[1]); });
+      comm, [&] { error = assess::estimate_step_error(model, start, kept, how, times[0], times[1]); });
   if (!why.empty()) error.none = "with another step: " + why;
   if (!error.none.empty()) return {{"none", error.none}};
   ordered_json j{{"deformation", error.deformation}};
@@ -110,9 +110,9 @@ ordered_json step_error(const scene::Model& model, const scene::MotionStart& sta
 
 }  // namespace
 
-std::string label_of(const scene::Model& model) {
-  const auto from_file = [](const scene::BodyReport& body) { return !body.file.empty(); };
-  const auto meshed = [&](const scene::BodyReport& body) { return !body.rigid && !from_file(body); };
+std::string label_of(const assembly::Model& model) {
+  const auto from_file = [](const assembly::BodyReport& body) { return !body.file.empty(); };
+  const auto meshed = [&](const assembly::BodyReport& body) { return !body.rigid && !from_file(body); };
   switch (model.formulation) {
     case scene::Formulation::cfr:
       return "CFR";
@@ -131,14 +131,14 @@ std::string label_of(const scene::Model& model) {
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
               const std::optional<output::ResultFolder>& folder, const RunPlan& plan) {
   const double begin = MPI_Wtime();
-  scene::Model model = [&] {
+  assembly::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
-    return scene::build(scene, formulation, comm, plan.estimate || plan.check_range);
+    return assembly::build(scene, formulation, comm, plan.estimate || plan.check_range);
   }();
   return move(scene, model, MPI_Wtime() - begin, comm, folder, plan);
 }
 
-RunResult move(const scene::Scene& scene, scene::Model& model, double offline_seconds, MPI_Comm comm,
+RunResult move(const scene::Scene& scene, assembly::Model& model, double offline_seconds, MPI_Comm comm,
                const std::optional<output::ResultFolder>& folder, const RunPlan& plan) {
   RunResult result;
   const double end = plan.until.value_or(scene.motion.end);
@@ -146,21 +146,21 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
-  result.series.columns = scene::probe_columns(model);
+  result.series.columns = assembly::probe_columns(model);
 
-  scene::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);
+  assess::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);
   Recorder recorder(scene, model, comm, folder, result, plan);
-  dynamics::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
-  how.events = scene::events_of(scene, model, end);
-  how.kinks = scene::kinks_of(scene, end);
+  solve::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
+  how.events = assembly::events_of(scene, model, end);
+  how.kinks = assembly::kinks_of(scene, end);
   how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
   const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
-  std::optional<scene::MotionStart> start;
-  if (estimates && !plan.quiet) start = scene::start_of(model);
-  const std::optional<dynamics::MotionState> from =
-      plan.from ? std::optional(state_of(*plan.from)) : std::optional<dynamics::MotionState>();
+  std::optional<assess::MotionStart> start;
+  if (estimates && !plan.quiet) start = assess::start_of(model);
+  const std::optional<solve::MotionState> from =
+      plan.from ? std::optional(state_of(*plan.from)) : std::optional<solve::MotionState>();
   if (from) how.from = &*from;
-  dynamics::IntegrationReport report;
+  solve::IntegrationReport report;
   // Reduced, every rank moves its own copy and rank 0 writes; a fault of one is everybody's, at the latest so many
   // steps later.
   constexpr PetscInt steps_alone = 1024;
@@ -171,7 +171,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     const Interruption interruption;
     std::optional<output::Progress> progress;
     if (!plan.quiet) progress.emplace(comm, 0, end);
-    const auto observe = [&](const dynamics::Instant& instant) {
+    const auto observe = [&](const solve::Instant& instant) {
       recorder.observe(instant);
       if (model.formulation != scene::Formulation::cfr) kept.keep(instant);
       if (progress) progress->update(instant.t, instant.step);
@@ -185,8 +185,8 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     std::optional<std::string> reason;
     fault = fault_of([&] {
       try {
-        report = dynamics::simulate(*model.system, how, model.U, model.V, observe);
-      } catch (const dynamics::MotionStopped& error) {
+        report = solve::simulate(*model.system, how, model.U, model.V, observe);
+      } catch (const solve::MotionStopped& error) {
         report = error.report();
         reason = error.reason();
         throw;
@@ -206,7 +206,7 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     result.warnings.push_back(
         "-motion_ts_type alpha2: PETSc's type starts with a wrong acceleration before release 3.22, which makes it of "
         "first order; multipliers may oscillate");
-  if (scene.motion.output && report.type != dynamics::generalized_alpha)
+  if (scene.motion.output && report.type != solve::generalized_alpha)
     result.warnings.push_back(
         fmt::format("motion.output: PETSc's type {} has no values within steps; of the instants that are wanted those "
                     "are stored at which a step ends",
@@ -237,10 +237,10 @@ RunResult move(const scene::Scene& scene, scene::Model& model, double offline_se
     if (plan.check_range) check_range(scene, model, kept, comm, plan, result);
     if (estimates) {
       const output::Waiting waiting(comm, "estimating the error");
-      result.estimate = scene::estimate_error(
+      result.estimate = assess::estimate_error(
           model, kept,
           plan.estimate_seconds.value_or(
-              scene::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
+              assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
       if (start) of_step = step_error(model, *start, kept, how, report.processor_seconds, comm, result);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so

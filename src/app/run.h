@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "checkpoint.h"
-#include "floe/dynamics/simulation.h"
+#include "floe/assess/validity.h"
 #include "floe/output/folder.h"
-#include "floe/scene/range.h"
+#include "floe/solve/simulation.h"
 
 namespace floe::app {
 
@@ -15,7 +15,7 @@ namespace floe::app {
 struct Series {
   std::vector<double> t;
   std::vector<std::vector<double>> values;  ///< of each instant
-  std::vector<scene::ProbeColumn> columns;
+  std::vector<assembly::ProbeColumn> columns;
   std::vector<dynamics::Energy> energy;  ///< of each instant
 };
 
@@ -29,9 +29,9 @@ struct RunResult {
   PetscInt steps = 0;
   double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;
-  scene::Estimate estimate;
-  std::vector<scene::OutOfRange> out_of_range;  ///< their texts are among the warnings
-  std::vector<dynamics::State> states;          ///< some, along the motion, if they were to be kept
+  assess::Estimate estimate;
+  std::vector<assess::OutOfRange> out_of_range;  ///< their texts are among the warnings
+  std::vector<solve::State> states;              ///< some, along the motion, if they were to be kept
 };
 
 /// What keeps a run from being lost, and where it begins and ends.
@@ -40,9 +40,9 @@ struct RunPlan {
   std::optional<output::Checkpoint> from = {};  ///< of the run in the folder, which is taken up again
   std::optional<double> until = {};             ///< [s]; else the scene's motion.end
   bool quiet = false;                           ///< shows no progress
-  bool estimate = false;                        ///< of the error, of reduced formulations (scene::estimate_error)
+  bool estimate = false;                        ///< of the error, of reduced formulations (assess::estimate_error)
   std::optional<double> estimate_seconds = {};  ///< that it may take; else a tenth of all the rest
-  bool check_range = true;                      ///< scene::out_of_range
+  bool check_range = true;                      ///< assess::out_of_range
   bool measured = false;                        ///< against full order: warns only of what full order errs in, too
   nlohmann::ordered_json choice = {};           ///< how the model was chosen, for the summary
   bool keep_states = false;                     ///< RunResult::states
@@ -55,10 +55,10 @@ RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
               const std::optional<output::ResultFolder>& folder, const RunPlan& plan = {});
 
 /// The second half of run(): moves a model of the scene, which lives on `comm` or, reduced, on every rank of it alike.
-RunResult move(const scene::Scene& scene, scene::Model& model, double offline_seconds, MPI_Comm comm,
+RunResult move(const scene::Scene& scene, assembly::Model& model, double offline_seconds, MPI_Comm comm,
                const std::optional<output::ResultFolder>& folder, const RunPlan& plan = {});
 
 /// What a body was reduced to, as `12 VMs + 5 MDs + 2 AMs`.
-std::string label_of(const scene::Model& model);
+std::string label_of(const assembly::Model& model);
 
 }  // namespace floe::app

@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "floe/dynamics/generalized_alpha.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/solve/generalized_alpha.h"
 #include "options.h"
 #include "options_file.h"
 
@@ -112,7 +112,7 @@ int in_session(const CommandLine& line, const std::string& command, const std::f
   const int code = guarded([&] {
     petsc::collect_errors();
     petsc::prepare_mumps();
-    dynamics::register_generalized_alpha();
+    solve::register_generalized_alpha();
     if (!bad_files.empty()) throw InputError(bad_files);
     check_options(command);
     int rank = 0;

@@ -31,11 +31,11 @@ struct Plan {
 /// Keeps the last bodies that were reduced: members that differ in what acts on them share these.
 class Offline {
  public:
-  const scene::ReducedBodies& bodies(const Plan& plan, std::size_t member, const scene::Scene& scene) {
+  const assembly::ReducedBodies& bodies(const Plan& plan, std::size_t member, const scene::Scene& scene) {
     std::string inputs = scene::offline_inputs(plan.text, plan.file, plan.members[member]);
     if (!bodies_ || inputs != inputs_) {
       bodies_.reset();
-      bodies_ = scene::reduce_once(scene, plan.formulation, PETSC_COMM_SELF);
+      bodies_ = assembly::reduce_once(scene, plan.formulation, PETSC_COMM_SELF);
       inputs_ = std::move(inputs);
       ++reductions;
     }
@@ -45,7 +45,7 @@ class Offline {
 
  private:
   std::string inputs_;
-  std::shared_ptr<const scene::ReducedBodies> bodies_;
+  std::shared_ptr<const assembly::ReducedBodies> bodies_;
 };
 
 /// Greatest absolute value, root of the mean square over time (trapezoidal rule) and last value of each probe.
@@ -70,7 +70,7 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
   Member member;
   try {
     const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[number]);
-    scene::Model model = scene::build_on(offline.bodies(plan, number, scene), scene);
+    assembly::Model model = assembly::build_on(offline.bodies(plan, number, scene), scene);
     RunPlan quiet;
     quiet.quiet = true;
     const RunResult result = move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
@@ -208,11 +208,11 @@ Plan plan_of(const std::string& file, scene::Formulation formulation, const std:
 
 /// Columns of the probes, as the scene has them. Those of a first model, which is built for nothing else, are the
 /// members'.
-std::vector<scene::ProbeColumn> columns_of(const Plan& plan, Offline& offline) {
+std::vector<assembly::ProbeColumn> columns_of(const Plan& plan, Offline& offline) {
   for (std::size_t m = 0; m < plan.members.size(); ++m) {
     try {
       const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[m]);
-      return scene::probe_columns(scene::build_on(offline.bodies(plan, m, scene), scene));
+      return assembly::probe_columns(assembly::build_on(offline.bodies(plan, m, scene), scene));
     } catch (const RunError&) {
       if (m + 1 == plan.members.size()) throw;
     } catch (const InputError&) {

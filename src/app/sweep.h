@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "floe/output/folder.h"
+#include "floe/assembly/reduce_once.h"
 #include "floe/scene/variation.h"
 
 namespace floe::app {

@@ -25,13 +25,13 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 SweepFile::SweepFile(const output::ResultFolder& folder, const std::string& scene_text, ordered_json summary,
-                     const std::vector<std::string>& paths, const std::vector<scene::ProbeColumn>& columns)
+                     const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns)
     : folder_(folder), summary_(std::move(summary)), columns_(columns) {
   std::vector<std::string> of_member{"member"};
   of_member.insert(of_member.end(), paths.begin(), paths.end());
   for (const char* name : {"failed", "steps", "end [s]"}) of_member.push_back(name);
   ordered_json of_rows{"member", "t [s]"};
-  for (const scene::ProbeColumn& column : columns) {
+  for (const assembly::ProbeColumn& column : columns) {
     for (const char* which : {"greatest", "rms", "last"})
       of_member.push_back(fmt::format("{} {} [{}]", which, column.name, column.unit));
     of_rows.push_back(fmt::format("{} [{}]", column.name, column.unit));

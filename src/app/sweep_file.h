@@ -14,7 +14,7 @@ class SweepFile {
   /// @param paths    of what is varied
   /// @param columns  of the probes, with units
   SweepFile(const output::ResultFolder& folder, const std::string& scene_text, nlohmann::ordered_json summary,
-            const std::vector<std::string>& paths, const std::vector<scene::ProbeColumn>& columns);
+            const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns);
   /// The next member. @throws RunError
   void add(const std::vector<scene::Variation>& variations, const Member& member);
   /// Brings sweep.csv and summary.json up to date. @throws RunError
@@ -30,7 +30,7 @@ class SweepFile {
 
   output::ResultFolder folder_;
   nlohmann::ordered_json summary_;
-  std::vector<scene::ProbeColumn> columns_;
+  std::vector<assembly::ProbeColumn> columns_;
   std::unique_ptr<output::ResultFile> file_;
   std::string table_;  // of sweep.csv
   std::int64_t members_ = 0, failed_ = 0;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "floe/math/rotation.h"
+#include "floe/scene/file_places.h"
 #include "floe/scene/places.h"
-#include "prepare_reduced.h"
 #include "readers.h"
 
 namespace floe::scene {

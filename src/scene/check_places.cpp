@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "floe/scene/file_places.h"
 #include "floe/scene/places.h"
-#include "prepare_reduced.h"
 #include "readers.h"
 
 namespace floe::scene {

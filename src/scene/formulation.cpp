@@ -1,5 +1,7 @@
+#include "floe/scene/formulation.h"
+
 #include "floe/math/nearest.h"
-#include "floe/scene/model.h"
+#include "floe/scene/scene.h"
 
 namespace floe::scene {
 

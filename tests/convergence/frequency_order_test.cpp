@@ -20,7 +20,7 @@ joints: {$joints}
 motion: {end: 1, step: 1}
 )yaml",
                                 {{"elements", std::to_string(elements)}, {"joints", joints}});
-  return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega.at(0) / exact - 1;
+  return assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega.at(0) / exact - 1;
 }
 
 const std::string clamp = "a: {type: fixed, between: [ground, beam.start]}";

@@ -25,12 +25,12 @@ scene::Scene pendulum(double length) {
 }
 
 double time_of_first_swing(double length) {
-  const scene::Model model = scene::build(pendulum(length), scene::Formulation::vm_md, PETSC_COMM_WORLD);
+  const assembly::Model model = assembly::build(pendulum(length), scene::Formulation::vm_md, PETSC_COMM_WORLD);
   double bottom = -1;
-  const auto watch = [&](const dynamics::Instant& at) {
-    if (bottom < 0 && scene::probe_values(model, at.t, at.U, at.V)[0] < 0) bottom = at.t;
+  const auto watch = [&](const solve::Instant& at) {
+    if (bottom < 0 && assembly::probe_values(model, at.t, at.U, at.V)[0] < 0) bottom = at.t;
   };
-  dynamics::simulate(*model.system, {3, 1e-3}, model.U, model.V, watch);
+  solve::simulate(*model.system, {3, 1e-3}, model.U, model.V, watch);
   return bottom;
 }
 
@@ -38,7 +38,7 @@ double time_of_first_swing(double length) {
 
 int main(int argc, char** argv) {
   if (SlepcInitialize(&argc, &argv, nullptr, nullptr)) return 1;
-  dynamics::register_generalized_alpha();
+  solve::register_generalized_alpha();
   for (double length : {0.5, 1.0, 2.0}) std::printf("%g %.6f\n", length, time_of_first_swing(length));
   return SlepcFinalize();
 }

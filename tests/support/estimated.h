@@ -1,5 +1,5 @@
 #pragma once
-#include "floe/scene/estimate.h"
+#include "floe/assess/estimate.h"
 #include "scene_motion.h"
 
 namespace floe::test {
@@ -7,22 +7,22 @@ namespace floe::test {
 /// A reduced motion with the estimate of its error.
 struct Estimated {
   History history;
-  scene::Estimate estimate;
+  assess::Estimate estimate;
 };
 
 inline Estimated move_and_estimate(const std::string& text, Formulation formulation, double seconds = 100) {
   const scene::Scene scene = scene::parse_scene(text, "scene");
-  Estimated all{{scene::build(scene, formulation, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
+  Estimated all{{assembly::build(scene, formulation, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
   const scene::Motion& motion = scene.motion;
-  const scene::Model& model = all.history.model;
-  scene::KeptMotion kept(model);
-  dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
-  how.kinks = scene::kinks_of(scene, motion.end);
-  all.history.report = dynamics::simulate(*model.system, how, model.U, model.V, [&](const dynamics::Instant& at) {
+  const assembly::Model& model = all.history.model;
+  assess::KeptMotion kept(model);
+  solve::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
+  how.kinks = assembly::kinks_of(scene, motion.end);
+  all.history.report = solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) {
     store(all.history, at.t, at.U, at.V);
     kept.keep(at);
   });
-  all.estimate = scene::estimate_error(model, kept, seconds);
+  all.estimate = assess::estimate_error(model, kept, seconds);
   return all;
 }
 

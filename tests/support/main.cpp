@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "floe/dynamics/generalized_alpha.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/factorisation.h"
+#include "floe/solve/generalized_alpha.h"
 
 int main(int argc, char** argv) {
   int none = 1;
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   if (SlepcInitialize(&none, &arguments, nullptr, nullptr)) return 1;
   floe::petsc::collect_errors();
   floe::petsc::prepare_mumps();
-  floe::dynamics::register_generalized_alpha();
+  floe::solve::register_generalized_alpha();
   const int failures = Catch::Session().run(argc, argv);
   int any = 0;
   MPI_Allreduce(&failures, &any, 1, MPI_INT, MPI_MAX, PETSC_COMM_WORLD);

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "floe/dynamics/simulation.h"
-#include "floe/dynamics/start.h"
+#include "floe/assembly/model.h"
 #include "floe/petsc/values.h"
-#include "floe/scene/model.h"
+#include "floe/solve/simulation.h"
+#include "floe/solve/start.h"
 #include "structures.h"
 
 namespace floe::test {
@@ -33,11 +33,11 @@ inline std::string number(double value) { return fmt::format("{:.17g}", value); 
 
 /// What the probes and the energy did in time.
 struct History {
-  scene::Model model;
+  assembly::Model model;
   std::vector<double> t;
   std::map<std::string, std::vector<double>> columns;  ///< `tip.x`
   std::vector<dynamics::Energy> energy;                ///< of every step
-  dynamics::IntegrationReport report;
+  solve::IntegrationReport report;
   std::vector<dynamics::EventReport> events = {};
 
   const std::vector<double>& operator[](const std::string& column) const { return columns.at(column); }
@@ -59,15 +59,15 @@ struct History {
 };
 
 inline void store(History& history, double t, Vec U, Vec V) {
-  const auto columns = scene::probe_columns(history.model);
-  const std::vector<double> values = scene::probe_values(history.model, t, U, V);
+  const auto columns = assembly::probe_columns(history.model);
+  const std::vector<double> values = assembly::probe_values(history.model, t, U, V);
   history.t.push_back(t);
   for (std::size_t c = 0; c < columns.size(); ++c) history.columns[columns[c].name].push_back(values[c]);
   history.energy.push_back(history.model.system->energy(t, U, V));
 }
 
 inline History history_of(const std::string& text, Formulation formulation) {
-  return {scene::build(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD), {}, {}, {}, {}};
+  return {assembly::build(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD), {}, {}, {}, {}};
 }
 
 /// Reads, builds and moves a scene as `floe run` does. U, V of the model hold the end.
@@ -75,12 +75,12 @@ inline History move(const std::string& text, Formulation formulation) {
   History history = history_of(text, formulation);
   const scene::Scene scene = scene::parse_scene(text, "scene");
   const scene::Motion& motion = scene.motion;
-  dynamics::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
-  how.events = scene::events_of(scene, history.model, motion.end);
-  how.kinks = scene::kinks_of(scene, motion.end);
+  solve::Integration how{motion.end, motion.step, motion.spectral_radius, motion.tolerance};
+  how.events = assembly::events_of(scene, history.model, motion.end);
+  how.kinks = assembly::kinks_of(scene, motion.end);
   how.on_event = [&](const dynamics::EventReport& event) { history.events.push_back(event); };
-  history.report = dynamics::simulate(*history.model.system, how, history.model.U, history.model.V,
-                                      [&](const dynamics::Instant& at) { store(history, at.t, at.U, at.V); });
+  history.report = solve::simulate(*history.model.system, how, history.model.U, history.model.V,
+                                   [&](const solve::Instant& at) { store(history, at.t, at.U, at.V); });
   return history;
 }
 
@@ -88,7 +88,7 @@ inline History move(const std::string& text, Formulation formulation) {
 inline History rest(const std::string& text, Formulation formulation, int steps = 1) {
   History history = history_of(text, formulation);
   for (int i = 1; i <= steps; ++i)
-    dynamics::equilibrium(*history.model.system, double(i) / steps, history.model.U, history.model.V);
+    solve::equilibrium(*history.model.system, double(i) / steps, history.model.U, history.model.V);
   store(history, 1, history.model.U, history.model.V);
   return history;
 }

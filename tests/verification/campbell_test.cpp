@@ -273,7 +273,7 @@ TEST_CASE("campbell: the steady stretch has its closed form") {
   for (const double k : {0.1, 0.5}) {
     const auto found = diagram(planar("clamped", driven, "40", "1e4"), Formulation::nlffr, number(100 * k), 1);
     REQUIRE(found.points.at(0).fault == "");
-    const auto values = scene::probe_values(found.model, 0, found.model.U, found.model.V);
+    const auto values = assembly::probe_values(found.model, 0, found.model.U, found.model.V);
     CHECK(values.at(0) == Approx(std::sin(k) / (k * std::cos(k)) - 1).epsilon(5e-4));
     CHECK(std::abs(values.at(1)) < 1e-9);
   }

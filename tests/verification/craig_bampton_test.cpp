@@ -66,7 +66,7 @@ bodies:
 motion: {end: 1, step: 0.1}
 )yaml",
                                 {{"frame", frame}});
-  const scene::Model model = history_of(text, Formulation::vm_md).model;
+  const assembly::Model model = history_of(text, Formulation::vm_md).model;
   CHECK(model.bodies[0].columns == 4 + 3);
 }
 

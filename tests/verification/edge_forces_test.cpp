@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "floe/scene/reduced.h"
+#include "floe/assembly/reduced_bodies_file.h"
 #include "space_twin.h"
 
 using namespace floe;
@@ -64,7 +64,7 @@ probes: {end: {at: strip.right}}
       const std::string file = (folder.path / "strip.h5").string(),
                         mesh = text.substr(text.find("{mesh"), text.find("}}\n") + 1 - text.find("{mesh"));
       std::vector<std::string> warnings;
-      scene::reduce_body(scene::parse_scene(text, "scene"), "strip", PETSC_COMM_WORLD, file, true, warnings);
+      assembly::reduce_body(scene::parse_scene(text, "scene"), "strip", PETSC_COMM_WORLD, file, true, warnings);
       const History from_file =
           rest(std::string(text).replace(text.find(mesh), mesh.size(), "{reduced: " + file + "}"), Formulation::vm_md);
       CHECK(from_file["end.x"][0] == Approx(7e6 / (7e10 * 0.4 * 0.01)).epsilon(1e-6));

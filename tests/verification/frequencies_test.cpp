@@ -20,7 +20,7 @@ joints: {$joints}
 motion: {end: 1, step: 1}
 )yaml",
                                 {{"frame", frame}, {"count", std::to_string(count)}, {"joints", joints}});
-  return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+  return assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
 }
 
 const std::string left = "a: {type: fixed, between: [ground, beam.start]}",
@@ -74,7 +74,7 @@ motion: {end: 1, step: 1}
 )yaml";
   const auto squares = [](const std::string& text, int elements) {
     const std::string scene = fill(text, {{"elements", std::to_string(elements)}});
-    std::vector<double> all = scene::body_modes(scene::parse_scene(scene, "scene"), PETSC_COMM_WORLD).at(0).omega;
+    std::vector<double> all = assembly::body_modes(scene::parse_scene(scene, "scene"), PETSC_COMM_WORLD).at(0).omega;
     for (double& omega : all) omega *= omega;
     return all;
   };
@@ -101,7 +101,7 @@ bodies:
 joints: {a: {type: revolute, between: [ground, beam.start]}, b: {type: revolute, between: [ground, beam.end]}}
 motion: {end: 1, step: 1}
 )yaml";
-  const auto omega = scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+  const auto omega = assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
   for (int n = 1; n <= 3; ++n) {
     const double beta = n * M_PI;
     CHECK(omega[n - 1] == Approx(std::sqrt(std::pow(beta, 4) / (1 + beta * beta * 0.01))).epsilon(1e-5));
@@ -140,7 +140,7 @@ joints: {clamp: {type: fixed, between: [ground, beam.start]}}
 motion: {end: 1, step: 1}
 )yaml",
                                   {{"rotary", rotary}});
-    return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+    return assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
   };
   const auto with = omega("true"), without = omega("false");
   // bending; the third mode is axial: (pi/2L) sqrt(EA/rhoA) = 22.497

@@ -117,7 +117,7 @@ TEST_CASE("immovable beam: reduced between two joints, rows that repeat are left
 TEST_CASE("immovable beam: a frame that does not pass through both hinges is refused") {
   for (const std::string frame : {"clamped", "mean-axis"}) {
     const scene::Scene scene = scene::parse_scene(between("revolute", frame), "scene");
-    CHECK_THROWS_WITH(scene::build(scene, Formulation::vm_md, PETSC_COMM_WORLD),
+    CHECK_THROWS_WITH(assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD),
                       Catch::Contains("frame: pinned") && Catch::Contains("beam"));
   }
   // between clamps the tangent is the chord

@@ -68,8 +68,8 @@ TEST_CASE("joint modes: hinged modes of a clamped beam stay wrong") {
 
 TEST_CASE("joint modes: the user is told of modes that cannot carry the clamp") {
   const auto warnings = [](const std::string& reduction) {
-    return scene::build(scene::parse_scene(text_of({.reduction = reduction}), "scene"), Formulation::vm_md,
-                        PETSC_COMM_WORLD)
+    return assembly::build(scene::parse_scene(text_of({.reduction = reduction}), "scene"), Formulation::vm_md,
+                           PETSC_COMM_WORLD)
         .warnings;
   };
   const auto bad = warnings("{modes: {count: 3, of: frame}, attachment: none}");

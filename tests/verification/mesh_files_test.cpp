@@ -170,13 +170,13 @@ TEST_CASE("a load on a rigid tip block: full order, reduced, and at nodes that o
   };
   const std::string hub = "node: [-0.3, 0.4, 0.1]", block = "node: [2.2, 0.5, 0.05]";
   const auto built = [&](const std::string& text, Formulation formulation) {
-    return scene::build(scene::parse_scene(text, folder + "/scene.yaml"), formulation, PETSC_COMM_WORLD);
+    return assembly::build(scene::parse_scene(text, folder + "/scene.yaml"), formulation, PETSC_COMM_WORLD);
   };
   std::map<Formulation, std::vector<double>> at;
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
-    const scene::Model model = built(on_hub(hub, loaded(block)), formulation);
-    dynamics::equilibrium(*model.system, 1, model.U, model.V);
-    at[formulation] = scene::probe_values(model, 1, model.U, model.V);
+    const assembly::Model model = built(on_hub(hub, loaded(block)), formulation);
+    solve::equilibrium(*model.system, 1, model.U, model.V);
+    at[formulation] = assembly::probe_values(model, 1, model.U, model.V);
   }
   REQUIRE(at[Formulation::nlffr].size() == 3);
   CHECK(std::abs(at[Formulation::nlffr][2]) > 0.005);
@@ -187,18 +187,18 @@ TEST_CASE("a load on a rigid tip block: full order, reduced, and at nodes that o
                            "}}, edge: {at: {body: plate, node: [2, 0.5, 0]}}, " + "turn: {at: {body: plate, " + block +
                            "}, quantity: rotation}}\n";
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
-    const scene::Model model = built(on_hub(hub, both), formulation);
-    dynamics::equilibrium(*model.system, 1, model.U, model.V);
-    const std::vector<double> found = scene::probe_values(model, 1, model.U, model.V);
+    const assembly::Model model = built(on_hub(hub, both), formulation);
+    solve::equilibrium(*model.system, 1, model.U, model.V);
+    const std::vector<double> found = assembly::probe_values(model, 1, model.U, model.V);
     const Eigen::Vector3d u(found[0], found[1], found[2]), edge(found[3], found[4], found[5]),
         turn(found[6], found[7], found[8]), arm(2 - 2.2, 0, -0.05);
     CHECK((edge - u - turn.cross(arm)).norm() < 1e-9);
     CHECK(turn.norm() > 1e-3);
   }
   // The hub of the deck may be named by a node of the edge that it moves.
-  const scene::Model by_edge = built(on_hub("node: [0, 0, 0]", loaded(block)), Formulation::vm_md);
-  dynamics::equilibrium(*by_edge.system, 1, by_edge.U, by_edge.V);
-  CHECK(scene::probe_values(by_edge, 1, by_edge.U, by_edge.V)[2] == Approx(at[Formulation::vm_md][2]).epsilon(1e-6));
+  const assembly::Model by_edge = built(on_hub("node: [0, 0, 0]", loaded(block)), Formulation::vm_md);
+  solve::equilibrium(*by_edge.system, 1, by_edge.U, by_edge.V);
+  CHECK(assembly::probe_values(by_edge, 1, by_edge.U, by_edge.V)[2] == Approx(at[Formulation::vm_md][2]).epsilon(1e-6));
 }
 
 TEST_CASE("a part of the scene goes before the deck's section of the same name") {

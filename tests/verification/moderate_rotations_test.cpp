@@ -60,7 +60,7 @@ std::array<double, 2> errors(const Case& c, Formulation formulation, bool space 
   if (!known.count(key)) known[key] = tip(at_rest(scene_of({c.load, "pinned", c.size, 1}, false), Formulation::cfr));
   const app::RunResult result = at_rest(scene_of(c, space), formulation);
   double said = 0;
-  for (const scene::OutOfRange& one : result.out_of_range)
+  for (const assess::OutOfRange& one : result.out_of_range)
     if (one.what == "slope") {
       CHECK(one.of == "beam");
       CHECK(one.value > one.limit);

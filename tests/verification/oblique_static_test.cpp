@@ -26,9 +26,9 @@ std::string growing(const Vector3d& force) {
 /// Greatest difference of the probes of reduced and full order, over the greatest displacement.
 double error(const std::string& scene, int steps, const std::string& name = "scene") {
   const auto at_rest = [&](Formulation formulation) {
-    const scene::Model model = scene::build(scene::parse_scene(scene, name), formulation, PETSC_COMM_WORLD);
-    for (int i = 1; i <= steps; ++i) dynamics::equilibrium(*model.system, double(i) / steps, model.U, model.V);
-    return scene::probe_values(model, 1, model.U, model.V);
+    const assembly::Model model = assembly::build(scene::parse_scene(scene, name), formulation, PETSC_COMM_WORLD);
+    for (int i = 1; i <= steps; ++i) solve::equilibrium(*model.system, double(i) / steps, model.U, model.V);
+    return assembly::probe_values(model, 1, model.U, model.V);
   };
   const std::vector<double> full = at_rest(Formulation::nlffr), reduced = at_rest(Formulation::vm_md);
   double difference = 0, greatest = 0;
@@ -80,7 +80,8 @@ TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced a
 
 TEST_CASE("an oblique pull that no column follows is told, though columns follow each of its components") {
   const auto notes = [](const std::string& scene) {
-    const scene::Model model = scene::build(scene::parse_scene(scene, "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
+    const assembly::Model model =
+        assembly::build(scene::parse_scene(scene, "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
     return std::count_if(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
       return warning.find("of the work of load pull on its static response") != std::string::npos;
     });

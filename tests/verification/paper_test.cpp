@@ -41,7 +41,7 @@ int axial_modes(const std::string& name, int modes) {
   const scene::Section& section = scene.bodies[0].section;
   const int n = 20;
   const double c_over_h = std::sqrt(section.EA / section.rhoA) / (100.0 / n);
-  const std::vector<scene::BodyReport> bodies = scene::body_modes(scene, PETSC_COMM_WORLD);
+  const std::vector<assembly::BodyReport> bodies = assembly::body_modes(scene, PETSC_COMM_WORLD);
   int axial = 0;
   for (double omega : bodies[0].omega)
     for (int k = 1; k <= n; ++k) {

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "../../src/app/campbell.h"
-#include "floe/scene/range.h"
+#include "floe/assess/validity.h"
 #include "spatial_scenes.h"
 
 using namespace floe;
@@ -10,26 +10,26 @@ using namespace floe::test;
 namespace {
 
 /// By what they are about.
-std::map<std::string, scene::OutOfRange> by_name(const std::vector<scene::OutOfRange>& lines) {
-  std::map<std::string, scene::OutOfRange> all;
-  for (const scene::OutOfRange& line : lines) all[line.what] = line;
+std::map<std::string, assess::OutOfRange> by_name(const std::vector<assess::OutOfRange>& lines) {
+  std::map<std::string, assess::OutOfRange> all;
+  for (const assess::OutOfRange& line : lines) all[line.what] = line;
   return all;
 }
 
 struct AtRest {
   std::vector<double> probes;
-  std::map<std::string, scene::OutOfRange> said;
+  std::map<std::string, assess::OutOfRange> said;
 };
 
 /// Equilibria in steps of the load; what is said of the last one.
 AtRest at_rest(const std::string& text, int steps, Formulation formulation = Formulation::nlffr,
                const std::string& name = "scene") {
-  const scene::Model model = scene::build(scene::parse_scene(text, name), formulation, PETSC_COMM_WORLD, true);
-  for (int i = 1; i <= steps; ++i) dynamics::equilibrium(*model.system, double(i) / steps, model.U, model.V);
+  const assembly::Model model = assembly::build(scene::parse_scene(text, name), formulation, PETSC_COMM_WORLD, true);
+  for (int i = 1; i <= steps; ++i) solve::equilibrium(*model.system, double(i) / steps, model.U, model.V);
   const petsc::VecHandle none = model.system->create_vector();
-  const dynamics::State state = dynamics::state_of(*model.system, 1, model.U, model.V, none);
-  return {scene::probe_values(model, 1, model.U, model.V),
-          by_name(scene::shapes_out_of_range(model, {state}, PETSC_COMM_WORLD))};
+  const solve::State state = solve::state_of(*model.system, 1, model.U, model.V, none);
+  return {assembly::probe_values(model, 1, model.U, model.V),
+          by_name(assess::shapes_out_of_range(model, {state}, PETSC_COMM_WORLD))};
 }
 
 /// The warning of a campbell diagram that has these words; empty: none.

@@ -1,8 +1,7 @@
-#include "floe/scene/range.h"
-
 #include <catch2/catch.hpp>
 
 #include "estimated.h"
+#include "floe/assess/validity.h"
 #include "paper_cantilever.h"
 
 using namespace floe;
@@ -10,17 +9,17 @@ using namespace floe::test;
 
 namespace {
 
-std::vector<scene::OutOfRange> judged(const std::string& text, Formulation formulation) {
+std::vector<assess::OutOfRange> judged(const std::string& text, Formulation formulation) {
   const scene::Scene scene = scene::parse_scene(text, "scene");
-  const scene::Model model = scene::build(scene, formulation, PETSC_COMM_WORLD, true);
-  scene::KeptMotion kept(model, 100);
-  dynamics::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
-                     model.V, [&](const dynamics::Instant& at) { kept.keep(at); });
-  return scene::out_of_range(scene, model, kept, PETSC_COMM_WORLD);
+  const assembly::Model model = assembly::build(scene, formulation, PETSC_COMM_WORLD, true);
+  assess::KeptMotion kept(model, 100);
+  solve::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
+                  model.V, [&](const solve::Instant& at) { kept.keep(at); });
+  return assess::out_of_range(scene, model, kept, PETSC_COMM_WORLD);
 }
 
 /// What the lines are about, with their number.
-std::map<std::string, double> said(const std::vector<scene::OutOfRange>& lines) {
+std::map<std::string, double> said(const std::vector<assess::OutOfRange>& lines) {
   std::map<std::string, double> all;
   for (const auto& line : lines) {
     CHECK(line.value > line.limit);
@@ -204,9 +203,9 @@ TEST_CASE("cells that are wider than their plate is long are told, in motion, at
   }
   for (const double width : {1, 20}) {
     const scene::Scene scene = scene::parse_scene(wide(width), "scene");
-    const auto reports = scene::body_modes(scene, PETSC_COMM_WORLD);
-    CHECK((reports[0].sag[0] > scene::greatest_sag_of_modes) == (width > 1));
-    const scene::Model model = scene::build(scene, Formulation::vm_md, PETSC_COMM_WORLD);
+    const auto reports = assembly::body_modes(scene, PETSC_COMM_WORLD);
+    CHECK((reports[0].sag[0] > assembly::greatest_sag_of_modes) == (width > 1));
+    const assembly::Model model = assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD);
     const bool told = std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& line) {
       return line.find("mode 1") != std::string::npos && line.find("within single cells") != std::string::npos;
     });

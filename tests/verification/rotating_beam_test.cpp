@@ -33,7 +33,7 @@ std::string driven(double gamma) { return "type: driven, angle: \"" + number(gam
 History steady(double gamma, const std::string& frame, Formulation formulation, const std::string& elements,
                const std::string& EA = "1e8") {
   History at = history_of(scene_of(gamma, frame, driven(gamma), elements, EA), formulation);
-  dynamics::equilibrium(*at.model.system, 0, at.model.U, at.model.V);
+  solve::equilibrium(*at.model.system, 0, at.model.U, at.model.V);
   store(at, 0, at.model.U, at.model.V);
   return at;
 }

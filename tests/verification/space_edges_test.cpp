@@ -362,7 +362,7 @@ TEST_CASE("edges in space: equilibria and estimates of a plate on oblique hinges
 TEST_CASE("edges in space: edges that the ground holds and that meet are one rim without constraints") {
   for (const bool turned : {false, true})
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
-      const scene::Model model =
+      const assembly::Model model =
           history_of(turned_plate("l: {type: revolute, between: [ground, plate.left]}, "
                                   "b: {type: revolute, between: [ground, plate.bottom], edges: line}",
                                   turned),

@@ -48,9 +48,9 @@ probes: {a: {at: plate.p1, quantity: position}, b: {at: plate.p3, quantity: posi
 /// Linear and angular momentum about the world's origin of a scene's one body: with p = M v of the residual's rows,
 /// (p_R, R x p_R + A p_theta).
 using Momenta = Eigen::Matrix<double, 6, 1>;
-Momenta momenta(const scene::Model& model, Mat M, Vec zero, double t, Vec U, Vec V) {
+Momenta momenta(const assembly::Model& model, Mat M, Vec zero, double t, Vec U, Vec V) {
   const dynamics::System& system = *model.system;
-  const scene::BodyReport& body = model.bodies.at(0);
+  const assembly::BodyReport& body = model.bodies.at(0);
   const petsc::VecHandle p = system.create_vector();
   system.tangent(t, U, V, zero, {0, 0, 1}, M);
   petsc::check(MatMult(M, V, p));
@@ -71,14 +71,14 @@ Eigen::Vector2d lost_momenta(const std::string& text, Formulation formulation) {
   const petsc::VecHandle zero = scene.model.system->create_vector();
   Momenta first;
   Eigen::Vector2d lost(0, 0);
-  dynamics::simulate(*scene.model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance},
-                     scene.model.U, scene.model.V, [&](const dynamics::Instant& at) {
-                       const Momenta now = momenta(scene.model, M, zero, at.t, at.U, at.V);
-                       if (at.step == 0) first = now;
-                       for (int i : {0, 1})
-                         lost[i] =
-                             std::max(lost[i], (now - first).segment<3>(3 * i).norm() / first.segment<3>(3 * i).norm());
-                     });
+  solve::simulate(*scene.model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance},
+                  scene.model.U, scene.model.V, [&](const solve::Instant& at) {
+                    const Momenta now = momenta(scene.model, M, zero, at.t, at.U, at.V);
+                    if (at.step == 0) first = now;
+                    for (int i : {0, 1})
+                      lost[i] =
+                          std::max(lost[i], (now - first).segment<3>(3 * i).norm() / first.segment<3>(3 * i).norm());
+                  });
   return lost;
 }
 

@@ -61,11 +61,12 @@ double error(const History& a, const History& b, const std::string& probe) {
 
 /// Full order, on this rank alone.
 History alone(const std::string& text) {
-  History history{scene::build(scene::parse_scene(text, "scene"), Formulation::nlffr, PETSC_COMM_SELF), {}, {}, {}, {}};
+  History history{
+      assembly::build(scene::parse_scene(text, "scene"), Formulation::nlffr, PETSC_COMM_SELF), {}, {}, {}, {}};
   const scene::Motion motion = scene::parse_scene(text, "scene").motion;
-  dynamics::simulate(*history.model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance},
-                     history.model.U, history.model.V,
-                     [&](const dynamics::Instant& at) { store(history, at.t, at.U, at.V); });
+  solve::simulate(*history.model.system, {motion.end, motion.step, motion.spectral_radius, motion.tolerance},
+                  history.model.U, history.model.V,
+                  [&](const solve::Instant& at) { store(history, at.t, at.U, at.V); });
   return history;
 }
 

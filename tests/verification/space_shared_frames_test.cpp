@@ -55,8 +55,8 @@ TEST_CASE("shared frames: bodies that are fixed to a rigid one move as with fram
 
 TEST_CASE("shared frames: one frame for three bodies, and rows for no joint but the pivot") {
   const auto size = [](const std::string& words) {
-    const scene::Model model =
-        scene::build(scene::parse_scene(hub(words), "hub"), Formulation::vm_md, PETSC_COMM_WORLD);
+    const assembly::Model model =
+        assembly::build(scene::parse_scene(hub(words), "hub"), Formulation::vm_md, PETSC_COMM_WORLD);
     return std::array<PetscInt, 2>{model.coordinates, model.multipliers};
   };
   const auto [coordinates, multipliers] = size("");

@@ -11,7 +11,7 @@ namespace floe::test {
 
 /// Angular frequencies of the one body of a scene in space. [rad/s]
 inline std::vector<double> omega_of(const std::string& text, const std::string& name = "scene") {
-  return scene::body_modes(scene::parse_scene(text, name), PETSC_COMM_WORLD).at(0).omega;
+  return assembly::body_modes(scene::parse_scene(text, name), PETSC_COMM_WORLD).at(0).omega;
 }
 
 /// What rank 0 alone does; the others wait for it.

@@ -65,7 +65,7 @@ TEST_CASE("spin-up: linear elastic forces in the hub's frame lose the beam") {
   try {
     const History at = move(scene_of("4", "20", "2e-2"), Formulation::lffr);
     for (const double w : at["bent.y"]) greatest = std::max(greatest, std::abs(w));
-  } catch (const dynamics::MotionStopped&) {
+  } catch (const solve::MotionStopped&) {
     greatest = INFINITY;
   }
   CHECK(greatest > 1000);

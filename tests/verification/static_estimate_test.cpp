@@ -10,17 +10,17 @@ namespace {
 /// Equilibria at t = 1/steps, 2/steps, ..., 1, and the estimate of their error.
 Estimated rest_and_estimate(const std::string& text, Formulation formulation, int steps, double seconds = 100) {
   const scene::Scene scene = scene::parse_scene(text, "scene");
-  Estimated all{{scene::build(scene, formulation, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
-  const scene::Model& model = all.history.model;
-  scene::KeptMotion kept(model);
+  Estimated all{{assembly::build(scene, formulation, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
+  const assembly::Model& model = all.history.model;
+  assess::KeptMotion kept(model);
   for (int i = 1; i <= steps; ++i) {
     const double t = double(i) / steps;
-    dynamics::equilibrium(*model.system, t, model.U, model.V);
+    solve::equilibrium(*model.system, t, model.U, model.V);
     model.system->rebase(model.U);
     store(all.history, t, model.U, model.V);
     kept.keep({t, i, model.U, model.V, model.V, i == steps});
   }
-  if (scene::is_reduced(formulation)) all.estimate = scene::estimate_error_at_rest(model, kept.states(), seconds);
+  if (scene::is_reduced(formulation)) all.estimate = assess::estimate_error_at_rest(model, kept.states(), seconds);
   return all;
 }
 
@@ -112,8 +112,8 @@ probes: {tip: {at: door.end}}
 
 TEST_CASE("static estimate: without time there is the last equilibrium's, and what is round-off has no error") {
   const std::string text = bent_plate("2e3", "{modes: 2, attachment: none}");
-  const scene::Estimate whole = rest_and_estimate(text, Formulation::vm_md, 4).estimate,
-                        last = rest_and_estimate(text, Formulation::vm_md, 4, 0).estimate;
+  const assess::Estimate whole = rest_and_estimate(text, Formulation::vm_md, 4).estimate,
+                         last = rest_and_estimate(text, Formulation::vm_md, 4, 0).estimate;
   REQUIRE(last.none == "");
   REQUIRE(last.t == std::vector<double>{1});
   CHECK(last.samples == 1);
@@ -126,6 +126,6 @@ TEST_CASE("static estimate: without time there is the last equilibrium's, and wh
 
 TEST_CASE("static estimate: none for full order") {
   const scene::Scene scene = scene::parse_scene(bent_plate("1", "{modes: 2}"), "scene");
-  const scene::Model model = scene::build(scene, Formulation::nlffr, PETSC_COMM_WORLD, true);
-  CHECK(scene::estimate_error_at_rest(model, {}, 1).none == "it belongs to reduced models (vm, vm+md)");
+  const assembly::Model model = assembly::build(scene, Formulation::nlffr, PETSC_COMM_WORLD, true);
+  CHECK(assess::estimate_error_at_rest(model, {}, 1).none == "it belongs to reduced models (vm, vm+md)");
 }

@@ -1,4 +1,4 @@
-#include "floe/scene/step_error.h"
+#include "floe/assess/step_error.h"
 
 #include <catch2/catch.hpp>
 
@@ -11,22 +11,22 @@ namespace {
 
 struct Moved {
   History history;
-  scene::StepError error;
+  assess::StepError error;
 };
 
 /// A reduced motion with the error of its step, found in so much time (as multiples of what the motion takes).
 Moved move_with_step_error(const std::string& text, double allowed) {
   const scene::Scene scene = scene::parse_scene(text, "scene");
-  Moved all{{scene::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
-  const scene::Model& model = all.history.model;
-  const dynamics::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
-  const scene::MotionStart start = scene::start_of(model);
-  scene::KeptMotion kept(model);
-  dynamics::simulate(*model.system, how, model.U, model.V, [&](const dynamics::Instant& at) {
+  Moved all{{assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
+  const assembly::Model& model = all.history.model;
+  const solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
+  const assess::MotionStart start = assess::start_of(model);
+  assess::KeptMotion kept(model);
+  solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) {
     store(all.history, at.t, at.U, at.V);
     kept.keep(at);
   });
-  all.error = scene::estimate_step_error(model, start, kept, how, 1, allowed);
+  all.error = assess::estimate_step_error(model, start, kept, how, 1, allowed);
   return all;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "floe/scene/model.h"
+#include "floe/scene/scene.h"
 
 namespace floe::scene {
 
@@ -25,13 +25,5 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
 /// loads, which joints events change, and the values of all parameters that these name. Derivatives that are chosen by
 /// count look at the whole motion: then all of the file but probes and events.
 std::string offline_inputs(const std::string& text, const std::string& name, const std::vector<Variation>& variations);
-
-/// Bodies reduced once, for scenes of the same offline_inputs().
-struct ReducedBodies;
-/// Collective. @throws as build()
-std::shared_ptr<const ReducedBodies> reduce_once(const Scene& scene, Formulation formulation, MPI_Comm comm);
-/// The model of a scene on such bodies; the formulation is theirs. Its range can be checked; there is no estimate of
-/// its error, because the factors of K are gone. Collective over the communicator that they were reduced on.
-Model build_on(const ReducedBodies& bodies, const Scene& scene);
 
 }  // namespace floe::scene

@@ -13,7 +13,7 @@ TEST_CASE("an accuracy that is missed by little is told with the digits that sho
 }
 
 TEST_CASE("an estimate is told in per cent, or why there is none, or that it is beyond all use") {
-  scene::Estimate estimate;
+  assess::Estimate estimate;
   CHECK(app::estimate_words(estimate) == "No estimate of the error: it was not asked for\n");
   estimate.none.clear();
   estimate.deformation = 0.0123, estimate.seconds = 0.5, estimate.notes = {"sampled"};

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "floe/dynamics/simulation.h"
+#include "floe/solve/simulation.h"
 #include "systems.h"
 
 using namespace floe;
@@ -23,10 +23,10 @@ Told watch(const Gap& gap, double end = 0.06) {
   dynamics::Event event{"stop", "hit"};
   event.gap = [&](double t, Vec, Vec) { return gap(t); };
   event.what_back = "left";
-  dynamics::Integration how{end, 0.01, 0.8, {}};
+  solve::Integration how{end, 0.01, 0.8, {}};
   how.events = {event};
   how.on_event = [&](const dynamics::EventReport& report) { told.events.push_back(report); };
-  dynamics::simulate(system, how, U, V, [&](const dynamics::Instant& now) { told.ends.push_back(now.t); });
+  solve::simulate(system, how, U, V, [&](const solve::Instant& now) { told.ends.push_back(now.t); });
   return told;
 }
 

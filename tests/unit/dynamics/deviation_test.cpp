@@ -1,4 +1,4 @@
-#include "floe/dynamics/deviation.h"
+#include "floe/solve/deviation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -13,12 +13,12 @@ using testing::vector_of;
 
 namespace {
 
-using States = std::vector<dynamics::State>;
+using States = std::vector<solve::State>;
 
-States states_of(const dynamics::System& system, Vec U, Vec V, const dynamics::Integration& how) {
+States states_of(const dynamics::System& system, Vec U, Vec V, const solve::Integration& how) {
   States states;
-  dynamics::simulate(system, how, U, V, [&](const dynamics::Instant& now) {
-    if (now.A) states.push_back(dynamics::state_of(system, now.t, now.U, now.V, now.A));
+  solve::simulate(system, how, U, V, [&](const solve::Instant& now) {
+    if (now.A) states.push_back(solve::state_of(system, now.t, now.U, now.V, now.A));
   });
   return states;
 }
@@ -62,18 +62,18 @@ struct Top {
 // motions; the pendulum falls from the horizontal through four swings.
 TEST_CASE("deviation: the missing part of a pendulum's motion, at order 2 in steps that are longer than the motion's") {
   const dynamics::System known = testing::pendulum(m, l, g), whole = testing::pendulum(m, l, 1.001 * g);
-  const dynamics::Integration how{3, 1e-3, 0.8, {}};
+  const solve::Integration how{3, 1e-3, 0.8, {}};
   const States from = states_of(known, known.create_vector(), known.create_vector(), how),
                to = states_of(whole, whole.create_vector(), whole.create_vector(), how);
   const auto error = [&](std::size_t n) {
     double difference = 0, size = 0;
     const States exact = every(to, n);
     std::size_t i = 0;
-    const auto report = dynamics::deviation(whole, 0, every(from, n),
-                                            [&](const dynamics::State& at, const VectorXd& d, const VectorXd&) {
-                                              const double gap = exact[i++].q[2] - at.q[2];
-                                              difference += std::pow(d[2] - gap, 2), size += gap * gap;
-                                            });
+    const auto report =
+        solve::deviation(whole, 0, every(from, n), [&](const solve::State& at, const VectorXd& d, const VectorXd&) {
+          const double gap = exact[i++].q[2] - at.q[2];
+          difference += std::pow(d[2] - gap, 2), size += gap * gap;
+        });
     CHECK(report.end == Approx(3));
     CHECK(report.factorisations < report.steps);
     return std::sqrt(difference / size);
@@ -93,12 +93,12 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
     double difference = 0, size = 0, rates = 0, greatest = 0;
     const States exact = every(to, n);
     std::size_t i = 0;
-    dynamics::deviation(
-        *equations.system, 0, every(from, n), [&](const dynamics::State& at, const VectorXd& d, const VectorXd& rate) {
-          const dynamics::State& there = exact[i++];
+    solve::deviation(
+        *equations.system, 0, every(from, n), [&](const solve::State& at, const VectorXd& d, const VectorXd& rate) {
+          const solve::State& there = exact[i++];
           const Vector3d gap = math::rotation_vector(at.bases[0].conjugate() * there.bases[0]);
           difference += (d.segment<3>(3) - gap).squaredNorm(), size += gap.squaredNorm();
-          const dynamics::State now = dynamics::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
+          const solve::State now = solve::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
           const Vector3d w = there.v.segment<3>(3) - at.v.segment<3>(3);
           rates += (now.v.segment<3>(3) - at.v.segment<3>(3) - w).squaredNorm();
           greatest += w.squaredNorm();
@@ -115,12 +115,11 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
 TEST_CASE("deviation: nothing is missing, nothing deviates; what does not converge ends it") {
   const dynamics::System whole = testing::pendulum(m, l, g);
   const States from = states_of(whole, whole.create_vector(), whole.create_vector(), {0.5, 1e-3, 0.8, {}});
-  dynamics::deviation(whole, 0, from, [&](const dynamics::State&, const VectorXd& d, const VectorXd&) {
-    CHECK(d.head<3>().norm() < 1e-8);
-  });
+  solve::deviation(whole, 0, from,
+                   [&](const solve::State&, const VectorXd& d, const VectorXd&) { CHECK(d.head<3>().norm() < 1e-8); });
   States broken = from;
   broken[99].a[2] = NAN;
-  const auto report = dynamics::deviation(whole, 0, broken, [](const auto&, const auto&, const auto&) {});
+  const auto report = solve::deviation(whole, 0, broken, [](const auto&, const auto&, const auto&) {});
   CHECK(report.steps == 99);
   CHECK(report.end == Approx(0.099));
 }

@@ -1,8 +1,8 @@
-#include "floe/dynamics/energy_balance.h"
+#include "floe/solve/energy_balance.h"
 
 #include <catch2/catch.hpp>
 
-#include "floe/dynamics/simulation.h"
+#include "floe/solve/simulation.h"
 #include "random.h"
 #include "spatial_systems.h"
 
@@ -14,9 +14,9 @@ namespace {
 
 double total(const dynamics::Energy& energy) { return energy.kinetic + energy.elastic + energy.potential; }
 
-dynamics::EnergyBalance balance_of(const dynamics::System& system, Vec U, Vec V, double end, double step) {
-  dynamics::EnergyBalance balance;
-  dynamics::simulate(system, {end, step, 0.8, {}}, U, V, [&](const dynamics::Instant& now) {
+solve::EnergyBalance balance_of(const dynamics::System& system, Vec U, Vec V, double end, double step) {
+  solve::EnergyBalance balance;
+  solve::simulate(system, {end, step, 0.8, {}}, U, V, [&](const solve::Instant& now) {
     balance.add(system, now.t, now.U, now.V, now.A, total(system.energy(now.t, now.U, now.V)));
   });
   return balance;
@@ -36,7 +36,7 @@ TEST_CASE("the work of a follower force on a pendulum is its moment times the an
       dynamics::Force::Axes::body));
   const dynamics::System system = testing::pendulum(m, l, g, std::move(load));
   const petsc::VecHandle U = vector_of(system, {0, 0, -1, 0, 0}), V = system.create_vector();
-  const dynamics::EnergyBalance balance = balance_of(system, U, V, 2, 1e-3);
+  const solve::EnergyBalance balance = balance_of(system, U, V, 2, 1e-3);
   const double angle = numbers_of(U)[2] + 1;
   REQUIRE(std::abs(angle) > 0.1);
   CHECK(balance.work() == Approx(F * l * angle).margin(1e-5 * F * l));
@@ -60,7 +60,7 @@ TEST_CASE("the work of a force on a body in space, whose frame turns, is force t
   const petsc::VecHandle U = vector_of(system, {-0.5, 0, -0.3, 0, 0, 0, 0, 0, 0});
   const petsc::VecHandle V = vector_of(system, {-0.9, 1.8, 1.5, 1, 3, -3, 0, 0, 0});
   const double start = total(system.energy(0, U, V));
-  const dynamics::EnergyBalance balance = balance_of(system, U, V, 1.5, 1e-3);
+  const solve::EnergyBalance balance = balance_of(system, U, V, 1.5, 1e-3);
   const double work = -weight * (numbers_of(U)[2] + 0.3);
   REQUIRE(std::abs(work) > 1);
   CHECK(balance.work() == Approx(work).epsilon(1e-4));
@@ -69,14 +69,14 @@ TEST_CASE("the work of a force on a body in space, whose frame turns, is force t
 
 TEST_CASE("energy that grows without work is seen, also by a balance that was saved and loaded") {
   const dynamics::System system = testing::pendulum(2, 1.5, 9.81);
-  dynamics::EnergyBalance balance;
+  solve::EnergyBalance balance;
   for (int i = 0; i <= 10; ++i) {
     // swings that grow, with the accelerations of none: w = w0 (1 + t)
     const double t = 0.1 * i, w = 1 + t;
     const petsc::VecHandle U = vector_of(system, {0, 0, -M_PI / 2, 0, 2 * (9.81 + 0.75 * w * w)}),
                            V = vector_of(system, {0, 0, w, 0, 0}), A = vector_of(system, {0, 0, 0, 0, 0});
     balance.add(system, t, U, V, A, total(system.energy(t, U, V)));
-    dynamics::EnergyBalance other;
+    solve::EnergyBalance other;
     other.load(balance.save());
     balance = other;
   }

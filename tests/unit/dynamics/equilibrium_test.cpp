@@ -5,7 +5,7 @@
 #include "floe/dynamics/spatial_force.h"
 #include "floe/dynamics/spatial_joint.h"
 #include "floe/dynamics/spatial_spring.h"
-#include "floe/dynamics/start.h"
+#include "floe/solve/start.h"
 #include "spatial_systems.h"
 
 using namespace floe;
@@ -55,7 +55,7 @@ struct Held {
   }
   VectorXd rest() const {
     const petsc::VecHandle U = system->create_vector(), V = system->create_vector();
-    dynamics::equilibrium(*system, 1, U, V);
+    solve::equilibrium(*system, 1, U, V);
     return numbers_of(U);
   }
 };
@@ -78,9 +78,9 @@ TEST_CASE("equilibrium on a bushing that an arm hides: the turn M / k, or words,
         double turn = 10 / about_z;
         try {
           turn = body.rest()[5];
-        } catch (const dynamics::NothingHolds&) {
+        } catch (const solve::NothingHolds&) {
           CHECK(hidden > 1e-3);
-        } catch (const dynamics::LostInRoundOff&) {
+        } catch (const solve::LostInRoundOff&) {
           CHECK(hidden > 1e-3);
         }
         CHECK(std::abs(turn - 10 / about_z) < 1e-6);
@@ -102,7 +102,7 @@ TEST_CASE("equilibrium of a hinge in space under a moment about it: nothing hold
     for (const double moment : {1e-6, 1., 1e4}) {
       INFO("arm " << length << ", moment " << moment);
       const Held body(length * Vector3d(0.6, 0.8, 0), moment, {});
-      CHECK_THROWS_AS(body.rest(), dynamics::NothingHolds);
+      CHECK_THROWS_AS(body.rest(), solve::NothingHolds);
       CHECK_THROWS_WITH(body.rest(), Catch::Contains("nothing holds the configuration in some direction (body bar)"));
     }
 }

@@ -1,4 +1,4 @@
-#include "../../../src/dynamics/exponents.h"
+#include "../../../src/solve/exponents.h"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

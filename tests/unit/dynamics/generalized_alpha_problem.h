@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "floe/dynamics/generalized_alpha.h"
 #include "floe/petsc/handle.h"
+#include "floe/solve/generalized_alpha.h"
 
 namespace floe::dynamics::testing {
 

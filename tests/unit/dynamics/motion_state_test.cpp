@@ -19,16 +19,16 @@ testing::Terms spring() {
 
 struct Trace {
   std::vector<double> numbers;  // times and states of every step
-  std::optional<dynamics::MotionState> state;
-  dynamics::IntegrationReport report;
+  std::optional<solve::MotionState> state;
+  solve::IntegrationReport report;
 };
 
 /// From the start, or from a state; keeps the state after step `keep`.
 Trace swing(const dynamics::System& system, const std::vector<double>& at, const std::vector<double>& rates,
-            dynamics::Integration how, PetscInt keep, PetscInt from_step) {
+            solve::Integration how, PetscInt keep, PetscInt from_step) {
   const petsc::VecHandle U = vector_of(system, at), V = vector_of(system, rates);
   Trace trace;
-  trace.report = dynamics::simulate(system, how, U, V, [&](const dynamics::Instant& now) {
+  trace.report = solve::simulate(system, how, U, V, [&](const solve::Instant& now) {
     REQUIRE(now.state);
     if (now.step == keep) trace.state = (*now.state)();
     if (now.step <= from_step) return;
@@ -44,7 +44,7 @@ Trace swing(const dynamics::System& system, const std::vector<double>& at, const
 TEST_CASE("a motion that is taken up from a state is the same to the last bit") {
   const std::optional<double> tolerance = GENERATE(std::optional<double>(), std::optional<double>(1e-6));
   const PetscInt keep = GENERATE(0, 1, 7, 50);
-  dynamics::Integration how{1.5, 0.01, 0.8, tolerance};
+  solve::Integration how{1.5, 0.01, 0.8, tolerance};
   const dynamics::System system = testing::pendulum(2, 1.5, 9.81, spring());
   const std::vector<double> at{0, 0, 0.3, 0, 0}, rates(5, 0.0);
   const Trace whole = swing(system, at, rates, how, keep, keep);
@@ -63,7 +63,7 @@ TEST_CASE("a motion that is taken up before its last step ends as if it had not 
                          again = testing::pendulum(2, 1.5, 9.81, spring());
   const std::vector<double> at{0, 0, 0.3, 0, 0}, rates(5, 0.0);
   for (int i = 0; i < 40; ++i) {
-    dynamics::Integration how{0.2003 + 0.00037 * i, 0.01, 0.8, {}};
+    solve::Integration how{0.2003 + 0.00037 * i, 0.01, 0.8, {}};
     const PetscInt steps = swing(system, at, rates, how, -1, 0).report.steps;
     const Trace whole = swing(system, at, rates, how, steps - 1, steps - 1);
     how.from = &*whole.state;
@@ -76,7 +76,7 @@ TEST_CASE("a motion that goes on beyond its end takes whole steps") {
   const dynamics::System system = testing::pendulum(2, 1.5, 9.81, spring()),
                          again = testing::pendulum(2, 1.5, 9.81, spring());
   const std::vector<double> at{0, 0, 0.3, 0, 0}, rates(5, 0.0);
-  dynamics::Integration how{0.205, 0.01, 0.8, {}};  // 19 steps, and what is left in two
+  solve::Integration how{0.205, 0.01, 0.8, {}};  // 19 steps, and what is left in two
   const Trace first = swing(system, at, rates, how, keep, 0);
   REQUIRE(first.report.steps == 21);
   how.from = &*first.state;
@@ -104,7 +104,7 @@ TEST_CASE("a spinning top is taken up with its attitude") {
     return std::vector<double>{R.x(), R.y(), R.z(), 0, 0, 0, 0, 0, 0};
   };
   const std::vector<double> rates{0, 0, 0, 0, 0, 30, 0, 0, 0};
-  dynamics::Integration how{0.5, 5e-3, 0.8, {}};
+  solve::Integration how{0.5, 5e-3, 0.8, {}};
   const dynamics::System system = top();
   const Trace whole = swing(system, at(system), rates, how, keep, keep);
   REQUIRE(whole.state);
@@ -116,11 +116,11 @@ TEST_CASE("a spinning top is taken up with its attitude") {
 }
 
 TEST_CASE("a state of another system is refused") {
-  dynamics::Integration how{0.1, 0.01, 0.8, {}};
+  solve::Integration how{0.1, 0.01, 0.8, {}};
   const dynamics::System system = testing::pendulum(2, 1.5, 9.81);
   const std::vector<double> zero(5, 0.0);
   Trace whole = swing(system, zero, zero, how, 4, 0);
-  dynamics::MotionState state = *whole.state;
+  solve::MotionState state = *whole.state;
   state.vectors.front().second.pop_back();
   how.from = &state;
   CHECK_THROWS_WITH(swing(system, zero, zero, how, -1, 0), Catch::Contains("another system"));

@@ -1,4 +1,4 @@
-#include "../../../src/dynamics/simplified_newton.h"
+#include "../../../src/solve/simplified_newton.h"
 
 #include <petscsnes.h>
 
@@ -93,13 +93,13 @@ struct Solver {
 }  // namespace
 
 TEST_CASE("simplified Newton takes the iterations of newtonls with one residual less") {
-  dynamics::register_simplified_newton();
+  solve::register_simplified_newton();
   for (int lag : {1, 3}) {
     Solver ours(dynamics::simplified_newton, lag), stock(SNESNEWTONLS, lag);
     for (int again = 0; again < 3; ++again) {
       for (Solver* solver : {&ours, &stock}) {
         check(VecSet(solver->U, 1.5));
-        check(dynamics::solve_again(solver->snes, solver->U));
+        check(solve::solve_again(solver->snes, solver->U));
         CHECK(solver->worst() < 1e-12);
       }
       PetscInt mine = 0, theirs = 0, linear = 0;
@@ -121,11 +121,11 @@ TEST_CASE("simplified Newton says how it failed") {
   SNESConvergedReason reason;
   check(SNESSetTolerances(solver.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 2, PETSC_DEFAULT));
   check(VecSet(solver.U, 1.5));
-  check(dynamics::solve_again(solver.snes, solver.U));
+  check(solve::solve_again(solver.snes, solver.U));
   check(SNESGetConvergedReason(solver.snes, &reason));
   CHECK(reason == SNES_DIVERGED_MAX_IT);
   check(VecSet(solver.U, std::nan("")));
-  check(dynamics::solve_again(solver.snes, solver.U));
+  check(solve::solve_again(solver.snes, solver.U));
   check(SNESGetConvergedReason(solver.snes, &reason));
   CHECK(reason == SNES_DIVERGED_FNORM_NAN);
 }
@@ -145,13 +145,13 @@ PetscErrorCode to_present(SNES, Vec U, PetscBool, Vec y, void*) {
 }  // namespace
 
 TEST_CASE("simplified Newton with a kept Jacobian that is turned to U is Newton") {
-  dynamics::register_simplified_newton();
+  solve::register_simplified_newton();
   Solver newton(dynamics::simplified_newton, 1), kept(dynamics::simplified_newton, 100);
-  check(dynamics::set_turn(kept.snes, to_present, nullptr));
+  check(solve::set_turn(kept.snes, to_present, nullptr));
   PetscInt iterations[2] = {0, 0};
   for (Solver* solver : {&newton, &kept}) {
     check(VecSet(solver->U, 1.5));
-    check(dynamics::solve_again(solver->snes, solver->U));
+    check(solve::solve_again(solver->snes, solver->U));
     CHECK(solver->worst() < 1e-12);
     check(SNESGetIterationNumber(solver->snes, &iterations[solver == &kept]));
   }

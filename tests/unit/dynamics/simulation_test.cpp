@@ -1,4 +1,4 @@
-#include "floe/dynamics/simulation.h"
+#include "floe/solve/simulation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,12 +17,12 @@ struct Sample {
   double t, theta, w;
 };
 
-std::vector<Sample> swing(double theta, const dynamics::Integration& how, double* drift = nullptr) {
+std::vector<Sample> swing(double theta, const solve::Integration& how, double* drift = nullptr) {
   const dynamics::System system = testing::pendulum(m, l, g);
   const petsc::VecHandle U = vector_of(system, {0, 0, theta, 0, 0}), V = system.create_vector();
   std::vector<Sample> samples;
   double first = 0;
-  dynamics::simulate(system, how, U, V, [&](const dynamics::Instant& now) {
+  solve::simulate(system, how, U, V, [&](const solve::Instant& now) {
     samples.push_back({now.t, numbers_of(now.U)[2], numbers_of(now.V)[2]});
     const dynamics::Energy energy = system.energy(now.t, now.U, now.V);
     const double total = energy.kinetic + energy.potential;
@@ -54,7 +54,7 @@ TEST_CASE("the observer sees the start, every step and the end once") {
   std::vector<double> times;
   std::vector<PetscInt> steps;
   int last = 0;
-  const auto report = dynamics::simulate(system, {0.1, 0.03, 0.8, {}}, U, V, [&](const dynamics::Instant& now) {
+  const auto report = solve::simulate(system, {0.1, 0.03, 0.8, {}}, U, V, [&](const solve::Instant& now) {
     times.push_back(now.t), steps.push_back(now.step), last += now.last;
     CHECK((now.A == nullptr) == (now.step == 0));  // the type hands them out from the first step on
   });
@@ -72,7 +72,7 @@ TEST_CASE("the observer sees the start, every step and the end once") {
 TEST_CASE("the equations hold at the end of every step") {
   const dynamics::System system = testing::pendulum(m, l, g);
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), F = system.create_vector();
-  dynamics::simulate(system, {0.05, 0.01, 0.8, {}}, U, V, [&](const dynamics::Instant& now) {
+  solve::simulate(system, {0.05, 0.01, 0.8, {}}, U, V, [&](const solve::Instant& now) {
     if (now.step == 0) return;
     system.residual(now.t, now.U, now.V, now.A, dynamics::ConstraintLevel::position, F);
     CHECK(numbers_of(F).cwiseAbs().maxCoeff() < 1e-8 * m * g);
@@ -94,7 +94,7 @@ TEST_CASE("what the observer throws ends the motion: an input error as it is, al
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector();
   int seen = 0;
   const auto run = [&] {
-    dynamics::simulate(system, {1, 0.01, 0.8, {}}, U, V, [&](const dynamics::Instant& now) {
+    solve::simulate(system, {1, 0.01, 0.8, {}}, U, V, [&](const solve::Instant& now) {
       ++seen;
       if (now.step == 3 && input) throw InputError("the disk is full");
       if (now.step == 3) throw std::runtime_error("the disk is full");
@@ -103,7 +103,7 @@ TEST_CASE("what the observer throws ends the motion: an input error as it is, al
   if (input)
     CHECK_THROWS_AS(run(), InputError);
   else
-    CHECK_THROWS_AS(run(), dynamics::MotionStopped);
+    CHECK_THROWS_AS(run(), solve::MotionStopped);
   CHECK(seen == 4);
   seen = 0;
   CHECK_THROWS_WITH(run(), Catch::Contains("the disk is full"));
@@ -121,8 +121,8 @@ TEST_CASE("what a term throws ends the motion at the last state that was reached
   const dynamics::System system = testing::pendulum(m, l, g, std::move(bad));
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector();
   Eigen::VectorXd seen;
-  const auto observe = [&](const dynamics::Instant& now) { seen = numbers_of(now.U); };
-  CHECK_THROWS_WITH(dynamics::simulate(system, {1, 0.01, 0.8, {}}, U, V, observe),
+  const auto observe = [&](const solve::Instant& now) { seen = numbers_of(now.U); };
+  CHECK_THROWS_WITH(solve::simulate(system, {1, 0.01, 0.8, {}}, U, V, observe),
                     Catch::Contains("t = 0.05 of 1") && Catch::Contains("no value"));
   CHECK(numbers_of(U) == seen);
 }
@@ -136,10 +136,9 @@ TEST_CASE("a step that does not converge stops the motion: what was tried, when,
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector();
   Eigen::VectorXd seen;
   try {
-    dynamics::simulate(system, {1, 0.01, 0.8, {}}, U, V,
-                       [&](const dynamics::Instant& now) { seen = numbers_of(now.U); });
+    solve::simulate(system, {1, 0.01, 0.8, {}}, U, V, [&](const solve::Instant& now) { seen = numbers_of(now.U); });
     FAIL("no exception");
-  } catch (const dynamics::MotionStopped& stopped) {
+  } catch (const solve::MotionStopped& stopped) {
     CHECK(stopped.report().end == Approx(0.05));
     CHECK(stopped.report().steps == 5);
     CHECK_THAT(stopped.what(), Catch::Contains("t = 0.05 of 1"));

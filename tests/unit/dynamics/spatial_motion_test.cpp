@@ -43,16 +43,16 @@ const double horizon = 8;
 
 struct Error {
   double attitude, w, place;
-  dynamics::IntegrationReport report;
+  solve::IntegrationReport report;
 };
 
-Error tumble(const dynamics::Integration& how) {
+Error tumble(const solve::Integration& how) {
   FreeBody free(testing::rigid(m, moments), testing::no_elasticity());
   free.attitude->base = start.attitude;
   const petsc::VecHandle U = free.system->create_vector(),
                          V = vector_of(*free.system, {1, 2, 3, start.w[0], start.w[1], start.w[2]});
   Error error{};
-  error.report = dynamics::simulate(*free.system, how, U, V, [](const dynamics::Instant&) {});
+  error.report = solve::simulate(*free.system, how, U, V, [](const solve::Instant&) {});
   const testing::Turning exact = start.after(horizon);
   const VectorXd q = numbers_of(U), v = numbers_of(V);
   error.attitude = (free.axes(q) - exact.attitude.toRotationMatrix()).norm();
@@ -94,9 +94,8 @@ TEST_CASE("a thousand revolutions about a principal axis: the attitude has no dr
   const double w = 2 * M_PI;
   const petsc::VecHandle U = free.system->create_vector(), V = vector_of(*free.system, {0, 0, 0, 0, w, 0});
   double norm = 0;
-  dynamics::simulate(*free.system, {1000, 0.05, 0.8, {}}, U, V, [&](const dynamics::Instant&) {
-    norm = std::max(norm, std::abs(free.attitude->base.norm() - 1));
-  });
+  solve::simulate(*free.system, {1000, 0.05, 0.8, {}}, U, V,
+                  [&](const solve::Instant&) { norm = std::max(norm, std::abs(free.attitude->base.norm() - 1)); });
   CHECK(norm < 1e-15);
   CHECK(numbers_of(U).segment<3>(3).norm() < 0.4);  // one step's rotation
   CHECK((free.axes(numbers_of(U)) - start.attitude.toRotationMatrix()).norm() < 1e-11 * 1000 * w);
@@ -122,7 +121,7 @@ TEST_CASE("a free flexible body keeps momentum, moment of momentum and energy to
     Drift drift;
     std::optional<body::Momentum> first;
     double energy = 0;
-    dynamics::simulate(*free.system, {5, step, 0.9, {}}, U, V, [&](const dynamics::Instant& now) {
+    solve::simulate(*free.system, {5, step, 0.9, {}}, U, V, [&](const solve::Instant& now) {
       const VectorXd q = numbers_of(now.U), v = numbers_of(now.V);
       const body::Momentum momentum = free.body->momentum({now.t, q, v, v});
       const dynamics::Energy parts = free.system->energy(now.t, now.U, now.V);
@@ -148,7 +147,7 @@ TEST_CASE("rotations are refused by a TS type that would add them as vectors") {
   FreeBody free(testing::rigid(m, moments), testing::no_elasticity());
   const petsc::VecHandle U = free.system->create_vector(), V = free.system->create_vector();
   petsc::check(PetscOptionsSetValue(nullptr, "-motion_ts_type", TSALPHA2));
-  const auto run = [&] { dynamics::simulate(*free.system, {1, 0.1, 0.8, {}}, U, V, [](const dynamics::Instant&) {}); };
+  const auto run = [&] { solve::simulate(*free.system, {1, 0.1, 0.8, {}}, U, V, [](const solve::Instant&) {}); };
   CHECK_THROWS_AS(run(), InputError);
   CHECK_THROWS_WITH(run(), Catch::Contains("-motion_ts_type alpha2") && Catch::Contains("expected generalized-alpha"));
   petsc::check(PetscOptionsClearValue(nullptr, "-motion_ts_type"));

@@ -1,7 +1,7 @@
 #pragma once
-#include "floe/dynamics/simulation.h"
 #include "floe/dynamics/spatial_body.h"
-#include "floe/dynamics/start.h"
+#include "floe/solve/simulation.h"
+#include "floe/solve/start.h"
 #include "systems.h"
 
 namespace floe::testing {

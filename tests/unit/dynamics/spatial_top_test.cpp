@@ -58,7 +58,7 @@ struct Errors {
 };
 
 /// Against the motion `exact` at a tenth of the horizon each (lambda from the first step on).
-Errors spin(const Vector3d& moments, const testing::Turning& start, const dynamics::Integration& how) {
+Errors spin(const Vector3d& moments, const testing::Turning& start, const solve::Integration& how) {
   Top top(moments, start.attitude);
   const Vector3d R = start.attitude * centre, Rd = start.attitude * start.w.cross(centre);
   const petsc::VecHandle U = vector_of(*top.system, {R[0], R[1], R[2], 0, 0, 0, 0, 0, 0}),
@@ -66,7 +66,7 @@ Errors spin(const Vector3d& moments, const testing::Turning& start, const dynami
   Errors errors;
   testing::Turning exact = start;
   double reached = 0;
-  const auto report = dynamics::simulate(*top.system, how, U, V, [&](const dynamics::Instant& now) {
+  const auto report = solve::simulate(*top.system, how, U, V, [&](const solve::Instant& now) {
     if (now.step == 0) return;
     if (now.t > reached) exact = exact.after(now.t - reached, static_cast<int>(std::ceil((now.t - reached) / 2e-4)));
     reached = now.t;
@@ -150,12 +150,12 @@ TEST_CASE("accelerations, multipliers and velocities at a start do not depend on
                          U0 = vector_of(*based.system, {R[0], R[1], R[2], 0, 0, 0, 7, 7, 7}),
                          V = vector_of(*charted.system, rates), V0 = vector_of(*based.system, rates),
                          A = charted.system->create_vector(), A0 = based.system->create_vector();
-  CHECK(dynamics::consistent_velocities(*charted.system, 0, U, V) > 0.01);
-  dynamics::consistent_velocities(*based.system, 0, U0, V0);
+  CHECK(solve::consistent_velocities(*charted.system, 0, U, V) > 0.01);
+  solve::consistent_velocities(*based.system, 0, U0, V0);
   CHECK(testing::relative_error(numbers_of(V), numbers_of(V0)) < 1e-13);
-  CHECK(dynamics::constraint_violation(*charted.system, 0, U, V, ConstraintLevel::velocity) < 1e-13);
-  dynamics::consistent_start(*charted.system, 0, U, V, A);
-  dynamics::consistent_start(*based.system, 0, U0, V0, A0);
+  CHECK(solve::constraint_violation(*charted.system, 0, U, V, ConstraintLevel::velocity) < 1e-13);
+  solve::consistent_start(*charted.system, 0, U, V, A);
+  solve::consistent_start(*based.system, 0, U0, V0, A0);
   CHECK(testing::relative_error(numbers_of(A), numbers_of(A0)) < 1e-13);
   CHECK(testing::relative_error(numbers_of(U).tail<3>(), numbers_of(U0).tail<3>()) < 1e-13);
   CHECK(numbers_of(U).segment<3>(3) == x);
@@ -171,7 +171,7 @@ TEST_CASE("equilibrium far from its base: the tangent is exact and Newton's last
   const Vector3d x(0.3, -0.5, 0.8), R = math::rotation(x) * centre;
   const petsc::VecHandle U = vector_of(*top.system, {R[0], R[1], R[2], x[0], x[1], x[2], 0, 0, 0}),
                          V = top.system->create_vector(), F = top.system->create_vector();
-  CHECK(dynamics::equilibrium(*top.system, 0, U, V) <= 8);
+  CHECK(solve::equilibrium(*top.system, 0, U, V) <= 8);
   const VectorXd q = numbers_of(U);
   CHECK(q.segment<3>(3).norm() > 1);
   CHECK((q.tail<3>() + m * g * Vector3d::UnitZ()).norm() < 1e-10);  // carries the weight
@@ -200,5 +200,5 @@ TEST_CASE("a top that a spring holds upright gives way in two directions where w
   Top top(Vector3d(0.2, 0.25, 0.3), math::quaternion(-x), c, Matrix3d::Identity());
   const petsc::VecHandle U = vector_of(*top.system, {0, 0, l, x[0], x[1], x[2], 0, 0, -m * g}),
                          V = top.system->create_vector();
-  CHECK(dynamics::unstable_directions(*top.system, 0, U, V) == directions);
+  CHECK(solve::unstable_directions(*top.system, 0, U, V) == directions);
 }

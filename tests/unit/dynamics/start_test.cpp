@@ -1,4 +1,4 @@
-#include "floe/dynamics/start.h"
+#include "floe/solve/start.h"
 
 #include <catch2/catch.hpp>
 
@@ -22,7 +22,7 @@ TEST_CASE("consistent start of a compound pendulum: its accelerations and the fo
   const double theta = 0.4, w = 1.3;
   const petsc::VecHandle U = vector_of(system, {0, 0, theta, 99, 99}), V = vector_of(system, {0, 0, w, 0, 0}),
                          A = vector_of(system, {9, 9, 9, 9, 9}), F = system.create_vector();
-  dynamics::consistent_start(system, 0, U, V, A);
+  solve::consistent_start(system, 0, U, V, A);
   const VectorXd u = numbers_of(U), a = numbers_of(A);
   const double alpha = -1.5 * g / l * std::cos(theta), half = l / 2;
   CHECK(a[2] == Approx(alpha).epsilon(1e-12));
@@ -49,7 +49,7 @@ TEST_CASE("consistent start with a driven joint: the drive's acceleration is met
   terms.push_back(testing::to_ground(testing::on_rod(0), dynamics::Clamp{0, drive}));
   const dynamics::System system(c, std::move(terms));
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
-  dynamics::consistent_start(system, 0, U, V, A);
+  solve::consistent_start(system, 0, U, V, A);
   CHECK(numbers_of(A)[2] == Approx(1).epsilon(1e-13));
   CHECK(numbers_of(U)[5] == Approx(-m * l * l / 3).epsilon(1e-12));
 }
@@ -71,25 +71,25 @@ TEST_CASE("joints that hold the same motion twice, and mass that is missing, are
   const dynamics::System repeated(c, std::move(twice)), massless = testing::pendulum(0, 0, g);
   for (const dynamics::System* system : {&repeated, &massless}) {
     const petsc::VecHandle U = system->create_vector(), V = system->create_vector(), A = system->create_vector();
-    CHECK_THROWS_AS(dynamics::consistent_start(*system, 0, U, V, A), RunError);
+    CHECK_THROWS_AS(solve::consistent_start(*system, 0, U, V, A), RunError);
   }
   const petsc::VecHandle U = repeated.create_vector(), V = repeated.create_vector(), A = repeated.create_vector();
-  CHECK_THROWS_WITH(dynamics::consistent_start(repeated, 0, U, V, A), Catch::EndsWith(" (joint hinge, joint clamp)"));
+  CHECK_THROWS_WITH(solve::consistent_start(repeated, 0, U, V, A), Catch::EndsWith(" (joint hinge, joint clamp)"));
 }
 
 TEST_CASE("consistent velocities: the nearest allowed ones in kinetic energy") {
   const dynamics::System system = testing::pendulum(m, l, g);
   const double theta = 0.4;
   const petsc::VecHandle U = vector_of(system, {0, 0, theta, 0, 0}), V = vector_of(system, {1, -2, 0.7, 0, 0});
-  CHECK(dynamics::constraint_violation(system, 0, U, V, ConstraintLevel::velocity) == Approx(2));
-  CHECK(dynamics::constraint_violation(system, 0, U, V, ConstraintLevel::position) == 0);
-  const double change = dynamics::consistent_velocities(system, 0, U, V);
+  CHECK(solve::constraint_violation(system, 0, U, V, ConstraintLevel::velocity) == Approx(2));
+  CHECK(solve::constraint_violation(system, 0, U, V, ConstraintLevel::position) == 0);
+  const double change = solve::consistent_velocities(system, 0, U, V);
   CHECK(change > 0.1);
-  CHECK(dynamics::constraint_violation(system, 0, U, V, ConstraintLevel::velocity) < 1e-13);
+  CHECK(solve::constraint_violation(system, 0, U, V, ConstraintLevel::velocity) < 1e-13);
   // the moment of momentum about the hinge is kept: C0 w + s0 x v before = C0 w' after
   const double before = m * l * l / 3 * 0.7 + m * l / 2 * (std::cos(theta) * -2 - std::sin(theta) * 1);
   CHECK(numbers_of(V)[2] == Approx(before / (m * l * l / 3)).epsilon(1e-12));
-  CHECK(dynamics::consistent_velocities(system, 0, U, V) < 1e-14);  // nothing left to do
+  CHECK(solve::consistent_velocities(system, 0, U, V) < 1e-14);  // nothing left to do
 }
 
 TEST_CASE("equilibrium: a rod on a torsional hinge under its weight") {
@@ -99,7 +99,7 @@ TEST_CASE("equilibrium: a rod on a torsional hinge under its weight") {
                                                       dynamics::SpringProperties{0, 0, 0, stiffness, 0, 0}));
   const dynamics::System system = testing::pendulum(m, l, g, std::move(spring));
   const petsc::VecHandle U = vector_of(system, {0.1, 0.1, 0.2, 0, 0}), V = system.create_vector();
-  dynamics::equilibrium(system, 0, U, V);
+  solve::equilibrium(system, 0, U, V);
   const VectorXd u = numbers_of(U);
   CHECK(stiffness * u[2] == Approx(-m * g * l / 2 * std::cos(u[2])).epsilon(1e-11));
   CHECK(u[2] < -0.3);
@@ -129,7 +129,7 @@ TEST_CASE("equilibrium at a constant speed: a spring in a turning body stretches
   terms.push_back(testing::to_ground(hub, dynamics::Clamp{0, drive}, 4));
   const dynamics::System system(c, std::move(terms));
   const petsc::VecHandle U = system.create_vector(), V = vector_of(system, {0, 0, w, 0, 0, 0, 0});
-  dynamics::equilibrium(system, 0.9, U, V);
+  solve::equilibrium(system, 0.9, U, V);
   CHECK(numbers_of(U)[3] == Approx(w * w * 6 / (k - w * w * 3)).epsilon(1e-11));
   CHECK(numbers_of(U)[2] == Approx(w * 0.9).epsilon(1e-12));
 }
@@ -138,9 +138,9 @@ TEST_CASE("a pendulum hangs in a stable equilibrium and stands in an unstable on
   const dynamics::System system = testing::pendulum(m, l, g);
   for (const auto& [theta, directions] : {std::pair{-M_PI / 2 + 0.1, 0}, {M_PI / 2 - 0.1, 1}}) {
     const petsc::VecHandle U = vector_of(system, {0, 0, theta, 0, 0}), V = system.create_vector();
-    dynamics::equilibrium(system, 0, U, V);
+    solve::equilibrium(system, 0, U, V);
     CHECK(std::abs(numbers_of(U)[2]) == Approx(M_PI / 2).epsilon(1e-9));
-    CHECK(dynamics::unstable_directions(system, 0, U, V) == directions);
+    CHECK(solve::unstable_directions(system, 0, U, V) == directions);
   }
 }
 
@@ -150,8 +150,8 @@ TEST_CASE("whether an equilibrium gives way is not said where a load follows the
       testing::on_rod(l), [](double) { return Eigen::Vector3d(-1, 0.5, 0); }, dynamics::Force::Axes::body));
   const dynamics::System system = testing::pendulum(m, l, g, std::move(push));
   const petsc::VecHandle U = vector_of(system, {0, 0, -M_PI / 2 + 0.1, 0, 0}), V = system.create_vector();
-  dynamics::equilibrium(system, 0, U, V);
-  CHECK_FALSE(dynamics::unstable_directions(system, 0, U, V).has_value());
+  solve::equilibrium(system, 0, U, V);
+  CHECK_FALSE(solve::unstable_directions(system, 0, U, V).has_value());
 }
 
 namespace {
@@ -180,20 +180,20 @@ dynamics::System pushed_rod(const Eigen::Vector3d& force, int hinges = 1) {
 TEST_CASE("where nothing resists at the start but will, the equilibrium is found") {
   const dynamics::System system = pushed_rod({0, 3, 0});
   const petsc::VecHandle U = vector_of(system, {0, 0, 0, 0, 0}), V = system.create_vector();
-  dynamics::equilibrium(system, 0.5, U, V);
+  solve::equilibrium(system, 0.5, U, V);
   CHECK(std::abs(std::cos(numbers_of(U)[2])) < 1e-9);
-  CHECK(dynamics::unstable_directions(system, 0.5, U, V) == 0);
+  CHECK(solve::unstable_directions(system, 0.5, U, V) == 0);
 }
 
 TEST_CASE("where nothing resists at all, and where constraints repeat, the search says which, and of whom") {
   const dynamics::System loose = pushed_rod({0, 0, 0});
   const petsc::VecHandle U = loose.create_vector(), V = loose.create_vector();
-  CHECK_THROWS_AS(dynamics::equilibrium(loose, 0.5, U, V), dynamics::NothingHolds);
-  CHECK_THROWS_WITH(dynamics::equilibrium(loose, 0.5, U, V),
+  CHECK_THROWS_AS(solve::equilibrium(loose, 0.5, U, V), solve::NothingHolds);
+  CHECK_THROWS_WITH(solve::equilibrium(loose, 0.5, U, V),
                     Catch::Contains("nothing holds the configuration in some direction (body rod)"));
   const dynamics::System twice = pushed_rod({3, 0, 0}, 2);
   const petsc::VecHandle U2 = twice.create_vector(), V2 = twice.create_vector();
-  CHECK_THROWS_WITH(dynamics::equilibrium(twice, 0.5, U2, V2),
+  CHECK_THROWS_WITH(solve::equilibrium(twice, 0.5, U2, V2),
                     Catch::Contains("constraints repeat one another (joint hinge 1, joint hinge 2)"));
 }
 
@@ -203,5 +203,5 @@ TEST_CASE("no equilibrium is a run error that says when") {
       testing::on_rod(l), [](double) { return Eigen::Vector3d(0, 0, 1e3); }, dynamics::Force::Axes::world));
   const dynamics::System driven = testing::pendulum(m, l, g, std::move(push));
   const petsc::VecHandle U = driven.create_vector(), V = driven.create_vector();
-  CHECK_THROWS_AS(dynamics::equilibrium(driven, 0.25, U, V), RunError);
+  CHECK_THROWS_AS(solve::equilibrium(driven, 0.25, U, V), RunError);
 }

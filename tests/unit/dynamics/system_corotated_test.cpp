@@ -124,7 +124,7 @@ TEST_CASE("a Jacobian that turns with its bodies saves Newton iterations") {
   const auto iterations = [](bool known) {
     const dynamics::System system = rod(known, 9.81);
     const petsc::VecHandle U = vector_of(system, {-0.4, 0, 0, 0, 0}), V = system.create_vector();
-    const auto report = dynamics::simulate(system, {5, 0.005, 0.8, {}}, U, V, [](const dynamics::Instant&) {});
+    const auto report = solve::simulate(system, {5, 0.005, 0.8, {}}, U, V, [](const solve::Instant&) {});
     return static_cast<double>(report.newton) / static_cast<double>(report.steps);
   };
   const double with = iterations(true), without = iterations(false);

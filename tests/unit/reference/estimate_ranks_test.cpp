@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "floe/dynamics/start.h"
-#include "floe/scene/estimate.h"
+#include "floe/assess/estimate.h"
+#include "floe/solve/start.h"
 #include "scene_motion.h"
 
 using namespace floe;
@@ -45,22 +45,22 @@ motion: {end: 0.02, step: 1e-3}
 probes: {tip: {at: b.end}}
 )yaml";
 
-scene::Estimate of_motion(const std::string& text, MPI_Comm comm) {
+assess::Estimate of_motion(const std::string& text, MPI_Comm comm) {
   const scene::Scene scene = scene::parse_scene(text, "scene");
-  scene::Model model = scene::build(scene, Formulation::vm, comm, true);
-  scene::KeptMotion kept(model);
-  dynamics::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
-                     model.V, [&](const dynamics::Instant& at) { kept.keep(at); });
-  return scene::estimate_error(model, kept, 100);
+  assembly::Model model = assembly::build(scene, Formulation::vm, comm, true);
+  assess::KeptMotion kept(model);
+  solve::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
+                  model.V, [&](const solve::Instant& at) { kept.keep(at); });
+  return assess::estimate_error(model, kept, 100);
 }
 
-scene::Estimate of_equilibrium(const std::string& text, MPI_Comm comm) {
-  scene::Model model = scene::build(scene::parse_scene(text, "scene"), Formulation::vm, comm, true);
-  dynamics::equilibrium(*model.system, 1, model.U, model.V);
-  return scene::estimate_error_at_rest(model, {dynamics::state_of(*model.system, 1, model.U, model.V, model.V)}, 100);
+assess::Estimate of_equilibrium(const std::string& text, MPI_Comm comm) {
+  assembly::Model model = assembly::build(scene::parse_scene(text, "scene"), Formulation::vm, comm, true);
+  solve::equilibrium(*model.system, 1, model.U, model.V);
+  return assess::estimate_error_at_rest(model, {solve::state_of(*model.system, 1, model.U, model.V, model.V)}, 100);
 }
 
-void same(const scene::Estimate& all, const scene::Estimate& one) {
+void same(const assess::Estimate& all, const assess::Estimate& one) {
   REQUIRE(all.none == "");
   REQUIRE(one.none == "");
   CHECK(all.deformation > 0);

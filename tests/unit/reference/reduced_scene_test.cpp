@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "floe/scene/reduced.h"
+#include "floe/assembly/reduced_bodies_file.h"
 #include "scene_motion.h"
 
 using namespace floe;
@@ -85,7 +85,7 @@ struct Pair {
   Pair(const std::string& text, const std::string& body, const std::string& mesh) {
     meshed = fill(text, {{body, mesh}});
     std::vector<std::string> warnings;
-    scene::reduce_body(scene::parse_scene(meshed, "scene"), body, PETSC_COMM_WORLD, file.path, true, warnings);
+    assembly::reduce_body(scene::parse_scene(meshed, "scene"), body, PETSC_COMM_WORLD, file.path, true, warnings);
     from_file = fill(text, {{body, "\n    reduced: " + file.path}});
   }
 };
@@ -130,9 +130,9 @@ TEST_CASE("a plate that the ground holds moves from its file as with its mesh") 
 TEST_CASE("a file made on all ranks moves as the mesh does on one") {
   const Pair scenes(plate, "plate", meshed_plate);
   History alone{
-      scene::build(scene::parse_scene(scenes.meshed, "scene"), Formulation::vm_md, PETSC_COMM_SELF), {}, {}, {}, {}};
-  dynamics::simulate(*alone.model.system, {0.1, 2e-3, 0.8, {}, "motion_"}, alone.model.U, alone.model.V,
-                     [&](const dynamics::Instant& at) { store(alone, at.t, at.U, at.V); });
+      assembly::build(scene::parse_scene(scenes.meshed, "scene"), Formulation::vm_md, PETSC_COMM_SELF), {}, {}, {}, {}};
+  solve::simulate(*alone.model.system, {0.1, 2e-3, 0.8, {}, "motion_"}, alone.model.U, alone.model.V,
+                  [&](const solve::Instant& at) { store(alone, at.t, at.U, at.V); });
   check_same(move(scenes.from_file, Formulation::vm_md), alone, 1e-9);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("formulations of full order name the body that has no mesh") {
 TEST_CASE("frequencies of a body from a file are those of its mesh, and derivatives beside it are chosen by count") {
   const Pair held(plate, "plate", meshed_plate);
   const auto omega = [](const std::string& text) {
-    return scene::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
+    return assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
   };
   const std::vector<double> file = omega(held.from_file), mesh = omega(held.meshed);
   REQUIRE(file.size() == mesh.size());

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "floe/dynamics/simulation.h"
+#include "floe/assembly/model.h"
 #include "floe/petsc/values.h"
-#include "floe/scene/model.h"
+#include "floe/solve/simulation.h"
 
 using namespace floe;
 using scene::Formulation;
@@ -54,11 +54,11 @@ probes:
 /// Probes of every step; on other ranks than the observers' the same.
 std::vector<std::vector<double>> run(const char* text, Formulation formulation, MPI_Comm comm) {
   const scene::Scene scene = scene::parse_scene(text, "test.yaml");
-  scene::Model model = scene::build(scene, formulation, comm);
+  assembly::Model model = assembly::build(scene, formulation, comm);
   std::vector<std::vector<double>> rows;
-  dynamics::simulate(
+  solve::simulate(
       *model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U, model.V,
-      [&](const dynamics::Instant& now) { rows.push_back(scene::probe_values(model, now.t, now.U, now.V)); });
+      [&](const solve::Instant& now) { rows.push_back(assembly::probe_values(model, now.t, now.U, now.V)); });
   return rows;
 }
 

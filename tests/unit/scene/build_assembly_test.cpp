@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "building.h"
-#include "floe/dynamics/simulation.h"
-#include "floe/dynamics/start.h"
+#include "floe/solve/simulation.h"
+#include "floe/solve/start.h"
 
 using namespace floe;
 using scene::Formulation;
@@ -26,20 +26,20 @@ bodies:
 const std::string motion = "motion: {end: 0.1, step: 0.01}\nprobes:\n  tip: {at: beam.end, quantity: displacement}\n";
 
 /// Greatest violation of the joints at a level.
-double violation(const scene::Model& model, dynamics::ConstraintLevel level) {
-  return dynamics::constraint_violation(*model.system, 0, model.U, model.V, level);
+double violation(const assembly::Model& model, dynamics::ConstraintLevel level) {
+  return solve::constraint_violation(*model.system, 0, model.U, model.V, level);
 }
 
 }  // namespace
 
 TEST_CASE("coordinates and multipliers of each formulation") {
   const std::string text = beam + "joints:\n  hinge: {type: revolute, between: [ground, beam.start]}\n" + motion;
-  const scene::Model cfr = built(text, Formulation::cfr), full = built(text, Formulation::nlffr),
-                     reduced = built(text, Formulation::vm_md);
+  const assembly::Model cfr = built(text, Formulation::cfr), full = built(text, Formulation::nlffr),
+                        reduced = built(text, Formulation::vm_md);
   CHECK(cfr.coordinates == 21);
   CHECK(full.coordinates == 24);
   CHECK(reduced.coordinates == 3 + reduced.bodies[0].columns);
-  for (const scene::Model* model : {&cfr, &full, &reduced}) CHECK(model->multipliers == 2);
+  for (const assembly::Model* model : {&cfr, &full, &reduced}) CHECK(model->multipliers == 2);
 }
 
 TEST_CASE("joints hold at the start: a moving body takes the nearest velocities that they allow") {
@@ -51,7 +51,7 @@ TEST_CASE("joints hold at the start: a moving body takes the nearest velocities 
                      "joints:\n  j: " + joint + "\n" + motion;
   for (const auto formulation : all_formulations()) {
     INFO(joint << " " << scene::name_of(formulation));
-    const scene::Model model = built(text, formulation);
+    const assembly::Model model = built(text, formulation);
     CHECK(violation(model, dynamics::ConstraintLevel::position) < 1e-13);
     CHECK(violation(model, dynamics::ConstraintLevel::velocity) < 1e-12);
     CHECK(model.velocity_correction > 0.01);
@@ -66,8 +66,8 @@ loads:
 )yaml" + motion;
   for (const auto formulation : all_formulations()) {
     INFO(scene::name_of(formulation));
-    scene::Model model = built(text, formulation);
-    dynamics::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const dynamics::Instant&) {});
+    assembly::Model model = built(text, formulation);
+    solve::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const solve::Instant&) {});
     const auto tip = at_start(model);
     CHECK(tip[0] == Approx(0.5 * 2 * 0.01).epsilon(1e-6));
     CHECK(tip[1] == Approx(-0.5 * 10 * 0.01).epsilon(1e-6));
@@ -83,8 +83,8 @@ TEST_CASE("forces of body axes are given in the axes of the mesh") {
 loads:
   push: {type: force, at: beam.middle, force: [6, 0], axes: body}
 )yaml" + motion;
-  scene::Model model = built(text, Formulation::nlffr);
-  dynamics::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const dynamics::Instant&) {});
+  assembly::Model model = built(text, Formulation::nlffr);
+  solve::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const solve::Instant&) {});
   const auto tip = at_start(model);  // a mass of 6 pushed along the beam, which stands upright
   CHECK(std::abs(tip[0]) < 1e-12);
   CHECK(tip[1] == Approx(0.5 * 0.01).epsilon(1e-9));
@@ -120,8 +120,8 @@ joints:
 loads:
   push: {type: force, at: beam.start, force: [10, 0]}
 )yaml" + motion;
-  scene::Model model = built(text, Formulation::vm);
-  dynamics::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const dynamics::Instant&) {});
+  assembly::Model model = built(text, Formulation::vm);
+  solve::simulate(*model.system, {0.1, 0.01, 0.8, {}}, model.U, model.V, [](const solve::Instant&) {});
   const auto tip = at_start(model);
   const double along = 0.5 * (10 * 0.6 / 6) * 0.01;
   CHECK(tip[0] == Approx(0.6 * along).epsilon(1e-9));
@@ -134,7 +134,7 @@ joints:
   spring: {type: spring, between: [{body: ground, node: [0, 1]}, beam.end], stiffness: 100, torsional_stiffness: 7}
 )yaml" + motion;
   for (const auto formulation : all_formulations()) {
-    const scene::Model model = built(text, formulation);
+    const assembly::Model model = built(text, formulation);
     CHECK(std::abs(model.system->energy(0, model.U, model.V).elastic) < 1e-20);
   }
 }
@@ -155,7 +155,7 @@ TEST_CASE("joints hold at the start: velocities of any size") {
   for (const double size : {1e-14, 1e-30}) {
     const std::string text = beam + fmt::format("    initial: {{velocity: [{0}, {1}]}}\n", size, 0.3 * size) +
                              "joints: {j: {type: revolute, between: [ground, beam.start]}}\n" + motion;
-    const scene::Model model = built(text, scene::Formulation::nlffr);
+    const assembly::Model model = built(text, scene::Formulation::nlffr);
     CHECK(violation(model, dynamics::ConstraintLevel::velocity) < 1e-12 * size);
     CHECK(model.velocity_correction > 0.01);
   }

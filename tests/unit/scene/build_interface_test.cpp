@@ -42,7 +42,7 @@ motion: {end: 0.1, step: 0.01}
 )yaml";
 }
 
-int notes_with(const scene::Model& model, const std::string& words) {
+int notes_with(const assembly::Model& model, const std::string& words) {
   return static_cast<int>(std::count_if(model.warnings.begin(), model.warnings.end(), [&](const std::string& note) {
     return note.find(words) != std::string::npos;
   }));
@@ -92,7 +92,7 @@ TEST_CASE("where an interface carries a joint's moment there is nothing to warn 
   const std::string words = "cannot carry the moment of joint h";
   const std::string plain = "{modes: 3, attachment: none}";
   CHECK(notes_with(built(two_beams(plain, plain), Formulation::vm_md), words) == 2);
-  const scene::Model model =
+  const assembly::Model model =
       built(two_beams("{modes: 3, attachment: none, interface: [end]}", plain), Formulation::vm_md);
   CHECK(notes_with(model, words) == 1);
   CHECK(notes_with(model, "body arm") == 0);

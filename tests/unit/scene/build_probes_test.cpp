@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "building.h"
-#include "floe/dynamics/simulation.h"
+#include "floe/solve/simulation.h"
 
 using namespace floe;
 using scene::Formulation;
@@ -38,7 +38,7 @@ probes:
 
 TEST_CASE("columns of the probes with their units") {
   std::vector<std::string> columns;
-  for (const auto& column : scene::probe_columns(built(text, Formulation::vm)))
+  for (const auto& column : assembly::probe_columns(built(text, Formulation::vm)))
     columns.push_back(column.name + " " + column.unit);
   std::sort(columns.begin(), columns.end());
   CHECK(columns == std::vector<std::string>{"bent.x m", "bent.y m", "gone.x m", "gone.y m", "moving.x m/s",
@@ -49,8 +49,8 @@ TEST_CASE("columns of the probes with their units") {
 TEST_CASE("a probe relative to a moving place is what an observer there sees") {
   for (const auto formulation : testing::all_formulations()) {
     INFO(scene::name_of(formulation));
-    scene::Model model = built(text, formulation);
-    const auto columns = scene::probe_columns(model);
+    assembly::Model model = built(text, formulation);
+    const auto columns = assembly::probe_columns(model);
     const auto index = [&](const std::string& name) {
       for (std::size_t i = 0; i < columns.size(); ++i)
         if (columns[i].name == name) return i;
@@ -72,8 +72,8 @@ TEST_CASE("a probe relative to a moving place is what an observer there sees") {
     CHECK(std::abs(values[index("turned.angle")]) < 1e-14);
     // later: the relative velocity is the rate of the relative position, which displacement measures from the start
     std::vector<std::vector<double>> rows;
-    dynamics::simulate(*model.system, {0.004, 0.001, 0.8, {}}, model.U, model.V, [&](const dynamics::Instant& now) {
-      rows.push_back(scene::probe_values(model, now.t, now.U, now.V));
+    solve::simulate(*model.system, {0.004, 0.001, 0.8, {}}, model.U, model.V, [&](const solve::Instant& now) {
+      rows.push_back(assembly::probe_values(model, now.t, now.U, now.V));
     });
     const Eigen::Vector2d rate =
         (8 * (at(rows[3], "seen") - at(rows[1], "seen")) - (at(rows[4], "seen") - at(rows[0], "seen"))) / 0.012;

@@ -30,7 +30,7 @@ probes:
 )yaml";
 }
 
-std::vector<std::string> labels(const scene::Model& model, Kind kind) {
+std::vector<std::string> labels(const assembly::Model& model, Kind kind) {
   std::vector<std::string> all;
   for (const auto& origin : model.bodies[0].origins)
     if (origin.kind == kind) all.push_back(origin.label);
@@ -40,12 +40,12 @@ std::vector<std::string> labels(const scene::Model& model, Kind kind) {
 }  // namespace
 
 TEST_CASE("vm+md holds modes and their derivatives, vm as many modes as these have columns") {
-  const scene::Model both = built(cantilever("{modes: 3, derivatives: all}"), Formulation::vm_md);
+  const assembly::Model both = built(cantilever("{modes: 3, derivatives: all}"), Formulation::vm_md);
   CHECK(labels(both, Kind::mode) == std::vector<std::string>{"mode 1", "mode 2", "mode 3"});
   CHECK(labels(both, Kind::derivative).size() == 6);
   CHECK(both.bodies[0].columns == 8);                               // mode 3 is axial: it has no derivative with itself
   CHECK(both.bodies[0].omega[0] == Approx(1.45295).epsilon(1e-4));  // the paper's cantilever, rotary inertia included
-  const scene::Model alone = built(cantilever("{modes: 3, derivatives: all}"), Formulation::vm);
+  const assembly::Model alone = built(cantilever("{modes: 3, derivatives: all}"), Formulation::vm);
   CHECK(alone.bodies[0].columns == 8);  // what vm+md keeps, not what it asked for
   CHECK(labels(alone, Kind::derivative).empty());
   CHECK(built(cantilever("{modes: {count: 3, alone: 5}}"), Formulation::vm).bodies[0].columns == 5);
@@ -64,7 +64,7 @@ TEST_CASE("vm stands on as many columns as vm+md keeps, however the derivatives 
 // Bending modes 1, 2, 4 carry the motion; (1,3) and (2,3) of the axial mode 3 have great norms, but the modes span
 // them.
 TEST_CASE("derivatives by count take pairs that add something") {
-  const scene::Model model = built(cantilever("{modes: 8, derivatives: 3}"), Formulation::vm_md);
+  const assembly::Model model = built(cantilever("{modes: 8, derivatives: 3}"), Formulation::vm_md);
   const auto chosen = labels(model, Kind::derivative);
   REQUIRE(chosen.size() == 3);
   for (const auto& label : chosen) CHECK(label.find('3') == std::string::npos);
@@ -73,11 +73,11 @@ TEST_CASE("derivatives by count take pairs that add something") {
 }
 
 TEST_CASE("derivatives by pairs, by count and none") {
-  const scene::Model pairs = built(cantilever("{modes: 4, derivatives: [[1, 1], [1, 4]]}"), Formulation::vm_md);
+  const assembly::Model pairs = built(cantilever("{modes: 4, derivatives: [[1, 1], [1, 4]]}"), Formulation::vm_md);
   CHECK(labels(pairs, Kind::derivative) == std::vector<std::string>{"derivative 1,1", "derivative 1,4"});
-  const scene::Model none = built(cantilever("{modes: 4, derivatives: none}"), Formulation::vm_md);
+  const assembly::Model none = built(cantilever("{modes: 4, derivatives: none}"), Formulation::vm_md);
   CHECK(labels(none, Kind::derivative).empty());
-  const scene::Model count = built(cantilever("{modes: 4, derivatives: 3}"), Formulation::vm_md);
+  const assembly::Model count = built(cantilever("{modes: 4, derivatives: 3}"), Formulation::vm_md);
   REQUIRE(labels(count, Kind::derivative).size() == 3);
   double before = 1;  // ranked, the greatest first
   for (const auto& origin : count.bodies[0].origins) {
@@ -89,7 +89,7 @@ TEST_CASE("derivatives by pairs, by count and none") {
 }
 
 TEST_CASE("full derivatives bring both orders of a pair") {
-  const scene::Model model =
+  const assembly::Model model =
       built(cantilever("{modes: 2, derivatives: all, derivative_type: full}"), Formulation::vm_md);
   auto all = labels(model, Kind::derivative);
   std::sort(all.begin(), all.end());
@@ -145,7 +145,7 @@ TEST_CASE("more modes than elastic dofs are an input error at the key") {
 
 TEST_CASE("body_modes gives frequencies and residuals as the reduction asks") {
   const auto scene = scene::parse_scene(cantilever("{modes: 5}"), "test.yaml");
-  const auto reports = scene::body_modes(scene, PETSC_COMM_WORLD);
+  const auto reports = assembly::body_modes(scene, PETSC_COMM_WORLD);
   REQUIRE(reports.size() == 1);
   CHECK(reports[0].name == "beam");
   CHECK(reports[0].dofs == 33);

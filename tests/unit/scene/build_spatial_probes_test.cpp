@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "building.h"
-#include "floe/dynamics/simulation.h"
 #include "floe/math/rotation.h"
+#include "floe/solve/simulation.h"
 
 using namespace floe;
 using Eigen::Matrix3d;
@@ -57,8 +57,8 @@ Seen closed_form(double t) {
 }  // namespace
 
 TEST_CASE("space: a probe relative to a turning place is what an observer there sees, its velocity too") {
-  scene::Model model = built(text, Formulation::vm_md);
-  const auto columns = scene::probe_columns(model);
+  assembly::Model model = built(text, Formulation::vm_md);
+  const auto columns = assembly::probe_columns(model);
   REQUIRE(columns.size() == 12);
   CHECK((columns[2].name == "seen.z" && columns[6].name == "moving.x" && columns[6].unit == "m/s"));
   CHECK((columns[9].name == "turned.rx" && columns[9].unit == "rad"));
@@ -74,15 +74,15 @@ TEST_CASE("space: a probe relative to a turning place is what an observer there 
   check(0, at_start(model), 1e-12);
   // steady rotations and a uniform motion: exact but for the solver's tolerance
   int rows = 0;
-  dynamics::simulate(*model.system, {0.4, 0.01, 0.8, {}}, model.U, model.V, [&](const dynamics::Instant& now) {
-    if (rows++ % 10 == 0) check(now.t, scene::probe_values(model, now.t, now.U, now.V), 1e-7);
+  solve::simulate(*model.system, {0.4, 0.01, 0.8, {}}, model.U, model.V, [&](const solve::Instant& now) {
+    if (rows++ % 10 == 0) check(now.t, assembly::probe_values(model, now.t, now.U, now.V), 1e-7);
   });
   CHECK(rows == 41);
 }
 
 TEST_CASE("space: a probe relative to a place on a tilted body that spins about a tilted axis") {
   const Vector3d tilt(0.4, -0.3, 0.9), spin(1.5, -2, 0.7), v(0.2, 0.1, -0.4);
-  scene::Model model = built(R"yaml(
+  assembly::Model model = built(R"yaml(
 bodies:
   hub:
     rigid: true
@@ -99,7 +99,7 @@ motion: {end: 1, step: 0.01}
 probes:
   top: {at: mast.end, quantity: velocity, relative_to: hub.end}
 )yaml",
-                             Formulation::vm_md);
+                                Formulation::vm_md);
   const Vector3d end = math::rotation(tilt) * Vector3d(0, 0.5, 0);
   const auto values = at_start(model);
   REQUIRE(values.size() == 3);

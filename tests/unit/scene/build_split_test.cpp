@@ -31,7 +31,7 @@ probes:
 }  // namespace
 
 TEST_CASE("a split body becomes its parts, clamped end to start, with places and loads on them") {
-  const scene::Scene whole = scene::parse_scene(split, "test.yaml"), parts = scene::split_frames(whole);
+  const scene::Scene whole = scene::parse_scene(split, "test.yaml"), parts = plan::split_frames(whole);
   REQUIRE(parts.bodies.size() == 4);
   for (int i = 0; i < 4; ++i) {
     CHECK(parts.bodies[i].name == "beam#" + std::to_string(i + 1));
@@ -56,8 +56,8 @@ TEST_CASE("a split body becomes its parts, clamped end to start, with places and
 TEST_CASE("places of a split body stay where they are") {
   for (const auto formulation : testing::all_formulations()) {
     INFO(scene::name_of(formulation));
-    const scene::Model model = built(split, formulation);
-    const auto columns = scene::probe_columns(model);
+    const assembly::Model model = built(split, formulation);
+    const auto columns = assembly::probe_columns(model);
     const auto values = at_start(model);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const double x = columns[i].name == "tip.x" ? 5 : columns[i].name == "third.x" ? 3.5 : 3;

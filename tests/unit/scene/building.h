@@ -1,13 +1,13 @@
 #pragma once
 #include <Eigen/Dense>
 
+#include "floe/assembly/model.h"
 #include "floe/petsc/values.h"
-#include "floe/scene/model.h"
 
 namespace floe::testing {
 
-inline scene::Model built(const std::string& text, scene::Formulation formulation) {
-  return scene::build(scene::parse_scene(text, "test.yaml"), formulation, PETSC_COMM_WORLD);
+inline assembly::Model built(const std::string& text, scene::Formulation formulation) {
+  return assembly::build(scene::parse_scene(text, "test.yaml"), formulation, PETSC_COMM_WORLD);
 }
 
 /// The complaint of a scene that reads well and cannot be built.
@@ -21,8 +21,8 @@ inline std::string complaint(const std::string& text, scene::Formulation formula
 }
 
 /// Values of the probes at the start.
-inline std::vector<double> at_start(const scene::Model& model) {
-  return scene::probe_values(model, 0, model.U, model.V);
+inline std::vector<double> at_start(const assembly::Model& model) {
+  return assembly::probe_values(model, 0, model.U, model.V);
 }
 
 inline std::vector<scene::Formulation> all_formulations() {

@@ -206,8 +206,8 @@ TEST_CASE("joints and probes that events name must be there") {
 TEST_CASE("a formula of an event that is no number is told with its key, unless the event comes before") {
   const auto events = [](const std::string& when) {
     const scene::Scene scene = scene::parse_scene(rod("e: {stop: true, when: \"" + when + "\"}"), "scene");
-    const scene::Model model = scene::build(scene, scene::Formulation::vm_md, PETSC_COMM_WORLD);
-    return scene::events_of(scene, model, 1);
+    const assembly::Model model = assembly::build(scene, scene::Formulation::vm_md, PETSC_COMM_WORLD);
+    return assembly::events_of(scene, model, 1);
   };
   using Catch::Contains;
   CHECK_THROWS_WITH(events("sqrt(0.5 - t) + 1"), Contains(".when: \"sqrt(0.5 - t) + 1\" is not a number at t = 0.5"));

@@ -1,4 +1,4 @@
-#include "../../../src/scene/ground_axes.h"
+#include "floe/plan/ground_axes.h"
 
 #include <catch2/catch.hpp>
 
@@ -26,15 +26,15 @@ TEST_CASE("axes along directions: the first, and those at right angles with it")
   const Matrix3d I = Matrix3d::Identity(), Q = math::rotation(Vector3d(0.4, -0.9, 0.7));
   const Vector3d a = Q.col(0), b = (Q.col(1) + 2 * Q.col(2)).normalized(), c = (Q.col(0) + Q.col(1)).normalized();
   for (const Vector3d& sign : {Vector3d(1, 1, 1), Vector3d(-1, 1, -1)}) {
-    const Matrix3d one = scene::axes_along(I, -1, {sign[0] * a}), two = scene::axes_along(I, -1, {sign[0] * a, c, b});
+    const Matrix3d one = plan::axes_along(I, -1, {sign[0] * a}), two = plan::axes_along(I, -1, {sign[0] * a, c, b});
     check_rotation(one), check_rotation(two);
     CHECK(off(one, a) < 1e-15);
     CHECK(off(two, a) < 1e-15);
     CHECK(off(two, b) < 1e-15);
     CHECK(off(two, c) > 0.1);  // comes before b, and is oblique to a
   }
-  CHECK(scene::axes_along(I, -1, {}) == I);
-  CHECK(scene::axes_along(I, -1, {Vector3d::UnitY(), -Vector3d::UnitX(), a}) == I);
+  CHECK(plan::axes_along(I, -1, {}) == I);
+  CHECK(plan::axes_along(I, -1, {Vector3d::UnitY(), -Vector3d::UnitX(), a}) == I);
 }
 
 TEST_CASE("axes along directions: about a column that has to stay") {
@@ -42,10 +42,10 @@ TEST_CASE("axes along directions: about a column that has to stay") {
   for (int kept = 0; kept < 3; ++kept) {
     const Vector3d across = (Q.col((kept + 1) % 3) - 3 * Q.col((kept + 2) % 3)).normalized(),
                    oblique = (Q.col(kept) + Q.col((kept + 1) % 3)).normalized();
-    const Matrix3d turned = scene::axes_along(Q, kept, {oblique, across});
+    const Matrix3d turned = plan::axes_along(Q, kept, {oblique, across});
     check_rotation(turned);
     CHECK(turned.col(kept) == Q.col(kept));
     CHECK(off(turned, across) < 1e-15);
-    CHECK(scene::axes_along(Q, kept, {oblique}) == Q);
+    CHECK(plan::axes_along(Q, kept, {oblique}) == Q);
   }
 }

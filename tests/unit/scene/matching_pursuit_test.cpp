@@ -1,4 +1,4 @@
-#include "../../../src/scene/matching_pursuit.h"
+#include "../../../src/assess/matching_pursuit.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "../../../src/scene/place_weights.h"
+#include "floe/plan/place_weights.h"
 
 #include <catch2/catch.hpp>
 
@@ -28,7 +28,7 @@ struct Grid {
     std::vector<double> found;
     Eigen::Vector3d sum = -centre;
     Eigen::Matrix3d arms = Eigen::Matrix3d::Zero();
-    for (const auto& [node, weight, arm] : scene::place_weights(mesh, nodes)) {
+    for (const auto& [node, weight, arm] : plan::place_weights(mesh, nodes)) {
       const auto& [x, y] = points[found.size()];
       sum += weight * Eigen::Vector3d(x, y, 0);
       arms += arm;

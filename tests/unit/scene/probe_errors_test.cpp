@@ -1,4 +1,4 @@
-#include "floe/scene/probe_errors.h"
+#include "floe/assess/probe_errors.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

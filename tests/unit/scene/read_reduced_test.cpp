@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "floe/scene/reduced.h"
+#include "floe/assembly/reduced_bodies_file.h"
 #include "spatial_scene.h"
 
 using namespace floe;
@@ -20,13 +20,14 @@ struct Files {
   Files() {
     std::vector<std::string> warnings;
     for (const auto& [name, text] : {std::pair("beam.h5", beam), std::pair("plate.h5", plate)})
-      scene::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / name, true, warnings);
+      assembly::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / name, true,
+                            warnings);
   }
   /// Faults of a scene of these lines, their file names without folders.
   Faults faults(const std::string& text, scene::Formulation formulation = scene::Formulation::vm_md) const {
     Faults all;
     try {
-      scene::build(scene::parse_scene(text, (folder.path / "s.yaml").string()), formulation, PETSC_COMM_WORLD);
+      assembly::build(scene::parse_scene(text, (folder.path / "s.yaml").string()), formulation, PETSC_COMM_WORLD);
     } catch (const InputError& error) {
       all = error.faults();
     }
@@ -129,7 +130,7 @@ TEST_CASE("a body that is reduced already is not reduced again") {
   std::vector<std::string> warnings;
   const scene::Scene scene =
       scene::parse_scene("bodies: {b: {reduced: beam.h5}}\n", (files.folder.path / "s.yaml").string());
-  CHECK_THROWS_WITH(scene::reduce_body(scene, "", PETSC_COMM_WORLD, files.folder.path / "again.h5", true, warnings),
+  CHECK_THROWS_WITH(assembly::reduce_body(scene, "", PETSC_COMM_WORLD, files.folder.path / "again.h5", true, warnings),
                     Catch::EndsWith("bodies.b.reduced: is reduced already; expected a body with a mesh"));
 }
 
@@ -149,8 +150,8 @@ TEST_CASE("another body of the scene does not hold the one that is reduced") {
   const auto first = [](const std::string& rest) {
     const testing::Folder folder;
     std::vector<std::string> warnings;
-    return scene::reduce_body(scene::parse_scene(rest, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / "b.h5", true,
-                              warnings)
+    return assembly::reduce_body(scene::parse_scene(rest, "s.yaml"), "b", PETSC_COMM_WORLD, folder.path / "b.h5", true,
+                                 warnings)
         .omega.at(0);
   };
   const std::string two =
@@ -173,8 +174,8 @@ TEST_CASE("derivatives that are chosen by count are those with the greatest inte
       "bodies: {b: {mesh: {line: {from: [0, 0], to: [2, 0], elements: 32}}, section: {EA: 1e6, EI: 1, rhoA: 1}, "
       "reduction: {modes: 3, derivatives: 4}}}\n"
       "joints: {j: {type: revolute, between: [b.end, ground]}, k: {type: revolute, between: [b.start, ground]}}\n";
-  const output::ReducedBodyFile file = scene::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD,
-                                                          folder.path / "b.h5", true, warnings);
+  const output::ReducedBodyFile file = assembly::reduce_body(scene::parse_scene(text, "s.yaml"), "b", PETSC_COMM_WORLD,
+                                                             folder.path / "b.h5", true, warnings);
   std::vector<std::string> chosen;
   std::vector<double> interaction;
   for (const output::ReducedColumn& column : file.columns)

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "floe/assembly/model.h"
 #include "floe/error.h"
-#include "floe/scene/model.h"
 
 namespace floe::testing {
 
@@ -25,7 +25,7 @@ inline scene::Body body_of(const std::string& text) { return scene::parse_scene(
 /// All faults of a scene, of its reading or else of its preparation up to the modes.
 inline std::vector<std::string> faults_of(const std::string& text, const std::string& name = "s.yaml") {
   try {
-    scene::body_modes(scene::parse_scene(text, name), PETSC_COMM_WORLD);
+    assembly::body_modes(scene::parse_scene(text, name), PETSC_COMM_WORLD);
   } catch (const InputError& error) {
     return error.faults();
   }

@@ -1,0 +1,12 @@
+#pragma once
+#include "floe/scene/scene.h"
+
+namespace floe::assembly {
+using namespace scene;
+
+/// Whether every flexible body with a mesh has as many modes as its reduction asks for, under their conditions. Bodies
+/// of at least twelve dofs for each mode are taken to have them; of others the stiffness is factored.
+/// @throws InputError  a line for each that has not; RunError. Collective.
+void check_modes(const Scene& scene, MPI_Comm comm);
+
+}  // namespace floe::assembly

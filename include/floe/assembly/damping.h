@@ -1,0 +1,43 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "floe/assembly/reduce_bodies.h"
+#include "floe/dynamics/coordinates.h"
+#include "floe/dynamics/term.h"
+#include "floe/reference/mass_damping.h"
+
+namespace floe::assembly {
+
+/// Dofs of a body by which its rigid motion is told from its vibration (fem::joint_frame): those that joints hold to
+/// the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away from
+/// these. Collective.
+fem::Conditions held_for_damping(const Plan& plan, int body);
+
+/// What damping.mass acts on: the displacement in the frame less its rigid part as the body's joints see it.
+/// Collective.
+fem::ReferenceFrame damping_frame(const Plan& plan, int body);
+
+/// alpha V'P'MPV + beta V'KV + modal: of small motions, for files and exports. Empty: none. Collective.
+Eigen::MatrixXd linear_damping(const Plan& plan, int body, const ReducedBody& reduced);
+
+/// Terms of a reduced body's damping on its elastic coordinates: mass-proportional, modal (one constant matrix), and
+/// Kelvin-Voigt. Collective.
+std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int body, const ReducedBody& reduced,
+                                                           const std::vector<int>& elastic);
+
+/// Bodies in several frames whose damping.mass acts on each frame by itself.
+std::vector<std::string> damping_warnings(const Plan& plan);
+
+/// Mass-proportional damping of a full-order body, with its unknowns added where it needs some; none: it has none.
+/// @param held  dofs that are zero at full order. Collective.
+std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int body, const fem::Conditions& held,
+                                                         dynamics::Coordinates& coordinates);
+
+/// The unknowns of `damping` at the start. @param owner  whether this rank has the shared unknowns. Collective.
+void set_rigid_part(const reference::MassDamping& damping, const PlannedBody& body,
+                    const dynamics::Coordinates& coordinates, bool owner, Vec U, Vec V);
+
+}  // namespace floe::assembly

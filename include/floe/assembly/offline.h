@@ -1,0 +1,21 @@
+#pragma once
+#include "floe/assembly/reduce_bodies.h"
+
+namespace floe::assembly {
+
+/// A plan, and what its bodies were reduced to; stays where it is, because its parts refer to one another.
+struct Offline {
+  Scene scene;  ///< bodies split into their frames
+  Plan plan;
+  std::vector<ReducedBody> reduced;
+
+  /// Collective.
+  Offline(Scene whole, MPI_Comm comm) : scene(std::move(whole)), plan(prepare(scene, comm)) {}
+  Offline(const Offline&) = delete;
+  Offline& operator=(const Offline&) = delete;
+};
+
+/// BodyReport::structure of a model of these bodies.
+void give_structures(const std::shared_ptr<const Offline>& offline, Model& model);
+
+}  // namespace floe::assembly

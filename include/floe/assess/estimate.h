@@ -1,0 +1,85 @@
+#pragma once
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "floe/assembly/model.h"
+#include "floe/solve/deviation.h"
+#include "floe/solve/simulation.h"
+
+namespace floe::assess {
+using namespace assembly;
+using namespace plan;
+using namespace scene;
+
+/// States of a reduced motion, each so many steps apart that there are at most `most`: what its estimate needs.
+class KeptMotion {
+ public:
+  explicit KeptMotion(const Model& model, std::size_t most = 4000) : model_(model), most_(most) {}
+  /// Called at the start and after each step; the start has no accelerations yet and only gives the time.
+  void keep(const solve::Instant& instant);
+  double begin() const { return begin_; }
+  const std::vector<solve::State>& states() const { return states_; }
+
+ private:
+  const Model& model_;
+  std::size_t most_;
+  double begin_ = 0;
+  PetscInt stride_ = 1;
+  std::vector<solve::State> states_;
+};
+
+/// How far a reduced motion is from that of its full-order model (same mesh, exact in time), without moving the latter.
+struct Estimate {
+  std::string none = "it was not asked for";  ///< why there is none, else empty
+  /// Relative, of each probe as a vector (probe_columns): root mean square over the instants against that of the probe.
+  std::vector<double> probes;
+  /// The same of the displacements in the frames, mass-weighted over all bodies with a mesh.
+  double deformation = 0;
+  std::vector<double> t;                    ///< instants [s]
+  std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, full order less reduced
+  std::vector<double> relative;  ///< of each: error of the deformations, of the greatest root mean square so far
+  int samples = 0;               ///< full-order residuals
+  int columns = 0;               ///< that the bodies got for the estimate
+  double unbalanced = 0;         ///< greatest |V'r| of what |V'f| is: round-off, or something is missing in r
+  double seconds = 0, allowed = 0;
+  std::vector<std::string> notes;                                    ///< what was left out, and why
+  std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none
+};
+
+/// What an estimate may take of a run [s]: a tenth of it, or a second.
+inline double estimate_seconds(double run) { return std::max(1.0, 0.1 * run); }
+
+/// The full-order equations of every body are evaluated at lifted states (U = V eta) of some instants, r; the columns
+/// W, the main ones of K_T^-1 P' r, join V; and the equations of the bodies on [V W] are solved for what the motion
+/// lacks, d(t) (solve::deviation). Loads, joints, frames and inertia act on d as they do on the motion; joint forces
+/// in r are the multipliers of the motion.
+///
+///   r = M(q) q'' - Q_v + dU/dq - Q_e + C_q' lambda     on the free dofs of each body,  V'r = 0
+///   K_T = d2U/dq2 at rest, at the instant at which the body deforms most, and at another one that is unlike both,
+///   each for the instants whose deformation is nearest to it
+///
+/// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
+///
+/// Made below 20000 elements: the terms of full order stand in memory while it is made.
+///
+/// @param model    reduced, with its offline stage kept (build)
+/// @param seconds  that it may take, about; it thins its samples, columns and instants and says so
+/// Collective on the communicator of the offline stage.
+Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds);
+
+/// The same of equilibria: from some of the lifted states Newton's method goes towards the equilibrium of full order,
+///
+///   (dF/dU) x = -F(t, U, 0, 0),   U += x     F of the whole scene at full order, KSP prefix estimate_
+///
+/// and what it adds is the error. A first step is the response of the full tangent to the residual; it stops where the
+/// next step would be short, or when its time is over. Errors are relative to what it arrives at, here; `samples` are
+/// residuals, there are no columns. Of the last equilibrium there is a step at least; others as time allows.
+///
+/// @param model   reduced, with its offline stage kept (build); factors of K are not needed
+/// @param states  in ascending order of t, at rest
+/// Collective on the communicator of the offline stage.
+Estimate estimate_error_at_rest(const Model& model, const std::vector<solve::State>& states, double seconds);
+
+}  // namespace floe::assess

@@ -1,0 +1,24 @@
+#pragma once
+#include <vector>
+
+#include "floe/fem/mesh.h"
+#include "floe/output/reduced_file.h"
+
+namespace floe::plan {
+
+/// A body's mesh, for results: this rank's share.
+struct BodyMesh {
+  output::ReducedShapes shapes;                ///< without columns; positions in the axes of the floating frame
+  std::vector<fem::Mesh::Follower> followers;  ///< owned nodes that move rigidly with others, local numbers
+  std::vector<fem::Mesh::Spin> spins = {};     ///< those of them that turn by themselves about a hinge line
+
+  /// Numbers of each owned node, dofs_per_node each, made those of the node as it moves: followers take over the motion
+  /// of those that they follow, u + theta x arm; on a hinge line theta but for their own turn about it.
+  void let_follow(std::span<double> values) const;
+  /// From the node that moves it; zero where it moves by itself.
+  Eigen::Vector3d arm(std::size_t node) const;
+  /// The owned node that moves it: itself, or the one that it follows.
+  std::size_t mover(std::size_t node) const;
+};
+
+}  // namespace floe::plan

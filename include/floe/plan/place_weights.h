@@ -1,0 +1,25 @@
+#pragma once
+#include "floe/reduction/place_set.h"
+
+namespace floe::plan {
+
+/// Weights of the nodes in the mean of a place, and shares of them in a force there.
+///
+/// A force spread evenly over an edge or an area does the work f . int u ds / int ds, and as much as shares of it at
+/// the nodes do, f . sum (w_i u_i + B_i theta_i):
+///
+///   area    every node is a corner of shell elements whose corners all belong to the place: thirds of their triangles
+///           (a quadrilateral: the mean of both divisions into two)
+///   edge    every node is an end of element edges between nodes of the place (edges of shells, beams): halves of their
+///           lengths l, and B theta = l^2 / 12 A (theta x s), s towards the other end: the displacement across an edge
+///           is cubic (Hermite, DKT; A = 1), in the plane of a shell quadratic (A = 3/2, the lumping of the OPT
+///           membrane). Interior edges of elements that belong to the place as a whole do not count
+///   points  else: equal weights
+///
+/// Hence sum w_i x_i is the centroid of the edge or area however its elements are graded, and even tension is exact.
+///
+/// @param nodes  global, without repetition, the same on all ranks
+/// @return       in their order, the same on all ranks. Collective. Source: Felippa 2003 (alpha = 3/2).
+std::vector<reduction::WeightedNode> place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes);
+
+}  // namespace floe::plan

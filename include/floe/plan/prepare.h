@@ -1,0 +1,108 @@
+#pragma once
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "floe/body/flexible_body.h"
+#include "floe/fem/reference_frame.h"
+#include "floe/fem/structure.h"
+#include "floe/scene/formulation.h"
+#include "floe/scene/scene.h"
+
+namespace floe::plan {
+using namespace scene;
+
+/// How a node moves a place in space: u += share u_node + arm theta_node, theta += turn theta_node.
+struct Lever {
+  PetscInt node;  ///< global
+  double share;
+  Eigen::Matrix3d arm;
+  Eigen::Matrix3d turn;
+};
+
+/// A node that something acts on.
+struct Anchor {
+  int body = -1;  ///< index of Plan::bodies; -1: ground; elsewhere: a body that is not here
+  PetscInt node = 0;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
+  std::vector<PetscInt> nodes = {};             ///< in space, global: a place may be a set of nodes
+  /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
+  /// is the first of them.
+  std::vector<Lever> levers = {};
+  bool line = false;                               ///< in space: a hinge line (fem::Mesh), led by `node`
+  std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
+
+  static constexpr int elsewhere = -2;
+  bool ground() const { return body == -1; }
+  /// Nodes whose dofs move the place; in the plane its one node.
+  std::vector<Lever> moved_by() const;
+  bool moved_by(PetscInt other) const;
+};
+
+/// A body's finite elements in its frame, and where both stand. Made once for every formulation.
+struct PlannedBody {
+  Body spec;
+  fem::Structure structure;  ///< positions in the axes of the floating frame; of a body from a file: none
+  fem::ReferenceFrame frame;
+  Eigen::Vector2d frame_origin;                              ///< in mesh axes
+  double frame_angle = 0;                                    ///< of the frame in mesh axes
+  std::array<Anchor, 2> frame_places;                        ///< pinned: a, b; clamped: a, a
+  Eigen::Vector3d pose;                                      ///< of the frame at the start, world: (R_x, R_y, theta)
+  Eigen::Vector3d velocity;                                  ///< likewise
+  petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none
+  fem::Conditions held;                                      ///< dofs that joints to the ground hold
+  std::vector<Anchor> interface = {};                        ///< that the modes hold (Craig-Bampton)
+  std::map<std::string, std::vector<PetscInt>> places = {};  ///< in space: global nodes by name
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
+  std::vector<std::string> parts = {};                       ///< in space: names
+  std::vector<std::string> notices = {};                     ///< in space: of the mesh
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();    ///< in space: axes of the frame at the start, world
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< in space: its origin, R, at the start
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< in space: R. at the start, world
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();            ///< in space: angular velocity at the start, frame axes
+  /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
+  /// and the ground clamps the body, followers.
+  fem::Conditions clamp = {};
+  int host = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
+  int host_joint = -1;  ///< the joint that makes it so
+};
+
+/// Joints, loads and probes with their places found on the meshes.
+struct Plan {
+  const Scene& scene;
+  MPI_Comm comm;
+  std::vector<PlannedBody> bodies;
+  std::vector<std::array<Anchor, 2>> joints;
+  std::vector<Anchor> loads;                  ///< distributed ones: body only
+  std::vector<std::array<Anchor, 2>> probes;  ///< second: relative_to, or the ground
+  double extent = 0;                          ///< a length of the scene
+  /// In space, of each joint: axes at the start in the world, z its axis, x the second axis of a universal one.
+  std::vector<Eigen::Matrix3d> joint_axes = {};
+  /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
+  std::vector<char> joint_held = {};
+};
+
+/// The place that the joint holds in the frame of its body: by the ground, or by a rigid body whose frame it has; null
+/// when the joint is between two frames.
+const Anchor* held_place(const Plan& plan, std::size_t joint);
+
+/// `pinned`, `clamped`, `mean-axis`.
+std::string name_of(fem::ReferenceFrame::Kind kind);
+
+/// Meshes, frames and places of a scene. Collective.
+Plan prepare(const Scene& scene, MPI_Comm comm);
+
+Eigen::Matrix2d turn(double angle);
+
+/// Where the system of a formulation lives: on every rank by itself, or on all together.
+MPI_Comm comm_of(const Plan& plan, Formulation formulation);
+/// Whether this rank holds what the ranks of a system share.
+bool last_rank(MPI_Comm comm);
+
+/// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
+Scene split_frames(const Scene& scene);
+
+}  // namespace floe::plan

@@ -1,0 +1,13 @@
+#pragma once
+#include "floe/plan/prepare.h"
+
+namespace floe::plan {
+
+/// A body from its file: no elements, but its frame where the scene puts it. Collective.
+PlannedBody prepare_reduced(const Body& body, MPI_Comm comm);
+
+/// A place by its name, or a node of the file's shapes by its coordinates in mesh axes.
+/// @throws InputError  as named_place; no node there. Collective.
+Anchor reduced_place(const Body& body, const Place& place, MPI_Comm comm);
+
+}  // namespace floe::plan

@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+#include "floe/scene/scene.h"
+
+namespace floe::scene {
+
+/// Whether an event unlocks the joint.
+bool is_unlocked(const Scene& scene, const std::string& joint);
+/// Whether an event locks or unlocks it.
+bool is_switched(const Scene& scene, const std::string& joint);
+
+}  // namespace floe::scene

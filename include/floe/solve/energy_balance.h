@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+
+#include "floe/dynamics/system.h"
+
+namespace floe::solve {
+using namespace dynamics;
+
+/// Power of all that has no energy of its own: loads and drives, less what dampers dissipate. [W]
+///
+///   P = dE/dt - F.v
+///
+/// with dE/dt the derivative of the total energy along (v, a) (a central difference over 2 `interval`, exact but for
+/// its third order) and F the residual of the equations of motion, which does work where they are not met.
+/// Bases of attitudes and U are afterwards as before. Collective.
+double external_power(const System& system, double t, double interval, Vec U, Vec V, Vec A);
+
+/// What of the total energy's growth no load and no drive has brought: sampled along a motion.
+///
+///   growth = max over t of E(t) - E(0) - W(t),   W = int P dt by the trapezoidal rule
+///
+/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
+class EnergyBalance {
+ public:
+  /// An instant. @param energy  total, of U, V; A null: not known yet (at the start). Collective.
+  void add(const System& system, double t, Vec U, Vec V, Vec A, double energy);
+  /// Energy that the impulses of drives bring at an instant, which belongs to W; the power behind it is another one.
+  void add_impulse(double energy);
+  double work() const { return work_; }          ///< W [J]
+  double growth() const { return growth_; }      ///< [J]
+  double turnover() const { return turnover_; }  ///< int |P| dt [J]
+
+  /// All of it, for checkpoints.
+  static constexpr int numbers = 8;
+  std::array<double, numbers> save() const;
+  void load(const std::array<double, numbers>& saved);
+
+ private:
+  double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
+  double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
+};
+
+}  // namespace floe::solve

@@ -1,0 +1,83 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "floe/dynamics/system.h"
+#include "floe/solve/branch.h"
+
+namespace floe::solve {
+using namespace dynamics;
+
+/// The line about which everything turns; in the plane z through `point`.
+struct RotationAxis {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of unit length, world axes
+};
+
+/// A mechanism that turns as a whole at a constant speed W about an axis: in axes that turn with it nothing moves.
+///
+/// With W the vector of the angular velocity and R from the axis, all seen at the instant at which the turning axes
+/// coincide with those of the world:
+///
+///   V(U): R. = W x R, omega = A'W, elastic rates 0;   A(U): R.. = W x (W x R), alpha = 0;   in the plane alike
+///
+/// Drives stand where they are at t = 0: their rate is the rotation. Loads are those at t = 0, too.
+struct RotatingSystem {
+  const System& system;
+  /// In the plane: local index of (R_x, R_y, theta) of every frame. In space System::attitudes() says where frames are,
+  /// R before x.
+  std::vector<int> planar_frames;
+  RotationAxis axis;
+  /// Owners (Coordinates::belongs_to) of the joints that drive the system from the ground: where their angle is held,
+  /// the ground is thought to turn along.
+  std::vector<std::string> drives;
+  /// Springs and bushings to the ground, for messages: `bushing left`.
+  std::vector<std::string> springs = {};
+};
+
+/// Unknowns beyond which nothing below is tried: its matrices are dense.
+inline constexpr PetscInt largest_rotating_system = 1500;
+
+/// That the equations are the same for a scene that has turned about the axis: constraints stay met, allow the same
+/// motions, and forces and their stiffness turn along. Tried by turning U by a finite angle.
+///
+/// @param U  a configuration that meets the constraints; as before afterwards
+/// @throws InputError  too many unknowns, or what does not turn: a joint (by name), or loads and gravity. Collective.
+void check_turns(const RotatingSystem& rotating, Vec U);
+
+/// The steady state F(0, U, V(U), A(U)) = 0 at `speed` [rad/s] by Newton's method from the one at `from`, in halved
+/// steps of the speed where a whole one fails, down to a thousandth of the way.
+///
+/// Where the equations leave directions open (a hub that turns freely, a hinge at rest) the nearest solution is taken.
+/// Where U is steady at `from`, it is followed in shorter steps likewise where it does not continue (branch.h, with
+/// speeds in place of t).
+///
+/// @param jump  where the shortest step does not continue; ratio 0: it does
+/// Returns the iterations. Attitudes of U are their own bases afterwards.
+/// @throws RunError  none found, or a moment about the axis is left that spins the scene up; U is then as before.
+/// Collective, the same on every rank.
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump = nullptr);
+
+/// A small motion e^(growth t) cos(omega t) about the steady rotation, as seen in the turning axes.
+struct Vibration {
+  double omega = 0;   ///< [rad/s]
+  double growth = 0;  ///< [1/s]; > 0: unstable, < 0: damped
+  bool zero = false;  ///< neither swings nor grows: the scene may turn on or drift this way
+  double below = 0;   ///< of a zero: what is slower cannot be told from it beside the fastest vibrations [rad/s]
+  bool unstable() const { return growth > 0; }
+};
+
+/// The `count` slowest vibrations u = Re y e^(st) about a steady state by |s|, and all found that grow; in the order of
+/// their frequencies.
+///
+/// With u the change of U in the turning axes, x counted in body axes, and u' its rate,
+///
+///   dV = V_U u + u',  dA = A_U u + H u' + u'',   V_U, A_U derivatives of V(U), A(U);  H: 2 W x in rows R, omega x in x
+///   M = F_a,  C = F_v + F_a H,  K = F_q + F_v V_U + F_a A_U,   G u = 0
+///
+/// on the null space of the constraint gradient G (rank-revealing QR). Up to 150 coordinates the quadratic problem is
+/// linearised, shifted, inverted and solved densely; beyond by SLEPc's PEP (TOAR, prefix campbell_).
+/// @throws RunError  not converged. Collective, the same on every rank.
+std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, Vec U, int count);
+
+}  // namespace floe::solve

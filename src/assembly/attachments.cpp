@@ -1,0 +1,304 @@
+#include "attachments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/values.h"
+#include "spatial_assembly.h"
+
+namespace floe::assembly {
+
+using petsc::check;
+
+bool of_frame(const PlannedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
+
+namespace {
+
+using Attachments = std::vector<reduction::Attachment>;
+
+const char* component_name(int dofs_per_node, PetscInt component, bool load) {
+  static const char* loads[2][6] = {{"fx", "fy", "moment"}, {"fx", "fy", "fz", "mx", "my", "mz"}};
+  static const char* motions[2][6] = {{"x", "y", "rotation"}, {"x", "y", "z", "rx", "ry", "rz"}};
+  return (load ? loads : motions)[dofs_per_node == 6][component];
+}
+
+/// A unit force or moment on the mean of the place's nodes.
+reduction::Attachment unit_load(const PlannedBody& body, const Anchor& place, int component, const std::string& where) {
+  const int n = body.structure.dofs_per_node;
+  reduction::Attachment attachment{where + "." + component_name(n, component, true), fem::field(body.structure), {}};
+  petsc::Values values(attachment.load);
+  for (const Lever& lever : place.moved_by()) {
+    const PetscInt dof = n * lever.node;
+    if (dof < values.first || dof >= values.end) continue;
+    if (n < 6 || component < 3) values[dof + component] = lever.share;
+    if (n < 6) continue;
+    const Eigen::Vector3d moment = component < 3 ? lever.arm.row(component) : lever.turn.row(component - 3);
+    for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
+  }
+  return attachment;
+}
+
+reduction::Attachment unit_displacement(const PlannedBody& body, PetscInt dof, const std::string& where) {
+  const int n = body.structure.dofs_per_node;
+  reduction::Attachment attachment{where + "." + component_name(n, dof % n, false), {}, fem::field(body.structure)};
+  petsc::Values values(attachment.moved);
+  if (dof >= values.first && dof < values.end) values[dof] = 1;
+  return attachment;
+}
+
+/// The nodes of a place as one rigid piece, moved along or turned about an axis of the frame through their mean.
+reduction::Attachment rigid_displacement(const PlannedBody& body, const Anchor& place, int component,
+                                         const std::string& where) {
+  const int n = body.structure.dofs_per_node, d = body.structure.dimension();
+  reduction::Attachment attachment{where + "." + component_name(n, component, false), {}, fem::field(body.structure)};
+  petsc::Values values(attachment.moved);
+  for (const Lever& lever : place.moved_by()) {
+    const PetscInt node = lever.node;
+    if (n * node < values.first || n * node >= values.end) continue;
+    if (const Eigen::Vector3d* line = fem::spin_axis(
+            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own turn alone
+      if (component >= d) values[n * node + 3 + fem::spin_slot(*line)] = (*line)[component - 3];
+      continue;
+    }
+    values[n * node + component] = 1;
+    if (component < d) continue;
+    const Eigen::Vector3d axis =
+                              d == 2 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d(Eigen::Vector3d::Unit(component - 3)),
+                          arm = body.structure.mesh.positions[node - body.structure.mesh.first_node] - place.x;
+    const Eigen::Vector3d u = axis.cross(arm);
+    for (int i = 0; i < d; ++i) values[n * node + i] = u[i];
+  }
+  return attachment;
+}
+
+/// Whether the scene turns the body by a moment at a place of one of its joints: a hinge that is driven.
+bool at_a_joint(const Plan& plan, const Anchor& load) {
+  for (const auto& places : plan.joints)
+    for (const Anchor& place : places)
+      if (place.body == load.body && place.node == load.node) return true;
+  return false;
+}
+
+bool contains(const fem::Conditions& dofs, PetscInt dof) {
+  return std::find(dofs.begin(), dofs.end(), dof) != dofs.end();
+}
+
+int rigid_motions_left(const PlannedBody& body, fem::Conditions held) {
+  std::sort(held.begin(), held.end());
+  return static_cast<int>(fem::holding(body.structure, body.frame, std::move(held)).left.cols());
+}
+
+/// Held displacements that the frame's own conditions and held rotations determine already, if the frame turns.
+fem::Conditions repeated_displacements(const PlannedBody& body) {
+  const fem::Conditions& held = body.held;
+  const PetscInt a = body.frame_places[0].node, b = body.frame_places[1].node;
+  if (body.spec.frame.kind != FrameSpec::Kind::pinned || held.size() < 3) return {};
+  if (contains(held, 3 * a + 1) && contains(held, 3 * b + 1)) return {};
+  fem::Conditions ordered = held;
+  const auto rank = [&](PetscInt dof) { return contains(body.frame.conditions, dof) ? 0 : dof % 3 == 2 ? 1 : 2; };
+  std::stable_sort(ordered.begin(), ordered.end(), [&](PetscInt i, PetscInt j) { return rank(i) < rank(j); });
+  fem::Conditions kept, repeated;
+  for (PetscInt dof : ordered) {
+    fem::Conditions more = kept;
+    more.push_back(dof);
+    if (rigid_motions_left(body, more) < rigid_motions_left(body, kept))
+      kept = std::move(more);
+    else if (dof % 3 != 2)
+      repeated.push_back(dof);
+  }
+  return repeated;
+}
+
+/// Whether the rest holds the body as well as all.
+bool rest_holds(const PlannedBody& body, PetscInt dof) {
+  fem::Conditions rest = body.held;
+  rest.erase(std::remove(rest.begin(), rest.end(), dof), rest.end());
+  return rigid_motions_left(body, rest) == rigid_motions_left(body, body.held);
+}
+
+void add_constraint_modes(const Plan& plan, int index, Attachments& all) {
+  const PlannedBody& body = plan.bodies[index];
+  const fem::Conditions repeated = repeated_displacements(body);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto& [first, second] = plan.joints[j];
+    const Joint& joint = plan.scene.joints[j];
+    if (first.ground() == second.ground() || std::max(first.body, second.body) != index) continue;
+    if (joint.kind == Joint::Kind::spring) continue;
+    const PetscInt dof = 3 * (first.ground() ? second : first).node;
+    for (PetscInt c = 0; c < 2; ++c)
+      if (contains(repeated, dof + c)) all.push_back(unit_displacement(body, dof + c, joint.name));
+    if (joint.kind == Joint::Kind::driven && rest_holds(body, dof + 2))
+      all.push_back(unit_displacement(body, dof + 2, joint.name));
+  }
+}
+
+/// What a joint to the ground holds of a body in space, as one rigid piece.
+struct Support {
+  int joint;
+  const Anchor* place;
+  std::vector<int> components;  // of its nodes that are held
+  bool at_frame;                // the frame is clamped there
+};
+
+std::vector<Support> supports_of(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  std::vector<Support> all;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto& [first, second] = plan.joints[j];
+    const Joint::Kind kind = plan.scene.joints[j].kind;
+    if (first.ground() == second.ground() || kind == Joint::Kind::spring || kind == Joint::Kind::bushing) continue;
+    const Anchor& place = first.ground() ? second : first;
+    if (place.body != index || place.nodes.empty()) continue;
+    Support support{static_cast<int>(j), &place, {}, false};
+    for (int c = 0; c < 6; ++c)
+      if (std::binary_search(body.held.begin(), body.held.end(),
+                             6 * (place.line ? place.node : place.nodes.front()) + c))
+        support.components.push_back(c);
+    // nodes whose displacements are held also hold the turns of their piece: about a line all but one
+    if (place.nodes.size() > 1 && !place.line && support.components == std::vector<int>{0, 1, 2})
+      support.components = {0, 1, 2, 3, 4};
+    support.at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
+                       std::count(place.nodes.begin(), place.nodes.end(), body.frame.conditions.front() / 6) > 0;
+    if (!support.components.empty()) all.push_back(std::move(support));
+  }
+  return all;
+}
+
+/// Without what is not held: constraint modes displace held dofs alone.
+/// @param small  displacements of no more are none: a line's nodes, turned about it
+void keep_held(const PlannedBody& body, Vec moved, double small) {
+  petsc::Values values(moved);
+  for (PetscInt dof = values.first; dof < values.end; ++dof)
+    if (!std::binary_search(body.held.begin(), body.held.end(), dof) || (dof % 6 < 3 && std::abs(values[dof]) <= small))
+      values[dof] = 0;
+}
+
+void add_spatial_constraint_modes(const Plan& plan, int index, Attachments& all) {
+  const PlannedBody& body = plan.bodies[index];
+  const bool still = has_fixed_frame(plan, index);
+  const std::vector<Support> supports = supports_of(plan, index);
+  std::size_t held = 0;
+  for (const Support& support : supports) held += support.components.size();
+  const int holds = 6 - rigid_motions_left(body, body.held);
+  for (const Support& support : supports) {
+    const Joint& joint = plan.scene.joints[support.joint];
+    const bool driven = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
+    if (support.at_frame || (still ? !driven : static_cast<int>(held) <= holds)) continue;
+    const bool turns = support.place->nodes.size() > 1;
+    for (int c = 0; c < 6; ++c) {
+      const bool holds_it = std::count(support.components.begin(), support.components.end(), c) > 0;
+      if (!holds_it && !(turns && c >= 3)) continue;
+      all.push_back(rigid_displacement(body, *support.place, c, joint.name));
+      keep_held(body, all.back().moved, c < 3 ? 0 : 1e-12 * plan.extent);
+    }
+  }
+}
+
+bool carries_moment(const Joint& joint, int dimension) {
+  using Kind = Joint::Kind;
+  switch (joint.kind) {
+    case Kind::spring:
+      return joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0;
+    case Kind::bushing: {
+      const auto acts = [](double value) { return value != 0; };
+      return std::any_of(joint.rotation.begin(), joint.rotation.end(), acts) ||
+             std::any_of(joint.rotation_viscosity.begin(), joint.rotation_viscosity.end(), acts);
+    }
+    case Kind::revolute:
+      return dimension == 3;
+    case Kind::spherical:
+    case Kind::distance:
+      return false;
+    default:
+      return true;
+  }
+}
+
+void add_joints(const Plan& plan, int index, Attachments& all) {
+  const PlannedBody& body = plan.bodies[index];
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const Joint& joint = plan.scene.joints[j];
+    const Anchor* held_there = held_place(plan, j);
+    const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : plan.joint_held[j] != 0;
+    if (held_there && held_there->body == index && held && !of_frame(body)) continue;
+    const bool moment = carries_moment(joint, body.structure.dimension());
+    for (const Anchor& place : plan.joints[j])
+      for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
+           ++c)
+        all.push_back(unit_load(body, place, c, joint.name));
+  }
+  if (body.structure.dimension() == 2)
+    add_constraint_modes(plan, index, all);
+  else if (!of_frame(body))
+    add_spatial_constraint_modes(plan, index, all);
+}
+
+/// In which a load acts: its axes, and besides its own directions at five times of the motion, as an oblique body may
+/// be soft along every axis and stiff between them.
+std::vector<Eigen::Vector3d> directions(const std::array<math::Formula, 3>& values, double end) {
+  std::vector<Eigen::Vector3d> all;
+  for (int c = 0; c < 3; ++c)
+    if (!values[c].constant() || values[c]() != 0) all.push_back(Eigen::Vector3d::Unit(c));
+  for (int k = 0; k <= 4; ++k) {
+    const double t = (end > 0 ? end : 1) * k / 4;
+    const Eigen::Vector3d value(values[0](t), values[1](t), values[2](t));
+    if (value.stableNorm() == 0) continue;
+    const Eigen::Vector3d direction = value.stableNormalized();
+    if (std::all_of(all.begin(), all.end(),
+                    [&](const Eigen::Vector3d& each) { return each.cross(direction).norm() > 1e-9; }))
+      all.push_back(direction);
+  }
+  return all;
+}
+
+}  // namespace
+
+Attachments attachments(const Plan& plan, int index) {
+  using Choice = ReductionSpec::Attachment;
+  const PlannedBody& body = plan.bodies[index];
+  const Choice choice = body.spec.reduction.attachment;
+  Attachments all;
+  for (std::size_t i = 0; i < body.interface.size(); ++i) {
+    const Place& place = body.spec.reduction.interface[i];
+    const std::string name = place.point ? fmt::format("interface {}", i + 1) : place.name;
+    for (int c = 0; c < body.structure.dofs_per_node; ++c)
+      all.push_back(rigid_displacement(body, body.interface[i], c, name));
+  }
+  if (choice == Choice::joints || choice == Choice::all) add_joints(plan, index, all);
+  for (std::size_t l = 0; l < plan.loads.size(); ++l) {
+    const Load& load = plan.scene.loads[l];
+    if (plan.loads[l].body != index || load.spread()) continue;
+    const bool moment = load.kind == Load::Kind::moment;
+    const bool of_joint = choice == Choice::joints && moment && at_a_joint(plan, plan.loads[l]);
+    if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
+    const int d = body.structure.dimension();
+    for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
+      all.push_back(unit_load(body, plan.loads[l], c, load.name));
+  }
+  return all;
+}
+
+std::vector<reduction::Attachment> loads_on(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  Attachments all;
+  for (std::size_t l = 0; l < plan.loads.size(); ++l) {
+    const Load& load = plan.scene.loads[l];
+    const Anchor& place = plan.loads[l];
+    if (place.body != index || load.kind == Load::Kind::distributed) continue;
+    const bool moment = load.kind == Load::Kind::moment;
+    const Eigen::Matrix3d to_frame = load.axes == Load::Axes::world ? body.attitude.transpose() : body.axes.transpose();
+    const auto& values = moment ? load.moment : load.force;
+    for (const Eigen::Vector3d& direction : directions(values, plan.scene.motion.end)) {
+      const Eigen::Vector3d in_frame = to_frame * direction;
+      reduction::Attachment along{load.name, fem::field(body.structure), {}};
+      for (int i = 0; i < 3; ++i)
+        check(VecAXPY(along.load, in_frame[i], unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
+      all.push_back(std::move(along));
+    }
+  }
+  return all;
+}
+
+}  // namespace floe::assembly

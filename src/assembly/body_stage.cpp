@@ -1,0 +1,180 @@
+#include "floe/assembly/body_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "attachments.h"
+#include "floe/fem/field_rows.h"
+#include "floe/math/nearest.h"
+#include "floe/plan/interface.h"
+
+namespace floe::assembly {
+
+using petsc::check;
+
+namespace {
+
+/// Modal: C = sum 2 zeta_i / omega_i^3 (V'K phi_i)(V'K phi_i)'.
+///
+/// K does not see the rigid motion by which a mode in the frame differs from the mode in space, of unit mass: whatever
+/// the frame, phi_i'K phi_i = omega_i^2.
+Eigen::MatrixXd modal_damping(const PlannedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
+  const std::vector<double>& ratios = body.spec.damping.modal;
+  const int k = reduced.body.coordinates();
+  if (ratios.empty()) return {};
+  const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(k, k);
+  for (std::size_t i = 0; i < std::min(ratios.size(), modes.omega.size()); ++i) {
+    Eigen::VectorXd phi(k);
+    check(BVDotVec(reduced.basis->V, modes.shapes[i], phi.data()));  // in the inner product of M, V'MV = I
+    const Eigen::VectorXd force = K * phi;
+    C += 2 * ratios[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
+  }
+  return C;
+}
+
+}  // namespace
+
+std::string whole_name(const Body& body) { return body.name.substr(0, body.name.find('#')); }
+
+int count_of_modes(const PlannedBody& body) {
+  return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
+}
+
+void generate(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report) {
+  const PlannedBody& body = plan.bodies[index];
+  const double start = MPI_Wtime();
+  try {
+    stage.generators = reduction::generators(body.structure, *stage.statics, stage.solver->solve(modes),
+                                             stage.attachments, body.spec.reduction.drop_tolerance);
+  } catch (const InputError& error) {
+    throw InputError(body.spec.reduction.modes.where.text() + ": " + error.what());
+  }
+  report.omega = stage.generators.modes.omega;
+  report.residual = stage.generators.modes.residual;
+  report.left_out = stage.generators.modes.left_out;
+  report.free_motions = static_cast<int>(stage.for_modes.left.cols());
+  report.sag.clear();
+  if (body.structure.dimension() == 3)
+    for (const petsc::VecHandle& shape : stage.generators.modes.shapes)  // one by one, for their memory
+      report.sag.push_back(fem::sags(body.structure, fem::gather(body.structure, 1, [&](Eigen::Index, double* local) {
+                                       body.structure.exchange.gather(shape, local);
+                                     }))[0]);
+  report.seconds_modes = MPI_Wtime() - start;
+}
+
+fem::Holding holding_of_modes(const PlannedBody& body) {
+  return fem::holding(body.structure, body.frame, of_frame(body) ? body.frame.conditions : held_by_modes(body));
+}
+
+void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report) {
+  const PlannedBody& body = plan.bodies[index];
+  check_interface(plan, index);
+  stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
+  stage.for_modes = of_frame(body) ? holding_of_modes(body) : stage.for_statics;
+  stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
+  stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
+  stage.attachments = attachments(plan, index);
+  if (modes == as_the_body_has)
+    modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
+  generate(plan, index, modes, stage, report);
+}
+
+reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
+  using Choice = DerivativesSpec::Choice;
+  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
+  reduction::Pairs pairs;
+  if (spec.choice == Choice::pairs)
+    for (const auto& [i, j] : spec.pairs) {
+      if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
+        throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
+                                     spec.where.text(), i, j, j, modes));
+      pairs.push_back({i - 1, j - 1});
+    }
+  return pairs;
+}
+
+std::vector<std::string> keep_named(const PlannedBody& body, Stage& stage) {
+  const ReductionSpec& spec = body.spec.reduction;
+  const std::vector<std::string>& wanted = spec.columns;
+  const auto take = [&](const std::string& label) {
+    return std::find(wanted.begin(), wanted.end(), label) != wanted.end();
+  };
+  std::vector<std::string> all;
+  stage.left_out.clear();
+  for (const reduction::ColumnOrigin& origin : stage.generators.origins)
+    all.push_back(origin.label), stage.left_out.push_back(!take(origin.label));
+  stage.pairs.clear();
+  for (const auto& pair : reduction::all_pairs(static_cast<int>(stage.generators.fields.size())))
+    for (const bool turned : {false, true}) {  // with inertia (i, j) and (j, i) differ
+      if (turned && (!spec.derivatives.full || pair[0] == pair[1])) continue;
+      all.push_back(reduction::derivative_label(stage.generators, pair[turned], pair[1 - turned]));
+      if (take(all.back()) && (stage.pairs.empty() || stage.pairs.back() != pair)) stage.pairs.push_back(pair);
+    }
+  return all;
+}
+
+void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>>& labels) {
+  std::map<std::string, std::vector<std::string>> known;  // of all pieces of a body
+  for (std::size_t b = 0; b < labels.size(); ++b) {
+    std::vector<std::string>& all = known[whole_name(plan.bodies[b].spec)];
+    all.insert(all.end(), labels[b].begin(), labels[b].end());
+  }
+  std::vector<std::string> faults;
+  for (std::size_t b = 0; b < labels.size(); ++b) {
+    const ReductionSpec& spec = plan.bodies[b].spec.reduction;
+    const std::string name = whole_name(plan.bodies[b].spec);
+    if (labels[b].empty() || (b > 0 && name == whole_name(plan.bodies[b - 1].spec))) continue;
+    const std::vector<std::string>& all = known[name];
+    for (const std::string& label : spec.columns) {
+      if (std::find(all.begin(), all.end(), label) != all.end()) continue;
+      const std::string near = math::nearest(label, all);
+      faults.push_back(fmt::format(
+          "{}: body {} has no column \"{}\"; expected one that `floe run` lists in summary.json{}",
+          spec.columns_where.text(), name, label, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+reduction::DerivativeColumns derivatives_of(const PlannedBody& body, const Stage& stage, const reduction::Pairs& pairs,
+                                            bool full) {
+  reduction::DerivativeColumns all = reduction::derivative_columns(body.structure, body.frame, stage.for_modes,
+                                                                   *stage.statics, stage.generators, pairs, full);
+  const std::vector<std::string>& wanted = body.spec.reduction.columns;
+  if (wanted.empty()) return all;
+  reduction::DerivativeColumns some;
+  for (std::size_t i = 0; i < all.columns.size(); ++i) {
+    if (std::find(wanted.begin(), wanted.end(), all.origins[i].label) == wanted.end()) continue;
+    some.columns.push_back(std::move(all.columns[i]));
+    some.origins.push_back(std::move(all.origins[i]));
+  }
+  return some;
+}
+
+void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
+            ReducedBody& reduced) {
+  reduced.basis = std::move(basis);
+  reduced.body = reduction::project(body.structure, *reduced.basis);
+  if (body.spec.reduction.linear) reduced.body.elasticity = body::linearised(reduced.body.elasticity);
+  reduced.damping = modal_damping(body, reduced, modes);
+  reduced.report.columns = reduced.basis->columns;
+  reduced.report.origins = reduced.basis->origins;
+  reduced.report.basis = reduced.basis;
+}
+
+void end_stage(const PlannedBody& body, const Stage& stage, reduction::DerivativeColumns derivatives,
+               ReducedBody& reduced) {
+  const double start = MPI_Wtime();
+  const double tolerance = body.spec.reduction.drop_tolerance;
+  put_on(body,
+         std::make_shared<reduction::Basis>(
+             reduction::basis_of(body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
+         stage.generators.modes, reduced);
+  reduced.report.seconds_projection = MPI_Wtime() - start;
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include "drive.h"
+#include "floe/assembly/offline.h"
+#include "floe/assembly/start_vectors.h"
+#include "floe/scene/places.h"
+#include "floe/assembly/reduce_once.h"
+#include "floe/solve/simulation.h"
+#include "planar_assembly.h"
+#include "spatial_assembly.h"
+
+namespace floe::assembly {
+
+Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced) {
+  return plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced).model()
+                                   : PlanarAssembly(plan, formulation, reduced).model();
+}
+
+namespace {
+
+/// Moves the linear bodies as the scene says and integrates |eta_i eta_j|, eta the coordinates of the generating
+/// fields.
+std::vector<Eigen::MatrixXd> interactions(const Plan& plan, const std::vector<ReducedBody>& linear) {
+  Model model = assemble(plan, Formulation::vm, linear);
+  std::vector<Eigen::MatrixXd> sums;
+  for (const ReducedBody& body : linear)
+    sums.push_back(Eigen::MatrixXd::Zero(body.body.coordinates(), body.body.coordinates()));
+  const Motion& motion = plan.scene.motion;
+  Eigen::VectorXd q;
+  auto observe = [&](const solve::Instant& instant) {
+    model.system->gather(instant.U, q);
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+      if (sums[b].rows() == 0 || linear[b].of_fields.rows() == 0) continue;
+      const Eigen::VectorXd eta = linear[b].of_fields * q.segment(model.bodies[b].first_elastic, sums[b].rows());
+      sums[b] += motion.step * (eta * eta.transpose()).cwiseAbs();
+    }
+  };
+  try {
+    solve::Integration how{motion.end, motion.step, motion.spectral_radius, {}, "ranking_"};
+    how.kinks = kinks_of(plan.scene, motion.end);
+    solve::simulate(*model.system, how, model.U, model.V, observe);
+  } catch (const solve::MotionStopped&) {
+    // A linear body that is turned too fast diverges: what it did until then ranks the pairs.
+  }
+  return sums;
+}
+
+void refuse_meshless(const Scene& scene, Formulation formulation) {
+  if (is_reduced(formulation) || formulation == Formulation::lffr) return;
+  std::vector<std::string> faults;
+  for (const Body& body : scene.bodies)
+    if (body.reduced)
+      faults.push_back(fmt::format("{}: has no mesh, which formulation {} needs; expected vm+md, vm or lffr",
+                                   body.reduced->where.text(), name_of(formulation)));
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace
+
+struct ReducedBodies {
+  Formulation formulation;
+  MPI_Comm comm;
+  std::vector<ReducedBody> bodies;
+  std::vector<std::string> warnings;
+};
+
+namespace {
+
+Scene in_parts(const Scene& whole, Formulation formulation) {
+  return formulation == Formulation::cfr ? whole : split_frames(whole);
+}
+
+ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool keep_offline = false) {
+  ReducedBodies all{formulation, plan.comm, std::vector<ReducedBody>(plan.bodies.size()), {}};
+  if (is_reduced(formulation)) {
+    all.bodies = reduce_bodies(
+        plan, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(plan, linear); },
+        all.warnings, keep_offline);
+    for (std::size_t b = 0; b < all.bodies.size(); ++b) join_start(plan.bodies[b], all.bodies[b]);
+    return all;
+  }
+  for (std::size_t b = 0; b < all.bodies.size(); ++b)
+    if (plan.bodies[b].spec.rigid)
+      all.bodies[b] = rigid(plan.bodies[b]);
+    else if (plan.bodies[b].spec.reduced)
+      all.bodies[b] = from_file(plan.bodies[b], formulation);
+  return all;
+}
+
+Model assembled(const Plan& plan, const ReducedBodies& reduced) {
+  Model model = assemble(plan, reduced.formulation, reduced.bodies);
+  model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
+  for (std::string& words : middles_beside_nodes(plan.scene)) model.warnings.push_back(std::move(words));
+  for (std::string& words : smoothed_drives(plan.scene)) model.warnings.push_back(std::move(words));
+  return model;
+}
+
+}  // namespace
+
+void give_structures(const std::shared_ptr<const Offline>& offline, Model& model) {
+  for (std::size_t b = 0; b < model.bodies.size(); ++b)
+    if (const PlannedBody& body = offline->plan.bodies[b]; !body.spec.rigid && !body.spec.reduced)
+      model.bodies[b].structure = {offline, &body.structure};
+}
+
+Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
+  refuse_meshless(whole, formulation);
+  const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
+  ReducedBodies reduced = reduced_bodies(offline->plan, formulation, keep_offline);
+  Model model = assembled(offline->plan, reduced);
+  give_structures(offline, model);
+  if (!keep_offline) return model;
+  offline->reduced = std::move(reduced.bodies);
+  model.offline = offline;
+  return model;
+}
+
+std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation formulation, MPI_Comm comm) {
+  const Scene scene = in_parts(whole, formulation);
+  refuse_meshless(scene, formulation);
+  return std::make_shared<const ReducedBodies>(reduced_bodies(prepare(scene, comm), formulation));
+}
+
+Model build_on(const ReducedBodies& bodies, const Scene& whole) {
+  const auto offline = std::make_shared<Offline>(in_parts(whole, bodies.formulation), bodies.comm);
+  Model model = assembled(offline->plan, bodies);
+  give_structures(offline, model);
+  if (!is_reduced(bodies.formulation)) return model;
+  offline->reduced = bodies.bodies;
+  model.offline = offline;
+  return model;
+}
+
+}  // namespace floe::assembly

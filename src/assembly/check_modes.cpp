@@ -1,0 +1,30 @@
+#include "floe/assembly/check_modes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floe/assembly/body_stage.h"
+
+namespace floe::assembly {
+
+void check_modes(const Scene& whole, MPI_Comm comm) {
+  constexpr PetscInt plenty = 12;
+  const Scene scene = split_frames(whole);
+  const Plan plan = prepare(scene, comm);
+  std::vector<std::string> faults;
+  for (const PlannedBody& body : plan.bodies) {
+    const ModesSpec& modes = body.spec.reduction.modes;
+    if (body.spec.rigid || body.spec.reduced || !modes.given || modes.count * plenty <= body.structure.dofs()) continue;
+    const fem::Holding holding = holding_of_modes(body);
+    const reduction::Statics statics(body.structure, body.frame, holding);
+    const PetscInt available = reduction::ModeSolver(body.structure, body.frame, holding, statics).available();
+    if (modes.count <= available) continue;
+    std::string fault = fmt::format("{}: {} modes are asked of a body that has {} elastic dofs under its conditions",
+                                    modes.where.text(), modes.count, available);
+    if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace floe::assembly

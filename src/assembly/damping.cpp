@@ -1,0 +1,165 @@
+#include "floe/assembly/damping.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <limits>
+
+#include "floe/assembly/body_stage.h"
+#include "floe/dynamics/damping.h"
+#include "floe/fem/joint_frame.h"
+#include "floe/plan/hold_by_joint.h"
+
+namespace floe::assembly {
+
+using petsc::check;
+
+namespace {
+
+bool holds(const Joint& joint) {
+  return joint.kind != Joint::Kind::spring && joint.kind != Joint::Kind::bushing && joint.kind != Joint::Kind::distance;
+}
+
+/// How many joints each body is away from the ground, or from a rigid body where none leads to the ground.
+std::vector<int> distances(const Plan& plan) {
+  constexpr int far = std::numeric_limits<int>::max();
+  std::vector<int> all(plan.bodies.size(), far);
+  const auto walk = [&](std::deque<int> next) {
+    while (!next.empty()) {
+      const int at = next.front();
+      next.pop_front();
+      for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+        if (!holds(plan.scene.joints[j])) continue;
+        for (const int side : {0, 1}) {
+          const int here = plan.joints[j][side].body, there = plan.joints[j][1 - side].body;
+          if (here != at || there < 0 || all[there] != far) continue;
+          all[there] = all[at] + 1;
+          next.push_back(there);
+        }
+      }
+    }
+  };
+  std::deque<int> grounded, rigid;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    for (const int side : {0, 1}) {
+      const int body = plan.joints[j][side].body;
+      if (!plan.joints[j][1 - side].ground() || body < 0 || !holds(plan.scene.joints[j]) || all[body] != far) continue;
+      all[body] = 1;
+      grounded.push_back(body);
+    }
+  walk(grounded);
+  for (std::size_t b = 0; b < all.size(); ++b)
+    if (all[b] == far && plan.bodies[b].spec.rigid) all[b] = 0, rigid.push_back(static_cast<int>(b));
+  walk(rigid);
+  return all;
+}
+
+}  // namespace
+
+fem::Conditions held_for_damping(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  fem::Conditions held = body.held;
+  const std::vector<int> away = distances(plan);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    for (const int side : {0, 1}) {
+      const Anchor &here = plan.joints[j][side], &there = plan.joints[j][1 - side];
+      if (here.body != index || there.body < 0 || here.map || away[there.body] >= away[index]) continue;
+      hold_place_by_joint(plan, j, here, held);
+    }
+  const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  fem::Conditions own;  // nodes that follow others have no motion of their own
+  std::set_difference(held.begin(), held.end(), followers.begin(), followers.end(), std::back_inserter(own));
+  return own;
+}
+
+fem::ReferenceFrame damping_frame(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  return fem::joint_frame(body.structure, body.frame, held_for_damping(plan, index));
+}
+
+namespace {
+
+/// Modal damping, as it came with the basis or the file, and alpha V'P'MPV.
+Eigen::MatrixXd constant_damping(const Plan& plan, int index, const ReducedBody& reduced) {
+  const PlannedBody& body = plan.bodies[index];
+  Eigen::MatrixXd C = reduced.damping;
+  if (body.spec.damping.mass == 0 || !reduced.basis || reduced.basis->columns == 0) return C;
+  std::vector<petsc::VecHandle> columns;
+  for (int i = 0; i < reduced.basis->columns; ++i) {
+    columns.push_back(fem::field(body.structure));
+    check(BVCopyVec(reduced.basis->V, i, columns.back()));
+  }
+  const Eigen::MatrixXd M = fem::mass_seen(body.structure, damping_frame(plan, index), columns);
+  if (C.size() == 0) C.setZero(M.rows(), M.cols());
+  return C + body.spec.damping.mass * M;
+}
+
+}  // namespace
+
+Eigen::MatrixXd linear_damping(const Plan& plan, int index, const ReducedBody& reduced) {
+  Eigen::MatrixXd C = constant_damping(plan, index, reduced);
+  const double beta = plan.bodies[index].spec.damping.stiffness;
+  if (beta == 0) return C;
+  const Eigen::MatrixXd K = beta * reduced.body.elasticity.linear_stiffness();
+  return C.size() == 0 ? K : C + K;
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int index, const ReducedBody& reduced,
+                                                           const std::vector<int>& elastic) {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  Eigen::MatrixXd C = constant_damping(plan, index, reduced);
+  if (C.size() > 0) terms.push_back(std::make_unique<dynamics::LinearDamping>(elastic, std::move(C)));
+  const double beta = plan.bodies[index].spec.damping.stiffness;
+  if (beta != 0 && !elastic.empty())
+    terms.push_back(std::make_unique<dynamics::StrainRateDamping>(elastic, reduced.body.elasticity, beta));
+  return terms;
+}
+
+std::vector<std::string> damping_warnings(const Plan& plan) {
+  std::vector<std::string> warnings;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const Body& body = plan.bodies[b].spec;
+    const std::string name = whole_name(body);
+    if (name == body.name || body.damping.mass == 0 || (b > 0 && whole_name(plan.bodies[b - 1].spec) == name)) continue;
+    const auto frames = std::count_if(plan.bodies.begin(), plan.bodies.end(),
+                                      [&](const PlannedBody& one) { return whole_name(one.spec) == name; });
+    warnings.push_back(
+        fmt::format("body {}: damping.mass acts on the deformation of each of its {} frames relative to the frame "
+                    "before it (limit 1 "
+                    "frame), and decays are less than alpha/(2 omega); use frames: 1, or damping.stiffness",
+                    name, frames));
+  }
+  return warnings;
+}
+
+std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int index, const fem::Conditions& held,
+                                                         dynamics::Coordinates& coordinates) {
+  const PlannedBody& body = plan.bodies[index];
+  if (body.spec.damping.mass == 0) return std::nullopt;
+  const fem::Conditions by_joints = held_for_damping(plan, index);
+  reference::MassDamping damping{fem::joint_frame(body.structure, body.frame, by_joints), held, body.spec.damping.mass};
+  const bool mean_axes = by_joints.empty() && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis;
+  if (mean_axes || reference::moves_nothing(body.structure, damping.joints, held)) return damping;
+  const int r = body.structure.rigid_motion_count();
+  damping.motion = coordinates.add_shared(r);
+  damping.multipliers = coordinates.add_shared(r, true);
+  return damping;
+}
+
+void set_rigid_part(const reference::MassDamping& damping, const PlannedBody& body,
+                    const dynamics::Coordinates& coordinates, bool owner, Vec U, Vec V) {
+  if (damping.motion < 0) return;
+  const Eigen::VectorXd s = reference::rigid_part(damping.joints, body.deformation),
+                        rate = reference::rigid_part(damping.joints, body.deformation_rate);
+  for (int i = 0; i < static_cast<int>(s.size()) && owner; ++i) {
+    const PetscInt row = coordinates.global()[damping.motion + i];
+    check(VecSetValue(U, row, s[i], INSERT_VALUES));
+    check(VecSetValue(V, row, rate[i], INSERT_VALUES));
+  }
+}
+
+}  // namespace floe::assembly

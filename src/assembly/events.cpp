@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/assembly/model.h"
+#include "floe/math/nearest.h"
+
+namespace floe::assembly {
+namespace {
+
+/// Where a formula of t first changes sign in (0, end]: sampled 1000 times, and by motion.step; then bisection.
+std::optional<double> first_sign_change(const math::Formula& formula, double step, double end) {
+  const double h = std::min(step, end / 1000);
+  const auto count = static_cast<std::int64_t>(std::ceil(end / h));
+  double before = formula(0), low = 0;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    double high = std::min(static_cast<double>(i) * h, end);
+    const double after = formula(high);
+    if (before == 0 || after * before > 0) {
+      before = after, low = high;
+      continue;
+    }
+    while (true) {
+      const double middle = 0.5 * (low + high);
+      if (!(middle > low && middle < high)) return high;
+      if ((formula(middle) < 0) == (before < 0) && formula(middle) != 0)
+        low = middle;
+      else
+        high = middle;
+    }
+  }
+  return {};
+}
+
+/// Of an event that a formula of t decides; infinite: never.
+double time_of(const Event& event, double step, double end) {
+  try {
+    return first_sign_change(*event.when, step, end).value_or(INFINITY);
+  } catch (const math::FormulaError& error) {
+    throw InputError(
+        fmt::format("{}.when: {}; expected a finite number until it changes sign", event.where.text(), error.what()));
+  }
+}
+
+/// The index of a column of the probes.
+std::size_t column_of(const Event& event, const Model& model) {
+  std::vector<std::string> names;
+  for (const ProbeColumn& column : probe_columns(model)) names.push_back(column.name);
+  const auto found = std::find(names.begin(), names.end(), event.probe);
+  if (found != names.end()) return found - names.begin();
+  const std::string near = math::nearest(event.probe, names);
+  throw InputError(fmt::format("{}.probe: is \"{}\"; expected a column of the probes{}", event.where.text(),
+                               event.probe, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+}
+
+}  // namespace
+
+std::map<std::string, JointLatches> latches_of(const Scene& scene) {
+  std::map<std::string, JointLatches> latches;
+  for (const Event& event : scene.events) {
+    if (event.kind == Event::Kind::stop) continue;
+    JointLatches& of = latches[event.joint];
+    if (event.kind == Event::Kind::unlock) of.joint = std::make_shared<dynamics::Latch>(dynamics::Latch{true});
+    if (event.kind == Event::Kind::lock) of.lock = std::make_shared<dynamics::Latch>(dynamics::Latch{false});
+  }
+  return latches;
+}
+
+std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end) {
+  std::vector<dynamics::Event> events;
+  for (const Event& event : scene.events) {
+    dynamics::Event out;
+    out.name = event.name;
+    if (event.kind == Event::Kind::stop) {
+      out.what = "stop";
+      out.stops = true;
+    } else {
+      const JointLatches& latches = model.latches.at(event.joint);
+      const bool lock = event.kind == Event::Kind::lock;
+      out.what = (lock ? "lock joint " : "unlock joint ") + event.joint;
+      out.closes = lock;
+      out.latch = lock || latches.lock ? latches.lock : latches.joint;
+      if (lock) out.first_row = latches.first_row, out.rows = latches.rows;
+    }
+    if (event.at) out.at = *event.at;
+    if (event.when) out.at = time_of(event, scene.motion.step, end);
+    if (!event.probe.empty()) {
+      const std::size_t column = column_of(event, model);
+      out.crosses = [&model, column, value = event.crosses](double t, Vec U, Vec V) {
+        return probe_values(model, t, U, V)[column] - value;
+      };
+    }
+    events.push_back(std::move(out));
+  }
+  for (std::size_t i = 0; i < model.stops.size(); ++i) {
+    const ModelStop& stop = model.stops[i];
+    const bool second =
+        std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
+          return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
+        });
+    const std::string side = std::string(second ? "turn_" : "") + (stop.upper ? "upper" : "lower");
+    dynamics::Event out;
+    out.name = fmt::format("{}.{}", stop.joint, side);
+    out.what = fmt::format("joint {} hits its {} limit", stop.joint, side);
+    out.what_back = fmt::format("joint {} leaves its {} limit", stop.joint, side);
+    out.gap = [&model, i](double, Vec U, Vec V) { return stop_gap(model, i, U, V); };
+    events.push_back(std::move(out));
+  }
+  return events;
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "floe/assembly/reduce_bodies.h"
+#include "floe/plan/place_weights.h"
+#include "floe/reduction/place_set.h"
+
+namespace floe::assembly {
+namespace {
+
+using output::ReducedColumn;
+
+int leading_fields(const PlannedBody& body) {
+  const ReducedSpec& spec = *body.spec.reduced;
+  const auto derivative = [](const ReducedColumn& column) { return column.kind == "derivative"; };
+  std::vector<ReducedColumn> kept;
+  std::copy_if(spec.file->columns.begin(), spec.file->columns.end(), std::back_inserter(kept),
+               [](const ReducedColumn& column) { return column.kept; });
+  if (!std::is_partitioned(kept.begin(), kept.end(), std::not_fn(derivative)))
+    throw InputError(
+        fmt::format("{}: a derivative stands before a mode in \"{}\", so that formulation vm has no modes "
+                    "alone; expected formulation vm+md or lffr",
+                    spec.where.text(), spec.path));
+  return static_cast<int>(std::count_if(kept.begin(), kept.end(), std::not_fn(derivative)));
+}
+
+body::Inertia leading(const body::Inertia& inertia, int k) {
+  body::Inertia part = inertia;
+  part.S = inertia.S.leftCols(k);
+  for (auto& row : part.h)
+    for (auto& h : row) h = h.head(k).eval();
+  for (auto& row : part.M)
+    for (auto& M : row) M = M.topLeftCorner(k, k).eval();
+  return part;
+}
+
+/// The columns of F that belong to the first coordinates; rows by their triangular factor, where these are fewer.
+body::Elasticity leading(const body::Elasticity& elasticity, int k) {
+  const Eigen::Index all = elasticity.bending.rows();
+  std::vector<Eigen::Index> columns;
+  for (int a = 0; a < k; ++a) columns.push_back(a);
+  body::Elasticity part;
+  part.bending = elasticity.bending.topLeftCorner(k, k);
+  for (std::size_t p = 0; p < elasticity.pairs.size(); ++p) {
+    if (elasticity.pairs[p].second >= k) continue;  // pairs a <= b
+    part.pairs.push_back(elasticity.pairs[p]);
+    columns.push_back(all + static_cast<Eigen::Index>(p));
+  }
+  part.F = elasticity.F(Eigen::all, columns);
+  if (part.F.rows() > part.F.cols()) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(part.F);
+    part.F = Eigen::MatrixXd(qr.matrixQR().topRows(part.F.cols()).triangularView<Eigen::Upper>());
+  }
+  return part;
+}
+
+std::vector<reduction::ColumnOrigin> origins_of(const output::ReducedBodyFile& file, Formulation formulation) {
+  using Kind = reduction::ColumnOrigin::Kind;
+  std::vector<reduction::ColumnOrigin> origins;
+  for (const ReducedColumn& column : file.columns) {
+    const Kind kind = column.kind == "mode"         ? Kind::mode
+                      : column.kind == "derivative" ? Kind::derivative
+                                                    : Kind::attachment;
+    const bool kept = column.kept && (formulation != Formulation::vm || kind != Kind::derivative);
+    origins.push_back({kind, column.label, column.omega, column.new_part, kept, column.interaction, column.dropped});
+  }
+  return origins;
+}
+
+}  // namespace
+
+ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
+  const output::ReducedBodyFile& file = *body.spec.reduced->file;
+  ReducedBody reduced;
+  reduced.body = file.body;
+  reduced.damping = file.damping;
+  if (formulation == Formulation::lffr) reduced.body.elasticity = body::linearised(file.body.elasticity);
+  if (formulation == Formulation::vm) {
+    const int k = leading_fields(body);
+    reduced.body = {leading(file.body.inertia, k), leading(file.body.elasticity, k), leading(file.body.line, k)};
+    if (file.damping.size() > 0) reduced.damping = file.damping.topLeftCorner(k, k);
+  }
+  BodyReport& report = reduced.report;
+  report.name = body.spec.name, report.file = body.spec.reduced->path;
+  report.nodes = file.nodes, report.elements = file.cells, report.dofs = file.dofs;
+  report.dimension = file.dimension;
+  report.shapes_in_file = file.has_shapes;
+  report.columns = reduced.body.coordinates();
+  report.omega = file.omega, report.residual = file.residual;
+  report.origins = origins_of(file, formulation);
+  return reduced;
+}
+
+body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place) {
+  if (place.map) {
+    const Eigen::Index k = reduced.body.coordinates();
+    return {place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k)};
+  }
+  const fem::Structure& structure = plan.bodies[place.body].structure;
+  return place.nodes.empty()
+             ? reduction::place_map(structure, *reduced.basis, place.node)
+             : reduction::place_map(structure, *reduced.basis, place_weights(structure.mesh, place.nodes));
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,31 @@
+#include "floe/assembly/reduce_bodies.h"
+
+namespace floe::assembly {
+
+std::vector<BodyReport> body_modes(const Scene& whole, MPI_Comm comm) {
+  const Scene scene = split_frames(whole);
+  const Plan plan = prepare(scene, comm);
+  return modes_of_bodies(plan);
+}
+
+std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
+  const Scene scene = split_frames(whole);
+  const Plan plan = prepare(scene, comm);
+  std::vector<BodyReport> reports;
+  for (const PlannedBody& body : plan.bodies) {
+    BodyReport report;
+    if (body.spec.reduced) {
+      report = from_file(body, Formulation::vm_md).report;
+    } else {
+      const fem::Mesh& mesh = body.structure.mesh;
+      report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = mesh.cell_count;
+    }
+    report.name = body.spec.name, report.rigid = body.spec.rigid;
+    report.notices = body.notices;
+    report.frame = body.host < 0 ? name_of(body.frame.kind) : "of " + plan.bodies[body.host].spec.name;
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+}  // namespace floe::assembly

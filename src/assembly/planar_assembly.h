@@ -1,0 +1,57 @@
+#pragma once
+#include <optional>
+
+#include "floe/assembly/reduce_bodies.h"
+#include "floe/reference/full_order.h"
+#include "floe/reference/mass_damping.h"
+
+namespace floe::assembly {
+
+/// Turns planned bodies into coordinates, terms, joints and a state at the start.
+///
+/// Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's communicator, where
+/// the last rank holds what is shared.
+class PlanarAssembly {
+ public:
+  /// @param reduced  one for each body: full for reduced formulations; rigid bodies only for full-order ones
+  PlanarAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced);
+  /// Collective.
+  Model model();
+
+ private:
+  struct Slot {
+    int frame = -1;                                      // local index of (R_x, R_y, theta); -1: none (corotational)
+    int elastic = -1;                                    // local index of reduced coordinates
+    int multipliers = -1;                                // of the mean axes
+    std::optional<reference::MassDamping> damping = {};  // at full order
+    std::unique_ptr<reference::NodeCoordinates> nodes;
+  };
+  bool compact(int body) const;  // described by a ReducedBody
+  void add_coordinates();
+  void add_body_terms(int body);
+  void add_gravity(int body);
+  void add_loads();
+  void add_joints(Model& model, const Eigen::VectorXd& q);
+  void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
+                 std::vector<ModelStop>& stops);
+  void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
+  void add_probes(Model& model, const Eigen::VectorXd& q);
+  void set_start(Model& model);
+  void set_full_order_start(int body, Vec U, Vec V);
+  dynamics::Marker marker(const Anchor& place);
+  dynamics::Marker density(int body, const body::Inertia& inertia);
+  Eigen::Vector3d pose_at(const dynamics::Marker& marker, const Eigen::VectorXd& q) const;
+
+  const Plan& plan_;
+  Formulation formulation_;
+  const std::vector<ReducedBody>& reduced_;
+  bool owner_;  // this rank has the shared terms
+  dynamics::Coordinates coordinates_;
+  std::vector<Slot> slots_;
+  std::vector<int> joint_multipliers_;
+  std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
+  std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
+};
+
+}  // namespace floe::assembly

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "drive.h"
+#include "floe/petsc/values.h"
+#include "planar_assembly.h"
+#include "start_shape.h"
+#include "stops.h"
+
+namespace floe::assembly {
+
+using dynamics::Marker;
+
+void PlanarAssembly::add_joints(Model& model, const Eigen::VectorXd& q) {
+  std::vector<std::array<Marker, 2>> markers;  // finding them is collective, what follows is rank-local
+  for (const auto& joint : plan_.joints) markers.push_back({marker(joint[0]), marker(joint[1])});
+  const auto add = [&] {
+    for (std::size_t j = 0; j < markers.size(); ++j) {
+      if (owner_) add_joint(j, markers[j], q);
+      add_stops(j, markers[j], q, model.stops);
+    }
+  };
+  if (is_reduced(formulation_))
+    add();
+  else
+    petsc::agree(plan_.comm, add);
+}
+
+void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eigen::VectorXd& q) {
+  const Joint& joint = plan_.scene.joints[j];
+  for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
+    if (plan_.joints[j][i].body < 0 && std::isnan(places[i].x.x())) places[i].x = pose_at(places[1 - i], q).head<2>();
+  const Eigen::Vector3d y[2] = {pose_at(places[0], q), pose_at(places[1], q)};
+  const Eigen::Vector2d apart = (y[1] - y[0]).head<2>();
+  const double offset = y[1][2] - y[0][2];
+  const int multipliers = joint_multipliers_[j];
+  const bool meet = joint.kind != Joint::Kind::spring && joint.kind != Joint::Kind::prismatic;
+  if (meet && apart.norm() > 1e-6 * plan_.extent)
+    throw InputError(
+        fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at ({:.6g}, {:.6g}) and "
+                    "({:.6g}, {:.6g}); expected {}",
+                    joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1],
+                    expected_to_meet(plan_, formulation_, j)));
+  const auto found = latches_.find(joint.name);
+  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
+  switch (joint.kind) {
+    case Joint::Kind::revolute:
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
+                                                         joint_rows_[j], latches.joint));
+      if (latches.lock)
+        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, latches.first_row,
+                                                           std::vector<int>{2}, latches.lock, true));
+      break;
+    case Joint::Kind::fixed:
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
+                                                         joint_rows_[j], latches.joint));
+      break;
+    case Joint::Kind::driven:
+      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1],
+                                                         dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)},
+                                                         multipliers, joint_rows_[j], latches.joint));
+      break;
+    case Joint::Kind::prismatic: {
+      const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
+      const Eigen::Vector2d normal(-axis.y(), axis.x());
+      const dynamics::Prismatic slide{turn(-y[0][2]) * normal, normal.dot(apart), offset};
+      terms_.push_back(
+          std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j], latches.joint));
+      if (latches.lock)
+        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1],
+                                                           dynamics::Prismatic{turn(-y[0][2]) * axis, 0, 0},
+                                                           latches.first_row, std::vector<int>{0}, latches.lock, true));
+      break;
+    }
+    case Joint::Kind::spring:
+      terms_.push_back(std::make_unique<dynamics::Spring>(
+          places[0], places[1],
+          dynamics::SpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart.norm()),
+                                     joint.torsional_stiffness, joint.torsional_viscosity, offset}));
+      break;
+    default:  // those of space
+      break;
+  }
+}
+
+void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& places, const Eigen::VectorXd& q,
+                               std::vector<ModelStop>& stops) {
+  const Joint& joint = plan_.scene.joints[j];
+  if (!joint.limits) return;
+  const bool slides = joint.kind == Joint::Kind::prismatic;
+  const dynamics::Stop* term = nullptr;
+  if (owner_) {
+    const Eigen::Vector3d one = pose_at(places[0], q), two = pose_at(places[1], q);
+    const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized(),
+                          along = slides ? Eigen::Vector2d(turn(-one[2]) * axis) : Eigen::Vector2d::Zero();
+    const double start = slides ? axis.dot((two - one).head<2>()) : two[2] - one[2];
+    auto stop = std::make_unique<dynamics::PlanarStop>(places[0], places[1], along, start,
+                                                       law_of(*joint.limits, !slides, plan_.extent));
+    term = stop.get();
+    terms_.push_back(std::move(stop));
+  }
+  note_stops(joint, *joint.limits, term, stops);
+}
+
+}  // namespace floe::assembly

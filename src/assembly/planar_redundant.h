@@ -1,0 +1,21 @@
+#pragma once
+#include "floe/assembly/reduce_bodies.h"
+
+namespace floe::assembly {
+
+/// How many rows a joint has as a constraint.
+int joint_rows(const Joint& joint);
+
+/// For each joint the rows of its constraint that stand.
+///
+/// Modes of a body "as its joints hold it" satisfy what the joints hold, so that several joints of one body to the
+/// ground repeat one another: a beam hinged at both ends keeps its chord in every column, and the second hinge says
+/// again what the first one said along the beam. A row is left out if its gradient at the start depends on those before
+/// it, and if it stays satisfied wherever these do: shown at positions with the other rows met and the columns drawn at
+/// random.
+/// @throws InputError  a row that a function of time drives depends on others: no column follows it; or
+///                     the row is implied to first order only: the columns leave the joints as the body deforms (the
+///                     frame does not pass through them). Collective; replicated.
+std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced);
+
+}  // namespace floe::assembly

@@ -1,0 +1,170 @@
+#include <algorithm>
+#include <cmath>
+
+#include "floe/assembly/model.h"
+#include "floe/math/rotation.h"
+
+namespace floe::assembly {
+
+std::vector<ProbeColumn> probe_columns(const Model& model) {
+  std::vector<ProbeColumn> columns;
+  for (const ModelProbe& probe : model.probes) {
+    if (probe.spatial && probe.quantity == Probe::Quantity::rotation) {
+      for (const char* axis : {".rx", ".ry", ".rz"}) columns.push_back({probe.name + axis, "rad"});
+      continue;
+    }
+    if (probe.quantity == Probe::Quantity::rotation) {
+      columns.push_back({probe.name + ".angle", "rad"});
+      continue;
+    }
+    const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
+    columns.push_back({probe.name + ".x", unit, model.extent});
+    columns.push_back({probe.name + ".y", unit, model.extent});
+    if (probe.spatial) columns.push_back({probe.name + ".z", unit, model.extent});
+  }
+  return columns;
+}
+
+namespace {
+
+struct Placed {
+  Eigen::Vector3d y, yd;
+};
+
+Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd own(n), rate(n);
+  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  dynamics::Pose pose;
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  return {pose.y, pose.yd};
+}
+
+/// Displacement of a corotational body's node from the frame that its conditions define: through nodes a and b
+/// (pinned), or along the section at a (clamped).
+Eigen::Vector2d corotational_deflection(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::Vector3d& y) {
+  const Eigen::Vector3d a = placed(probe.frame[0], q, v).y, b = placed(probe.frame[1], q, v).y;
+  const bool pinned = probe.frame[0].x != probe.frame[1].x;
+  const double angle = pinned ? std::atan2(b.y() - a.y(), b.x() - a.x()) : a[2];
+  const Eigen::Vector2d from = probe.frame[0].x, rest = turn(-probe.frame[0].angle0) * (probe.marker.x - from);
+  return turn(-angle) * (y - a).head<2>() - rest;
+}
+
+dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& v) {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd own(n), rate(n);
+  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  dynamics::SpatialPose pose;
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  return pose;
+}
+
+Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& D) {
+  return math::rotation_vector(Eigen::Quaterniond(D).normalized());
+}
+
+void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                std::vector<double>& values) {
+  dynamics::SpatialPose at = placed(probe.marker, q, v);
+  if (probe.relative_to) {  // seen from axes that turn with the other place
+    const dynamics::SpatialPose from = placed(*probe.relative_to, q, v);
+    const Eigen::Matrix3d Dt = from.D.transpose();
+    const Eigen::Vector3d apart = at.p - from.p;
+    at.velocity = Dt * (at.velocity - from.velocity - from.spin.cross(apart));
+    at.p = Dt * apart;
+    at.D = Dt * at.D;
+  }
+  Eigen::Vector3d value = at.p;
+  if (quantity == Probe::Quantity::displacement) value -= probe.start;
+  if (quantity == Probe::Quantity::velocity) value = at.velocity;
+  if (quantity == Probe::Quantity::rotation) value = rotation_vector(at.D);
+  if (quantity == Probe::Quantity::deflection) value = probe.mesh * (at.c - probe.marker.x0);
+  values.insert(values.end(), value.data(), value.data() + 3);
+}
+
+void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                std::vector<double>& values) {
+  if (probe.spatial) return add_values(*probe.spatial, probe.quantity, q, v, values);
+  Placed at = placed(probe.marker, q, v);
+  Eigen::Vector3d start = probe.start;
+  if (probe.relative_to) {  // seen from axes that move with the other place
+    const Placed from = placed(*probe.relative_to, q, v);
+    const Eigen::Matrix2d A = turn(from.y[2]), A0 = turn(probe.start_relative[2]);
+    const Eigen::Vector2d d = A.transpose() * (at.y - from.y).head<2>();
+    const Eigen::Vector2d dd =
+        A.transpose() * (at.yd - from.yd).head<2>() - from.yd[2] * Eigen::Vector2d(-d.y(), d.x());
+    at.y << d, at.y[2] - from.y[2];
+    at.yd << dd, at.yd[2] - from.yd[2];
+    start << A0.transpose() * (probe.start - probe.start_relative).head<2>(), probe.start[2] - probe.start_relative[2];
+  }
+  switch (probe.quantity) {
+    case Probe::Quantity::position:
+      values.insert(values.end(), {at.y[0], at.y[1]});
+      break;
+    case Probe::Quantity::displacement:
+      values.insert(values.end(), {at.y[0] - start[0], at.y[1] - start[1]});
+      break;
+    case Probe::Quantity::velocity:
+      values.insert(values.end(), {at.yd[0], at.yd[1]});
+      break;
+    case Probe::Quantity::rotation:
+      values.push_back(at.y[2] - start[2]);
+      break;
+    case Probe::Quantity::deflection: {
+      if (!probe.frame.empty()) {
+        const Eigen::Vector2d u = corotational_deflection(probe, q, v, at.y);
+        values.insert(values.end(), {u.x(), u.y()});
+        break;
+      }
+      const dynamics::Marker& marker = probe.marker;
+      Eigen::VectorXd elastic(marker.S.cols());
+      for (Eigen::Index i = 0; i < elastic.size(); ++i) elastic[i] = q[marker.coordinates[3 + i]];
+      const Eigen::Vector2d u = marker.S * elastic;
+      values.insert(values.end(), {u.x(), u.y()});
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+int moving_frames(const Model& model) {
+  return static_cast<int>(std::count_if(model.bodies.begin(), model.bodies.end(),
+                                        [](const BodyReport& body) { return body.attitude != nullptr; }));
+}
+
+std::vector<double> attitudes(const Model& model, Vec U) {
+  std::vector<double> all;
+  if (moving_frames(model) == 0) return all;
+  Eigen::VectorXd q;
+  model.system->gather(U, q);
+  for (const BodyReport& body : model.bodies) {
+    if (!body.attitude) continue;
+    Eigen::Quaterniond at = body.attitude->base * math::quaternion(q.segment<3>(body.first_coordinate + 3));
+    if (at.w() < 0) at.coeffs() *= -1;
+    all.insert(all.end(), {at.w(), at.x(), at.y(), at.z()});
+  }
+  return all;
+}
+
+std::vector<double> probe_values(const Model& model, double, Vec U, Vec V) {
+  static thread_local Eigen::VectorXd q, v;
+  model.system->gather(U, q);
+  model.system->gather(V, v);
+  std::vector<double> values;
+  const MPI_Comm comm = model.system->comm();
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  if (rank == size - 1)
+    for (const ModelProbe& probe : model.probes) add_values(probe, q, v, values);
+  if (size > 1) {
+    values.resize(probe_columns(model).size());
+    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);
+  }
+  return values;
+}
+
+}  // namespace floe::assembly

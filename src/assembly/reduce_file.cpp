@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "floe/assembly/damping.h"
+#include "floe/assembly/reduce_bodies.h"
+#include "floe/assembly/reduced_bodies_file.h"
+#include "floe/math/nearest.h"
+#include "floe/output/claim.h"
+#include "floe/petsc/values.h"
+#include "floe/plan/mesh_copy.h"
+#include "floe/plan/place_weights.h"
+#include "floe/reduction/place_set.h"
+#include "floe/scene/places.h"
+
+namespace floe::assembly {
+
+using petsc::check;
+
+namespace {
+
+int index_of(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) names.push_back(body.name);
+  if (name.empty() && names.size() != 1)
+    throw InputError(fmt::format("{}: has {} bodies ({}); expected the name of one, --body NAME", scene.file,
+                                 names.size(), fmt::join(names, ", ")));
+  const auto found = name.empty() ? names.begin() : std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    const std::string near = math::nearest(name, names);
+    throw InputError(fmt::format("{}: there is no body \"{}\"; expected one of {}{}", scene.file, name,
+                                 fmt::join(names, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  const Body& body = scene.bodies[found - names.begin()];
+  if (body.rigid) throw InputError(fmt::format("{}: is rigid; expected a body with modes", body.where.text()));
+  if (body.reduced)
+    throw InputError(fmt::format("{}: is reduced already; expected a body with a mesh", body.reduced->where.text()));
+  return static_cast<int>(found - names.begin());
+}
+
+/// Scene with the body alone, and what the ground and loads do to it.
+Scene alone(const Scene& scene, int index) {
+  Scene part = scene;
+  const std::string& name = scene.bodies[index].name;
+  part.bodies = {scene.bodies[index]};
+  const auto stays = [&](const Place& place) { return place.ground() || place.body == name; };
+  std::erase_if(part.joints,
+                [&](const Joint& joint) { return (joint.first.body != name && joint.second.body != name); });
+  for (Joint& joint : part.joints)  // another body is, for this one, a place that is not held
+    for (Place* place : {&joint.first, &joint.second})
+      if (!stays(*place)) *place = Place{}, place->where = joint.where;
+  std::erase_if(part.loads, [&](const Load& load) { return load.spread() ? load.body != name : load.at.body != name; });
+  std::erase_if(part.probes, [&](const Probe& probe) {
+    return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
+  });
+  return part;
+}
+
+/// |eta_i eta_j| of fields that loads move alike: eta_i = 1 / phi_i' K phi_i, the static answer to a unit generalised
+/// force, 1 / omega_i^2 of a mode. No motion is known that could tell more.
+Eigen::MatrixXd interaction_at_unit_force(const ReducedBody& linear) {
+  const Eigen::MatrixXd fields = linear.of_fields.inverse();  // in the coordinates of the basis
+  const Eigen::VectorXd stiffness =
+      (fields.transpose() * linear.body.elasticity.linear_stiffness() * fields).diagonal();
+  const Eigen::VectorXd eta = (stiffness.array() > 0).select(stiffness.array().inverse(), 0);
+  return eta * eta.transpose();
+}
+
+output::ReducedFrame frame_of(const PlannedBody& body) {
+  if (body.structure.dimension() == 3) return {name_of(body.frame.kind), body.origin, body.axes};
+  return {name_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
+}
+
+std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody& body, const reduction::Basis& basis) {
+  std::map<std::string, std::vector<PetscInt>> nodes = body.places;
+  const auto add = [&](const Place& place, const Anchor& found) {
+    if (found.body < 0) return;
+    std::string name = place.name;
+    if (place.point)
+      name = fmt::format("at({})",
+                         fmt::join(place.point->begin(), place.point->begin() + body.structure.dimension(), ", "));
+    nodes.emplace(name, found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes);
+  };
+  const Scene& scene = plan.scene;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    add(scene.joints[j].first, plan.joints[j][0]), add(scene.joints[j].second, plan.joints[j][1]);
+  for (std::size_t l = 0; l < scene.loads.size(); ++l)
+    if (!scene.loads[l].spread()) add(scene.loads[l].at, plan.loads[l]);
+  for (std::size_t p = 0; p < scene.probes.size(); ++p) add(scene.probes[p].at, plan.probes[p][0]);
+  if (body.structure.dimension() == 2) {
+    for (const std::string& name : place_names(body.spec.mesh)) {
+      const Point p = place_point(body.spec.mesh, {body.spec.name, name, {}, {}});
+      const Eigen::Vector2d x = turn(-body.frame_angle) * (Eigen::Vector2d(p[0], p[1]) - body.frame_origin);
+      nodes.emplace(name, std::vector{fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0}).node});
+    }
+  }
+  std::vector<output::ReducedPlace> places;
+  for (const auto& [name, at] : nodes)
+    if (!at.empty())
+      places.push_back({name, reduction::place_map(body.structure, basis, place_weights(body.structure.mesh, at))});
+  return places;
+}
+
+std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
+  using Kind = reduction::ColumnOrigin::Kind;
+  std::vector<output::ReducedColumn> columns;
+  for (const reduction::ColumnOrigin& o : report.origins)
+    columns.push_back({o.kind == Kind::mode         ? "mode"
+                       : o.kind == Kind::derivative ? "derivative"
+                                                    : "attachment",
+                       o.label, o.omega, o.new_part, o.kept, o.interaction, o.dropped});
+  return columns;
+}
+
+/// With the sets of nodes; the columns are read from the basis when they are written.
+output::ReducedShapes shapes_of(const PlannedBody& body, const reduction::Basis& basis) {
+  const fem::Mesh& mesh = body.structure.mesh;
+  output::ReducedShapes shapes = mesh_copy(body);
+  for (const auto& [name, nodes] : body.places) {
+    std::vector<std::int64_t>& mine = shapes.sets[name];
+    for (PetscInt node : nodes)
+      if (node >= mesh.first_node && node < mesh.first_node + mesh.owned_nodes)
+        mine.push_back(mesh.original_node(static_cast<int>(node - mesh.first_node)));
+  }
+  shapes.column = [&basis, &structure = body.structure](int j, std::span<double> values) {
+    Vec column = nullptr;
+    check(BVGetColumn(basis.V, j, &column));
+    {
+      petsc::Values own(column);
+      std::copy(own.begin(), own.begin() + values.size(), values.begin());
+    }
+    check(BVRestoreColumn(basis.V, j, &column));
+    const Eigen::Index n = structure.dofs_per_node;
+    for (const fem::Mesh::Follower& f : structure.mesh.followers)
+      Eigen::Map<Eigen::VectorXd>(values.data() + n * f.node, n) = fem::nodal_motion(structure, values.data(), f.node);
+  };
+  return shapes;
+}
+
+/// The body on its columns, for the file.
+output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const ReducedBody& reduced) {
+  const BodyReport& report = reduced.report;
+  output::ReducedBodyFile file;
+  file.name = body.spec.name;
+  file.dimension = body.structure.dimension();
+  file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
+  file.cells = body.structure.mesh.cell_count;
+  file.body = reduced.body;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    if (plan.bodies[b].spec.name == body.spec.name) file.damping = linear_damping(plan, static_cast<int>(b), reduced);
+  file.places = places_of(plan, body, *reduced.basis);
+  file.columns = columns_of(report);
+  file.omega = report.omega, file.residual = report.residual;
+  file.frame = frame_of(body);
+  file.made = output::made_here(plan.comm, plan.scene.text);
+  file.made.seconds = {{"modes", report.seconds_modes},
+                       {"derivatives", report.seconds_derivatives},
+                       {"projection", report.seconds_projection}};
+  return file;
+}
+
+}  // namespace
+
+void write_body(const Plan& plan, const PlannedBody& body, const ReducedBody& reduced,
+                const std::filesystem::path& path, bool overwrite) {
+  const output::ReducedBodyFile file = file_of(plan, body, reduced);
+  const output::ReducedShapes shapes = shapes_of(body, *reduced.basis);
+  output::write_reduced_body(plan.comm, path, file, overwrite, &shapes);
+}
+
+output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name, MPI_Comm comm,
+                                    const std::filesystem::path& path, bool overwrite,
+                                    std::vector<std::string>& warnings) {
+  const int index = index_of(scene, name);
+  const output::Claim claim = output::claim_file(comm, path);
+  output::check_reduced_path(comm, path, overwrite);
+  const double start = MPI_Wtime();
+  const Scene part = alone(scene, index);
+  const Plan plan = prepare(part, comm);
+  const PlannedBody& body = plan.bodies[0];
+  warnings = body.notices;
+  if (body.spec.damping.stiffness != 0)
+    warnings.push_back(fmt::format(
+        "body {}: a file holds damping.stiffness as C = beta K of the undeformed body, which damps foreshortening, "
+        "too, "
+        "where deflections are large (beyond a few percent of the length); keep the body's mesh in the scene for these",
+        body.spec.name));
+  if (body.spec.damping.mass != 0 && scene.bodies.size() > 1)
+    warnings.push_back(
+        fmt::format("body {}: a file holds damping.mass as the body's joints to the ground see it; joints to the other "
+                    "{} bodies of the "
+                    "scene do not count there",
+                    body.spec.name, scene.bodies.size() - 1));
+  const double meshed = MPI_Wtime();
+  const std::vector<ReducedBody> reduced = reduce_bodies(
+      plan, Formulation::vm_md,
+      [](const std::vector<ReducedBody>& linear) { return std::vector{interaction_at_unit_force(linear[0])}; },
+      warnings);
+  output::ReducedBodyFile file = file_of(plan, body, reduced[0]);
+  file.made.seconds["mesh"] = meshed - start;
+  const output::ReducedShapes shapes = shapes_of(body, *reduced[0].basis);
+  output::write_reduced_body(comm, path, file, overwrite, &shapes);
+  file.has_shapes = true;
+  return file;
+}
+
+}  // namespace floe::assembly

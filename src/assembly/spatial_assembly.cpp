@@ -1,0 +1,382 @@
+#include "spatial_assembly.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "floe/assembly/damping.h"
+#include "floe/dynamics/damping.h"
+#include "floe/dynamics/held_body.h"
+#include "floe/math/rotation.h"
+#include "floe/petsc/values.h"
+#include "floe/plan/mesh_copy.h"
+#include "floe/plan/reduced_place.h"
+#include "floe/scene/file_places.h"
+#include "floe/scene/joint_events.h"
+#include "floe/solve/start.h"
+#include "spatial_rows.h"
+#include "start_shape.h"
+
+namespace floe::assembly {
+
+using petsc::check;
+
+namespace {
+
+/// Whether a place of a body from a file has no motion in the body's frame.
+bool at_rest(const PlannedBody& body, const body::PlaceMap& map) {
+  const output::ReducedBodyFile& file = *body.spec.reduced->file;
+  const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
+  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
+}
+
+Eigen::Matrix3d attitude_of_mesh(const Body& body) {
+  const Point& r = body.initial.rotation;
+  return math::rotation({r[0], r[1], r[2]});
+}
+
+bool is_drive(Joint::Kind kind) { return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide; }
+
+/// Where a point of the undeformed mesh is at the start.
+Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
+  const Point& p = body.initial.position;
+  return Eigen::Vector3d(p[0], p[1], p[2]) + attitude_of_mesh(body) * x;
+}
+
+}  // namespace
+
+int clamp_of(const Plan& plan, int b) {
+  const PlannedBody& body = plan.bodies[b];
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto& [first, second] = plan.joints[j];
+    const Joint& joint = plan.scene.joints[j];
+    if (joint.kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
+    if (is_unlocked(plan.scene, joint.name)) continue;
+    const Anchor& place = first.ground() ? second : first;
+    if (place.body != b) continue;
+    if (place.map ? at_rest(body, *place.map) : place.moved_by(body.frame.conditions.front() / 6))
+      return static_cast<int>(j);
+  }
+  return -1;
+}
+
+bool has_fixed_frame(const Plan& plan, int b) {
+  if (clamp_of(plan, b) >= 0) return true;
+  const PlannedBody& body = plan.bodies[b];
+  const fem::Conditions& conditions = body.frame.conditions;
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || body.spec.rigid || body.spec.reduced) return false;
+  bool firm = false;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const Joint& joint = plan.scene.joints[j];
+    const Anchor* place = held_place(plan, j);
+    if (!place || place->body != b || !plan.joint_held[j]) continue;
+    if (std::none_of(conditions.begin(), conditions.end(), [&](PetscInt dof) { return place->moved_by(dof / 6); }))
+      continue;
+    if (is_drive(joint.kind) || is_switched(plan.scene, joint.name)) return false;
+    firm = true;
+  }
+  return firm && std::includes(body.held.begin(), body.held.end(), conditions.begin(), conditions.end());
+}
+
+SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced)
+    : plan_(plan),
+      formulation_(formulation),
+      reduced_(reduced),
+      owner_(last_rank(comm_of(plan, formulation))),
+      coordinates_(comm_of(plan, formulation)),
+      slots_(plan.bodies.size()),
+      latches_(latches_of(plan.scene)) {
+  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = has_fixed_frame(plan, owner_of_frame(b));
+}
+
+int SpatialAssembly::owner_of_frame(std::size_t body) const {
+  const int host = plan_.bodies[body].host;
+  return host >= 0 ? host : static_cast<int>(body);
+}
+
+bool SpatialAssembly::compact(int body) const {
+  const Body& spec = plan_.bodies[body].spec;
+  return is_reduced(formulation_) || spec.rigid || spec.reduced;
+}
+
+bool SpatialAssembly::stands(int j) const {
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    if (plan_.bodies[b].host_joint == j) return true;
+    if (slots_[b].still && clamp_of(plan_, static_cast<int>(b)) == j) return true;
+  }
+  const Joint& joint = plan_.scene.joints[j];
+  const Anchor* place = held_place(plan_, j);
+  return place && place->body >= 0 && slots_[place->body].still && plan_.joint_held[j] && !is_drive(joint.kind) &&
+         !latches_.contains(joint.name);
+}
+
+const fem::Conditions& SpatialAssembly::held(int b) const {
+  return slots_[b].still ? plan_.bodies[b].held : plan_.bodies[b].clamp;
+}
+
+void SpatialAssembly::refuse() const {
+  std::vector<std::string> faults;
+  if (formulation_ == Formulation::cfr)
+    faults.push_back(plan_.scene.file + ": formulation cfr is known for planar beams only");
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const Joint& joint = plan_.scene.joints[j];
+    if (is_reduced(formulation_) || !plan_.joint_held[j]) continue;
+    const Anchor& place = *held_place(plan_, j);
+    if (compact(place.body) || place.nodes.size() < 2 || place.line || slots_[place.body].still) continue;
+    const fem::Conditions& held = plan_.bodies[place.body].clamp;
+    if (std::all_of(place.nodes.begin(), place.nodes.end(),
+                    [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
+      continue;
+    faults.push_back(fmt::format(
+        "{}: holds {} nodes of body {}, which formulation {} knows only where the frame is clamped to them; expected "
+        "frame: {{type: clamped, at: ...}} at that place, or a place of one node",
+        joint.where.text(), place.nodes.size(), plan_.bodies[place.body].spec.name, name_of(formulation_)));
+  }
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PlannedBody& body = plan_.bodies[b];
+    if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
+      faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
+                                   body.spec.damping.where.text(), name_of(formulation_)));
+    if (slots_[b].still && body.deformation &&
+        ((body.place - start_of_mesh(body.spec, body.origin)).norm() > 1e-6 * plan_.extent ||
+         (body.attitude - attitude_of_mesh(body.spec) * body.axes).norm() > 1e-6))
+      faults.push_back(
+          fmt::format("{}.deformation: moves or turns body {} where the ground clamps it; expected neither there",
+                      body.spec.initial.where.text(), body.spec.name));
+    if (slots_[b].still && body.host < 0 &&
+        (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
+      faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
+                                   body.spec.initial.where.text(), body.spec.name));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+std::vector<PetscInt> SpatialAssembly::visited(int body) const {
+  std::vector<PetscInt> nodes;
+  const auto visit = [&](const Anchor& place) {
+    for (const Lever& lever : place.levers)
+      if (place.body == body) nodes.push_back(lever.node);
+  };
+  for (const auto& joint : plan_.joints) visit(joint[0]), visit(joint[1]);
+  for (std::size_t l = 0; l < plan_.loads.size(); ++l)
+    if (!plan_.scene.loads[l].spread()) visit(plan_.loads[l]);
+  for (const auto& probe : plan_.probes) visit(probe[0]), visit(probe[1]);
+  return nodes;
+}
+
+void SpatialAssembly::add_frame(int b) {
+  Slot& slot = slots_[b];
+  if (slot.still || slot.attitude) return;
+  const PlannedBody& body = plan_.bodies[b];
+  coordinates_.belongs_to("body " + body.spec.name);
+  slot.frame = coordinates_.add_shared(6);
+  slot.attitude = std::make_shared<dynamics::Attitude>();
+  slot.attitude->base = Eigen::Quaterniond(body.attitude).normalized();
+}
+
+void SpatialAssembly::add_coordinates() {
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PlannedBody& body = plan_.bodies[b];
+    Slot& slot = slots_[b];
+    const int index = static_cast<int>(b);
+    add_frame(owner_of_frame(b));
+    slot.frame = slots_[owner_of_frame(b)].frame, slot.attitude = slots_[owner_of_frame(b)].attitude;
+    coordinates_.belongs_to("body " + body.spec.name);
+    if (compact(index)) {
+      slot.elastic = coordinates_.add_shared(reduced_[b].body.coordinates());
+      continue;
+    }
+    slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6);
+    if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
+      slot.multipliers = coordinates_.add_shared(6, true);
+    slot.damping = full_order_damping(plan_, index, held(index), coordinates_);
+  }
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
+    const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind);
+    multipliers_.push_back(coordinates_.add_shared(rows, true));
+    const auto latches = latches_.find(plan_.scene.joints[j].name);
+    if (latches == latches_.end() || !latches->second.lock) continue;
+    latches->second.rows = 6 - rows;
+    latches->second.first_row = coordinates_.add_shared(6 - rows, true);
+  }
+  coordinates_.number();
+}
+
+std::vector<int> SpatialAssembly::coordinates_of(int b) const {
+  std::vector<int> all;
+  for (int i = 0; i < 6 && !slots_[b].still; ++i) all.push_back(slots_[b].frame + i);
+  for (int i = 0; i < reduced_[b].body.coordinates(); ++i) all.push_back(slots_[b].elastic + i);
+  return all;
+}
+
+reference::SpatialFrame SpatialAssembly::frame_of(int b) const {
+  return {slots_[b].frame, slots_[b].multipliers, slots_[b].attitude};
+}
+
+void SpatialAssembly::add_body(int b) {
+  const PlannedBody& body = plan_.bodies[b];
+  const Slot& slot = slots_[b];
+  if (compact(b)) {
+    const ReducedBody& reduced = reduced_[b];
+    const std::vector<int> coordinates = coordinates_of(b);
+    auto damping =
+        damping_terms(plan_, b, reduced, {coordinates.end() - reduced.body.coordinates(), coordinates.end()});
+    if (!owner_) return;
+    const body::Inertia& in = reduced.body.inertia;
+    if (!slot.still)
+      terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates, slot.attitude, body::spatial(in),
+                                                               reduced.body.elasticity));
+    else if (reduced.body.coordinates() > 0)
+      terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
+                                                            reduced.body.elasticity));
+    std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
+    return;
+  }
+  if (slot.damping)
+    for (auto& term : reference::mass_damping_terms(body.structure, *slot.damping, *slot.nodes))
+      terms_.push_back(std::move(term));
+  if (slot.still) return add_still_cells(b);
+  const auto force =
+      formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
+  for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, held(b), *slot.nodes, frame_of(b),
+                                                        force, body.spec.damping.stiffness))
+    terms_.push_back(std::move(term));
+}
+
+/// Each element on those of its dofs that are not held.
+void SpatialAssembly::add_still_cells(int b) {
+  const PlannedBody& body = plan_.bodies[b];
+  const fem::Structure& structure = body.structure;
+  const double beta = body.spec.damping.stiffness;
+  double stiffest = 1e-300;
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    const fem::ElementMaps maps = structure.maps(cell);
+    stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
+    const reference::FreeDofs free = reference::free_dofs(structure, held(b), cell, *slots_[b].nodes);
+    if (free.coordinates.empty()) continue;
+    body::Elasticity elasticity = fem::elasticity(maps, free.V);
+    if (formulation_ == Formulation::lffr) elasticity = body::linearised(elasticity);
+    const Eigen::MatrixXd M =
+        free.V.transpose() * reference::with_drilling_inertia(structure, cell, maps.mass_matrix()) * free.V;
+    if (beta != 0) terms_.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, beta));
+    terms_.push_back(std::make_unique<dynamics::HeldBody>(free.coordinates, M, std::move(elasticity)));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  for (PetscInt dof : held(b)) {
+    const PetscInt local = dof - 6 * structure.mesh.first_node;
+    if (local >= 0 && local < structure.owned_dofs())
+      terms_.push_back(
+          std::make_unique<reference::HeldDof>(slots_[b].nodes->first() + static_cast<int>(local), stiffest));
+  }
+}
+
+/// What the body's deformation at the start makes of its elastic coordinates; those that are held stay zero.
+void SpatialAssembly::set_deformation(int b, Vec shape, Vec into) const {
+  if (!shape) return;
+  const PlannedBody& body = plan_.bodies[b];
+  const auto set = [&](PetscInt row, double value) { check(VecSetValue(into, row, value, INSERT_VALUES)); };
+  if (compact(b)) {
+    Eigen::VectorXd eta = Eigen::VectorXd::Zero(reduced_[b].body.coordinates());
+    if (shape == body.deformation.get())
+      eta = start_shape(plan_, b, reduced_[b], shape);
+    else if (eta.size() > 0)
+      check(BVDotVec(reduced_[b].basis->V, shape, eta.data()));
+    for (Eigen::Index i = 0; i < eta.size() && owner_; ++i)
+      set(coordinates_.global()[slots_[b].elastic + static_cast<int>(i)], eta[i]);
+    return;
+  }
+  petsc::Values own(shape);
+  const fem::Mesh& mesh = body.structure.mesh;
+  for (PetscInt dof = own.first; dof < own.end; ++dof) {
+    if (std::binary_search(held(b).begin(), held(b).end(), dof)) continue;
+    const int local = static_cast<int>(dof - 6 * mesh.first_node);
+    set(coordinates_.global()[slots_[b].nodes->of_local_node(local / 6) + local % 6], own[dof]);
+  }
+}
+
+void SpatialAssembly::set_start(Model& model) {
+  const dynamics::System layout(coordinates_, {});
+  model.U = layout.create_vector();
+  model.V = layout.create_vector();
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const PlannedBody& body = plan_.bodies[b];
+    set_deformation(static_cast<int>(b), body.deformation, model.U);
+    set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
+    if (slots_[b].damping) set_rigid_part(*slots_[b].damping, body, coordinates_, owner_, model.U, model.V);
+  }
+  for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
+    const PlannedBody& body = plan_.bodies[b];
+    if (slots_[b].still || body.host >= 0) continue;
+    for (int i = 0; i < 3; ++i) {
+      const PetscInt row = coordinates_.global()[slots_[b].frame + i],
+                     turn = coordinates_.global()[slots_[b].frame + 3 + i];
+      check(VecSetValue(model.U, row, body.place[i], INSERT_VALUES));
+      check(VecSetValue(model.V, row, body.rate[i], INSERT_VALUES));
+      check(VecSetValue(model.V, turn, body.spin[i], INSERT_VALUES));
+    }
+  }
+  for (Vec v : {model.U.get(), model.V.get()}) {
+    check(VecAssemblyBegin(v));
+    check(VecAssemblyEnd(v));
+  }
+  layout.gather(model.U, start_);
+}
+
+Model SpatialAssembly::model() {
+  refuse();
+  Model model;
+  model.formulation = formulation_;
+  if (plan_.extent > 0) model.extent = plan_.extent;
+  model.warnings = damping_warnings(plan_);
+  add_coordinates();
+  set_start(model);
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const int index = static_cast<int>(b);
+    const PlannedBody& body = plan_.bodies[b];
+    add_body(index);
+    add_gravity(index);
+    BodyReport report = reduced_[b].report;
+    const fem::Mesh& mesh = body.structure.mesh;
+    report.name = body.spec.name;
+    report.rigid = body.spec.rigid;
+    if (!body.spec.reduced)
+      report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
+    report.dimension = 3;
+    report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
+    report.frame = name_of(plan_.bodies[b].frame.kind);
+    if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
+    report.attitude = slots_[b].attitude;
+    report.mesh = body_mesh(body);
+    report.place = plan_.bodies[owner_of_frame(index)].place;
+    report.axes = plan_.bodies[owner_of_frame(index)].attitude;
+    report.first_node = mesh.first_node;
+    for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
+      report.positions.insert(report.positions.end(), mesh.positions[i].data(), mesh.positions[i].data() + 3);
+    model.bodies.push_back(std::move(report));
+    model.warnings.insert(model.warnings.end(), body.notices.begin(), body.notices.end());
+  }
+  add_loads();
+  add_joints(model);
+  add_probes(model);
+  dynamics::Attitudes attitudes;
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    if (slots_[b].attitude && plan_.bodies[b].host < 0) attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
+  for (std::size_t j = 0; j < multipliers_.size(); ++j) {
+    std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind));
+    std::iota(rows.begin(), rows.end(), 0);
+    model.joints.push_back({multipliers_[j], std::move(rows)});
+  }
+  model.latches = latches_;
+  model.multipliers = coordinates_.multiplier_count();
+  model.coordinates = coordinates_.global_size() - model.multipliers;
+  model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
+  model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
+  return model;
+}
+
+}  // namespace floe::assembly

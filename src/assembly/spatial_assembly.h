@@ -1,0 +1,94 @@
+#pragma once
+#include <optional>
+
+#include "floe/assembly/reduce_bodies.h"
+#include "floe/dynamics/spatial_joint.h"
+#include "floe/reference/mass_damping.h"
+#include "floe/reference/spatial_full_order.h"
+
+namespace floe::assembly {
+
+/// Turns planned bodies in space into coordinates, terms, joints and a state at the start.
+///
+/// A body whose frame the ground clamps stands still: it has elastic coordinates only, and what the ground holds is
+/// left out of them. Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's
+/// communicator, where the last rank holds what is shared.
+class SpatialAssembly {
+ public:
+  /// @param reduced  one for each body: full for reduced formulations; rigid bodies and those from files else
+  SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced);
+  /// @throws InputError  joints whose places are apart, that contradict one another, or that a full-order formulation
+  /// does not know; formulation cfr. Collective.
+  Model model();
+
+ private:
+  struct Slot {
+    bool still = false;
+    std::shared_ptr<dynamics::Attitude> attitude;        // none: stands still
+    int frame = -1;                                      // local index of R, x; -1: stands still
+    int elastic = -1;                                    // local index of reduced coordinates
+    int multipliers = -1;                                // of the mean axes
+    std::optional<reference::MassDamping> damping = {};  // at full order
+    std::unique_ptr<reference::NodeCoordinates> nodes;
+  };
+  /// A joint with rows, or a spring, ready to become a term.
+  struct PlacedJoint {
+    std::array<dynamics::SpatialMarker, 2> places;
+    dynamics::SpatialConstraint constraint;
+  };
+
+  void refuse() const;
+  bool compact(int body) const;  // described by a ReducedBody
+  bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
+  const fem::Conditions& held(int body) const;
+  int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
+  std::vector<PetscInt> visited(int body) const;
+  std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
+  reference::SpatialFrame frame_of(int body) const;
+
+  void add_frame(int body);
+  void add_coordinates();
+  void add_body(int body);
+  void add_still_cells(int body);
+  void add_gravity(int body);
+  void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
+                   bool of_body, bool conservative);
+  void add_loads();
+  void add_pressure(const Load& load, int body);
+  void add_joints(Model& model);
+  void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
+  void add_spring(int joint, const PlacedJoint& placed);
+  void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
+  void add_probes(Model& model);
+  void set_deformation(int body, Vec shape, Vec into) const;
+  void set_start(Model& model);
+
+  dynamics::SpatialMarker marker(const Anchor& place);
+  dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;
+  /// Where a marker is at the start.
+  dynamics::SpatialPose start_of(const dynamics::SpatialMarker& marker) const;
+  PlacedJoint place(int joint);
+
+  const Plan& plan_;
+  Formulation formulation_;
+  const std::vector<ReducedBody>& reduced_;
+  bool owner_;  // this rank has the shared terms
+  dynamics::Coordinates coordinates_;
+  std::vector<Slot> slots_;
+  std::vector<int> multipliers_;  // of each joint, the first
+  Eigen::VectorXd start_;         // local coordinates at the start
+  std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::map<std::string, JointLatches> latches_;
+};
+
+/// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.
+int clamp_of(const Plan& plan, int body);
+
+/// Whether the body's frame is fixed to the ground: by clamp_of, or because joints to the ground that neither move nor
+/// are switched hold the dofs of its conditions (fixed_rims, fix_frames).
+bool has_fixed_frame(const Plan& plan, int body);
+
+/// Rows that the kind of joint holds in space; none: a spring or bushing.
+int spatial_rows(Joint::Kind kind);
+
+}  // namespace floe::assembly

@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "drive.h"
+#include "floe/dynamics/spatial_spring.h"
+#include "floe/petsc/values.h"
+#include "spatial_assembly.h"
+#include "spatial_rows.h"
+#include "start_shape.h"
+#include "stops.h"
+
+namespace floe::assembly {
+
+using dynamics::SpatialConstraint;
+using dynamics::SpatialMarker;
+using dynamics::SpatialPose;
+using Kind = Joint::Kind;
+
+int spatial_rows(Kind kind) {
+  switch (kind) {
+    case Kind::fixed:
+    case Kind::driven:
+    case Kind::driven_slide:
+      return 6;
+    case Kind::revolute:
+    case Kind::prismatic:
+      return 5;
+    case Kind::cylindrical:
+    case Kind::universal:
+      return 4;
+    case Kind::spherical:
+    case Kind::planar:
+      return 3;
+    case Kind::distance:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+namespace {
+
+/// @param apart  from the first place to the second at the start, world axes
+SpatialConstraint constraint_of(const Joint& joint, const Motion& motion, const Eigen::Vector3d& apart) {
+  switch (joint.kind) {
+    case Kind::fixed:
+      return SpatialConstraint::fixed();
+    case Kind::revolute:
+      return SpatialConstraint::revolute();
+    case Kind::prismatic:
+      return SpatialConstraint::prismatic();
+    case Kind::cylindrical:
+      return SpatialConstraint::cylindrical();
+    case Kind::spherical:
+      return SpatialConstraint::spherical();
+    case Kind::universal:
+      return SpatialConstraint::universal();
+    case Kind::planar:
+      return SpatialConstraint::planar();
+    case Kind::distance:
+      if (apart.norm() == 0)
+        throw InputError(joint.where.text() + ": its places coincide; expected a distance, or type spherical");
+      return SpatialConstraint::distance(apart.norm());
+    case Kind::driven:
+      return SpatialConstraint::driven_revolute(drive_of(joint, motion));
+    case Kind::driven_slide:
+      return SpatialConstraint::driven_prismatic(drive_of(joint, motion));
+    default:
+      return {};
+  }
+}
+
+/// Whether the joint's places are one point.
+bool meets(Kind kind) {
+  return kind == Kind::fixed || kind == Kind::revolute || kind == Kind::driven || kind == Kind::spherical ||
+         kind == Kind::universal;
+}
+
+std::string point(const Eigen::Vector3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z()); }
+
+}  // namespace
+
+SpatialAssembly::PlacedJoint SpatialAssembly::place(int j) {
+  const Joint& joint = plan_.scene.joints[j];
+  const Eigen::Matrix3d& W = plan_.joint_axes[j];
+  PlacedJoint placed{{marker(plan_.joints[j][0]), marker(plan_.joints[j][1])}, {}};
+  if (!owner_) return placed;
+  for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
+    if (plan_.joints[j][i].ground() && std::isnan(placed.places[i].x0.x()))
+      placed.places[i].x0 = start_of(placed.places[1 - i]).p;
+  for (SpatialMarker& place : placed.places) place.D0 = place.D0 * start_of(place).D.transpose() * W;
+  const Eigen::Vector3d from = start_of(placed.places[0]).p, to = start_of(placed.places[1]).p;
+  if (meets(joint.kind) && (to - from).norm() > 1e-6 * plan_.extent)
+    throw InputError(
+        fmt::format("{}: the two places of joint {} are {:.6g} apart at the start, at {} and {}; expected "
+                    "{}",
+                    joint.where.text(), joint.name, (to - from).norm(), point(from), point(to),
+                    expected_to_meet(plan_, formulation_, j)));
+  placed.constraint = constraint_of(joint, plan_.scene.motion, to - from);
+  for (dynamics::SpatialRow& row : placed.constraint.rows)
+    if (auto* along = std::get_if<dynamics::Along>(&row)) along->offset = W.col(along->axis).dot(to - from);
+  return placed;
+}
+
+void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
+  const Joint& joint = plan_.scene.joints[j];
+  if (joint.kind == Kind::bushing) {
+    dynamics::BushingProperties bushing;
+    for (int i = 0; i < 3; ++i) {
+      bushing.stiffness[i] = joint.translation[i], bushing.stiffness[3 + i] = joint.rotation[i];
+      bushing.viscosity[i] = joint.translation_viscosity[i], bushing.viscosity[3 + i] = joint.rotation_viscosity[i];
+    }
+    const SpatialPose from = start_of(placed.places[0]), to = start_of(placed.places[1]);
+    bushing.rest = from.D.transpose() * (to.p - from.p);
+    bushing.name = joint.name;
+    terms_.push_back(std::make_unique<dynamics::SpatialBushing>(placed.places[0], placed.places[1], bushing));
+    return;
+  }
+  const double apart = (start_of(placed.places[1]).p - start_of(placed.places[0]).p).norm();
+  if (joint.stiffness != 0 && joint.length.value_or(0) > 0 && apart <= 1e-12 * plan_.extent)
+    throw InputError(
+        fmt::format("{}: the places of spring {} coincide at the start, and no direction is that of its "
+                    "force; expected length: 0, or places apart",
+                    joint.where.text(), joint.name));
+  terms_.push_back(std::make_unique<dynamics::SpatialSpring>(
+      placed.places[0], placed.places[1],
+      dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
+                                        joint.torsional_stiffness, joint.torsional_viscosity, 0}));
+}
+
+void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
+  const auto found = latches_.find(plan_.scene.joints[j].name);
+  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
+  terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
+                                                            multipliers_[j], standing, plan_.extent, latches.joint));
+  if (latches.lock)
+    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
+                                                              dynamics::lock_of(placed.constraint), latches.first_row,
+                                                              latches.lock, true));
+  for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
+    terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
+}
+
+void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
+  using Of = dynamics::SpatialStop::Of;
+  const Joint& joint = plan_.scene.joints[j];
+  const auto add = [&](const LimitsSpec& limits, Of of) {
+    const dynamics::Stop* term = nullptr;
+    if (owner_) {
+      const Eigen::Vector3d apart = start_of(placed.places[1]).p - start_of(placed.places[0]).p;
+      const double start = of == Of::slide ? plan_.joint_axes[j].col(2).dot(apart) : 0;
+      auto stop = std::make_unique<dynamics::SpatialStop>(placed.places[0], placed.places[1], of, start,
+                                                          law_of(limits, of == Of::turn, plan_.extent));
+      term = stop.get();
+      terms_.push_back(std::move(stop));
+    }
+    note_stops(joint, limits, term, stops);
+  };
+  if (joint.limits) add(*joint.limits, joint.kind == Kind::revolute ? Of::turn : Of::slide);
+  if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
+}
+
+void SpatialAssembly::add_joints(Model& model) {
+  std::vector<std::pair<int, PlacedJoint>> all;  // finding places is collective, what follows is rank-local
+  std::string notes;
+  const auto find = [&] {
+    for (std::size_t j = 0; j < plan_.joints.size(); ++j)
+      if (PlacedJoint placed = place(static_cast<int>(j)); !stands(static_cast<int>(j)))
+        all.emplace_back(static_cast<int>(j), std::move(placed));
+  };
+  const auto add = [&] {
+    if (!owner_) {
+      for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
+      return;
+    }
+    SpatialRows rows(plan_, start_);
+    for (const auto& [j, placed] : all)
+      if (!placed.constraint.rows.empty()) rows.add(j, placed.places, placed.constraint);
+    const std::vector<std::vector<int>> standing = rows.standing(notes);
+    std::size_t next = 0;
+    for (const auto& [j, placed] : all)
+      if (placed.constraint.rows.empty())
+        add_spring(j, placed);
+      else
+        add_joint(j, placed, standing[next++]);
+    for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
+  };
+  if (is_reduced(formulation_)) {
+    find();
+    add();
+  } else {
+    petsc::agree(plan_.comm, find);
+    petsc::agree(plan_.comm, add);
+    int length = static_cast<int>(notes.size()), size = 1;
+    MPI_Comm_size(plan_.comm, &size);
+    MPI_Bcast(&length, 1, MPI_INT, size - 1, plan_.comm);
+    notes.resize(length);
+    MPI_Bcast(notes.data(), length, MPI_CHAR, size - 1, plan_.comm);
+  }
+  for (std::size_t begin = 0; begin < notes.size();) {
+    const std::size_t end = notes.find('\n', begin);
+    model.warnings.push_back(notes.substr(begin, end - begin));
+    begin = end + 1;
+  }
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,198 @@
+#include <cmath>
+
+#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/spatial_force.h"
+#include "floe/scene/places.h"
+#include "spatial_assembly.h"
+#include "weight.h"
+
+namespace floe::assembly {
+
+using dynamics::SpatialForce;
+using dynamics::SpatialMarker;
+using dynamics::SpatialPose;
+using dynamics::Wrench;
+using reference::Density;
+
+namespace {
+
+Eigen::MatrixXd total(const std::vector<body::MassPoint>& points, Eigen::Index dofs) {
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(3, dofs);
+  for (const body::MassPoint& point : points) S += point.mass * point.N;
+  return S;
+}
+
+}  // namespace
+
+SpatialMarker SpatialAssembly::marker(const Anchor& place) {
+  if (place.ground()) return SpatialMarker::ground(place.x);
+  const PlannedBody& body = plan_.bodies[place.body];
+  const Slot& slot = slots_[place.body];
+  SpatialMarker at;
+  at.attitude = slot.attitude;
+  at.origin = body.place;
+  at.axes = body.attitude;
+  at.x0 = place.x;
+  if (compact(place.body)) {
+    at.coordinates = coordinates_of(place.body);
+    if (plan_.bodies[place.body].spec.rigid) return at;
+    const body::PlaceMap map = place_map(plan_, reduced_[place.body], place);
+    at.x0 = map.x;
+    at.S = map.S;
+    at.psi = map.psi;
+    return at;
+  }
+  if (!owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
+  const Eigen::Index n = static_cast<Eigen::Index>(place.levers.size());
+  for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
+  at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int d = 0; d < 6; ++d) {
+      const Lever& lever = place.levers[i];
+      at.coordinates.push_back(slot.nodes->of_node(lever.node) + d);
+      if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * lever.node + d)) continue;
+      if (d < 3) {
+        at.S(d, 6 * i + d) = lever.share;
+        continue;
+      }
+      at.psi.col(6 * i + d) = lever.turn.col(d - 3);
+      at.S.col(6 * i + d) = lever.arm.col(d - 3);
+    }
+  return at;
+}
+
+SpatialPose SpatialAssembly::start_of(const SpatialMarker& marker) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
+  Eigen::VectorXd q(n), none = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < n; ++i) q[i] = start_[marker.coordinates[i]];
+  SpatialPose at;
+  dynamics::pose(marker, q, none, none, at);
+  return at;
+}
+
+SpatialMarker SpatialAssembly::density_marker(int b, const body::Inertia& inertia) const {
+  SpatialMarker marker;
+  marker.attitude = slots_[b].attitude;
+  marker.coordinates = coordinates_of(b);
+  marker.mass = inertia.m;
+  marker.x0 = inertia.s0;
+  marker.S = inertia.S;
+  marker.psi = Eigen::Matrix3Xd::Zero(3, inertia.S.cols());
+  return marker;
+}
+
+/// A force density, in world axes or in those of the body.
+void SpatialAssembly::add_density(int b, Density density, const std::function<Eigen::Vector3d(double)>& force,
+                                  bool of_body, bool conservative) {
+  const PlannedBody& body = plan_.bodies[b];
+  if (slots_[b].still) {
+    const Eigen::Matrix3d A = of_body ? body.axes.transpose() : body.attitude.transpose();
+    const auto add = [&](std::vector<int> coordinates, Eigen::MatrixXd S) {
+      auto term = std::make_unique<dynamics::DeadForce>(
+          std::move(coordinates), std::move(S), [A, force](double t) -> Eigen::VectorXd { return A * force(t); });
+      term->conservative = conservative;
+      terms_.push_back(std::move(term));
+    };
+    if (compact(b)) {
+      const body::FlexibleBody& reduced = reduced_[b].body;
+      if (owner_ && reduced.coordinates() > 0)
+        add(coordinates_of(b), (density == Density::mass ? reduced.inertia : reduced.line).S);
+      return;
+    }
+    for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
+      const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
+      if (free.coordinates.empty()) continue;
+      add(free.coordinates,
+          total(density == Density::mass ? body.structure.maps(cell).mass : body.structure.line(cell), free.V.rows()) *
+              free.V);
+    }
+    return;
+  }
+  std::vector<SpatialMarker> markers;
+  if (!compact(b))
+    markers = reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density);
+  else if (owner_)
+    markers.push_back(density_marker(b, density == Density::mass ? reduced_[b].body.inertia : reduced_[b].body.line));
+  const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+  for (SpatialMarker& marker : markers) {
+    auto term = std::make_unique<SpatialForce>(
+        std::move(marker),
+        [A, force](double t) {
+          Wrench w = Wrench::Zero();
+          w.head<3>() = A * force(t);
+          return w;
+        },
+        of_body ? SpatialForce::Axes::body : SpatialForce::Axes::world);
+    term->conservative = conservative;
+    terms_.push_back(std::move(term));
+  }
+}
+
+void SpatialAssembly::add_gravity(int b) {
+  const Weight weight(plan_.scene);
+  if (weight.none()) return;
+  const auto fixed = [g = weight(0)](double) { return g; };
+  if (weight.constant())
+    add_density(b, Density::mass, fixed, false, true);
+  else
+    add_density(b, Density::mass, weight, false, false);
+}
+
+void SpatialAssembly::add_loads() {
+  for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
+    const Load& load = plan_.scene.loads[l];
+    const Anchor& place = plan_.loads[l];
+    const bool of_body = load.axes == Load::Axes::body;
+    const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
+      return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
+    };
+    if (load.kind == Load::Kind::pressure) {
+      add_pressure(load, place.body);
+      continue;
+    }
+    if (load.kind == Load::Kind::distributed) {
+      add_density(place.body, Density::line, value, of_body, false);
+      continue;
+    }
+    SpatialMarker at = marker(place);
+    if (!owner_ || at.coordinates.empty()) continue;
+    const PlannedBody& body = plan_.bodies[place.body];
+    const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+    at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
+    const int first = load.kind == Load::Kind::moment ? 3 : 0;
+    terms_.push_back(std::make_unique<SpatialForce>(
+        std::move(at),
+        [A, value, first](double t) {
+          Wrench w = Wrench::Zero();
+          w.segment<3>(first) = A * value(t);
+          return w;
+        },
+        of_body                          ? SpatialForce::Axes::body
+        : load.axes == Load::Axes::place ? SpatialForce::Axes::place
+                                         : SpatialForce::Axes::world));
+  }
+}
+
+void SpatialAssembly::add_probes(Model& model) {
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
+    const Probe& spec = plan_.scene.probes[p];
+    SpatialProbe probe{marker(plan_.probes[p][0]), {}};
+    const int b = plan_.probes[p][0].body;
+    if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b))
+      if (probe.marker.S.size() == 0 ||
+          probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)
+        model.warnings.push_back(never_deflects(spec, plan_.bodies[b].spec));
+    if (plan_.probes[p][0].body >= 0) probe.mesh = plan_.bodies[plan_.probes[p][0].body].axes;
+    if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
+    if (owner_) {
+      for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
+        if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
+      probe.start = start_of(probe.marker).p;
+      if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
+    }
+    model.probes.push_back(
+        {spec.name, spec.quantity, {}, {}, {}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), std::move(probe)});
+  }
+}
+
+}  // namespace floe::assembly

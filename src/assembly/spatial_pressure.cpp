@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "floe/dynamics/pressure_load.h"
+#include "floe/fem/pressure.h"
+#include "floe/math/nearest.h"
+#include "floe/reduction/pressure.h"
+#include "spatial_assembly.h"
+
+namespace floe::assembly {
+namespace {
+
+using Chosen = std::function<bool(const fem::Mesh::Cell&)>;
+
+/// The shells that a pressure acts on. Collective.
+Chosen shells_of(const Load& load, const PlannedBody& body) {
+  if (body.spec.reduced)
+    throw InputError(
+        fmt::format("{}: acts on body {}, which comes from a file without its shells; expected a body "
+                    "with a mesh",
+                    load.where.text(), body.spec.name));
+  const auto part = std::find(body.parts.begin(), body.parts.end(), load.part);
+  if (!load.part.empty() && part == body.parts.end()) {
+    const std::string near = math::nearest(load.part, body.parts);
+    throw InputError(fmt::format("{}.part: {} has no part \"{}\"; expected one of {}{}", load.where.text(),
+                                 body.spec.name, load.part, fmt::join(body.parts, ", "),
+                                 near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  const int wanted = load.part.empty() ? -1 : static_cast<int>(part - body.parts.begin());
+  Chosen chosen = [wanted](const fem::Mesh::Cell& cell) {
+    return fem::is_shell(cell) && (wanted < 0 || cell.part == wanted);
+  };
+  const fem::Mesh& mesh = body.structure.mesh;
+  int any = std::any_of(mesh.cells.begin(), mesh.cells.end(), chosen) ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
+  if (any == 0)
+    throw InputError(fmt::format("{}: {} of body {} has no shells; expected a pressure on shells", load.where.text(),
+                                 load.part.empty() ? "the mesh" : "part " + load.part, body.spec.name));
+  return chosen;
+}
+
+}  // namespace
+
+void SpatialAssembly::add_pressure(const Load& load, int b) {
+  using dynamics::PressureLoad;
+  const PlannedBody& body = plan_.bodies[b];
+  const Chosen chosen = shells_of(load, body);
+  const auto add = [&](std::vector<int> coordinates, body::Pressure unit) {
+    terms_.push_back(std::make_unique<PressureLoad>(
+        std::move(coordinates), slots_[b].attitude, std::move(unit), [p = load.pressure](double t) { return p(t); },
+        load.follower ? PressureLoad::Kind::follower : PressureLoad::Kind::dead, body.attitude));
+  };
+  if (compact(b)) {
+    const reduction::Basis none;
+    body::Pressure unit = reduction::pressure(body.structure, reduced_[b].basis ? *reduced_[b].basis : none, chosen);
+    if (owner_ && !coordinates_of(b).empty()) add(coordinates_of(b), std::move(unit));
+    return;
+  }
+  for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
+    if (!chosen(cell)) continue;
+    const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
+    std::vector<int> coordinates;
+    for (int i = 0; i < 6 && !slots_[b].still; ++i) coordinates.push_back(slots_[b].frame + i);
+    coordinates.insert(coordinates.end(), free.coordinates.begin(), free.coordinates.end());
+    if (!coordinates.empty()) add(coordinates, body::projected(fem::pressure(body.structure, cell), free.V));
+  }
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,68 @@
+#include "start_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/values.h"
+
+namespace floe::assembly {
+
+using Eigen::Vector3d;
+using petsc::check;
+
+namespace {
+
+/// Of the mean of the place's nodes. Collective.
+Vector3d displacement_at(const PlannedBody& body, const Anchor& place, Vec shape) {
+  const int n = body.structure.dofs_per_node, d = body.structure.dimension();
+  Vector3d u = Vector3d::Zero();
+  {
+    petsc::Values own(shape);
+    for (const Lever& lever : place.moved_by()) {
+      const PetscInt first = n * lever.node;
+      if (first < own.first || first >= own.end) continue;
+      for (int i = 0; i < d; ++i) u[i] += lever.share * own[first + i];
+      if (d == 3) u += lever.arm * Vector3d(own[first + 3], own[first + 4], own[first + 5]);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, u.data(), 3, MPI_DOUBLE, MPI_SUM, body.structure.mesh.comm);
+  return u;
+}
+
+}  // namespace
+
+Eigen::VectorXd start_shape(const Plan& plan, int b, const ReducedBody& reduced, Vec shape) {
+  const PlannedBody& body = plan.bodies[b];
+  const Eigen::Index k = reduced.body.coordinates(), d = body.structure.dimension();
+  Eigen::VectorXd eta = Eigen::VectorXd::Zero(k);
+  if (k == 0 || !shape) return eta;
+  check(BVDotVec(reduced.basis->V, shape, eta.data()));
+  Eigen::MatrixXd S(0, k);
+  Eigen::VectorXd wanted(0);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const Joint::Kind kind = plan.scene.joints[j].kind;
+    if (kind == Joint::Kind::spring || kind == Joint::Kind::bushing) continue;
+    for (const Anchor& place : plan.joints[j]) {
+      if (place.body != b) continue;
+      S.conservativeResize(S.rows() + d, k), wanted.conservativeResize(wanted.size() + d);
+      S.bottomRows(d) = place_map(plan, reduced, place).S.topRows(d);
+      wanted.tail(d) = displacement_at(body, place, shape).head(d);
+    }
+  }
+  const double small = 1e-9 / std::sqrt(reduced.body.inertia.m);  // columns are normalised to unit mass
+  S = (S.array().abs() > small).select(S, 0.0);
+  if (S.rows() == 0 || S.isZero(0)) return eta;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least;
+  least.setThreshold(1e-6);
+  return eta + least.compute(S).solve(wanted - S * eta);
+}
+
+std::string expected_to_meet(const Plan& plan, Formulation formulation, std::size_t joint) {
+  const auto shaped = [&](const Anchor& place) { return place.body >= 0 && plan.bodies[place.body].deformation; };
+  const auto& places = plan.joints[joint];
+  if (!is_reduced(formulation) || std::none_of(places.begin(), places.end(), shaped)) return "the same point";
+  return "the same point; the deformation at the start counts there as far as columns can take it (attachment: joints, "
+         "or more modes or derivatives)";
+}
+
+}  // namespace floe::assembly

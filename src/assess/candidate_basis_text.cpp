@@ -1,0 +1,92 @@
+#include "candidate_basis_text.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace floe::assess {
+
+namespace {
+
+/// The reduction of a body: its modes as they are, all static columns, and of these the ones that are taken.
+void write_columns(YAML::Node reduction, const std::vector<std::string>& labels, bool linear) {
+  reduction.remove("derivatives");
+  reduction["attachment"] = "all";
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const std::string& label : labels) list.push_back(label);
+  reduction["columns"] = list;
+  if (linear)
+    reduction["elastic_force"] = "linear";
+  else
+    reduction.remove("elastic_force");
+}
+
+/// A path that is relative to the folder of one scene, for one in another folder.
+void move_path(YAML::Node node, const std::filesystem::path& from, const std::filesystem::path& to) {
+  const std::filesystem::path path = node.as<std::string>();
+  if (path.is_absolute()) return;
+  const auto whole = [](const std::filesystem::path& one) { return std::filesystem::absolute(one).lexically_normal(); };
+  node = whole(from / path).lexically_proximate(whole(to)).string();
+}
+
+void move_paths(YAML::Node root, const std::filesystem::path& from, const std::filesystem::path& to) {
+  for (const auto& entry : root["bodies"]) {
+    YAML::Node body = entry.second;
+    if (body["reduced"].IsDefined()) move_path(body["reduced"], from, to);
+    if (!body["mesh"].IsDefined() || !body["mesh"].IsMap() || !body["mesh"]["file"].IsDefined()) continue;
+    YAML::Node file = body["mesh"]["file"];
+    if (file.IsScalar())
+      move_path(file, from, to);
+    else if (file.IsMap() && file["path"].IsDefined())
+      move_path(file["path"], from, to);
+  }
+}
+
+}  // namespace
+
+std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
+                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
+                      const std::filesystem::path& folder) {
+  YAML::Node root = YAML::Load(scene.text);
+  if (!folder.empty()) move_paths(root, std::filesystem::path(scene.file).parent_path(), folder);
+  for (const Body& body : scene.bodies) {
+    if (body.rigid || body.reduced) continue;
+    std::vector<std::string> labels;
+    bool any = false;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!selection.taken[i] || columns[i].body != body.name) continue;
+      any = true;
+      if (!columns[i].response) labels.push_back(columns[i].label);
+    }
+    YAML::Node node = root["bodies"][body.name];
+    if (const auto file = files.find(body.name); file != files.end()) {
+      const YAML::Node initial = node["initial"];
+      YAML::Node from_file(YAML::NodeType::Map);
+      from_file["reduced"] = file->second;
+      if (initial.IsDefined()) from_file["initial"] = initial;
+      root["bodies"][body.name] = from_file;
+      continue;
+    }
+    if (!any) {
+      node["rigid"] = true;
+      continue;
+    }
+    if (labels.empty()) continue;  // responses alone
+    YAML::Node reduction = node["reduction"];
+    if (!reduction.IsMap()) reduction = YAML::Node(YAML::NodeType::Map);
+    write_columns(reduction, labels, selection.linear);
+    node["reduction"] = reduction;
+  }
+  if (share_frames != scene.share_frames) root["share_frames"] = share_frames;
+  root.remove("accuracy");
+  root["motion"]["step"] = fmt::format("{}", motion.step);
+  root["motion"].remove("every");
+  if (motion.output)
+    root["motion"]["output"] = fmt::format("{}", *motion.output);
+  else
+    root["motion"]["every"] = motion.every;
+  YAML::Emitter out;
+  out << root;
+  return out.c_str();
+}
+
+}  // namespace floe::assess

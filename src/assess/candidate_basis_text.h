@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+#include <map>
+
+#include "floe/assess/candidate_basis.h"
+
+namespace floe::assess {
+
+/// The scene's text with the selected columns in its bodies, in place of what their reduction says of columns, and the
+/// steps of a motion.
+/// @param files   bodies that are read from these instead
+/// @param folder  where the text will stand: paths in it are taken from there; empty: where the scene stands
+std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
+                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
+                      const std::filesystem::path& folder = {});
+
+}  // namespace floe::assess

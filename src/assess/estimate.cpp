@@ -1,0 +1,261 @@
+#include "floe/assess/estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimate_lift.h"
+#include "estimate_parts.h"
+#include "floe/assembly/combination.h"
+#include "floe/assembly/damping.h"
+#include "floe/assembly/enrichment.h"
+#include "floe/petsc/values.h"
+
+namespace floe::assess {
+
+using Eigen::VectorXd;
+using petsc::check;
+using solve::State;
+
+void KeptMotion::keep(const solve::Instant& instant) {
+  if (instant.step == 0) begin_ = instant.t;
+  if (!instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
+  states_.push_back(solve::state_of(*model_.system, instant.t, instant.U, instant.V, instant.A));
+  if (states_.size() < most_) return;
+  for (std::size_t i = 0; 2 * i + 1 < states_.size(); ++i) std::swap(states_[i], states_[2 * i + 1]);
+  states_.resize(states_.size() / 2);
+  stride_ *= 2;
+}
+
+namespace {
+
+constexpr int most_samples = 16;                    // of the full-order residual
+constexpr int most_columns = 8, least_columns = 3;  // for each body
+constexpr int most_tangents = 2;
+
+bool keeps_factors(const Offline& offline) {
+  for (std::size_t b = 0; b < offline.reduced.size(); ++b)
+    if (has_structure(offline.plan.bodies[b]) && !offline.reduced[b].statics) return false;
+  return true;
+}
+
+/// Residuals of full order at lifted states, body by body.
+class Residuals {
+ public:
+  Residuals(const Model& reduced, Offline& offline, Model full)
+      : reduced_(reduced),
+        offline_(offline),
+        full_(std::move(full)),
+        U_(full_.system->create_vector()),
+        V_(full_.system->create_vector()),
+        A_(full_.system->create_vector()),
+        F_(full_.system->create_vector()),
+        loads_(reduced.bodies.size()) {}
+
+  /// Collective.
+  void add(const State& state) {
+    lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
+    full_.system->rebase(U_);
+    full_.system->residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, F_);
+    for (std::size_t b = 0; b < loads_.size(); ++b)
+      if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), state);
+    ++samples;
+  }
+  const std::vector<LeftOver>& loads(std::size_t body) const { return loads_[body]; }
+  /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
+  double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
+  int samples = 0;
+
+ private:
+  void take(int b, const State& state) {
+    const PlannedBody& body = offline_.plan.bodies[b];
+    const ReducedBody& reduced = offline_.reduced[b];
+    petsc::VecHandle load = fem::field(body.structure);
+    {
+      petsc::Values all(F_), own(load);
+      const std::vector<PetscInt>& global = full_.system->coordinates().global();
+      const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
+      for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
+    }
+    if (body.spec.damping.mass != 0) add_mass_damping(b, state, load);
+    VectorXd along = products(*reduced.basis, load);
+    if (!body.spec.damping.modal.empty()) {
+      const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
+      combine(*reduced.basis, along, field);
+      check(MatMult(fem::mass(body.structure, {}), field, force));
+      check(VecAXPY(load, -1, force));
+      along.setZero();
+    }
+    const BodyReport& report = reduced_.bodies[b];
+    const VectorXd eta = state.q.segment(report.first_elastic, report.columns);
+    unbalanced_ = std::max(unbalanced_, along.norm());
+    forces_ = std::max(forces_, (reduced.body.elasticity.linear_stiffness() * eta).norm());
+    loads_[b].push_back({std::move(load), eta});
+  }
+
+  /// load -= alpha P'MP q', which the full-order terms leave to this (full_order()).
+  void add_mass_damping(int b, const State& state, Vec load) {
+    const PlannedBody& body = offline_.plan.bodies[b];
+    const BodyReport& report = reduced_.bodies[b];
+    const fem::ReferenceFrame joints = damping_frame(offline_.plan, b);
+    const petsc::VecHandle rate = fem::field(body.structure), force = fem::field(body.structure);
+    combine(*offline_.reduced[b].basis, state.v.segment(report.first_elastic, report.columns), rate);
+    fem::to_frame(joints, rate);
+    check(MatMult(fem::mass(body.structure, {}), rate, force));
+    fem::balance(joints, force);
+    check(VecAXPY(load, -body.spec.damping.mass, force));
+  }
+
+  const Model& reduced_;
+  Offline& offline_;
+  Model full_;
+  petsc::VecHandle U_, V_, A_, F_;
+  std::vector<std::vector<LeftOver>> loads_;
+  double unbalanced_ = 0, forces_ = 0;
+};
+
+/// Elastic coordinates of all bodies.
+VectorXd deformations(const Model& model, const VectorXd& q) {
+  std::vector<double> all;
+  for (const BodyReport& body : model.bodies)
+    all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
+  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+/// The state whose elastic coordinates are the greatest.
+const State& most_deformed(const Model& model, const std::vector<State>& states) {
+  return *std::max_element(states.begin(), states.end(), [&](const State& a, const State& b) {
+    return deformations(model, a.q).squaredNorm() < deformations(model, b.q).squaredNorm();
+  });
+}
+
+/// Where the motion deforms most, and some instants along it.
+void sample(const Model& model, const KeptMotion& motion, const Allowance& time, Residuals& residuals,
+            Estimate& estimate) {
+  const std::vector<State> states = spread(motion.states(), most_samples - 1);
+  const State& greatest = most_deformed(model, motion.states());
+  const double before = time.spent();
+  residuals.add(greatest);
+  const double each = time.spent() - before;
+  const auto count = std::min<std::size_t>(
+      states.size(), static_cast<std::size_t>(std::max(4.0, 0.3 * time.left() / std::max(each, 1e-9))));
+  for (const State& state : spread(states, count))
+    if (state.t != greatest.t) residuals.add(state);
+  estimate.samples = residuals.samples, estimate.unbalanced = residuals.unbalanced();
+  if (count < states.size())
+    estimate.notes.push_back(fmt::format("{} residuals instead of {}, to save time", count, states.size()));
+}
+
+/// Columns that the time allows: projecting k + s of them costs about ((k + s)/k)^4 of what it cost for k.
+int columns_in(double seconds, const ReducedBody& reduced) {
+  const double k = std::max(1, reduced.body.coordinates());
+  const double factor = std::pow(seconds / std::max(reduced.report.seconds_projection, 1e-6), 0.25);
+  return std::clamp(static_cast<int>(k * (factor - 1)), least_columns, most_columns);
+}
+
+std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const Allowance& time,
+                                  Estimate& estimate) {
+  std::vector<ReducedBody> bodies;
+  note_files(offline, estimate);
+  const double all = static_cast<double>(offline.reduced.size());
+  for (std::size_t b = 0; b < offline.reduced.size(); ++b) {
+    const PlannedBody& body = offline.plan.bodies[b];
+    const ReducedBody& reduced = offline.reduced[b];
+    bodies.push_back(reduced);
+    estimate.responses.emplace_back();
+    if (!has_structure(body)) continue;
+    const int most =
+        static_cast<int>(time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
+    if (most < most_columns)
+      estimate.notes.push_back(
+          fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
+    const auto W = std::make_shared<const reduction::Columns>(main_columns(
+        body.structure,
+        responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1, estimate.notes), most));
+    if (W->empty()) continue;
+    estimate.responses.back() = W;
+    bodies.back() = with_columns(body, reduced, *W);
+    estimate.columns += bodies.back().body.coordinates() - reduced.body.coordinates();
+  }
+  return bodies;
+}
+
+/// Follows the deviation, on every rank alike.
+void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,
+            Estimate& estimate) {
+  const dynamics::System& system = *more.system;
+  std::vector<State> states;
+  for (const State& state : motion.states()) states.push_back(lifted_to_more_columns(state, reduced, more));
+  const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
+  const auto values = [&](const State& state) {
+    solve::set_state(system, state, U, V, A);
+    return probe_values(more, state.t, U, V);
+  };
+  const double before = time.spent();  // of some steps, to know how many there may be
+  const std::vector<State> first(states.begin(), states.begin() + std::min<std::ptrdiff_t>(8, std::ssize(states)));
+  solve::deviation(system, motion.begin(), first,
+                   [&](const State& state, const VectorXd&, const VectorXd&) { values(state), values(state); });
+  const double each = (time.spent() - before) / static_cast<double>(first.size());
+  const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
+  if (count < states.size()) {
+    estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
+    states = spread(states, count);
+  }
+  ProbeErrors probes(probe_columns(more));
+  double error = 0, size = 0;
+  const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate) {
+    const std::vector<double> was = values(state);
+    std::vector<double> gap = values(solve::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
+    probes.add(gap, was);
+    const double e = deformations(more, d).squaredNorm();
+    error += e, size += deformations(more, state.q).squaredNorm();
+    estimate.t.push_back(state.t);
+    estimate.errors.push_back(std::move(gap));
+    estimate.relative.push_back(std::sqrt(e));
+  };
+  const solve::DeviationReport report = solve::deviation(system, motion.begin(), states, observe);
+  if (report.steps == 0) throw RunError("the error cannot be followed from the start");
+  if (report.steps < std::ssize(states))
+    estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
+  const auto steps = static_cast<double>(report.steps);
+  estimate.probes = known(probes.relative(estimate.t.back() - motion.begin()));
+  const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
+  for (double& e : estimate.relative) e = nothing || e == 0 ? 0 : e / std::sqrt(size / steps);
+  estimate.deformation = nothing ? 0 : known(std::sqrt(error / size));
+}
+
+void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {
+  Offline& offline = *model.offline;
+  Residuals residuals(model, offline, full_order(offline));
+  sample(model, motion, time, residuals, estimate);
+  const std::vector<ReducedBody> bodies = enriched(offline, residuals, time, estimate);
+  const Model more = assemble(offline.plan, Formulation::vm_md, bodies);
+  follow(model, more, motion, time, estimate);
+}
+
+}  // namespace
+
+Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds) {
+  Estimate estimate;
+  estimate.none.clear();
+  if (!model.offline || !is_reduced(model.formulation)) {
+    estimate.none = "it belongs to reduced models (vm, vm+md)";
+    return estimate;
+  }
+  const Offline& offline = *model.offline;
+  const Allowance time(offline.plan.comm, seconds);
+  estimate.none = without_estimate(offline);
+  if (!estimate.none.empty()) return estimate;
+  if (!keeps_factors(offline))
+    estimate.none = "the factors of the stiffness were not kept";
+  else if (motion.states().empty())
+    estimate.none = "the integrator gives no accelerations";
+  if (!estimate.none.empty()) return estimate;
+  fill_in(estimate, offline.plan.comm, time, seconds, [&] { make(model, motion, time, estimate); });
+  return estimate;
+}
+
+}  // namespace floe::assess

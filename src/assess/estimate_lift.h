@@ -1,0 +1,18 @@
+#pragma once
+#include "floe/assembly/offline.h"
+#include "floe/solve/deviation.h"
+
+namespace floe::assess {
+using namespace assembly;
+using namespace plan;
+using namespace scene;
+
+/// A state of the reduced model in the coordinates of one whose bodies have more columns, behind those they have;
+/// multipliers of rows that the reduced model leaves out are zero. Rank-local.
+solve::State lifted_to_more_columns(const solve::State& state, const Model& reduced, const Model& more);
+
+/// A state of the reduced model as one of full order, q = V eta, in its vectors. Collective.
+void lift_to_full_order(const solve::State& state, const Model& reduced, const Offline& offline, const Model& full,
+                        Vec U, Vec V, Vec A);
+
+}  // namespace floe::assess

@@ -1,0 +1,90 @@
+#include "estimate_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace floe::assess {
+
+using Eigen::VectorXd;
+using petsc::check;
+
+namespace {
+
+/// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
+constexpr PetscInt most_elements = 20000;
+
+PetscInt elements_of(const Offline& offline) {
+  PetscInt count = 0;
+  for (const PlannedBody& body : offline.plan.bodies)
+    if (has_structure(body)) count += body.structure.mesh.cell_count;
+  return count;
+}
+
+}  // namespace
+
+std::string without_estimate(const Offline& offline) {
+  if (std::none_of(offline.plan.bodies.begin(), offline.plan.bodies.end(), has_structure))
+    return "no body has a mesh: those from files, or rigid, have no structure to compare with";
+  if (const PetscInt elements = elements_of(offline); elements >= most_elements)
+    return fmt::format("its full order of {} elements would take too long; it is made below {}", elements,
+                       most_elements);
+  return "";
+}
+
+Model full_order(Offline& offline) {
+  std::vector<ReducedBody> compact(offline.reduced.size());
+  std::vector<std::vector<double>> modal;
+  std::vector<double> mass;
+  for (std::size_t b = 0; b < compact.size(); ++b) {
+    PlannedBody& body = offline.plan.bodies[b];
+    if (!has_structure(body)) compact[b] = offline.reduced[b];
+    modal.push_back(std::exchange(body.spec.damping.modal, {}));
+    mass.push_back(std::exchange(body.spec.damping.mass, 0));
+  }
+  const auto restore = [&] {
+    for (std::size_t b = 0; b < modal.size(); ++b) {
+      DampingSpec& damping = offline.plan.bodies[b].spec.damping;
+      damping.modal = modal[b], damping.mass = mass[b];
+    }
+  };
+  try {
+    Model model = assemble(offline.plan, Formulation::nlffr, compact);
+    restore();
+    return model;
+  } catch (...) {
+    restore();
+    throw;
+  }
+}
+
+VectorXd products(const reduction::Basis& basis, Vec r) {
+  VectorXd all(basis.columns);
+  for (int i = 0; i < basis.columns; ++i) {
+    Vec column = nullptr;
+    check(BVGetColumn(basis.V, i, &column));
+    check(VecDot(column, r, &all[i]));
+    check(BVRestoreColumn(basis.V, i, &column));
+  }
+  return all;
+}
+
+std::vector<double> known(std::vector<double> errors) {
+  for (double& error : errors) error = known(error);
+  return errors;
+}
+
+double round_off_of(const Offline& offline) {
+  double mass = 0;
+  for (const ReducedBody& reduced : offline.reduced) mass += reduced.body.inertia.m;
+  return mass * std::pow(64 * PETSC_MACHINE_EPSILON * offline.plan.extent, 2);
+}
+
+void note_files(const Offline& offline, Estimate& estimate) {
+  for (const PlannedBody& body : offline.plan.bodies)
+    if (body.spec.reduced)
+      estimate.notes.push_back(
+          fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
+}
+
+}  // namespace floe::assess

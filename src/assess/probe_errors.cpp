@@ -1,0 +1,65 @@
+#include "floe/assess/probe_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace floe::assess {
+
+namespace {
+
+/// The number of each column's probe.
+std::vector<std::size_t> numbers_of(const std::vector<ProbeColumn>& columns) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    numbers.push_back(i == 0                                             ? 0
+                      : probe_of(columns[i]) == probe_of(columns[i - 1]) ? numbers.back()
+                                                                         : numbers.back() + 1);
+  return numbers;
+}
+
+}  // namespace
+
+std::string probe_of(const ProbeColumn& column) { return column.name.substr(0, column.name.rfind('.')); }
+
+std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, const std::vector<double>& sizes,
+                                    double duration) {
+  const std::vector<std::size_t> probe = numbers_of(columns);
+  const auto rate = [](const ProbeColumn& column) { return column.unit == "m/s"; };
+  double moved = 0, fastest = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double size = sizes[probe[i]];
+    rate(columns[i]) ? fastest = std::max(fastest, size) : moved = std::max(moved, size / columns[i].scale);
+  }
+  const double part = std::max(1e-10, 1e-7 * std::min(moved, 1.0));
+  std::vector<double> references = sizes;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const double least = rate(columns[i])
+                             ? std::max(1e-7 * fastest, part * columns[i].scale / (duration > 0 ? duration : 1))
+                             : part * columns[i].scale;
+    references[probe[i]] = std::max(references[probe[i]], least);
+  }
+  return references;
+}
+
+ProbeErrors::ProbeErrors(std::vector<ProbeColumn> columns)
+    : columns_(std::move(columns)),
+      probe_(numbers_of(columns_)),
+      error_(columns_.empty() ? 0 : probe_.back() + 1),
+      size_(error_.size()) {}
+
+void ProbeErrors::add(const std::vector<double>& error, const std::vector<double>& value) {
+  ++count_;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    error_[probe_[i]] += error[i] * error[i], size_[probe_[i]] += value[i] * value[i];
+}
+
+std::vector<double> ProbeErrors::relative(double duration) const {
+  std::vector<double> sizes, all;
+  for (const double size : size_) sizes.push_back(std::sqrt(size / std::max(1.0, count_)));
+  const std::vector<double> references = reference_sizes(columns_, sizes, duration);
+  for (std::size_t p = 0; p < error_.size(); ++p)
+    all.push_back(error_[p] == 0 ? 0 : std::sqrt(error_[p] / count_) / references[p]);
+  return all;
+}
+
+}  // namespace floe::assess

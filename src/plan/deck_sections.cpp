@@ -1,0 +1,245 @@
+#include "deck_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "floe/math/rounded.h"
+
+namespace floe::plan {
+namespace {
+
+/// The deck with the part at work, for messages.
+struct Reader {
+  const mesh::InpFile& file;
+  std::vector<std::string> faults = {};
+  std::vector<std::string> massless = {};  ///< materials of the part at work
+
+  void fault(const std::string& part, const std::string& text) {
+    faults.push_back(fmt::format("{}: the section of {}: {}", file.mesh.source, part, text));
+  }
+  void add_massless(const std::string& what) {
+    if (std::find(massless.begin(), massless.end(), what) == massless.end()) massless.push_back(what);
+  }
+  const mesh::Material* material(const std::string& part, const std::string& name) {
+    for (const mesh::Material& m : file.deck.materials) {
+      if (m.name != name) continue;
+      if (m.elasticity == mesh::Elasticity::none) {
+        fault(part, fmt::format("material {} has no *ELASTIC", name));
+        return nullptr;
+      }
+      if (!(m.density > 0)) add_massless("material " + name);
+      return &m;
+    }
+    fault(part, fmt::format("there is no material {}", name));
+    return nullptr;
+  }
+};
+
+fem::ShellMaterial shell_material(const mesh::Material& m) {
+  const std::vector<double>& c = m.constants;
+  switch (m.elasticity) {
+    case mesh::Elasticity::engineering_constants:
+      return {c[0], c[1], c[3], c[6], m.density};
+    case mesh::Elasticity::lamina:
+      return {c[0], c[1], c[2], c[3], m.density};
+    default:
+      return fem::isotropic(c[0], c[1], m.density);
+  }
+}
+
+/// Local x of an orientation, turned.
+Eigen::Vector3d axis_of(const mesh::Orientation& o) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = o.a.normalized();
+  axes.col(2) = o.a.cross(o.b).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  if (o.axis == 0) return axes.col(0);
+  return Eigen::AngleAxisd(o.angle * M_PI / 180, axes.col(o.axis - 1)) * axes.col(0);
+}
+
+void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& deck) {
+  std::vector<fem::Ply> plies;
+  double thickness = 0;
+  std::string orientation = section.orientation;
+  for (const mesh::Ply& ply : section.plies) {
+    if (orientation.empty()) orientation = ply.orientation;
+    if (!ply.orientation.empty() && ply.orientation != orientation)
+      return reader.fault(section.part, "its plies have orientations of different names; expected one, with angles");
+    const mesh::Material* material = reader.material(section.part, ply.material);
+    if (!material) return;
+    plies.push_back({shell_material(*material), ply.thickness, ply.angle * M_PI / 180});
+    thickness += ply.thickness;
+  }
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  for (const mesh::Orientation& o : reader.file.deck.orientations)
+    if (o.name == orientation) axis = axis_of(o);
+  try {
+    deck.parts.push_back({section.part, fem::shell_section(plies, -section.offset * thickness, axis), {}});
+    deck.described.push_back({section.part, std::exchange(reader.massless, {}), thickness});
+  } catch (const InputError& error) {
+    reader.fault(section.part, error.what());
+  }
+}
+
+fem::SectionShape shape_of(const mesh::BeamSection& section) {
+  const std::vector<double>& d = section.dimensions;
+  switch (section.profile) {
+    case mesh::Profile::rectangle:
+      return fem::rectangle(d[0], d[1]);
+    case mesh::Profile::circle:
+      return fem::circle(d[0]);
+    case mesh::Profile::pipe:
+      return fem::tube(d[0], d[0] - d[1]);
+    case mesh::Profile::box:
+      if (d[2] != d[4] || d[3] != d[5]) throw InputError("a box of unequal walls; expected t1 = t3 and t2 = t4");
+      return fem::box(d[0], d[1], d[2], d[3]);
+    case mesh::Profile::i_section:
+      if (d[2] != d[3] || d[4] != d[5] || std::abs(2 * d[0] - d[1]) > 1e-12 * d[1])
+        throw InputError("an I that is not symmetric; expected b1 = b2, t1 = t2, l = h/2");
+      return fem::i_section(d[2], d[1], d[4], d[6]);
+    case mesh::Profile::general:
+      break;
+  }
+  fem::SectionShape shape;
+  shape.A = d[0], shape.Iy = d[1], shape.Iyz = d[2], shape.Iz = d[3], shape.J = d[4];
+  return shape;
+}
+
+/// Size of the profile along 1 and 2, for offsets.
+Eigen::Vector2d extent_of(const mesh::BeamSection& section) {
+  const std::vector<double>& d = section.dimensions;
+  switch (section.profile) {
+    case mesh::Profile::rectangle:
+    case mesh::Profile::box:
+      return {d[0], d[1]};
+    case mesh::Profile::i_section:
+      return {std::max(d[2], d[3]), d[1]};
+    case mesh::Profile::general:
+      throw InputError("an offset of a general profile, which has no thickness");
+    default:
+      return {2 * d[0], 2 * d[0]};
+  }
+}
+
+/// Greatest dimension of a profile.
+double size_of(const mesh::BeamSection& section) {
+  if (section.profile == mesh::Profile::general) return std::sqrt(section.dimensions[0]);
+  return extent_of(section).maxCoeff();
+}
+
+void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& deck) {
+  fem::BeamMaterial material{section.youngs, section.shear, section.density.value_or(0)};
+  if (section.material.empty() && !section.density) reader.add_massless("its section");
+  if (!section.material.empty()) {
+    const mesh::Material* named = reader.material(section.part, section.material);
+    if (!named) return;
+    if (named->elasticity != mesh::Elasticity::isotropic)
+      return reader.fault(section.part, fmt::format("material {} of a beam is not isotropic", named->name));
+    material = {named->constants[0], fem::shear_modulus(named->constants[0], named->constants[1]), named->density};
+  }
+  try {
+    Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
+    if (section.offset_1 != 0 || section.offset_2 != 0)
+      centroid = -Eigen::Vector2d(section.offset_1, section.offset_2).cwiseProduct(extent_of(section));
+    deck.parts.push_back(
+        {section.part,
+         fem::SpatialBeam{fem::spatial_section(shape_of(section), material, centroid), section.direction_1, {}},
+         {}});
+    deck.described.push_back({section.part, std::exchange(reader.massless, {}), size_of(section)});
+  } catch (const InputError& error) {
+    reader.fault(section.part, error.what());
+  }
+}
+
+}  // namespace
+
+DeckSections deck_sections(const mesh::InpFile& file) {
+  Reader reader{file};
+  DeckSections deck;
+  for (const mesh::ShellSection& section : file.deck.shell_sections) add_shell(reader, section, deck);
+  for (const mesh::BeamSection& section : file.deck.beam_sections) add_beam(reader, section, deck);
+  if (!reader.faults.empty()) throw InputError(reader.faults);
+  return deck;
+}
+
+namespace {
+
+/// How many cells each part of the mesh has. Collective.
+std::vector<long long> cells_of_parts(const mesh::RawMesh& mesh) {
+  std::vector<long long> counts(mesh.parts.size(), 0);
+  for (const auto& cell : mesh.cells) ++counts[cell.part];
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_LONG_LONG, MPI_SUM, mesh.comm);
+  return counts;
+}
+
+/// Diagonal of the box about all nodes. Collective.
+double extent_of(const mesh::RawMesh& mesh) {
+  constexpr double far = 1e300;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(far), high = -low;
+  for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  return (high - low).norm();
+}
+
+}  // namespace
+
+std::vector<std::string> deck_notices(const mesh::InpFile& file, const DeckSections& deck,
+                                      const std::vector<std::string>& replaced, double scale) {
+  const mesh::RawMesh& mesh = file.mesh;
+  const std::vector<long long> cells = cells_of_parts(mesh);
+  const double extent = extent_of(mesh);
+  std::vector<std::string> notices;
+  const DeckPart* thickest = nullptr;
+  for (const DeckPart& part : deck.described) {
+    const auto number = std::find(mesh.parts.begin(), mesh.parts.end(), part.name) - mesh.parts.begin();
+    if (number == std::ssize(mesh.parts) || std::count(replaced.begin(), replaced.end(), part.name) > 0) continue;
+    if (!thickest || part.size > thickest->size) thickest = &part;
+    for (const std::string& what : part.massless)
+      notices.push_back(fmt::format(
+          "{}: {} has no density: it adds stiffness without mass to part {} ({} of {} elements); expected *DENSITY",
+          mesh.source, what, part.name, cells[number], mesh.cell_count));
+  }
+  if (scale != 1 && thickest)
+    notices.push_back(fmt::format(
+        "{}: scale {} applies to coordinates alone; sections, materials and masses of the deck remain as written: "
+        "part {} is {:.4g} thick, {} of the scaled extent {:.4g} ({} in the deck's own units); convert the deck, or "
+        "give its parts sections in the scene (parts)",
+        mesh.source, scale, thickest->name, thickest->size, math::percent(thickest->size / (scale * extent)),
+        scale * extent, math::percent(thickest->size / extent)));
+  return notices;
+}
+
+void add_masses(mesh::InpFile& file, std::vector<PartSpec>& parts) {
+  mesh::RawMesh& raw = file.mesh;
+  std::vector<double> mine, all;
+  for (const mesh::PointMass& point : file.deck.masses) mine.push_back(point.mass);
+  int size = 1, rank = 0, count = static_cast<int>(mine.size());
+  MPI_Comm_size(raw.comm, &size);
+  MPI_Comm_rank(raw.comm, &rank);
+  std::vector<int> counts(size), starts(size + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, raw.comm);
+  for (int r = 0; r < size; ++r) starts[r + 1] = starts[r] + counts[r];
+  all.resize(starts[size]);
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, raw.comm);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const int first = static_cast<int>(raw.parts.size());
+  for (double mass : all) {
+    raw.parts.push_back(fmt::format("mass {}", mass));
+    parts.push_back({raw.parts.back(), fem::PointMass{mass}, {}});
+  }
+  for (const mesh::PointMass& point : file.deck.masses) {
+    const int part = first + static_cast<int>(std::lower_bound(all.begin(), all.end(), point.mass) - all.begin());
+    raw.cells.push_back({mesh::CellKind::point, {point.node, -1, -1, -1}, part});
+    raw.cell_labels.push_back(0);
+  }
+  const std::vector<PetscInt> cells = mesh::starts_of(raw.comm, static_cast<PetscInt>(raw.cells.size()));
+  raw.first_cell = cells[rank];
+  raw.cell_count = cells.back();
+}
+
+}  // namespace floe::plan

@@ -1,0 +1,167 @@
+#include "floe/plan/place_weights.h"
+
+#include <algorithm>
+
+#include "floe/math/rotation.h"
+#include "floe/mesh/exchange.h"
+
+namespace floe::plan {
+namespace {
+
+/// Of each corner of the element: where it is among the place's nodes; -1: not there.
+class Set {
+ public:
+  Set(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) : mesh_(mesh) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) index_.emplace_back(nodes[i], static_cast<int>(i));
+    std::sort(index_.begin(), index_.end());
+  }
+  int of(int local) const {
+    const PetscInt node = mesh_.global_node(local);
+    const auto at = std::lower_bound(index_.begin(), index_.end(), std::pair(node, -1));
+    return at != index_.end() && at->first == node ? at->second : -1;
+  }
+  bool contains(const fem::Mesh::Cell& cell) const {
+    const auto corners = cell.corners();
+    return std::all_of(corners.begin(), corners.end(), [&](int corner) { return of(corner) >= 0; });
+  }
+  std::size_t size() const { return index_.size(); }
+
+ private:
+  const fem::Mesh& mesh_;
+  std::vector<std::pair<PetscInt, int>> index_;  // ascending
+};
+
+bool is_shell(const fem::Mesh::Cell& cell) {
+  return cell.kind == fem::CellKind::triangle || cell.kind == fem::CellKind::quadrilateral;
+}
+
+using Weights = std::vector<reduction::WeightedNode>;
+
+Weights zero(std::size_t count) { return Weights(count, {0, 0}); }
+
+bool all_positive(const Weights& weights) {
+  return std::all_of(weights.begin(), weights.end(), [](const auto& at) { return at.weight > 0; });
+}
+
+Weights area_weights(const fem::Mesh& mesh, const Set& set) {
+  std::vector<double> areas(set.size(), 0);
+  const auto add = [&](const std::array<int, 3>& corners, double part) {
+    const Eigen::Vector3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
+                          &c = mesh.positions[corners[2]];
+    for (int corner : corners) areas[set.of(corner)] += part * (b - a).cross(c - a).norm() / 6;
+  };
+  for (const fem::Mesh::Cell& cell : mesh.cells) {
+    if (!is_shell(cell) || !set.contains(cell)) continue;
+    const auto& k = cell.corner;
+    if (cell.kind == fem::CellKind::triangle)
+      add({k[0], k[1], k[2]}, 1);
+    else
+      for (const std::array<int, 3>& half : {std::array{k[0], k[1], k[2]}, std::array{k[0], k[2], k[3]},
+                                             std::array{k[1], k[2], k[3]}, std::array{k[1], k[3], k[0]}})
+        add(half, 0.5);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), static_cast<int>(areas.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  Weights weights = zero(set.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) weights[i].weight = areas[i];
+  return weights;
+}
+
+/// An edge of an element between two nodes of the place, by their indices there, first < second.
+struct Edge {
+  int first, second;
+  double along[3];   // from the first to the second
+  double across[3];  // of a shell: in its plane, unit vector
+  int beam, inside;  // of a beam; of a shell element that belongs to the place as a whole
+};
+
+Edge edge_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, const Set& set, int a, int b) {
+  if (set.of(a) > set.of(b)) std::swap(a, b);
+  const auto at = [&](int corner) -> const Eigen::Vector3d& { return mesh.positions[corner]; };
+  const Eigen::Vector3d along = at(b) - at(a);
+  Eigen::Vector3d across = Eigen::Vector3d::Zero();
+  if (is_shell(cell)) {
+    const auto& k = cell.corner;
+    across = (at(k[1]) - at(k[0])).cross(at(k[2]) - at(k[0])).cross(along).normalized();
+  }
+  return {set.of(a),
+          set.of(b),
+          {along.x(), along.y(), along.z()},
+          {across.x(), across.y(), across.z()},
+          is_shell(cell) ? 0 : 1,
+          is_shell(cell) && set.contains(cell) ? 1 : 0};
+}
+
+/// Of all ranks, on every rank, edges of one pair of nodes one after the other. Collective.
+std::vector<Edge> edges_within(const fem::Mesh& mesh, const Set& set) {
+  std::vector<Edge> mine, copies;
+  for (const fem::Mesh::Cell& cell : mesh.cells) {
+    const auto corners = cell.corners();
+    if (corners.size() < 2) continue;
+    for (std::size_t i = 0; i < (is_shell(cell) ? corners.size() : 1); ++i)
+      if (const int a = corners[i], b = corners[(i + 1) % corners.size()]; set.of(a) >= 0 && set.of(b) >= 0)
+        mine.push_back(edge_of(mesh, cell, set, a, b));
+  }
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  std::vector<Edge> all =
+      mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
+  std::sort(all.begin(), all.end(),
+            [](const Edge& a, const Edge& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+  return all;
+}
+
+/// What the rotation of the first end adds to the integral of the displacements, l^2 / 12 A (theta x s), A the mean
+/// over the elements that have the edge; of the second end the negative.
+Eigen::Matrix3d arm_of(std::vector<Edge>::const_iterator begin, std::vector<Edge>::const_iterator end) {
+  const Eigen::Vector3d along(begin->along[0], begin->along[1], begin->along[2]);
+  Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
+  for (auto edge = begin; edge != end; ++edge) {
+    const Eigen::Vector3d across(edge->across[0], edge->across[1], edge->across[2]);
+    A += 0.5 / static_cast<double>(end - begin) * across * across.transpose();
+  }
+  return -along.norm() / 12 * A * math::skew(along);
+}
+
+Weights edge_weights(const fem::Mesh& mesh, const Set& set) {
+  Weights weights = zero(set.size());
+  const std::vector<Edge> edges = edges_within(mesh, set);
+  for (auto begin = edges.begin(); begin != edges.end();) {
+    const auto end = std::find_if(begin, edges.end(), [&](const Edge& other) {
+      return std::pair(other.first, other.second) != std::pair(begin->first, begin->second);
+    });
+    const auto shells = std::count_if(begin, end, [](const Edge& edge) { return edge.beam == 0; });
+    const bool inside = std::any_of(begin, end, [](const Edge& edge) { return edge.inside != 0; });
+    if (shells < end - begin || !inside || shells == 1) {
+      const double half = Eigen::Vector3d(begin->along[0], begin->along[1], begin->along[2]).norm() / 2;
+      const Eigen::Matrix3d arm = arm_of(begin, end);
+      weights[begin->first].weight += half, weights[begin->second].weight += half;
+      weights[begin->first].arm += arm, weights[begin->second].arm -= arm;
+    }
+    begin = end;
+  }
+  return weights;
+}
+
+}  // namespace
+
+Weights place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
+  Weights weights(nodes.size(), {0, 1});
+  if (nodes.size() > 1) {
+    const Set set(mesh, nodes);
+    if (Weights found = area_weights(mesh, set); all_positive(found))
+      weights = std::move(found);
+    else if (found = edge_weights(mesh, set); all_positive(found))
+      weights = std::move(found);
+  }
+  double sum = 0;
+  for (const reduction::WeightedNode& at : weights) sum += at.weight;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    weights[i].node = nodes[i];
+    weights[i].weight /= sum;
+    weights[i].arm /= sum;
+  }
+  return weights;
+}
+
+}  // namespace floe::plan

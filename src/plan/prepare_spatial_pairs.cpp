@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "floe/plan/prepare_spatial.h"
+
+namespace floe::plan {
+namespace {
+
+bool same_place(const Anchor& one, const Anchor& other) {
+  if (one.ground() || other.ground()) return one.ground() && other.ground();  // one body, wherever it is held
+  return one.body == other.body && one.node == other.node && one.nodes == other.nodes && one.x == other.x;
+}
+
+}  // namespace
+
+void check_pairs(const Plan& plan) {
+  std::vector<std::string> faults;
+  const auto apart = [](const Joint& joint) {
+    return joint.kind == Joint::Kind::spring || joint.kind == Joint::Kind::bushing;
+  };
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const Joint& joint = plan.scene.joints[j];
+    const auto& [first, second] = plan.joints[j];
+    if (first.body == Anchor::elsewhere || second.body == Anchor::elsewhere) continue;
+    if (same_place(first, second))
+      faults.push_back(joint.where.text() + ": joins a place with itself; expected two different places");
+    for (std::size_t i = 0; i < j && !apart(joint); ++i) {
+      const auto& [one, other] = plan.joints[i];
+      const Joint& before = plan.scene.joints[i];
+      if (apart(before)) continue;
+      if (!(same_place(one, first) && same_place(other, second)) &&
+          !(same_place(one, second) && same_place(other, first)))
+        continue;
+      faults.push_back(
+          fmt::format("{}: holds the same two places as joint {} (line {}); expected one joint for a pair of places "
+                      "(springs apart)",
+                      joint.where.text(), before.name, before.where.line));
+      break;
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+}  // namespace floe::plan

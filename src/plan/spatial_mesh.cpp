@@ -1,0 +1,364 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "deck_sections.h"
+#include "floe/math/nearest.h"
+#include "floe/math/rotation.h"
+#include "floe/mesh/exchange.h"
+#include "floe/mesh/generate.h"
+#include "floe/mesh/gmsh.h"
+#include "floe/mesh/inp.h"
+#include "floe/mesh/inspect.h"
+#include "floe/mesh/partition.h"
+#include "floe/mesh/pieces.h"
+#include "floe/plan/place_weights.h"
+#include "floe/plan/prepare_spatial.h"
+#include "floe/scene/places.h"
+#include "hinge_lines.h"
+
+namespace floe::plan {
+namespace {
+
+Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+/// A mesh with what its file says besides.
+struct Source {
+  mesh::RawMesh mesh;
+  std::vector<PartSpec> parts;  ///< a deck's own
+  std::vector<std::string> notices;
+  std::vector<mesh::Follower> followers = {};
+};
+
+/// Parts that the scene gives a section by name.
+std::vector<std::string> named_parts(const Body& body) {
+  std::vector<std::string> names;
+  for (const PartSpec& part : body.parts)
+    if (!part.part.empty()) names.push_back(part.part);
+  return names;
+}
+
+std::vector<std::string> wanted_parts(const Body& body) {
+  const std::vector<std::string> wanted = named_parts(body);
+  const bool rest = wanted.size() < body.parts.size();
+  return rest ? std::vector<std::string>() : wanted;
+}
+
+/// What the readers say of a file names its lines; that there is none concerns the scene. Collective.
+void refuse_missing(const Body& body, MPI_Comm comm) {
+  int rank = 0, found = 1;
+  MPI_Comm_rank(comm, &rank);
+  std::error_code ignored;
+  if (rank == 0) found = std::filesystem::is_regular_file(body.mesh.file->path, ignored) ? 1 : 0;
+  MPI_Bcast(&found, 1, MPI_INT, 0, comm);
+  if (found == 0)
+    throw InputError(fmt::format("{}.file.path: there is no file \"{}\"; expected one relative to the scene's folder",
+                                 body.mesh.where.text(), body.mesh.file->path));
+}
+
+Source read_file(const Body& body, MPI_Comm comm) {
+  const MeshFileSpec& file = *body.mesh.file;
+  Source source;
+  if (file.path.ends_with(".msh") || file.path.ends_with(".inp")) refuse_missing(body, comm);
+  if (file.path.ends_with(".msh")) {
+    mesh::GmshFile read = mesh::read_gmsh(comm, file.path, wanted_parts(body));
+    source = {std::move(read.mesh), {}, std::move(read.notices)};
+  } else if (file.path.ends_with(".inp")) {
+    mesh::InpFile read = mesh::read_inp(comm, file.path);
+    DeckSections deck = deck_sections(read);
+    std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
+    notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
+    add_masses(read, deck.parts);
+    std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
+    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers)};
+  } else {
+    throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh or .inp",
+                                 body.mesh.where.text(), file.path));
+  }
+  for (Eigen::Vector3d& x : source.mesh.positions) x *= file.scale;
+  return source;
+}
+
+Source generated(const Body& body, MPI_Comm comm) {
+  if (body.mesh.plate) {
+    const PlateSpec& spec = *body.mesh.plate;
+    mesh::Plate plate;
+    plate.origin = vector(spec.origin);
+    plate.a = vector(spec.along), plate.b = vector(spec.across);
+    plate.na = spec.elements[0], plate.nb = spec.elements[1];
+    plate.cells =
+        spec.cells == PlateSpec::Cells::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals;
+    return {mesh::plate(comm, plate), {}, {}};
+  }
+  mesh::Polyline line;
+  for (const Point& p : body.mesh.points) line.points.push_back(vector(p));
+  line.segments = body.mesh.segments;
+  line.elements.assign(body.mesh.elements.begin(), body.mesh.elements.end());
+  return {mesh::polyline(comm, line), {}, {}};
+}
+
+Source raw_mesh(const Body& body, MPI_Comm comm) {
+  if (body.mesh.file) return read_file(body, comm);
+  try {
+    return generated(body, comm);
+  } catch (const InputError& error) {
+    throw InputError(body.mesh.where.text() + ": " + error.what());
+  }
+}
+
+void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
+  std::vector<std::string> faults;
+  for (const std::string& fault : inspection.faults) faults.push_back(body.mesh.where.text() + ": " + fault);
+  if (inspection.component_count > 1) {
+    std::vector<std::string> pieces;
+    for (const mesh::Component& piece : inspection.components)
+      pieces.push_back(fmt::format("{} nodes about node {}", piece.nodes, piece.label));
+    faults.push_back(
+        fmt::format("{}: the mesh falls into {} pieces ({}{}), so that {} rigid motions are free; expected "
+                    "one connected mesh (join them by common nodes)",
+                    body.mesh.where.text(), inspection.component_count, fmt::join(pieces, ", "),
+                    inspection.component_count > static_cast<PetscInt>(pieces.size()) ? ", ..." : "",
+                    6 * (inspection.component_count - 1)));
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+/// A section for each part of the mesh: the scene's by name, the deck's, the scene's for all.
+std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
+  std::vector<fem::Section> sections;
+  std::vector<std::string> faults;
+  const auto find = [&](const std::vector<PartSpec>& specs, const std::string& name) {
+    return std::find_if(specs.begin(), specs.end(), [&](const PartSpec& spec) { return spec.part == name; });
+  };
+  for (const std::string& part : source.mesh.parts) {
+    auto spec = find(body.parts, part);
+    if (spec == body.parts.end()) {
+      if (const auto own = find(source.parts, part); own != source.parts.end()) {
+        sections.push_back(own->section);
+        continue;
+      }
+      spec = find(body.parts, "");
+    }
+    if (spec == body.parts.end())
+      faults.push_back(
+          fmt::format("{}: no section for part \"{}\" of the mesh; expected section, or parts: {{{}: ...}}",
+                      body.where.text(), part, part));
+    else
+      sections.push_back(spec->section);
+  }
+  for (const PartSpec& spec : body.parts) {
+    const auto& known = source.mesh.parts;
+    if (spec.part.empty() || std::count(known.begin(), known.end(), spec.part) > 0) continue;
+    const std::string near = math::nearest(spec.part, known);
+    faults.push_back(fmt::format("{}: the mesh has no part \"{}\"; expected one of {}{}", spec.where.text(), spec.part,
+                                 fmt::join(known, ", "), near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+  }
+  if (!faults.empty()) throw InputError(faults);
+  return sections;
+}
+
+/// Union over the ranks, ascending. Collective.
+std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine) {
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  const int count = static_cast<int>(mine.size());
+  std::vector<int> counts(size), starts(size + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  std::vector<PetscInt> all(starts.back());
+  MPI_Allgatherv(mine.data(), count, MPIU_INT, all.data(), counts.data(), starts.data(), MPIU_INT, comm);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Places of the body that its joints hold as one rigid piece each.
+std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& body,
+                                                const std::map<std::string, std::vector<PetscInt>>& places) {
+  std::vector<std::vector<PetscInt>> pieces;
+  for (const Joint& joint : scene.joints)
+    for (const Place* place : {&joint.first, &joint.second}) {
+      if (body.rigid || place->body != body.name || !holds_a_piece(joint)) continue;
+      const auto found = places.find(place->name);
+      if (found != places.end() && found->second.size() > 1) pieces.push_back(found->second);
+    }
+  return pieces;
+}
+
+/// The place `middle` of what is one line from start to end. Collective.
+void add_middle(const Body& body, SpatialMesh& found) {
+  if (!has_middle(body.mesh)) return;
+  Place middle;
+  middle.name = "middle";
+  found.places["middle"] = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};
+}
+
+}  // namespace
+
+SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
+  Source source = raw_mesh(body, comm);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
+  for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
+    places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
+  std::vector<std::string> left_out;
+  source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
+                                      hinge_lines(scene, body, source.mesh, places, source.notices),
+                                      held_elsewhere(scene, body, places), &left_out);
+  tell_left_out(scene, left_out, source.notices);
+  std::vector<std::array<PetscInt, 2>> linked;
+  for (const mesh::Follower& f : source.followers)
+    if (rank == 0) linked.push_back({f.node, f.leader});
+  const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
+  refuse_faults(body, inspection);
+  std::vector<fem::Section> sections = sections_of(body, source);
+  int size = 1;
+  MPI_Comm_size(comm, &size);
+  const std::vector<int> ranks =
+      size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
+  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
+  for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
+  const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
+  for (fem::Section& section : sections)
+    if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) beam->strain.membrane = strain;
+  try {
+    SpatialMesh found{
+        fem::Structure(std::move(mesh), std::move(sections), strain), std::move(places), source.mesh.parts, {}};
+    found.notices = std::move(source.notices);
+    add_middle(body, found);
+    found.notices.insert(found.notices.end(), inspection.notices.begin(), inspection.notices.end());
+    return found;
+  } catch (const InputError& error) {
+    throw InputError(body.where.text() + ": " + error.what());
+  }
+}
+
+namespace {
+
+/// What moves the weighted mean of the nodes. Collective.
+std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::WeightedNode>& nodes) {
+  std::vector<PetscInt> sorted;
+  for (const reduction::WeightedNode& at : nodes) sorted.push_back(at.node);
+  std::sort(sorted.begin(), sorted.end());
+  struct Carried {
+    PetscInt node, leader;
+    double arm[3], axis[3];
+  };
+  std::vector<Carried> mine, copies;
+  for (const fem::Mesh::Follower& f : mesh.followers)
+    if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
+      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader], *line = spin_axis(mesh, f.node),
+                            axis = line ? *line : Eigen::Vector3d::Zero().eval();
+      mine.push_back({mesh.global_node(f.node),
+                      mesh.global_node(f.leader),
+                      {arm.x(), arm.y(), arm.z()},
+                      {axis.x(), axis.y(), axis.z()}});
+    }
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  std::map<PetscInt, Carried> carried;
+  for (const Carried& c :
+       mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values)
+    carried.emplace(c.node, c);
+  std::vector<Lever> all;
+  std::map<PetscInt, std::size_t> place;
+  const auto lever = [&](PetscInt node) -> Lever& {
+    const auto [at, fresh] = place.emplace(node, all.size());
+    if (fresh) all.push_back({node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
+    return all[at->second];
+  };
+  for (const auto& [node, share, arm] : nodes) {
+    const auto c = carried.find(node);
+    Lever& moves = lever(c == carried.end() ? node : c->second.leader);
+    moves.share += share;
+    if (c == carried.end()) {
+      moves.arm += arm;
+      moves.turn += share * Eigen::Matrix3d::Identity();
+      continue;
+    }
+    const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
+    const Eigen::Matrix3d led =
+        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the leader
+    moves.arm += arm * led - share * math::skew(Eigen::Map<const Eigen::Vector3d>(c->second.arm));
+    moves.turn += share * led;
+    if (axis.isZero(0)) continue;
+    Lever& own = lever(node);
+    own.arm += arm * fem::spin(axis);
+    own.turn += share * fem::spin(axis);
+  }
+  return all;
+}
+
+/// Whether the nodes are those of a hinge line: led by one, and turning about it by themselves. Collective.
+bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
+  int mine = 0;
+  for (const fem::Mesh::Spin& spin : mesh.spins)
+    if (spin.node < mesh.owned_nodes &&
+        std::count(place.nodes.begin(), place.nodes.end(), mesh.global_node(spin.node)) > 0)
+      ++mine;
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, mesh.comm);
+  const auto leads = [](const Lever& lever) { return lever.share > 0; };
+  return place.nodes.size() > 1 && mine > 0 && std::count_if(place.levers.begin(), place.levers.end(), leads) == 1;
+}
+
+}  // namespace
+
+Anchor spatial_place(const Body& body, const fem::Structure& structure,
+                     const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
+                     const MeshAxes& axes) {
+  Anchor found;
+  if (place.point && body.rigid) {
+    found.x = axes.axes.transpose() * (vector(*place.point) - axes.origin);
+    found.nodes = {0};  // of no account
+    found.levers = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
+    return found;
+  }
+  if (place.point) {
+    const fem::NearestNode nearest =
+        fem::nearest_node(structure.mesh, axes.axes.transpose() * (vector(*place.point) - axes.origin));
+    const Eigen::Vector3d there = axes.origin + axes.axes * nearest.position;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+    for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
+    MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+    if (nearest.distance > 1e-6 * (high - low).norm())
+      throw InputError(fmt::format("{}: no node of {} at ({}, {}, {}); the nearest node is at ({:.9g}, {:.9g}, {:.9g})",
+                                   place.where.text(), place.body, (*place.point)[0], (*place.point)[1],
+                                   (*place.point)[2], there.x(), there.y(), there.z()));
+    found.nodes = {nearest.node};
+  } else {
+    const auto set = places.find(place.name);
+    if (set == places.end()) {
+      std::vector<std::string> names;
+      for (const auto& entry : places) names.push_back(entry.first);
+      const std::string near = math::nearest(place.name, names);
+      throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(),
+                                   place.body, place.name,
+                                   names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),
+                                   near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (set->second.empty())
+      throw InputError(
+          fmt::format("{}: the place \"{}\" of {} has no node", place.where.text(), place.name, body.name));
+    found.nodes = set->second;
+  }
+  const fem::Mesh& m = structure.mesh;
+  const std::vector<reduction::WeightedNode> weights = place_weights(m, found.nodes);
+  found.levers = levers(m, weights);
+  found.node = found.levers.front().node;
+  found.line = on_hinge_line(m, found);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const reduction::WeightedNode& at : weights)
+    if (const PetscInt local = at.node - m.first_node; local >= 0 && local < m.owned_nodes)
+      sum += at.weight * m.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
+  found.x = sum;
+  return found;
+}
+
+}  // namespace floe::plan

@@ -1,0 +1,17 @@
+#include "floe/scene/joint_events.h"
+
+#include <algorithm>
+
+namespace floe::scene {
+
+bool is_unlocked(const Scene& scene, const std::string& joint) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [&](const Event& event) { return event.kind == Event::Kind::unlock && event.joint == joint; });
+}
+
+bool is_switched(const Scene& scene, const std::string& joint) {
+  return std::any_of(scene.events.begin(), scene.events.end(),
+                     [&](const Event& event) { return event.kind != Event::Kind::stop && event.joint == joint; });
+}
+
+}  // namespace floe::scene

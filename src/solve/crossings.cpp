@@ -1,0 +1,194 @@
+#include "crossings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/petsc/handle.h"
+
+namespace floe::solve {
+
+using petsc::check;
+
+Crossings::Crossings(const std::vector<Event>& events, std::vector<double>& happened, double step,
+                     const std::function<void(const EventReport&)>& tell)
+    : events_(events), happened_(happened), step_(step), tell_(tell) {}
+
+Crossings::Seen Crossings::see(double t, Vec U, Vec V) const {
+  Seen seen{std::vector<double>(events_.size(), 0), std::vector<double>(events_.size(), 0)};
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (events_[i].repeats()) {
+      const auto [value, rate] = events_[i].gap(t, U, V);
+      seen.value[i] = value, seen.rate[i] = rate;
+    } else if (events_[i].crosses && happened_[i] == 0) {
+      seen.value[i] = events_[i].crosses(t, U, V);
+    }
+  }
+  return seen;
+}
+
+void Crossings::begin(TS ts) {
+  double t = 0;
+  Vec U = nullptr, V = nullptr;
+  check(TSGetTime(ts, &t));
+  check(TS2GetSolution(ts, &U, &V));
+  searched_ = -1, back_ = arrived_ = false;
+  before_ = see(t, U, V);
+  for (std::size_t i = 0; i < events_.size(); ++i)
+    if (events_[i].repeats() && happened_[i] == 0) happened_[i] = before_.value[i] < 0 ? -1 : 1;
+}
+
+/// The event's function on the step's interpolant.
+double Crossings::within(const Step& step, std::size_t event, double t) const {
+  petsc::VecHandle U;
+  check(VecDuplicate(step.U, U.out()));
+  check(TSInterpolate(step.ts, t, U));
+  return events_[event].repeats() ? events_[event].gap(t, U, step.V)[0] : events_[event].crosses(t, U, step.V);
+}
+
+/// Where the event's function vanishes on the step's interpolant: regula falsi, Illinois variant.
+double Crossings::locate(const Step& step, std::size_t event, double low, double high, double before,
+                         double after) const {
+  const double small = 1e-13 * (step.end - step.begin) + 4e-16 * std::abs(step.end);
+  double at = high;
+  for (int i = 0; i < 100 && high - low > small; ++i) {
+    at = (low * after - high * before) / (after - before);
+    if (!(at > low && at < high)) at = 0.5 * (low + high);
+    const double here = within(step, event, at);
+    if (here == 0) break;
+    if ((here < 0) == (after < 0)) {
+      high = at, after = here, before /= 2;
+    } else {
+      low = at, before = here, after /= 2;
+    }
+  }
+  return at;
+}
+
+namespace {
+
+/// Where the cubic through values and rates at both ends of a step of length h has its greatest value, 0 < s < 1; else
+/// nothing. It rises at s = 0.
+std::optional<double> top(double g0, double r0, double g1, double r1, double h) {
+  // g' / h = r0 + s b + s^2 a
+  const double rise = (g1 - g0) / h, b = 6 * rise - 4 * r0 - 2 * r1, a = 3 * (r0 + r1) - 6 * rise;
+  const double root = b * b - 4 * a * r0;
+  if (!(r0 > 0) || root < 0) return {};
+  const double s = -2 * r0 / (b - std::sqrt(root));  // where it falls again
+  return s > 0 && s < 1 ? std::optional(s) : std::nullopt;
+}
+
+}  // namespace
+
+/// Of an event that repeats. A value that is zero but for round-off, where the step before ended at the event, counts
+/// as zero: so it does after a restart there.
+std::optional<double> Crossings::change_of_side(const Step& step, std::size_t i, const Seen& now) const {
+  const double side = happened_[i], h = step.end - step.begin;
+  double before = side * before_.value[i];
+  const double after = side * now.value[i], r0 = side * before_.rate[i], r1 = side * now.rate[i];
+  if (std::abs(before) <= 1e-8 * h * (std::abs(r0) + std::abs(r1)) + 1e-14 * std::abs(after)) before = 0;
+  const auto between = [&](double low, double high, double at_low, double at_high) {
+    return locate(step, i, low, high, side * at_low, side * at_high);
+  };
+  if (after < 0) {
+    if (before > 0) return between(step.begin, step.end, before, after);
+    if (const auto s = top(before, r0, after, r1, h))
+      if (const double there = step.begin + *s * h, high = side * within(step, i, there); high > 0)
+        return between(there, step.end, high, after);
+    return step.begin;
+  }
+  if (before < 0) return {};  // comes back to its side
+  const auto s = top(-before, -r0, -after, -r1, h);
+  if (!s) return {};
+  const double there = step.begin + *s * h, low = side * within(step, i, there);
+  if (!(low < 0)) return {};
+  return before > 0 ? between(step.begin, there, before, low) : step.begin;
+}
+
+std::optional<double> Crossings::crossing(const Step& step, std::size_t i, const Seen& now) const {
+  if (events_[i].repeats()) return change_of_side(step, i, now);
+  if (!events_[i].crosses || happened_[i] != 0) return {};
+  if (before_.value[i] == 0 || now.value[i] * before_.value[i] > 0) return {};
+  if (now.value[i] == 0) return step.end;
+  return locate(step, i, step.begin, step.end, before_.value[i], now.value[i]);
+}
+
+void Crossings::tell(std::size_t i, double t, double rate) {
+  EventReport report{events_[i].name, happened_[i] > 0 ? events_[i].what : events_[i].what_back, t};
+  report.speed = std::abs(rate);
+  happened_[i] = -happened_[i];
+  if (tell_) tell_(report);
+}
+
+/// The next step after an event that changes nothing: as long as if it had not been.
+void Crossings::go_on(const Step& step) {
+  double end = 0;
+  check(TSGetMaxTime(step.ts, &end));
+  const double next = step_ > 0 ? step_ : whole_;
+  if (end > step.end) check(TSSetTimeStep(step.ts, std::min(next, end - step.end)));
+}
+
+namespace {
+
+/// An event that repeats and is so near an end of its step, in shares of it, is told of and no step ends there: a
+/// stop's force begins at zero with slope zero, and steps much smaller than their neighbours only spoil Newton's
+/// method.
+constexpr double close = 1e-3;
+
+}  // namespace
+
+void Crossings::after_step(TS ts) {
+  Step step{ts, 0, 0, nullptr, nullptr};
+  check(TSGetTime(ts, &step.end));
+  check(TS2GetSolution(ts, &step.U, &step.V));
+  check(TSGetPrevTime(ts, &step.begin));
+  const double h = step.end - step.begin;
+  if (searched_ >= 0) {
+    back_ = false;
+    arrived_ = target_ - step.end <= 1e-9 * h;
+    if (!arrived_) {
+      double next = 0;  // the step was cut for other reasons
+      check(TSGetTimeStep(ts, &next));
+      return check(TSSetTimeStep(ts, std::min(next, target_ - step.end)));
+    }
+    if (!events_[searched_].repeats()) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+    before_ = see(step.end, step.U, step.V);
+    const double rate = before_.rate[searched_], short_of = rate != 0 ? -before_.value[searched_] / rate : 0;
+    if (short_of <= close * whole_)  // else the force set in or ended within the step, and the next one finds it
+      tell(searched_, step.end + std::max(short_of, -h), rate);
+    searched_ = -1, arrived_ = false;
+    return go_on(step);
+  }
+  const Seen now = see(step.end, step.U, step.V);
+  double first = step.end;
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    std::optional<double> at = crossing(step, i, now);
+    if (at && events_[i].repeats() && *at - step.begin <= close * h) {
+      tell(i, *at, before_.rate[i]);
+      at = crossing(step, i, now);                          // it may come back within the step
+      if (at && *at - step.begin <= close * h) at.reset();  // seen in the next one
+    }
+    if (!at || (searched_ >= 0 && *at >= first)) continue;
+    searched_ = static_cast<int>(i), first = *at;
+  }
+  if (searched_ < 0) {
+    before_ = now;
+    return;
+  }
+  const bool repeats = events_[searched_].repeats();
+  arrived_ = step.end - first <= (repeats ? close : 1e-9) * h;  // the step's end
+  if (arrived_) {
+    before_ = now;
+    if (!repeats) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+    tell(searched_, first, now.rate[searched_]);
+    searched_ = -1, arrived_ = false;
+    return;
+  }
+  target_ = std::max(first, step.begin + 1e-9 * h);
+  whole_ = h;
+  back_ = true;
+  check(TSRollBack(ts));
+  check(TSSetConvergedReason(ts, TS_CONVERGED_ITERATING));  // the step that is taken back may have come to the end
+  check(TSSetTimeStep(ts, target_ - step.begin));
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,189 @@
+#include "generalized_alpha_data.h"
+
+namespace floe::solve {
+namespace {
+
+struct Norms {
+  PetscReal update, whole_update, increment, size;
+};
+
+// Weighted norms of Newton's last update, of the lesser of q_1 - q_0 and q_1 - q_0 - h v_0 (a steady motion is no
+// measure of what a step solves for, nor is the speed of a stiff one), and of q_1, where an attitude counts as 1 rad
+// (its entries count from a base that moves with it). Multipliers count in whole_update alone, by what their force
+// moves: sum_j C_j^2 / |J_jj|, which is 1 / scale^2 of their row. Collective.
+PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
+  Vec U_vec, update_vec;
+  SNESLineSearch line_search;
+  PetscReal lambda;
+  PetscMPIInt ranks;
+  double sums[5] = {0, 0, 0, 0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetSolution(snes, &U_vec));
+  PetscCall(SNESGetSolutionUpdate(snes, &update_vec));
+  PetscCall(SNESGetLineSearch(snes, &line_search));
+  PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
+  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight), turns(data->turns),
+      dynamic(data->dynamic), scale(data->scale);
+  for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
+    sums[0] += weight[i] * PetscSqr(update[i]);
+    sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
+    sums[2] += weight[i] * PetscSqr(U[i] - U0[i] - data->h * V0[i]);
+    sums[3] += weight[i] * (PetscSqr(U[i]) + turns[i]);
+    if (dynamic[i] == 0) sums[4] += PetscSqr(update[i] / scale[i]);
+  }
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));
+  if (ranks > 1)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)snes)));
+  *norms = {lambda * PetscSqrtReal(sums[0]), lambda * PetscSqrtReal(sums[0] + sums[4]),
+            PetscSqrtReal(PetscMin(sums[1], sums[2])), PetscSqrtReal(sums[3])};
+  PetscFunctionReturn(0);
+}
+
+// The rate of convergence theta, and what a solve whose last update has that rate is away from its end,
+// theta/(1 - theta) |d|.
+struct Progress {
+  PetscReal rate, left;
+};
+
+Progress progress(PetscReal rate, PetscReal update) {
+  return {rate, rate < 1 ? rate / (1 - rate) * update : PETSC_MAX_REAL};
+}
+
+// For the first update of a solve: the rate seen last, in proportion to the update (Newton converges quadratically);
+// unknown (1) if the Jacobian was new then and is not now.
+Progress first_progress(GeneralizedAlpha* data, const Norms& norms) {
+  const PetscReal update = norms.update;
+  data->best = data->first_update = update;
+  data->idle = data->growing = 0;
+  if (!data->new_jacobian && !data->rate_of_old_jacobian) return {1, PETSC_MAX_REAL};
+  const PetscReal larger = data->rate_update > 0 ? PetscMax(update / data->rate_update, 1) : 1;
+  data->rate = PetscMin(2 * data->rate, 1);  // until it is measured again
+  return progress(PetscMin(PetscPowReal(data->rate, 0.8) * larger, 1), norms.whole_update);
+}
+
+// The ratio of the last two updates, of q or of all unknowns, whichever is less: a first update of q is small where q
+// was predicted well and multipliers were not, and multipliers that little determines go on wandering.
+Progress later_progress(GeneralizedAlpha* data, const Norms& norms) {
+  const PetscReal rate = data->update > 0 ? norms.update / data->update : 0;
+  const PetscReal whole = data->whole_update > 0 ? norms.whole_update / data->whole_update : 0;
+  const Progress of_q = progress(rate, norms.update), of_all = progress(whole, norms.whole_update);
+  const Progress least = {PetscMin(rate, whole), PetscMin(of_q.left, of_all.left)};
+  data->growing = least.rate > 2 ? data->growing + 1 : 0;
+  data->idle = norms.update > 0.9 * data->best ? data->idle + 1 : 0;
+  data->best = PetscMin(data->best, norms.update);
+  data->rate = PetscMax(least.rate, PETSC_MACHINE_EPSILON);
+  data->rate_update = data->first_update;
+  data->rate_of_old_jacobian = data->formed ? PETSC_FALSE : PETSC_TRUE;
+  return least;
+}
+
+}  // namespace
+
+// Converged when the error that is left is under rtol min(|q_1 - q_0|, |q_1 - q_0 - h v_0|) and slack, in the norm
+// sqrt(sum |J_ii| q_i^2); the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner,
+// Solving Ordinary Differential Equations II, IV.8). Slack is 4 eps |q_1|, and less with a Jacobian kept from before,
+// whose errors have the same sign step after step. What is left after a first update is told by all unknowns: q may be
+// predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small
+// and do not fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led
+// astray and solve() begins again without it.
+PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
+                                SNESConvergedReason* reason, void* context) {
+  GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
+  PetscReal rtol;
+  PetscInt lag;
+  Norms norms;
+
+  PetscFunctionBegin;
+  *reason = SNES_CONVERGED_ITERATING;
+  if (iteration == 0) {
+    data->new_jacobian = data->formed = PETSC_FALSE;
+    if (residual == 0) *reason = SNES_CONVERGED_FNORM_ABS;
+    if (PetscIsInfOrNanReal(residual)) *reason = SNES_DIVERGED_FNORM_NAN;
+    PetscFunctionReturn(0);
+  }
+  PetscCall(measure(data, snes, &norms));
+  PetscCall(SNESGetTolerances(snes, nullptr, &rtol, nullptr, nullptr, nullptr));
+  PetscCall(SNESGetLagJacobian(snes, &lag));
+  if (data->new_jacobian) data->formed = PETSC_TRUE;
+  const auto [rate, left] = iteration == 1 ? first_progress(data, norms) : later_progress(data, norms);
+  const PetscReal floor = PETSC_MACHINE_EPSILON * norms.size, slack = (data->new_jacobian ? 4 : 0.01) * floor;
+  if (PetscIsInfOrNanReal(norms.update) || PetscIsInfOrNanReal(residual)) {
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  } else if ((iteration == 1 ? norms.whole_update : norms.update) <= 4 * floor ||
+             left <= rtol * norms.increment + slack) {
+    *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  } else if (iteration > 1 && rate > 1 && lag != 1) {
+    *reason = SNES_DIVERGED_DTOL;
+  } else if (iteration > 1 && rate > 0.25 && !data->new_jacobian) {
+    renew_jacobian(snes, iteration);
+    data->idle = data->growing = 0;
+  } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, 1e3 * floor)) {
+    *reason = SNES_CONVERGED_SNORM_RELATIVE;
+  } else if (data->growing >= 2 && norms.update > 1e3 * floor) {
+    *reason = SNES_DIVERGED_DTOL;
+  }
+  data->update = norms.update;
+  data->whole_update = norms.whole_update;
+  data->new_jacobian = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+namespace {
+
+// e = J^-1 shift_a M e0, e0 = h^2 (b - 1/6) (a_1 - a_0) - h^3/12 [v, A]: Newmark's error of q in the step, without what
+// is stiff or normal to the constraints (there q is exact, and the estimate would be noise of the multipliers). Into
+// work_U. M e0 is F(t, U, V, A + e0), for F is linear in A and F(t, U, V, A) = 0.
+PetscErrorCode estimate_error(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal h = data->h, factor = data->shift_a * h * h * (data->beta - 1. / 6);
+  KSP ksp;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_A, -1, data->a_used, data->a1));
+  PetscCall(VecAYPX(data->work_A, factor, data->A1));
+  PetscCall(add_bracket(ts, -data->shift_a * h * h * h / 12, data->V1, data->A1, data->work_V, data->work_A));
+  PetscCall(TSComputeI2Function(ts, ts->ptime + h, data->U1, data->V1, data->work_A, data->work_F));
+  {
+    const Entries scale(data->scale), dynamic(data->dynamic);
+    Changed rows(data->work_F);
+    for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i) rows[i] *= dynamic[i] * scale[i];
+  }
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(solve_scaled(ts, data->work_F, data->work_U));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+// Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
+// sqrt(sum M_ii q_i^2): no unit and no atol enters. -1 (not known) while nothing has moved, and in the first step from
+// rest without a force, where the distance is of the size of the error whatever the step. The power of h in the
+// estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
+PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  double sums[2] = {0, 0};
+
+  PetscFunctionBegin;
+  PetscCall(estimate_error(ts));
+  {
+    const Entries e(data->work_U), U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
+    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
+      sums[0] += dynamic[i] * mass[i] * PetscSqr(e[i]);
+      sums[1] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
+  data->reach_tried = PetscSqrtReal(sums[1]);
+  const PetscReal reach = PetscMax(data->reach, data->reach_tried);
+  const bool known = reach > 0 && !data->from_rest;
+  *error = known ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
+  *order = 3;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,148 @@
+#pragma once
+#include <petsc/private/tsimpl.h>
+
+#include "floe/solve/generalized_alpha.h"
+
+namespace floe::solve {
+
+/// What a TS of type generalized-alpha holds. Equations and symbols: generalized_alpha.cpp.
+struct GeneralizedAlpha {
+  PetscReal rho = 0, alpha_m = 0, alpha_f = 0, gamma = 0, beta = 0;
+  IS multipliers = nullptr;
+  TSGeneralizedAlphaStart start = nullptr;
+  void* start_context = nullptr;
+  TSGeneralizedAlphaRotations rotations;
+
+  // The step's beginning (0) and end (1): A is the acceleration, a the auxiliary one; multipliers have V = A = a = 0.
+  Vec U0 = nullptr, V0 = nullptr, A0 = nullptr, a0 = nullptr;
+  Vec U1 = nullptr, V1 = nullptr, A1 = nullptr, a1 = nullptr;
+  PetscReal h = 0;     // of the step under way, or of the last one
+  PetscReal h_a0 = 0;  // of the step that a0 was made for
+  PetscBool started = PETSC_FALSE;
+
+  // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
+  // is away from v(t_n) normal to the constraints.
+  PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
+  Vec jerk = nullptr, normal = nullptr;
+
+  // Constants of the step under way: a_n as used, and what the rates are affine in.
+  Vec a_used = nullptr, base_q = nullptr, base_v = nullptr, base_A = nullptr;
+  PetscReal shift_v = 0, shift_a = 0;
+
+  // Of each row: 1 for dynamic and 0 for constraint; |dF/dU|_ii, |dF/dA|_ii; 1 / norm of a constraint row.
+  Vec dynamic = nullptr, stiffness = nullptr, mass = nullptr, row = nullptr;
+  Vec turns = nullptr;                    // of each row: 1 for an attitude, else 0
+  Vec scale = nullptr, weight = nullptr;  // row scaling and |J_ii| (0 for multipliers), for the step size h_scale
+  PetscReal h_scale = 0;
+  Vec column = nullptr;  // column scaling of the Jacobian that was formed last: 1 where `two_sided` is not set
+  PetscBool two_sided = PETSC_FALSE;
+
+  // Newton's updates in the step under way, and what earlier steps taught about their rate.
+  PetscReal update = 0, best = 0, first_update = 0;
+  PetscReal whole_update = 0;  // multipliers included
+  PetscInt idle = 0, growing = 0;
+  PetscReal rate = 1, rate_update = 0;  // the rate seen last, and the first update of that solve
+  PetscBool rate_of_old_jacobian = PETSC_FALSE;
+  PetscBool new_jacobian = PETSC_FALSE, formed = PETSC_FALSE;  // since the last update; in this solve
+
+  // How far q has been from where the run began, mass norm: what a local error is compared with.
+  Vec origin = nullptr;
+  PetscReal reach = 0, reach_tried = 0;
+
+  // Where the Jacobian that SNES has was formed: a motion that is taken up again forms it once more.
+  Vec tangent_U = nullptr, tangent_V = nullptr, tangent_A = nullptr;
+  PetscReal tangent_t = 0, tangent_shift_v = 0, tangent_shift_a = 0;
+
+  Vec work_U = nullptr, work_V = nullptr, work_A = nullptr, work_F = nullptr;
+};
+
+inline GeneralizedAlpha* generalized_alpha_data(TS ts) { return static_cast<GeneralizedAlpha*>(ts->data); }
+
+/// The step under way gets the size h.
+inline void set_step(GeneralizedAlpha* data, PetscReal h) {
+  data->h = h;
+  data->shift_v = data->gamma / (data->beta * h);
+  data->shift_a = (1 - data->alpha_m) / ((1 - data->alpha_f) * data->beta * h * h);
+}
+
+/// The local entries of a vector, for plain loops: Entries x(vec); x[i]. Changed needs write access, Entries does not.
+class Entries {
+ public:
+  explicit Entries(Vec vec) : vec_(vec) { VecGetArrayRead(vec_, &array_); }
+  ~Entries() { VecRestoreArrayRead(vec_, &array_); }
+  Entries(const Entries&) = delete;
+  Entries& operator=(const Entries&) = delete;
+  PetscScalar operator[](PetscInt i) const { return array_[i]; }
+
+ private:
+  Vec vec_;
+  const PetscScalar* array_ = nullptr;
+};
+
+class Changed {
+ public:
+  explicit Changed(Vec vec) : vec_(vec) { VecGetArray(vec_, &array_); }
+  ~Changed() { VecRestoreArray(vec_, &array_); }
+  Changed(const Changed&) = delete;
+  Changed& operator=(const Changed&) = delete;
+  PetscScalar& operator[](PetscInt i) const { return array_[i]; }
+
+ private:
+  Vec vec_;
+  PetscScalar* array_ = nullptr;
+};
+
+inline PetscInt local_size(Vec vec) {
+  PetscInt n = 0;
+  VecGetLocalSize(vec, &n);
+  return n;
+}
+
+// generalized_alpha_start.cpp
+/// Fills U0 (multipliers), A0, jerk, normal and the constants of scaling from (ts->ptime, U0, V0). Collective.
+PetscErrorCode start_consistently(TS ts);
+
+/// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
+PetscErrorCode smooth_rates(TS ts);
+
+// generalized_alpha_rotations.cpp
+/// Fills `turns`. Collective.
+PetscErrorCode mark_attitudes(TS ts);
+/// ts->vec_sol takes its own rotations for bases; `origin` moves with it. Collective.
+PetscErrorCode rebase(TS ts);
+/// y += factor [a, b]; W is overwritten.
+PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
+
+/// A Turn (simplified_newton.h) in scaled rows; context: the TS.
+PetscErrorCode turn_kept(SNES snes, Vec U, PetscBool back, Vec y, void* context);
+
+// generalized_alpha_scaling.cpp
+/// Constants of scaling: Jacobians at the state (U0, V0, A0) with shift_a; leaves J(shift_v = 0, shift_a), unscaled.
+///
+/// @param inertia  if not NULL receives a new matrix dF/dA
+PetscErrorCode measure_scales(TS ts, Mat* inertia);
+/// Sets scale and weight for the shifts under way, and lets SNES form a new Jacobian.
+PetscErrorCode set_scales(TS ts);
+/// Scales a Jacobian that was just formed. What is solved with it, and multiplied with it, goes through the two below.
+PetscErrorCode scale_jacobian(TS ts, Mat P);
+/// x = J^-1 b and y = J x, rows scaled. The KSP says how the first went.
+PetscErrorCode solve_scaled(TS ts, Vec b, Vec x);
+PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y);
+/// Lets SNES form a new Jacobian and a new factorisation at the given iteration, whatever the lags.
+void renew_jacobian(SNES snes, PetscInt iteration);
+
+// generalized_alpha_step.cpp
+PetscErrorCode step(TS ts);
+PetscErrorCode roll_back(TS ts);
+PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);
+PetscErrorCode interpolate_both(TS ts, PetscReal t, Vec U, Vec V);
+PetscErrorCode form_function(SNES snes, Vec U, Vec F, TS ts);
+PetscErrorCode form_jacobian(SNES snes, Vec U, Mat J, Mat P, TS ts);
+
+// generalized_alpha_control.cpp
+/// Newton's convergence test (SNESSetConvergenceTest), context: the TS.
+PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
+                                SNESConvergedReason* reason, void* context);
+PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error);
+
+}  // namespace floe::solve

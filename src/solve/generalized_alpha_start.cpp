@@ -1,0 +1,245 @@
+#include "generalized_alpha_data.h"
+
+// A consistent start, at the beginning and after every restart (ts->steprestart: events, TSRestartStep):
+//   A_0, lambda_0   from the start callback, or from F(t_0, U_0, V_0, A) = 0, which is linear in A
+//   A'              from the same at t_0 + e and t_0 + 2e with the state moved along its Taylor series; the three-point
+//                   difference is exact for the terms of order e^2, that is for stiff motions too
+//   normal          the part of c A' + [v, A]/12 that the constraints see, of least M / h^2 + K norm; [v, A] is what
+//                   rotations have (generalized_alpha_rotations.cpp)
+//   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
+//                   slow motions and 0 for stiff ones; what the constraints see of A' stays
+// What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
+// anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
+// grows while steps shrink.
+
+namespace floe::solve {
+namespace {
+
+// A of the state (t, U, V); F is linear in A, and `inertia` is its derivative at a nearby state (exact at that one).
+PetscErrorCode solve_accelerations(TS ts, Mat inertia, PetscReal t, Vec U, Vec V, Vec A) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+  PetscReal change = PETSC_MAX_REAL, last, size;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPSetReusePreconditioner(ksp, PETSC_FALSE));
+  PetscCall(KSPSetOperators(ksp, inertia, inertia));
+  do {
+    KSPConvergedReason reason;
+    last = change;
+    PetscCall(TSComputeI2Function(ts, t, U, V, A, data->work_F));
+    PetscCall(KSPSolve(ksp, data->work_F, data->a_used));
+    PetscCall(KSPGetConvergedReason(ksp, &reason));
+    PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+               "Initial accelerations: the linear solve failed (%s); is dF/dA singular?", KSPConvergedReasons[reason]);
+    PetscCall(VecAXPY(A, -1, data->a_used));
+    PetscCall(VecNorm(data->a_used, NORM_2, &change));
+    PetscCall(VecNorm(A, NORM_2, &size));
+  } while (change > 4 * PETSC_MACHINE_EPSILON * size && change < 0.5 * last);
+  PetscFunctionReturn(0);
+}
+
+// A and the multipliers in U.
+PetscErrorCode accelerations(TS ts, Mat inertia, PetscReal t, Vec U, Vec V, Vec A) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (data->start)
+    PetscCall((*data->start)(ts, t, U, V, A, data->start_context));
+  else
+    PetscCall(solve_accelerations(ts, inertia, t, U, V, A));
+  PetscCall(VecPointwiseMult(A, A, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
+// A at t_0 + e, into work_A.
+PetscErrorCode accelerations_later(TS ts, Mat inertia, PetscReal e) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data->U0, data->work_U));
+  PetscCall(VecAXPY(data->work_U, e, data->V0));
+  PetscCall(VecAXPY(data->work_U, e * e / 2, data->A0));
+  PetscCall(VecWAXPY(data->work_V, e, data->A0, data->V0));
+  PetscCall(VecCopy(data->A0, data->work_A));
+  PetscCall(accelerations(ts, inertia, ts->ptime + e, data->work_U, data->work_V, data->work_A));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode differentiate(TS ts, Mat inertia) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal exact = (ts->ptime + 0.01 * data->h) - ts->ptime, e = exact > 0 ? exact : 0.01 * data->h;
+
+  PetscFunctionBegin;
+  PetscCall(accelerations_later(ts, inertia, e));
+  PetscCall(VecCopy(data->work_A, data->jerk));
+  PetscCall(accelerations_later(ts, inertia, 2 * e));
+  PetscCall(VecAXPBYPCZ(data->jerk, -1.5 / e, -0.5 / e, 2 / e, data->A0, data->work_A));
+  PetscFunctionReturn(0);
+}
+
+// The Jacobian J(shift_v = 0, shift_a) that was just formed, scaled and made the solver's.
+PetscErrorCode take_jacobian(TS ts) {
+  Mat P;
+  KSP ksp;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetJacobian(ts->snes, nullptr, &P, nullptr, nullptr));
+  PetscCall(scale_jacobian(ts, P));
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(KSPSetReusePreconditioner(ksp, PETSC_FALSE));
+  PetscCall(KSPSetOperators(ksp, P, P));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode mark_origin(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscReal speed, acceleration;
+
+  PetscFunctionBegin;
+  data->from_rest = PETSC_FALSE;
+  if (ts->steps > 0) PetscFunctionReturn(0);
+  PetscCall(VecNorm(data->V0, NORM_INFINITY, &speed));
+  PetscCall(VecNorm(data->A0, NORM_INFINITY, &acceleration));
+  if (speed == 0 && acceleration == 0) data->from_rest = PETSC_TRUE;
+  PetscCall(VecCopy(data->U0, data->origin));
+  data->reach = 0;
+  PetscFunctionReturn(0);
+}
+
+// Where F's constraint rows are y (scaled), what J^-1 makes of them: the smallest motion that the constraints see so.
+PetscErrorCode solve_constraint_rows(TS ts, Vec y, Vec x) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  {
+    const Entries dynamic(data->dynamic);
+    Changed rows(y);
+    for (PetscInt i = 0, n = local_size(y); i < n; ++i)
+      if (dynamic[i] != 0) rows[i] = 0;
+  }
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(solve_scaled(ts, y, x));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Consistent start: the linear solve failed (%s); are constraints redundant?", KSPConvergedReasons[reason]);
+  PetscCall(VecPointwiseMult(x, x, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
+// normal = the part that the constraints see of y = c A' + [v, A]/12, c as in fresh_rates: J x = (0, C_q y).
+PetscErrorCode split_normal(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal c = 1. / 6 - data->beta + (data->alpha_f - data->alpha_m) / 2;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data->jerk, data->work_V));
+  PetscCall(VecScale(data->work_V, c));
+  PetscCall(add_bracket(ts, 1. / 12, data->V0, data->A0, data->work_A, data->work_V));
+  PetscCall(multiply_scaled(ts, data->work_V, data->work_F));
+  PetscCall(solve_constraint_rows(ts, data->work_F, data->normal));
+  PetscFunctionReturn(0);
+}
+
+// jerk <- J^-1 (M shift_a jerk), with the constraint rows C_q jerk. h M jerk is F(.., A + h jerk) - F(.., A), for F is
+// linear in A. The operator acts on motions, not on coordinates: a frame that turns and elastic coordinates that turn
+// it back are one motion, whatever the stiffness of either coordinate by itself.
+PetscErrorCode leave_out_stiff(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSP ksp;
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(VecWAXPY(data->work_A, data->h, data->jerk, data->A0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, data->work_F));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_V));
+  PetscCall(VecAXPY(data->work_F, -1, data->work_V));
+  PetscCall(multiply_scaled(ts, data->jerk, data->work_V));
+  {
+    const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
+    Changed rows(data->work_F);
+    for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
+      rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a / data->h * rows[i] : seen[i];
+  }
+  PetscCall(solve_scaled(ts, data->work_F, data->jerk));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecPointwiseMult(data->jerk, data->jerk, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
+// F's scaled rows at (t_0 + e, q_0 + e v_0).
+PetscErrorCode rows_along_velocity(TS ts, PetscReal e, Vec F) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, e, data->V0, data->U0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime + e, data->work_U, data->V0, data->A0, F));
+  PetscCall(VecPointwiseMult(F, F, data->scale));
+  PetscFunctionReturn(0);
+}
+
+// V0 loses what violates dC/dt = 0, a central difference along the velocity (error e^2, e = h/100).
+PetscErrorCode project_velocity(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscReal e = 0.01 * data->h;
+
+  PetscFunctionBegin;
+  PetscCall(rows_along_velocity(ts, e, data->work_F));
+  PetscCall(rows_along_velocity(ts, -e, data->work_A));
+  PetscCall(VecAXPBY(data->work_F, -0.5 / e, 0.5 / e, data->work_A));
+  PetscCall(solve_constraint_rows(ts, data->work_F, data->work_V));
+  PetscCall(VecAXPY(data->V0, -1, data->work_V));
+  PetscFunctionReturn(0);
+}
+
+}  // namespace
+
+PetscErrorCode start_consistently(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat inertia = nullptr;
+
+  PetscFunctionBegin;
+  PetscCheck(data->start || !data->multipliers, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_WRONGSTATE,
+             "A constrained system needs TSGeneralizedAlphaSetStart for its initial accelerations and multipliers");
+  set_step(data, ts->time_step);
+  PetscCall(VecSet(data->A0, 0));
+  if (data->start) PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
+  PetscCall(measure_scales(ts, data->start ? nullptr : &inertia));
+  PetscCall(set_scales(ts));
+  if (!data->start) PetscCall(accelerations(ts, inertia, ts->ptime, data->U0, data->V0, data->A0));
+  PetscCall(differentiate(ts, inertia));
+  PetscCall(take_jacobian(ts));
+  if (data->multipliers) PetscCall(split_normal(ts));
+  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
+  PetscCall(mark_origin(ts));
+  PetscCall(MatDestroy(&inertia));
+  data->fresh = data->started = PETSC_TRUE;
+  data->rate = 1;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode smooth_rates(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  PetscCall(set_scales(ts));
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, data->shift_a, J, P));
+  PetscCall(take_jacobian(ts));
+  PetscCall(project_velocity(ts));
+  PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
+  PetscCall(differentiate(ts, nullptr));
+  PetscCall(split_normal(ts));
+  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
+  data->fresh = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+}  // namespace floe::solve

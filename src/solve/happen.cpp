@@ -1,0 +1,40 @@
+#include "happen.h"
+
+#include "floe/solve/start.h"
+
+namespace floe::solve {
+
+EventReport happen(const System& system, const Event& event, double t, Vec U, Vec V) {
+  EventReport report{event.name, event.what, t};
+  if (!event.latch) return report;
+  const double before = system.energy(t, U, V).kinetic;
+  event.latch->closed = event.closes;
+  system.settle(U);
+  const petsc::VecHandle impulses = system.create_vector();
+  try {
+    consistent_velocities(system, t, U, V, impulses);
+  } catch (const RunError& error) {
+    throw RunError("event " + event.name + " (" + event.what + "): " + error.what());
+  }
+  if (!event.closes) return report;
+  report.lost = before - system.energy(t, U, V).kinetic;
+  Eigen::VectorXd local;
+  system.gather(impulses, local);
+  for (int i = 0; i < event.rows; ++i) report.impulses.push_back(local[event.first_row + i]);
+  return report;
+}
+
+EventReport pass(const System& system, const Kink& kink, Vec U, Vec V) {
+  EventReport report{kink.name, kink.what, 0.5 * (kink.before + kink.after)};
+  if (kink.what.empty()) return report;
+  const double before = system.energy(kink.after, U, V).kinetic;
+  try {
+    consistent_velocities(system, kink.after, U, V);
+  } catch (const RunError& error) {
+    throw RunError(kink.name + " (" + kink.what + "): " + error.what());
+  }
+  report.work = system.energy(kink.after, U, V).kinetic - before;
+  return report;
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,25 @@
+#pragma once
+#include "rotating_axes.h"
+
+namespace floe::solve {
+
+/// Motions that constraints and held dofs allow: u = D Q y over the free coordinates, D of unit mass each.
+///
+/// Q is the end of an orthogonal matrix of few reflections, kept as those.
+class AllowedMotions {
+ public:
+  AllowedMotions(const System& system, const RotatingTangent& at, const Eigen::VectorXd& root_mass);
+  Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()) - rank_; }
+  /// (D Q)' X (D Q) of a matrix over all unknowns.
+  Eigen::MatrixXd restrict_both(const Eigen::MatrixXd& X) const;
+  /// (D Q)' X.
+  Eigen::MatrixXd restrict_rows(const Eigen::MatrixXd& X) const;
+
+ private:
+  std::vector<Eigen::Index> free_;
+  Eigen::VectorXd scale_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::Index rank_ = 0;
+};
+
+}  // namespace floe::solve

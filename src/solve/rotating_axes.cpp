@@ -1,0 +1,160 @@
+#include "rotating_axes.h"
+
+#include <algorithm>
+
+#include "everywhere.h"
+
+namespace floe::solve {
+
+using Eigen::Index;
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using petsc::check;
+
+namespace {
+
+Index global(const RotatingSystem& rotating, int local) { return rotating.system.coordinates().global()[local]; }
+
+Matrix2d across(double factor) { return (Matrix2d() << 0, -factor, factor, 0).finished(); }
+
+void add_planar(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
+  const Matrix2d W = across(speed);
+  for (int frame : rotating.planar_frames) {
+    const Index R = global(rotating, frame);
+    const Eigen::Vector2d arm = U.segment<2>(R) - rotating.axis.point.head<2>();
+    out.V.segment<2>(R) = W * arm, out.V[R + 2] = speed;
+    out.A.segment<2>(R) = W * W * arm;
+    out.V_U.push_back({R, R, W});
+    out.A_U.push_back({R, R, W * W});
+    out.H.push_back({R, R, 2 * W});
+  }
+}
+
+void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
+  const Vector3d turning = speed * rotating.axis.direction;
+  const Matrix3d W = math::skew(turning);
+  for (const auto& [first, attitude] : rotating.system.attitudes()) {
+    const Index x = global(rotating, first), R = global(rotating, first - 3);
+    const Vector3d omega = attitude->base.conjugate() * turning, arm = U.segment<3>(R) - rotating.axis.point;
+    const Matrix3d w = math::skew(omega);
+    out.V.segment<3>(R) = W * arm, out.V.segment<3>(x) = omega;
+    out.A.segment<3>(R) = W * W * arm;
+    out.V_U.push_back({R, R, W});
+    out.V_U.push_back({x, x, w});  // A -> A (I + ~dtheta): A'W -> A'W - dtheta x omega
+    out.A_U.push_back({R, R, W * W});
+    out.H.push_back({R, R, 2 * W});
+    out.H.push_back({x, x, w});
+  }
+}
+
+}  // namespace
+
+RotatingMotion rotating_motion(const RotatingSystem& rotating, double speed, const VectorXd& U) {
+  RotatingMotion out{VectorXd::Zero(U.size()), VectorXd::Zero(U.size()), {}, {}, {}};
+  add_planar(rotating, speed, U, out);
+  add_spatial(rotating, speed, U, out);
+  return out;
+}
+
+void add_product(const MatrixXd& Y, const RotatingMotion::Blocks& B, MatrixXd& X) {
+  for (const auto& block : B)
+    X.middleCols(block.column, block.values.cols()) += Y.middleCols(block.row, block.values.rows()) * block.values;
+}
+
+RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, Vec U) {
+  const System& system = rotating.system;
+  system.rebase(U);
+  const RotatingMotion motion = rotating_motion(rotating, speed, everywhere(system, U));
+  const petsc::VecHandle V = system.create_vector(), A = system.create_vector(), F = system.create_vector();
+  set(V, motion.V), set(A, motion.A);
+  const petsc::MatHandle J = system.create_tangent();
+  const auto tangent = [&](Weights weights) {
+    system.tangent(0, U, V, A, weights, J);
+    return everywhere(system, J);
+  };
+  RotatingTangent out;
+  system.residual(0, U, V, A, ConstraintLevel::position, F);
+  out.F = everywhere(system, F);
+  out.G = tangent({0, 0, 0});
+  out.M = tangent({0, 0, 1}) - out.G;
+  const MatrixXd F_v = tangent({0, 1, 0}) - out.G;
+  out.K = tangent({1, 0, 0}) - out.G;
+  add_product(F_v, motion.V_U, out.K);
+  add_product(out.M, motion.A_U, out.K);
+  out.C = F_v;
+  add_product(out.M, motion.H, out.C);
+  return out;
+}
+
+std::vector<char> multiplier_flags(const System& system) {
+  const Coordinates& coordinates = system.coordinates();
+  std::vector<char> flags(coordinates.global_size(), 0);
+  for (int i = 0; i < coordinates.local_size(); ++i)
+    if (coordinates.multiplier()[i]) flags[coordinates.global()[i]] = 1;
+  return flags;
+}
+
+MassScale mass_scale(const RotatingSystem& rotating, const MatrixXd& M) {
+  MassScale scale{M.diagonal().cwiseMax(0).cwiseSqrt(), 0};
+  for (int frame : rotating.planar_frames) scale.turn = std::max(scale.turn, scale.root[global(rotating, frame) + 2]);
+  for (const auto& [first, attitude] : rotating.system.attitudes())
+    scale.turn = std::max(scale.turn, scale.root.segment<3>(global(rotating, first)).maxCoeff());
+  if (scale.turn == 0) scale.turn = 1;
+  return scale;
+}
+
+KeptState::KeptState(const System& system, Vec U) : system_(system), U_(system.create_vector()) {
+  check(VecCopy(U, U_));
+  for (const auto& [first, attitude] : system.attitudes()) bases_.push_back(attitude->base);
+}
+
+void KeptState::restore(Vec U) const {
+  check(VecCopy(U_, U));
+  for (std::size_t i = 0; i < bases_.size(); ++i) system_.attitudes()[i].second->base = bases_[i];
+}
+
+VectorXd KeptState::change_to(Vec U) const {
+  VectorXd change = everywhere(system_, U) - everywhere(system_, U_);
+  for (std::size_t i = 0; i < bases_.size(); ++i) {
+    const auto& [first, attitude] = system_.attitudes()[i];
+    change.segment<3>(system_.coordinates().global()[first]) =
+        math::rotation_vector(bases_[i].conjugate() * attitude->base);
+  }
+  return change;
+}
+
+void turn(const RotatingSystem& rotating, double angle, Vec U) {
+  const System& system = rotating.system;
+  system.rebase(U);
+  VectorXd u = everywhere(system, U);
+  const Eigen::Quaterniond E(Eigen::AngleAxisd(angle, rotating.axis.direction));
+  const Vector3d& c = rotating.axis.point;
+  for (const auto& [first, attitude] : system.attitudes()) {
+    const Index R = global(rotating, first - 3);
+    u.segment<3>(R) = c + E * (u.segment<3>(R) - c);
+    attitude->base = (E * attitude->base).normalized();
+  }
+  for (int frame : rotating.planar_frames) {
+    const Index R = global(rotating, frame);
+    u.segment<2>(R) = c.head<2>() + Eigen::Rotation2Dd(angle) * (u.segment<2>(R) - c.head<2>());
+    u[R + 2] += angle;
+  }
+  set(U, u);
+}
+
+void turn_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<MatrixXd> rows) {
+  const Matrix3d E = Eigen::AngleAxisd(angle, rotating.axis.direction).toRotationMatrix();
+  for (const auto& [first, attitude] : rotating.system.attitudes()) {
+    const Index R = global(rotating, first - 3);
+    rows.middleRows(R, 3) = (E * rows.middleRows(R, 3)).eval();
+  }
+  for (int frame : rotating.planar_frames) {
+    const Index R = global(rotating, frame);
+    rows.middleRows(R, 2) = (E.topLeftCorner<2, 2>() * rows.middleRows(R, 2)).eval();
+  }
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,167 @@
+#include "floe/solve/start.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "at_base.h"
+#include "floe/petsc/factorisation.h"
+#include "floe/petsc/options.h"
+#include "floe/petsc/values.h"
+#include "undetermined.h"
+
+namespace floe::solve {
+
+using petsc::check;
+
+void set_tangent_solver(KSP ksp, Mat J) {
+  PC pc = nullptr;
+  PetscBool dense = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(J), &dense, MATSEQDENSE, MATDENSE, ""));
+  check(KSPSetType(ksp, KSPPREONLY));
+  check(KSPGetPC(ksp, &pc));
+  check(PCSetType(pc, PCLU));
+  if (!dense) check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+}
+
+petsc::KspHandle tangent_solver(Mat J, const char* prefix) {
+  petsc::KspHandle ksp;
+  check(KSPCreate(PetscObjectComm(reinterpret_cast<PetscObject>(J)), ksp.out()));
+  check(KSPSetOptionsPrefix(ksp, prefix));
+  check(KSPSetOperators(ksp, J, J));
+  set_tangent_solver(ksp, J);
+  petsc::check_options(KSPSetFromOptions(ksp), prefix);
+  petsc::refuse_preconditioner_alone(ksp);
+  return ksp;
+}
+
+bool is_singular(PetscErrorCode code) {
+  return code == PETSC_ERR_MAT_LU_ZRPVT || code == PETSC_ERR_NOT_CONVERGED || code == PETSC_ERR_LIB;
+}
+
+namespace {
+
+/// Symmetric scaling of [M C'; C 0]: 1 / sqrt(M_ii) for coordinates, 1 / |row of C M^(-1/2)| for multipliers. Scales J.
+petsc::VecHandle equilibrate(const System& system, Mat J) {
+  const auto& multipliers = system.coordinates().owned_multipliers();
+  petsc::VecHandle scale = system.create_vector();
+  check(MatGetDiagonal(J, scale));
+  {
+    petsc::Values s(scale);
+    for (PetscInt i = s.first; i < s.end; ++i) s[i] = s[i] != 0 ? 1 / std::sqrt(std::abs(s[i])) : 1;
+    for (PetscInt row : multipliers) s[row] = 1;
+  }
+  check(MatDiagonalScale(J, nullptr, scale));
+  const petsc::VecHandle columns = system.create_vector();
+  check(VecSet(columns, 1));
+  {
+    petsc::Values s(scale), c(columns);
+    for (PetscInt row : multipliers) {
+      PetscInt count = 0;
+      const PetscInt* where = nullptr;
+      const double* entries = nullptr;
+      check(MatGetRow(J, row, &count, &where, &entries));
+      const double norm = Eigen::Map<const Eigen::VectorXd>(entries, count).norm();
+      check(MatRestoreRow(J, row, &count, &where, &entries));
+      s[row] = c[row] = norm > 0 ? 1 / norm : 1;
+    }
+  }
+  check(MatDiagonalScale(J, scale, columns));
+  return scale;
+}
+
+/// x with [M C'; C 0] x = b.
+petsc::VecHandle solve_saddle(const System& system, double t, Vec U, Vec V, Vec A, Vec b) {
+  const petsc::MatHandle J = system.create_tangent();
+  system.tangent(t, U, V, A, {0, 0, 1}, J);
+  const petsc::VecHandle scale = equilibrate(system, J);
+  const petsc::VecHandle right = system.create_vector(), product = system.create_vector();
+  petsc::VecHandle x = system.create_vector();
+  check(VecPointwiseMult(right, b, scale));
+  petsc::MatHandle kept;  // a dense LU overwrites its matrix
+  check(MatDuplicate(J, MAT_COPY_VALUES, kept.out()));
+  const petsc::KspHandle ksp = tangent_solver(J, "motion_start_");
+  std::string raised;
+  try {
+    check(KSPSolve(ksp, right, x));
+  } catch (const petsc::Error& error) {
+    raised = error.what();
+    if (!is_singular(error.code())) throw RunError(raised);
+  }
+  if (const petsc::FactorFault fault = petsc::factor_fault(ksp); !fault.text.empty() && !fault.singular)
+    throw RunError(fault.text);
+  if (!raised.empty()) throw RunError(singular_start + undetermined(system, kept));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  double size = 0, residual = 0, given = 0;
+  check(KSPGetConvergedReason(ksp, &reason));
+  check(VecNorm(x, NORM_INFINITY, &size));
+  check(MatMult(kept, x, product));
+  check(VecAXPY(product, -1, right));
+  check(VecNorm(product, NORM_INFINITY, &residual));
+  check(VecNorm(right, NORM_INFINITY, &given));
+  if (reason < 0 || !std::isfinite(size) || !(residual <= 1e-6 * given))
+    throw RunError(singular_start + undetermined(system, kept));
+  check(VecPointwiseMult(x, x, scale));
+  return x;
+}
+
+/// Splits a solution of the saddle: accelerations (multipliers zero) and multipliers (into U).
+void split(const System& system, Vec x, Vec U, Vec A) {
+  check(VecCopy(x, A));
+  petsc::Values from(x), a(A);
+  for (PetscInt row : system.coordinates().owned_multipliers()) a[row] = 0;
+  if (!U) return;
+  petsc::Values u(U);
+  for (PetscInt row : system.coordinates().owned_multipliers()) u[row] = from[row];
+}
+
+/// Keeps only the multiplier rows (`multipliers`), or only the others.
+void keep_rows(const System& system, Vec f, bool multipliers) {
+  petsc::Values values(f);
+  const auto& rows = system.coordinates().owned_multipliers();  // ascending
+  auto next = rows.begin();
+  for (PetscInt i = values.first; i < values.end; ++i) {
+    const bool is = next != rows.end() && *next == i;
+    if (is) ++next;
+    if (is != multipliers) values[i] = 0;
+  }
+}
+
+}  // namespace
+
+void consistent_start(const System& system, double t, Vec U, Vec V, Vec A) {
+  const AtBase at_base(system, U);
+  keep_rows(system, U, false);
+  check(VecSet(A, 0));
+  const petsc::VecHandle F = system.create_vector();
+  system.residual(t, U, V, A, ConstraintLevel::acceleration, F);
+  check(VecScale(F, -1));
+  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  split(system, x, U, A);
+}
+
+double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec impulses) {
+  if (impulses) check(VecSet(impulses, 0));
+  if (system.coordinates().multiplier_count() == 0) return 0;
+  const AtBase at_base(system, U);
+  const petsc::VecHandle F = system.create_vector(), A = system.create_vector();
+  system.residual(t, U, V, A, ConstraintLevel::velocity, F);
+  keep_rows(system, F, true);
+  check(VecScale(F, -1));
+  double wrong = 0, size = 0, change = 0;
+  check(VecNorm(F, NORM_INFINITY, &wrong));
+  if (wrong == 0) return 0;
+  const petsc::VecHandle x = solve_saddle(system, t, U, V, A, F);
+  split(system, x, impulses, A);
+  check(VecNorm(V, NORM_2, &size));
+  check(VecNorm(A, NORM_2, &change));
+  check(VecAXPY(V, 1, A));
+  if (size > 0) return change / size;
+  return wrong > 1e-12 ? 1 : 0;  // bodies at rest, and drives whose rates are round-off: nothing to tell of
+}
+
+double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level) {
+  return system.constraint_violation(t, U, V, level);
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,207 @@
+#include "floe/solve/steady_rotation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "everywhere.h"
+#include "rotating_axes.h"
+
+namespace floe::solve {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// J x = b with rows and columns of greatest entry one (Ruiz 2001, RAL-TR-2001-034); where J is small the solution of
+/// least norm, which singular directions leave alone.
+VectorXd solve(MatrixXd J, VectorXd b) {
+  const auto root = [](double greatest) { return greatest > 0 ? 1 / std::sqrt(greatest) : 1.0; };
+  VectorXd columns = VectorXd::Ones(J.cols());
+  for (int sweep = 0; sweep < 5; ++sweep) {
+    const VectorXd left = J.cwiseAbs().rowwise().maxCoeff().unaryExpr(root),
+                   right = J.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(root);
+    J = left.asDiagonal() * J * right.asDiagonal();
+    b.array() *= left.array(), columns.array() *= right.array();
+  }
+  constexpr Index small = 400;
+  const VectorXd x = J.rows() <= small ? VectorXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(J).solve(b))
+                                       : VectorXd(J.partialPivLu().solve(b));
+  return columns.cwiseProduct(x);
+}
+
+/// Whether nothing holds the scene's turn about the axis, at a configuration that meets the constraints.
+bool turns_freely(const RotatingTangent& at, const VectorXd& turn) {
+  const VectorXd held = at.G * turn, size = at.G.cwiseAbs() * turn.cwiseAbs();
+  return (held.cwiseAbs().array() <= 1e-7 * size.array()).all();
+}
+
+struct Step {
+  VectorXd change;
+  double spin_up = 0;  ///< angular acceleration about the axis that is left over [rad/s2]
+};
+
+/// Newton's step; where the scene is free to turn, it does not, and may spin up instead: [J M b; (M b)' 0].
+///
+/// @param turn  change of the coordinates as the scene turns by one radian; zero where a drive holds it
+Step newton_step(const RotatingTangent& at, const VectorXd& turn) {
+  const VectorXd weighted = at.M * turn;
+  const double inertia = turn.dot(weighted);
+  if (!(inertia > 0)) return {solve(at.K + at.G, -at.F)};
+  const Index n = turn.size();
+  MatrixXd J = MatrixXd::Zero(n + 1, n + 1);
+  J.topLeftCorner(n, n) = at.K + at.G;
+  J.topRightCorner(n, 1) = weighted / inertia;
+  J.bottomLeftCorner(1, n) = weighted.transpose() / inertia;
+  VectorXd b = VectorXd::Zero(n + 1);
+  b.head(n) = -at.F;
+  const VectorXd x = solve(std::move(J), std::move(b));
+  return {x.head(n), x[n] / inertia};
+}
+
+/// Accelerations that round-off, or a search that came near enough, leaves. [rad/s2]
+double negligible(const RotatingTangent& at, const MassScale& mass, double speed) {
+  double fastest = 0;  // square of the highest frequency
+  for (Index i = 0; i < at.K.rows(); ++i)
+    if (mass.root[i] > 0) fastest = std::max(fastest, std::abs(at.K(i, i)) / std::pow(mass.root[i], 2));
+  return 1e-6 * speed * speed + 1e-12 * fastest;
+}
+
+/// That forces balance: what singular directions have left is no equilibrium.
+void check_balance(const RotatingSystem& rotating, double speed, double spin_up, Vec U) {
+  const RotatingTangent at = rotating_tangent(rotating, speed, U);
+  const MassScale mass = mass_scale(rotating, at.M);
+  const double small = negligible(at, mass, speed);
+  if (std::abs(spin_up) > small)
+    throw RunError(
+        fmt::format("a moment about the axis is left that spins the scene up at {:.3g} rad/s2; expected a "
+                    "drive, or loads without such a moment",
+                    std::abs(spin_up)));
+  double greatest = 0;
+  for (Index i = 0; i < at.F.size(); ++i)
+    if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.turn));
+  if (!(greatest <= small)) throw RunError(fmt::format("forces cannot balance (left over: {:.3g} rad/s2)", greatest));
+}
+
+/// In units of a frame's turn by one radian.
+double size_of(const VectorXd& change, const MassScale& mass) {
+  return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.turn;
+}
+
+PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
+  double last = INFINITY;
+  bool free = false;
+  for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
+    const RotatingTangent at = rotating_tangent(rotating, speed, U);
+    const VectorXd u = everywhere(rotating.system, U);
+    VectorXd turn = rotating_motion(rotating, 1, u).V;
+    if (iteration == 1) free = turns_freely(at, turn);
+    if (!free) turn.setZero();
+    Step step = newton_step(at, turn);
+    MPI_Bcast(step.change.data(), static_cast<int>(step.change.size()), MPI_DOUBLE, 0, rotating.system.comm());
+    const double size = size_of(step.change, mass_scale(rotating, at.M));
+    if (!step.change.allFinite()) break;
+    set(U, u + step.change);
+    if (size <= 1e-10 ||
+        (iteration > 15 && size <= 1e-7 && size > 0.3 * last)) {  // the second: all that round-off allows
+      check_balance(rotating, speed, step.spin_up, U);
+      return iteration;
+    }
+    last = size;
+  }
+  throw RunError("Newton's method found none");
+}
+
+/// Newton's step at `speed` from U for the forces at `other`.
+VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
+  const VectorXd F = rotating_tangent(rotating, other, U).F;
+  RotatingTangent at = rotating_tangent(rotating, speed, U);
+  VectorXd turn = rotating_motion(rotating, 1, everywhere(rotating.system, U)).V;
+  if (!turns_freely(at, turn)) turn.setZero();
+  at.F = F;
+  return newton_step(at, turn).change;
+}
+
+/// From one steady rotation to another.
+class Follower {
+ public:
+  Follower(const RotatingSystem& rotating, double from, double speed, Vec U)
+      : rotating_(rotating), least_(std::abs(speed - from) / 1000), U_(U) {
+    const MassScale mass = mass_scale(rotating, rotating_tangent(rotating, from, U).M);
+    follows_ = size_of(step_towards(rotating, from, from, U), mass) <= 1e-6;
+  }
+  PetscInt go(double from, double speed) {
+    const KeptState before(rotating_.system, U_);
+    PetscInt iterations = 0;
+    try {
+      iterations = newton(rotating_, speed, U_);
+    } catch (const RunError&) {
+      before.restore(U_);
+      if (std::abs(speed - from) < 2 * least_ || speed == from) throw;
+      return halves(from, speed);
+    }
+    if (!follows_ || speed == from) return iterations;
+    const BranchJump found = jump_of(from, before, speed);
+    return found.ratio > 0 ? iterations + shorter(found, before) : iterations;
+  }
+  BranchJump jump;  ///< the greatest
+
+ private:
+  PetscInt halves(double from, double speed) {
+    const PetscInt first = go(from, (from + speed) / 2);
+    return first + go((from + speed) / 2, speed);
+  }
+
+  PetscInt shorter(const BranchJump& found, const KeptState& before) {
+    const KeptState there(rotating_.system, U_);
+    if (std::abs(found.to - found.from) >= 2 * least_) {
+      before.restore(U_);
+      try {
+        return halves(found.from, found.to);
+      } catch (const RunError&) {  // none on the way: it was left
+        there.restore(U_);
+      }
+    }
+    if (found.ratio > std::max(least_jump, jump.ratio)) jump = found;
+    return 0;
+  }
+
+  BranchJump jump_of(double from, const KeptState& before, double speed) const {
+    const petsc::VecHandle start = rotating_.system.create_vector();
+    rotating_.system.rebase(U_);
+    const KeptState there(rotating_.system, U_);
+    const VectorXd change = before.change_to(U_), back = -step_towards(rotating_, speed, from, U_);
+    const MassScale mass = mass_scale(rotating_, rotating_tangent(rotating_, speed, U_).M);
+    before.restore(start);
+    const VectorXd predicted = (step_towards(rotating_, from, speed, start) + back) / 2;
+    there.restore(U_);
+    const double size = size_of(change, mass);
+    if (!(size > 1e-9) || size_of(change - predicted, mass) <= most_departure * size) return {};
+    return {from, speed, size / std::max(size_of(predicted, mass), 1e-12 * size)};
+  }
+
+  const RotatingSystem& rotating_;
+  double least_;
+  bool follows_ = false;
+  Vec U_;
+};
+
+}  // namespace
+
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump) {
+  const KeptState before(rotating.system, U);
+  try {
+    Follower follower(rotating, from, speed, U);
+    const PetscInt iterations = follower.go(from, speed);
+    if (jump) *jump = follower.jump;
+    return iterations;
+  } catch (const RunError& error) {
+    before.restore(U);
+    throw RunError(fmt::format("no steady rotation at {:.6g} rad/s: {}", speed, error.what()));
+  }
+}
+
+}  // namespace floe::solve
