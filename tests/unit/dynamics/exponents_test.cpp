@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace floe::dynamics;
+using namespace floe::solve;
 using Complex = std::complex<double>;
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;

@@ -3,8 +3,7 @@
 
 #include "generalized_alpha_problem.h"
 
-using namespace floe::dynamics;
-using namespace floe::dynamics::testing;
+using namespace floe::solve::testing;
 
 namespace {
 

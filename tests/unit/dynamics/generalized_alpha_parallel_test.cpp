@@ -2,8 +2,8 @@
 
 #include "generalized_alpha_problem.h"
 
-using namespace floe::dynamics;
-using namespace floe::dynamics::testing;
+using namespace floe::solve;
+using namespace floe::solve::testing;
 
 // The same system on one rank with a dense Jacobian and on all ranks with a sparse one (MUMPS). Runs on any number of
 // ranks.

@@ -6,7 +6,7 @@
 #include "floe/petsc/handle.h"
 #include "floe/solve/generalized_alpha.h"
 
-namespace floe::dynamics::testing {
+namespace floe::solve::testing {
 
 using petsc::check;
 using Numbers = std::vector<double>;
@@ -194,4 +194,4 @@ inline Problem oscillator(
   return p;
 }
 
-}  // namespace floe::dynamics::testing
+}  // namespace floe::solve::testing

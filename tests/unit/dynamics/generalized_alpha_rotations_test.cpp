@@ -5,7 +5,8 @@
 #include "spatial_systems.h"
 
 using namespace floe::dynamics;
-using namespace floe::dynamics::testing;
+using namespace floe::solve;
+using namespace floe::solve::testing;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using floe::testing::Turning;

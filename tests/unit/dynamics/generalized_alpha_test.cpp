@@ -3,8 +3,8 @@
 
 #include "generalized_alpha_problem.h"
 
-using namespace floe::dynamics;
-using namespace floe::dynamics::testing;
+using namespace floe::solve;
+using namespace floe::solve::testing;
 
 namespace {
 

@@ -95,7 +95,7 @@ struct Solver {
 TEST_CASE("simplified Newton takes the iterations of newtonls with one residual less") {
   solve::register_simplified_newton();
   for (int lag : {1, 3}) {
-    Solver ours(dynamics::simplified_newton, lag), stock(SNESNEWTONLS, lag);
+    Solver ours(solve::simplified_newton, lag), stock(SNESNEWTONLS, lag);
     for (int again = 0; again < 3; ++again) {
       for (Solver* solver : {&ours, &stock}) {
         check(VecSet(solver->U, 1.5));
@@ -117,7 +117,7 @@ TEST_CASE("simplified Newton takes the iterations of newtonls with one residual 
 }
 
 TEST_CASE("simplified Newton says how it failed") {
-  Solver solver(dynamics::simplified_newton, 1);
+  Solver solver(solve::simplified_newton, 1);
   SNESConvergedReason reason;
   check(SNESSetTolerances(solver.snes, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 2, PETSC_DEFAULT));
   check(VecSet(solver.U, 1.5));
@@ -146,7 +146,7 @@ PetscErrorCode to_present(SNES, Vec U, PetscBool, Vec y, void*) {
 
 TEST_CASE("simplified Newton with a kept Jacobian that is turned to U is Newton") {
   solve::register_simplified_newton();
-  Solver newton(dynamics::simplified_newton, 1), kept(dynamics::simplified_newton, 100);
+  Solver newton(solve::simplified_newton, 1), kept(solve::simplified_newton, 100);
   check(solve::set_turn(kept.snes, to_present, nullptr));
   PetscInt iterations[2] = {0, 0};
   for (Solver* solver : {&newton, &kept}) {

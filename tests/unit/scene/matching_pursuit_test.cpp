@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-using namespace floe::scene;
+using namespace floe::assess;
 
 TEST_CASE("matching pursuit: what carries most comes first, each besides those before it") {
   // A motion along (3, 0, 0) and (0, 1, 0); candidates: e1 + e2 twice, e3 that carries nothing, e2.

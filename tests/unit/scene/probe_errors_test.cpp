@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace floe::scene;
+using namespace floe::assembly;
+using namespace floe::assess;
 
 namespace {
 
