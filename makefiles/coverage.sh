@@ -9,7 +9,7 @@ build=build-coverage jobs=${JOBS:-$(nproc)}
 rooms=${ROOMS:-petsc math mesh body fem reduction dynamics reference output scene app}
 source makefiles/mpi_environment.sh
 export OMPI_MCA_mpi_yield_when_idle=0
-cmake -S . -B $build -G Ninja -DFLOE_COVERAGE=ON >$build.log 2>&1 || { cat $build.log; exit 1; }
+cmake -S . -B $build -G Ninja -DFLOE_COVERAGE=ON -DFLOE_UNITY=OFF >$build.log 2>&1 || { cat $build.log; exit 1; }
 rm -f $build.log
 targets=() names=
 for room in $rooms; do targets+=("test_unit_$room"); names+="${names:+|}$room"; done

@@ -8,7 +8,7 @@ command -v clang-tidy-16 >/dev/null || { echo "clang-tidy-16 is not there" >&2; 
 [ ${#files[@]} -gt 0 ] || { echo "no room $room" >&2; exit 2; }
 log=$build/lint.log
 # clang-tidy does not read precompiled headers of GCC.
-cmake -S . -B "$build/lint" -G Ninja -DFLOE_PRECOMPILE=OFF >"$build/lint-configure.log" 2>&1 || { cat "$build/lint-configure.log"; exit 1; }
+cmake -S . -B "$build/lint" -G Ninja -DFLOE_PRECOMPILE=OFF -DFLOE_UNITY=OFF >"$build/lint-configure.log" 2>&1 || { cat "$build/lint-configure.log"; exit 1; }
 cmake --build "$build/lint" --target floe_version >/dev/null
 # GCC's own options mean nothing to clang; headers of Eigen and PETSc are not ours to judge. Of products that are widened
 # those count that are PETSc's or offsets of pointers, not the small ones (3 i) that Eigen's blocks take as a long.
