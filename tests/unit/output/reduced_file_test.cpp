@@ -35,6 +35,15 @@ TEST_CASE("a reduced body without damping, places, columns and times") {
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
 }
 
+TEST_CASE("a reduced body of the first version of the format, which has no W, is read") {
+  Scratch scratch;
+  ReducedBodyFile file = sample_body(3, 4);
+  file.body.inertia.W.clear(), file.body.line.W.clear();
+  file.version = 1;
+  write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
+  check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
+}
+
 TEST_CASE("what is written twice is the same file") {
   Scratch scratch;
   for (const char* name : {"a.h5", "b.h5"})
