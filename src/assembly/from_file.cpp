@@ -33,6 +33,8 @@ body::Inertia leading(const body::Inertia& inertia, int k) {
     for (auto& h : row) h = h.head(k).eval();
   for (auto& row : part.M)
     for (auto& M : row) M = M.topLeftCorner(k, k).eval();
+  for (auto& row : part.W)
+    for (auto& W : row) W = W.topLeftCorner(k, k).eval();
   return part;
 }
 
@@ -84,6 +86,7 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
   }
   BodyReport& report = reduced.report;
   report.name = body.spec.name, report.file = body.spec.reduced->path;
+  report.file_version = file.version;
   report.nodes = file.nodes, report.elements = file.cells, report.dofs = file.dofs;
   report.dimension = file.dimension;
   report.shapes_in_file = file.has_shapes;

@@ -26,7 +26,6 @@ constexpr double most_change = 0.05;
 
 Vector3d spin_of(const BodyReport& body, const State& state) {
   if (body.first_coordinate < 0) return Vector3d::Zero();
-  if (body.dimension == 2) return {0, 0, state.v[body.first_coordinate + 2]};
   return state.v.segment<3>(body.first_coordinate + 3);
 }
 
@@ -88,9 +87,8 @@ std::string main_of(const std::vector<Cause>& causes, const std::vector<Vec>& sh
 }
 
 /// What moves across the axis of a spin, n n' of rotations and 1 - n n' of displacements.
-void take_across(const BodyReport& body, const Vector3d& n, Vec x) {
+void take_across(const Vector3d& n, Vec x) {
   petsc::Values values(x);
-  if (body.dimension == 2) return;
   for (double* node = values.begin(); node != values.begin() + (values.end - values.first); node += 6) {
     Eigen::Map<Vector3d> u(node), theta(node + 3);
     u -= n * n.dot(u), theta = (n * n.dot(theta)).eval();
@@ -103,11 +101,11 @@ reduction::Operator more_than_elastic(const BodyReport& body, Vec q, const Vecto
   const auto stress = std::make_shared<petsc::MatHandle>(fem::initial_stress_stiffness(*body.structure, q));
   if (spin.isZero(0)) return [stress](Vec x, Vec y) { check(MatMult(*stress, x, y)); };
   const auto mass = std::make_shared<petsc::MatHandle>(fem::mass(*body.structure, {}));
-  return [&body, spin, stress, mass](Vec x, Vec y) {
+  return [spin, stress, mass](Vec x, Vec y) {
     const petsc::VecHandle across = reduction::copy(x);
-    take_across(body, spin.normalized(), across);
+    take_across(spin.normalized(), across);
     check(MatMult(*mass, across, y));
-    take_across(body, spin.normalized(), y);
+    take_across(spin.normalized(), y);
     check(VecScale(y, -spin.squaredNorm()));
     check(MatMultAdd(*stress, x, y, y));
   };
@@ -116,10 +114,9 @@ reduction::Operator more_than_elastic(const BodyReport& body, Vec q, const Vecto
 Found found_at(const BodyReport& body, const reduction::Statics& statics, const State& state) {
   const petsc::VecHandle q = shape_of(body, state);
   const Vector3d spin = spin_of(body, state);
-  const fem::MissingStiffness missing = fem::missing_stiffness(*body.structure, q, spin);
+  const fem::MissingStiffness missing = fem::missing_stiffness(*body.structure, q);
   std::vector<Cause> causes;
-  for (const Cause& cause :
-       {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}, {"rotary", missing.rotary}})
+  for (const Cause& cause : {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}})
     if (cause.A) causes.push_back(cause);
   if (causes.empty()) return {};
   const reduction::Operator more = more_than_elastic(body, q, spin);
@@ -146,11 +143,6 @@ Found found_at(const BodyReport& body, const reduction::Statics& statics, const 
 std::string words(const BodyReport& body, const Found& found, double spin) {
   const std::string of = found.own ? "against its deformation" : "of one of its shapes";
   const std::string number = math::percent(std::abs(found.change)), too = found.change > 0 ? "soft" : "stiff";
-  if (found.what == "rotary")
-    return fmt::format(
-        "body {}: rotary inertia at {:.3g} rad/s changes the stiffness {} by {} (limit 5 %), and is not "
-        "represented to second order: too {}; take several frames (frames: N)",
-        body.name, spin, of, number, too);
   if (found.what == "coupling")
     return fmt::format(
         "body {}: second-order coupling of bending and torsion changes the stiffness {} by {} (limit 5 %), and "
@@ -169,7 +161,7 @@ std::string words(const BodyReport& body, const Found& found, double spin) {
 void judge_missing(const Model& model, std::size_t b, const std::vector<const State*>& states,
                    std::vector<OutOfRange>& out) {
   const BodyReport& body = model.bodies[b];
-  if (body.rigid || !body.structure || !model.offline || states.empty()) return;
+  if (body.rigid || body.dimension == 2 || !body.structure || !model.offline || states.empty()) return;
   if (model.formulation == Formulation::lffr || model.formulation == Formulation::cfr) return;
   Found worst;
   double spin = 0;
@@ -186,8 +178,7 @@ void judge_missing(const Model& model, std::size_t b, const std::vector<const St
         worst = found, spin = spin_of(body, *state).norm();
   } catch (const RunError& error) {  // of a solve with K, on all ranks
     out.push_back({"unchecked", body.name, 0, most_change,
-                   fmt::format("body {}: strains and rotary inertia of second order were not checked: {}", body.name,
-                               error.what())});
+                   fmt::format("body {}: strains of second order were not checked: {}", body.name, error.what())});
     return;
   }
   if (!(std::abs(worst.change) > most_change)) return;

@@ -26,7 +26,7 @@ void products(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::Ve
               InertiaWork& work) {
   const Eigen::Index k = in.M.rows();
   work.e = q.tail(k), work.ed = v.tail(k), work.edd = a.tail(k);
-  work.Me.noalias() = in.M * work.e;
+  work.De.noalias() = in.D * work.e;
   work.Be.noalias() = in.B * work.e;  // B' e = -B e
   work.Bed.noalias() = in.B * work.ed;
 }
@@ -37,7 +37,7 @@ void add_inertia_force(const PlanarInertia& in, const Eigen::VectorXd& q, const 
                        const Eigen::VectorXd& a, InertiaWork& work, Eigen::VectorXd& r) {
   const Eigen::Index k = in.M.rows();
   products(in, q, v, a, work);
-  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &Me = work.Me, &Be = work.Be;
+  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &De = work.De, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
   const Vector2d sigma = in.s0 + times(in.S, e), sigma_d = times(in.S, ed), sigma_dd = times(in.S, edd);
@@ -47,14 +47,14 @@ void add_inertia_force(const PlanarInertia& in, const Eigen::VectorXd& q, const 
       in.m * Rdd + rotated_quarter(sigma) * wd + sigma_dd - w * w * sigma + 2 * w * rotated_quarter(sigma_d);
   r.head<2>() += A * momentum_rate;
 
-  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
+  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(De);
   r[2] +=
-      rotated_quarter(sigma).dot(Rdd) + moment * wd + in.g.dot(edd) - Be.dot(edd) + 2 * w * (in.h.dot(ed) + Me.dot(ed));
+      rotated_quarter(sigma).dot(Rdd) + moment * wd + in.g.dot(edd) - Be.dot(edd) + 2 * w * (in.h.dot(ed) + De.dot(ed));
 
   auto elastic = r.tail(k);
   elastic.noalias() += in.M * edd;
   for (Eigen::Index j = 0; j < k; ++j)
-    elastic[j] += in.S.col(j).dot(Rdd) + (in.g[j] - Be[j]) * wd - w * w * (in.h[j] + Me[j]) - 2 * w * work.Bed[j];
+    elastic[j] += in.S.col(j).dot(Rdd) + (in.g[j] - Be[j]) * wd - w * w * (in.h[j] + De[j]) - 2 * w * work.Bed[j];
 }
 
 void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -62,9 +62,9 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
                          Eigen::MatrixXd& J) {
   const Eigen::Index k = in.M.rows();
   products(in, q, v, a, work);
-  work.Med.noalias() = in.M * work.ed;
+  work.Ded.noalias() = in.D * work.ed;
   work.Bedd.noalias() = in.B * work.edd;
-  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &Me = work.Me, &Be = work.Be;
+  const auto &e = work.e, &ed = work.ed, &edd = work.edd, &De = work.De, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
   const Eigen::Matrix2d quarter = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
@@ -74,26 +74,26 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
 
   // frame by frame
   const Vector2d relative = Jsigma * wd + sigma_dd - w * w * sigma + 2 * w * rotated_quarter(sigma_d);
-  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
+  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(De);
   J.block<2, 2>(0, 0) += wa * in.m * Eigen::Matrix2d::Identity();
   J.block<2, 1>(0, 2) +=
       A * (wq * rotated_quarter(relative) + wv * (2 * rotated_quarter(sigma_d) - 2 * w * sigma) + wa * Jsigma);
   J.block<1, 2>(2, 0) += wa * (A * Jsigma).transpose();
-  J(2, 2) += -wq * sigma.dot(Rdd) + wv * 2 * (in.h.dot(ed) + Me.dot(ed)) + wa * moment;
+  J(2, 2) += -wq * sigma.dot(Rdd) + wv * 2 * (in.h.dot(ed) + De.dot(ed)) + wa * moment;
 
   // frame by q and q by frame
   const Eigen::Matrix2d onS = A * ((wa - wq * w * w) * Eigen::Matrix2d::Identity() + (wq * wd + wv * 2 * w) * quarter);
   for (Eigen::Index j = 0; j < k; ++j) {
     const Vector2d S = in.S.col(j);
-    const double hMe = in.h[j] + Me[j], gBe = in.g[j] - Be[j], across = S.dot(turned_Rdd);  // (J S)' R = -S' J R
+    const double hDe = in.h[j] + De[j], gBe = in.g[j] - Be[j], across = S.dot(turned_Rdd);  // (J S)' R = -S' J R
     J.block<2, 1>(0, 3 + j) += onS * S;
     J.block<1, 2>(3 + j, 0) += wa * (A * S).transpose();
-    J(2, 3 + j) += wq * (work.Bedd[j] - across + 2 * wd * hMe + 2 * w * work.Med[j]) + wv * 2 * w * hMe + wa * gBe;
-    J(3 + j, 2) += wa * gBe - wq * across - wv * 2 * (w * hMe + work.Bed[j]);
+    J(2, 3 + j) += wq * (work.Bedd[j] - across + 2 * wd * hDe + 2 * w * work.Ded[j]) + wv * 2 * w * hDe + wa * gBe;
+    J(3 + j, 2) += wa * gBe - wq * across - wv * 2 * (w * hDe + work.Bed[j]);
   }
 
   // q by q
-  J.block(3, 3, k, k) += (wa - wq * w * w) * in.M - (wq * wd + wv * 2 * w) * in.B;
+  J.block(3, 3, k, k) += wa * in.M - wq * w * w * in.D - (wq * wd + wv * 2 * w) * in.B;
 }
 
 void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -114,8 +114,8 @@ double kinetic_energy(const PlanarInertia& in, const Eigen::VectorXd& q, const E
   const double w = v[2];
   const Vector2d Rd = rotation(q[2]).transpose() * v.head<2>();
   const Vector2d sigma = in.s0 + in.S * e;
-  const Eigen::VectorXd Me = in.M * e;
-  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(Me);
+  const Eigen::VectorXd De = in.D * e;
+  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(De);
   return 0.5 * (in.m * Rd.squaredNorm() + moment * w * w + ed.dot(in.M * ed)) +
          Rd.dot(rotated_quarter(sigma) * w + in.S * ed) + w * (in.g - in.B * e).dot(ed);
 }

@@ -22,10 +22,33 @@ void Inertia::add(const MassPoint& point) {
     }
 }
 
+void Inertia::allocate_rotary() {
+  const int d = dimension(), k = coordinates();
+  if (W.empty()) W.assign(d, std::vector<Eigen::MatrixXd>(d, Eigen::MatrixXd::Zero(k, k)));
+}
+
+Eigen::Matrix3d rotary_form(const Eigen::Matrix3d& E, int a, int b) {
+  Eigen::Matrix3d T = -E(a, b) * Eigen::Matrix3d::Identity();
+  T.row(b) += E.row(a) / 2;
+  T.col(b) += E.col(a) / 2;
+  return T;
+}
+
+void Inertia::add(const RotatingMass& mass) {
+  allocate_rotary();
+  for (int a = 0; a < dimension(); ++a)
+    for (int b = 0; b < dimension(); ++b)
+      W[a][b].noalias() += mass.turn.transpose() * (rotary_form(mass.moments, a, b) * mass.turn);
+}
+
 Inertia& Inertia::operator+=(const Inertia& other) {
   m += other.m, s0 += other.s0, C0 += other.C0, S += other.S;
   for (int a = 0; a < dimension(); ++a)
     for (int b = 0; b < dimension(); ++b) h[a][b] += other.h[a][b], M[a][b] += other.M[a][b];
+  if (other.W.empty()) return *this;
+  allocate_rotary();
+  for (int a = 0; a < dimension(); ++a)
+    for (int b = 0; b < dimension(); ++b) W[a][b] += other.W[a][b];
   return *this;
 }
 
@@ -39,6 +62,8 @@ PlanarInertia planar(const Inertia& inertia) {
   p.g = inertia.h[0][1] - inertia.h[1][0];
   p.M = inertia.M[0][0] + inertia.M[1][1];
   p.B = inertia.M[0][1] - inertia.M[1][0];  // N'J'N with J' = [[0,1],[-1,0]]
+  p.D = p.M;
+  if (!inertia.W.empty()) p.D += inertia.W[0][0] + inertia.W[1][1];
   return p;
 }
 

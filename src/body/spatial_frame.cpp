@@ -19,7 +19,7 @@ Vector3d times(const Eigen::Matrix3Xd& S, const Vector& x) {
   return sum;
 }
 
-/// What forms from `first` on, times x, add to dJ/de and G.
+/// What forms from `first` on, times x, add to dJ/de, G and Y e.
 void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x, Eigen::VectorXd& products,
                   Rates& rates) {
   const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size()) - first;
@@ -29,7 +29,9 @@ void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x,
   for (Index i = 0; i < n; ++i) {
     const auto product = products.segment(i * k, k);
     const int kind = in.kinds[first + i];
-    if (kind >= 3) {
+    if (kind >= 9) {
+      rates.col(kind) += product;
+    } else if (kind >= 3) {
       rates.col(kind) -= product;  // skew forms: F'x = -F x
     } else {
       rates.col((kind + 1) % 3) += 2 * product;
@@ -38,13 +40,15 @@ void add_products(const SpatialInertia& in, int first, const Eigen::VectorXd& x,
   }
 }
 
-/// dJ/de and G at e; products of the skew forms (`skew`) or of all with the velocities.
+/// dJ/de and G at e; products of B and Y alone (`skew`) or of all forms with the velocities.
 void set_rates(const SpatialInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                bool skew, SpatialInertiaWork& work) {
   const Index k = in.S.cols();
   work.e = q.tail(k), work.ed = v.tail(k), work.edd = a.tail(k);
-  work.of_e = in.linear;
-  work.of_ed.setZero(k, 9);
+  work.of_e.resize(k, 12);
+  work.of_e.leftCols<9>() = in.linear;
+  work.of_e.rightCols<3>().setZero();
+  work.of_ed.setZero(k, 12);
   add_products(in, 0, work.e, work.products, work.of_e);
   add_products(in, skew ? in.symmetric : 0, work.ed, work.products, work.of_ed);
 }
@@ -58,23 +62,34 @@ Matrix3d moment_rate(const Rates& rates, Index i) {
   return symmetric(rates(i, 0), rates(i, 1), rates(i, 2), rates(i, 3), rates(i, 4), rates(i, 5));
 }
 
-/// G_i.
+/// G_i but for (Y e)_i, and that.
 Vector3d spin_rate(const Rates& rates, Index i) { return {rates(i, 6), rates(i, 7), rates(i, 8)}; }
+Vector3d turn_rate(const Rates& rates, Index i) { return {rates(i, 9), rates(i, 10), rates(i, 11)}; }
 
 /// What e and e' make of the body as a whole.
 struct Sums {
   Vector3d sigma, sigma_d;  ///< s0 + S e, S e'
   Matrix3d J, J_d;          ///< and its rate
   Vector3d spin;            ///< G e'
+  Vector3d turn;            ///< Y(e', e')
 };
 
 Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
   const auto &e = work.e, &ed = work.ed;
   double J[6] = {0, 0, 0, 0, 0, 0}, rate[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
+  Vector3d turn;
   for (int c = 0; c < 9; ++c) rate[c] = ed.dot(work.of_e.col(c));
+  for (int c = 0; c < 3; ++c) {
+    rate[6 + c] += ed.dot(work.of_e.col(9 + c));
+    turn[c] = ed.dot(work.of_ed.col(9 + c));
+  }
   for (int c = 0; c < 6; ++c) J[c] = 0.5 * (e.dot(in.linear.col(c)) + e.dot(work.of_e.col(c)));
-  return {in.s0 + times(in.S, e), times(in.S, ed), in.J0 + symmetric(J[0], J[1], J[2], J[3], J[4], J[5]),
-          symmetric(rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]), Vector3d(rate[6], rate[7], rate[8])};
+  return {in.s0 + times(in.S, e),
+          times(in.S, ed),
+          in.J0 + symmetric(J[0], J[1], J[2], J[3], J[4], J[5]),
+          symmetric(rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]),
+          Vector3d(rate[6], rate[7], rate[8]),
+          turn};
 }
 
 /// The acceleration of the mass relative to the frame's origin: body axes, times mass.
@@ -82,18 +97,20 @@ Vector3d relative_acceleration(const Sums& s, const Vector3d& w, const Vector3d&
   return wd.cross(s.sigma) + w.cross(w.cross(s.sigma)) + 2 * w.cross(s.sigma_d) + sigma_dd;
 }
 
-/// The e by e block: all forms, each with its weight.
-void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d& skew, double wa, Eigen::VectorXd& sum,
-               Eigen::MatrixXd& tangent) {
+/// The e by e block but for M: all forms, each with its weight.
+void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d& skew, const Vector3d& turn,
+               Eigen::VectorXd& sum, Eigen::MatrixXd& tangent) {
   const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size());
   if (k == 0 || n == 0) return;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> weights(n);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1> weights(n);
   for (Index i = 0; i < n; ++i) {
     const int kind = in.kinds[i], axis = kind % 3;
     if (kind < 3)
-      weights[i] = wa + squares(axis, axis);
+      weights[i] = squares(axis, axis);
+    else if (kind < 6)
+      weights[i] = squares((axis + 1) % 3, (axis + 2) % 3);
     else
-      weights[i] = kind < 6 ? squares((axis + 1) % 3, (axis + 2) % 3) : skew[axis];
+      weights[i] = kind < 9 ? skew[axis] : turn[axis];
   }
   sum.resize(k * k);
   math::multiply(Eigen::Map<const Eigen::MatrixXd>(in.forms.data(), k * k, n), weights, sum);
@@ -110,24 +127,27 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   const Sums s = sums_of(in, work);
   const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
   r.head<3>() += in.m * a.head<3>() + A * relative_acceleration(s, w, wd, times(in.S, work.edd));
-  Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + w.cross(s.J * w + s.spin);
-  for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c));
+  Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + s.turn + w.cross(s.J * w + s.spin);
+  for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c) + work.of_e.col(9 + c));
   r.segment<3>(3) += moment;
   work.Medd.resize(k);
   math::multiply(in.M, work.edd, work.Medd);
   // G_i.alpha - 1/2 omega.J_i omega, column by column
-  const double by_rates[9] = {-0.5 * w[0] * w[0],
-                              -0.5 * w[1] * w[1],
-                              -0.5 * w[2] * w[2],
-                              -w[1] * w[2],
-                              -w[2] * w[0],
-                              -w[0] * w[1],
-                              wd[0],
-                              wd[1],
-                              wd[2]};
+  const double by_rates[12] = {-0.5 * w[0] * w[0],
+                               -0.5 * w[1] * w[1],
+                               -0.5 * w[2] * w[2],
+                               -w[1] * w[2],
+                               -w[2] * w[0],
+                               -w[0] * w[1],
+                               wd[0],
+                               wd[1],
+                               wd[2],
+                               wd[0],
+                               wd[1],
+                               wd[2]};
   auto rows = r.tail(k);
   rows += work.Medd;
-  for (int c = 0; c < 9; ++c) rows += by_rates[c] * work.of_e.col(c);
+  for (int c = 0; c < 12; ++c) rows += by_rates[c] * work.of_e.col(c);
   for (int c = 0; c < 3; ++c) rows += 2 * w[c] * work.of_ed.col(6 + c);
   for (Index i = 0; i < k; ++i) rows[i] += in.S.col(i).dot(u);
 }
@@ -138,7 +158,7 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
   using math::skew;
   const Index k = in.S.cols();
   set_rates(in, q, v, a, wq == 0, work);
-  work.of_edd.setZero(k, 9);
+  work.of_edd.setZero(k, 12);
   if (wq != 0) add_products(in, in.symmetric, work.edd, work.products, work.of_edd);
   const Sums s = sums_of(in, work);
   const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
@@ -157,18 +177,21 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
   // frame by e and e by frame
   const Matrix3d on_S = A * (wa * I + wq * (skew(wd) + squares) + 2 * wv * turn);
   for (Index i = 0; i < k; ++i) {
-    const Vector3d S = in.S.col(i), G = spin_rate(work.of_e, i), Bed = spin_rate(work.of_ed, i);
+    const Vector3d S = in.S.col(i), G = spin_rate(work.of_e, i) + turn_rate(work.of_e, i);
+    const Vector3d Bed = spin_rate(work.of_ed, i), Yed = turn_rate(work.of_ed, i);
     const Matrix3d J = moment_rate(work.of_e, i);
     const Vector3d Jw = J * w, across = S.cross(u);
     tangent.block<3, 1>(0, 6 + i) += on_S * S;
     tangent.block<1, 3>(6 + i, 0) += wa * (A * S).transpose();
     tangent.block<3, 1>(3, 6 + i) +=
-        wq * (across + J * wd + moment_rate(work.of_ed, i) * w - spin_rate(work.of_edd, i) + w.cross(Jw - Bed)) +
-        wv * (Jw + w.cross(G)) + wa * G;
+        wq * (across + J * wd + moment_rate(work.of_ed, i) * w - spin_rate(work.of_edd, i) + turn_rate(work.of_edd, i) +
+              w.cross(Jw - Bed + Yed)) +
+        wv * (Jw + 2 * Yed + w.cross(G)) + wa * G;
     tangent.block<1, 3>(6 + i, 3) += (wv * (2 * Bed - Jw) + wa * G + T.transpose() * across).transpose();
   }
 
-  add_forms(in, wq * squares, wq * wd + 2 * wv * w, wa, work.sum, tangent);
+  if (wa != 0) tangent.bottomRightCorner(k, k) += wa * in.M;
+  add_forms(in, wq * squares, wq * wd + 2 * wv * w, wq * wd, work.sum, tangent);
 }
 
 double kinetic_energy(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {

@@ -14,9 +14,13 @@ bool vanishes(const Eigen::MatrixXd& form, const Eigen::MatrixXd& M) {
 
 Eigen::MatrixXd form_of(const Inertia& in, int kind) {
   const int a = kind % 3, b = (a + 1) % 3, c = (a + 2) % 3;
-  if (kind < 3) return in.M[a][a];
-  if (kind < 6) return in.M[b][c] + in.M[c][b];
-  return in.M[c][b] - in.M[b][c];
+  const auto with = [&](const Eigen::MatrixXd& form, auto&& of_W) {
+    return in.W.empty() ? form : Eigen::MatrixXd(form + of_W());
+  };
+  if (kind < 3) return with(in.M[a][a], [&] { return in.W[a][a]; });
+  if (kind < 6) return with(in.M[b][c] + in.M[c][b], [&] { return Eigen::MatrixXd(in.W[b][c] + in.W[c][b]); });
+  if (kind < 9) return in.M[c][b] - in.M[b][c];
+  return in.W[b][c] - in.W[c][b];
 }
 
 /// dJ/de and G at e = 0.
@@ -42,7 +46,7 @@ SpatialInertia spatial(const Inertia& in) {
   set_linear(in, s);
   s.M = in.M[0][0] + in.M[1][1] + in.M[2][2];
   std::vector<Eigen::MatrixXd> kept;
-  for (int kind = 0; kind < 9; ++kind) {
+  for (int kind = 0; kind < (in.W.empty() ? 9 : 12); ++kind) {
     const Eigen::MatrixXd form = form_of(in, kind);
     if (vanishes(form, s.M)) continue;
     kept.push_back(form);

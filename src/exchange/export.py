@@ -77,6 +77,15 @@ def export(options):
         print(f"Written: {path}")
 
 
+def note_rotary(body):
+    from inertia_terms import second_order_share
+    from reduced_body import in_space
+    share = second_order_share(in_space(body))
+    if share > 0:
+        print("Note: MBSim has no place for rotary inertia of second order (W): it is left out, and changes 5 % of the "
+              f"stiffness at a spin of {(0.05 / share) ** 0.5:.3g} rad/s")
+
+
 def write(chosen, paths, body, options):
     if chosen == "npz":
         import numpy_file
@@ -93,9 +102,11 @@ def write(chosen, paths, body, options):
     elif chosen == "mbsim":
         import mbsim
         mbsim.write_xml(paths[0], body)
+        note_rotary(body)
     elif chosen == "mbsim-hdf5":
         import mbsim
         mbsim.write_hdf5(paths[0], body)
+        note_rotary(body)
         if len(body.pairs):
             print("Note: MBSim's HDF5 form has no place for nonlinear stiffness: this is the linear body; "
                   "an .xml has all of it")

@@ -32,9 +32,14 @@ def Cr0(body):
     return np.stack([body.h[b, c] - body.h[c, b] for _, b, c in CYCLIC], axis=1)
 
 
+def skew_forms(body):
+    """k x k x 3: the part of Cr1 that is gyroscopic."""
+    return np.stack([body.M[c, b] - body.M[b, c] for _, b, c in CYCLIC], axis=2)
+
+
 def Cr1(body):
     """k x k x 3."""
-    return np.stack([body.M[c, b] - body.M[b, c] for _, b, c in CYCLIC], axis=2)
+    return skew_forms(body) + np.stack([body.W[b, c] - body.W[c, b] for _, b, c in CYCLIC], axis=2)
 
 
 def Gr0(body):
@@ -45,7 +50,7 @@ def Gr0(body):
 
 def Ge0(body):
     """k x 3k, a block of three columns for each coordinate."""
-    return 2 * Cr1(body).reshape(body.k, -1)
+    return 2 * skew_forms(body).reshape(body.k, -1)
 
 
 def quadratic(H):
@@ -61,4 +66,14 @@ def Oe0(body):
 
 def Oe1(body):
     """k x k x 6."""
-    return quadratic(body.M)
+    return quadratic(body.M + body.W)
+
+
+def second_order_share(body):
+    """What spin about the worst axis of the frame changes of the stiffness by W, at 1 rad/s: W_bb + W_cc against K, in the
+    largest eigenvalue. Zero where nothing rotates or K is singular."""
+    values, vectors = np.linalg.eigh(body.stiffness)
+    if not len(values) or values[0] <= 1e-12 * values[-1]:
+        return 0.0
+    half = vectors / np.sqrt(values)
+    return max(np.abs(np.linalg.eigvalsh(half.T @ (body.W[b, b] + body.W[c, c]) @ half)).max() for _, b, c in CYCLIC)

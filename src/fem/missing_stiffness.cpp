@@ -105,46 +105,6 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, const Spat
   return to_own.transpose() * A * to_own;
 }
 
-Eigen::Matrix3d cross(const Vector3d& a) {
-  return (Eigen::Matrix3d() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
-}
-
-/// 2 S of a rotation vector theta: theta' B theta. Theta^2 = theta theta' - |theta|^2, tr(Theta E Theta') =
-/// theta' (tr E - E) theta.
-Eigen::Matrix3d rotary_of(const Eigen::Matrix3d& E, const Vector3d& spin) {
-  const Vector3d EO = E * spin;
-  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity(), product = spin * EO.transpose();
-  return (product + product.transpose()) / 2 - spin.dot(EO) * one + spin.squaredNorm() * (E.trace() * one - E);
-}
-
-MatrixXd rotary(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam, const Vector3d& spin) {
-  const SpatialBeamSection& section = beam.section;
-  const spatial::BeamFrame frame = spatial::beam_frame(place_of(structure, cell, beam), section);
-  Eigen::Matrix3d E = Eigen::Matrix3d::Zero();
-  E.bottomRightCorner<2, 2>() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
-  const Eigen::Matrix3d B = rotary_of(E, frame.axes.transpose() * spin);
-  MatrixXd A = MatrixXd::Zero(12, 12);
-  for (const spatial::BeamStation& g : spatial::beam_gauss3) {
-    Eigen::Matrix<double, 3, 12> theta;
-    const spatial::SectionMotion motion = spatial::section_motion(g.at, frame);
-    theta << spatial::twist(g.at), motion.along_z.row(0), -motion.along_y.row(0);
-    const Eigen::Matrix<double, 3, 12> body = spatial::to_body<3>(theta, frame);
-    A += g.weight * frame.length * body.transpose() * B * body;
-  }
-  return A;
-}
-
-/// Rotary inertia is what a section without it lacks in the mass matrix.
-MatrixXd rotary(const Structure& structure, const Mesh::Cell& cell, const BeamSection& section, const Vector3d& spin) {
-  BeamSection slender = section;
-  slender.rhoI = 0;
-  const auto mass = [&](const BeamSection& of) {
-    const auto& at = structure.mesh.positions;
-    return planar_beam(at[cell.corner[0]].head<2>(), at[cell.corner[1]].head<2>(), of, structure.strain).mass_matrix();
-  };
-  return spin.squaredNorm() * (mass(section) - mass(slender));
-}
-
 /// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are
 /// none.
 template <class Section, class MatrixOf>
@@ -164,7 +124,7 @@ petsc::MatHandle of_kind(const Structure& structure, MatrixOf&& matrix_of) {
 
 }  // namespace
 
-MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Vector3d& spin) {
+MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
   const VectorXd all = structure.exchange.gather(q);
   const auto of_corners = [&](const Mesh::Cell& cell, const MatrixXd& T) -> VectorXd {
     return T * all(structure.cell_dofs(cell));
@@ -178,12 +138,6 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Vect
       of_kind<SpatialBeam>(structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) {
         return coupling(structure, cell, beam, of_corners(cell, T));
       });
-  if (spin.isZero(0)) return missing;
-  const auto rotary_of_cell = [&](const Mesh::Cell& cell, const auto& section, const MatrixXd&) {
-    return rotary(structure, cell, section, spin);
-  };
-  missing.rotary = structure.dimension() == 2 ? of_kind<BeamSection>(structure, rotary_of_cell)
-                                              : of_kind<SpatialBeam>(structure, rotary_of_cell);
   return missing;
 }
 

@@ -81,6 +81,8 @@ void generic_piece(const Structure& structure, const Mesh::Cell& cell, PiecePart
       piece.mass.back().N.topRows(point.N.rows()) = point.N;
       piece.mass.back().x.head(point.x.size()) = point.x;
     }
+    for (const body::RotatingMass& mass : maps.rotary)
+      if (parts.mass) piece.rotary.push_back({mass.moments, mass.turn});
   }
   if (!parts.line) return;
   for (const body::MassPoint& point : structure.line(cell)) {
@@ -213,7 +215,8 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
 void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, std::vector<PieceRows>& pieces) {
   pieces.resize(cell.kind == CellKind::quadrilateral ? 4 : 1);
   for (PieceRows& piece : pieces)
-    piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.line.clear(), piece.spins.clear();
+    piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.rotary.clear(), piece.line.clear(),
+        piece.spins.clear();
   const auto& c = cell.corner;
   if (cell.kind == CellKind::triangle) {
     triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);

@@ -42,6 +42,14 @@ body::MassPoint sample(double mass, double s, const Eigen::Vector2d& arm, const 
   return {mass, place.from + frame.axes * x, frame.axes * to_body<3>(own, frame)};
 }
 
+/// The rotation vector of the section on body dofs: (rx, -w_S', v_S'), with shear that of the section.
+Eigen::Matrix<double, 3, 12> section_rotation(double s, const BeamFrame& frame) {
+  const SectionMotion motion = section_motion(s, frame);
+  Rows3x12 own;
+  own << twist(s), motion.along_z.row(0), -motion.along_y.row(0);
+  return frame.axes * to_body<3>(own, frame);
+}
+
 StrainPoint whole_element(const FixedSpatialBeam& beam, double EA, double length, bool wagner) {
   const int rows = wagner ? 7 : 6;
   const Eigen::MatrixXd P = beam.p.head(rows).asDiagonal();
@@ -70,6 +78,13 @@ ElementMaps spatial_beam(const BeamPlace& place, const SpatialBeamSection& secti
   } else {
     for (const BeamStation& g : beam_gauss5)  // slopes to the fourth have degree 8
       maps.membrane.push_back(station(g, beam, section.EA, frame, beam.p[6]));
+  }
+  if (section.rhoIy + section.rhoIz > 0) {
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // about the centroid, int rho a a'
+    moments.bottomRightCorner<2, 2>() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
+    moments = (frame.axes * moments * frame.axes.transpose()).eval();
+    for (const BeamStation& g : beam_gauss4)
+      maps.rotary.push_back({g.weight * frame.length * moments, section_rotation(g.at, frame)});
   }
   const std::vector<SectionPoint> points = section_points(section);
   for (const BeamStation& g : beam_gauss4)

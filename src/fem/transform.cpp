@@ -45,6 +45,7 @@ ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T) {
     g.G = (g.G * T).eval();
   }
   result.mass = transformed(maps.mass, T);
+  for (body::RotatingMass& mass : result.rotary) mass.turn = (mass.turn * T).eval();
   return result;
 }
 

@@ -86,7 +86,7 @@ std::string made_text(const MadeBy& made) {
 
 std::int64_t numbers_of(const body::Inertia& inertia) {
   const std::int64_t d = inertia.dimension(), k = inertia.coordinates();
-  return 1 + d + d * d + d * k + d * d * (k + k * k);
+  return 1 + d + d * d + d * k + d * d * (k + k * k * (inertia.W.empty() ? 1 : 2));
 }
 
 }  // namespace

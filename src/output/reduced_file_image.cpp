@@ -62,7 +62,7 @@ class Writer {
   std::uint64_t sum_ = 0xcbf29ce484222325u;
 };
 
-/// Units of m, s0, C0, S, h and M.
+/// Units of m, s0, C0, S, h, and of M and W.
 using InertiaUnits = std::array<const char*, 6>;
 constexpr InertiaUnits of_mass = {"kg", "kg m", "kg m^2", "kg^1/2", "kg^1/2 m", "1"};
 constexpr InertiaUnits of_line = {"m", "m^2", "m^3", "m kg^-1/2", "m^2 kg^-1/2", "m kg^-1"};
@@ -80,6 +80,12 @@ void put(Writer& to, const std::string& group, const body::Inertia& inertia, con
     for (const auto& each : row) append(M, each);
   to.numbers(group + "/h", {d, d, k}, h, units[4], "[a][b]: int rho x_a N_b");
   to.numbers(group + "/M", {d, d, k, k}, M, units[5], "[a][b]: int rho N_a' N_b");
+  if (inertia.W.empty()) return;
+  Numbers W;
+  for (const auto& row : inertia.W)
+    for (const auto& each : row) append(W, each);
+  to.numbers(group + "/W", {d, d, k, k}, W, units[5],
+             "[a][b]: q' W q = int rho a_a (theta x (theta x a))_b of rotating sections; symmetric");
 }
 
 void put(Writer& to, const body::Elasticity& elasticity) {
@@ -193,7 +199,7 @@ std::vector<char> bytes_of(hid_t memory) {
 Image image_of(const ReducedBodyFile& file, bool complete) {
   const Hid memory = create_image();
   write_attribute(memory, "format", reduced_format);
-  write_flag(memory, "version", reduced_version);
+  write_flag(memory, "version", file.version);
   write_flag(memory, "shapes", file.has_shapes);
   Writer writer(memory);
   put(writer, file);

@@ -55,6 +55,11 @@ body::Inertia read_inertia(hid_t file, const std::string& group, int dimension, 
       inertia.h[a][b] = matrix_at(h.data() + (a * d + b) * k, k, 1);
       inertia.M[a][b] = matrix_at(M.data() + (a * d + b) * k * k, k, k);
     }
+  if (H5Lexists(file, (group + "/W").c_str(), H5P_DEFAULT) <= 0) return inertia;
+  const auto W = read_whole<double>(file, group + "/W", {d, d, k, k});
+  inertia.allocate_rotary();
+  for (hsize_t a = 0; a < d; ++a)
+    for (hsize_t b = 0; b < d; ++b) inertia.W[a][b] = matrix_at(W.data() + (a * d + b) * k * k, k, k);
   return inertia;
 }
 
@@ -130,8 +135,8 @@ void check_kind(hid_t file) {
   const bool readable = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
   if (readable) check_hdf5(H5Aread(format, type, text.data()));
   if (!readable || text != reduced_format) throw Fault(fmt::format("expected {}, found another format", wanted));
-  if (const auto version = read_flag(file, "version"); version != reduced_version)
-    throw Fault(fmt::format("expected version {} of the format, found version {}", reduced_version, version));
+  if (const auto version = read_flag(file, "version"); version < 1 || version > reduced_version)
+    throw Fault(fmt::format("expected version 1 to {} of the format, found version {}", reduced_version, version));
   if (read_flag(file, "complete") != 1) throw Fault("expected a complete file, found one whose writing was broken off");
 }
 
@@ -141,6 +146,7 @@ ReducedBodyFile parse(hid_t file) {
   check_kind(file);
   ReducedBodyFile all;
   all.has_shapes = read_flag(file, "shapes") != 0;
+  all.version = static_cast<int>(read_flag(file, "version"));
   all.name = read_text(file, "body/name");
   all.dimension = static_cast<int>(read_integer(file, "body/dimension", 2, 3));
   all.dofs = read_count(file, "body/dofs");

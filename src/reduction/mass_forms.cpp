@@ -42,6 +42,39 @@ void MassForms::add(const fem::PieceRows& piece, const std::vector<fem::MassRows
   }
 }
 
+void MassForms::add(const fem::PieceRows& piece, const std::vector<fem::RotaryRows>& masses) {
+  for (const fem::RotaryRows& mass : masses) {
+    if (turns_.columns == 0) turns_ = RowStack(static_cast<int>(fields_.cols()), together);
+    if (fields_.cols() == 0) return inertia_.allocate_rotary();
+    turns_.range.include(fem::multiply(structure_, piece, mass.turn, fields_, ranges_, turns_.next()));
+    turns_.count += 3;
+    moments_.push_back(mass.moments);
+    if (turns_.count + 3 > together) flush_rotary();
+  }
+}
+
+void MassForms::flush_rotary() {
+  if (moments_.empty()) return;
+  inertia_.allocate_rotary();
+  const int d = structure_.dimension();
+  if (!turns_.range.empty()) {
+    const Eigen::Index begin = turns_.range.begin, count = turns_.range.end - turns_.range.begin;
+    const Eigen::Map<const Eigen::MatrixXd> all(turns_.rows.data(), turns_.columns, turns_.count);
+    const auto rows = all.middleRows(begin, count);
+    Eigen::MatrixXd weighted(count, turns_.count);
+    for (int a = 0; a < d; ++a)
+      for (int b = 0; b < d; ++b) {
+        for (std::size_t i = 0; i < moments_.size(); ++i) {
+          const auto at = 3 * static_cast<Eigen::Index>(i);
+          weighted.middleCols<3>(at).noalias() = rows.middleCols<3>(at) * body::rotary_form(moments_[i], a, b);
+        }
+        inertia_.W[a][b].block(begin, begin, count, count).noalias() += rows * weighted.transpose();
+      }
+  }
+  turns_.clear();
+  moments_.clear();
+}
+
 void MassForms::flush(Samples& samples, bool first_moments) {
   const int d = structure_.dimension();
   for (int a = 0; a < d; ++a) {
@@ -72,6 +105,7 @@ body::Inertia turned(const body::Inertia& of, const Eigen::Matrix3d& R) {
           if (factor == 0) continue;
           to.h[a][b] += factor * of.h[c][d];
           to.M[a][b] += factor * of.M[c][d];
+          if (!of.W.empty()) to.allocate_rotary(), to.W[a][b] += factor * of.W[c][d];
         }
   return to;
 }
@@ -81,6 +115,7 @@ body::Inertia turned(const body::Inertia& of, const Eigen::Matrix3d& R) {
 body::Inertia MassForms::sums() {
   flush(single_, true);
   flush(pairs_, false);
+  flush_rotary();
   for (int a = 0; a < structure_.dimension(); ++a) {
     mirror(inertia_.M[a][a]);
     for (int b = 0; b < a; ++b) inertia_.M[a][b] = inertia_.M[b][a].transpose();

@@ -12,6 +12,7 @@ class MassForms {
   /// @param cross  whether M_ab with a != b are wanted
   MassForms(const fem::Structure& structure, const fem::FieldRows& fields, const fem::DofRanges& ranges, bool cross);
   void add(const fem::PieceRows& piece, const std::vector<fem::MassRows>& samples);
+  void add(const fem::PieceRows& piece, const std::vector<fem::RotaryRows>& masses);
   /// Of this rank.
   body::Inertia sums();
 
@@ -24,6 +25,7 @@ class MassForms {
   };
   void push(const fem::PieceRows& piece, const fem::MassRows& sample, Samples& samples);
   void flush(Samples& samples, bool first_moments);
+  void flush_rotary();
 
   const fem::Structure& structure_;
   const fem::FieldRows& fields_;
@@ -31,6 +33,8 @@ class MassForms {
   const bool cross_;
   body::Inertia inertia_;
   Samples single_, pairs_;
+  RowStack turns_;  ///< three rows of each rotating mass
+  std::vector<Eigen::Matrix3d> moments_;
 };
 
 /// V'MV of this rank's share of mass: the sum of M_aa.

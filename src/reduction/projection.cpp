@@ -29,6 +29,9 @@ void sum_over_ranks(MPI_Comm comm, double* values, Eigen::Index count) {
 }
 
 void sum_over_ranks(MPI_Comm comm, body::Inertia& inertia) {
+  int rotates = !inertia.W.empty();
+  MPI_Allreduce(MPI_IN_PLACE, &rotates, 1, MPI_INT, MPI_MAX, comm);
+  if (rotates) inertia.allocate_rotary();
   sum_over_ranks(comm, &inertia.m, 1);
   sum_over_ranks(comm, inertia.s0.data(), inertia.s0.size());
   sum_over_ranks(comm, inertia.C0.data(), inertia.C0.size());
@@ -37,6 +40,8 @@ void sum_over_ranks(MPI_Comm comm, body::Inertia& inertia) {
     for (auto& h : row) sum_over_ranks(comm, h.data(), h.size());
   for (auto& row : inertia.M)
     for (auto& M : row) sum_over_ranks(comm, M.data(), M.size());
+  for (auto& row : inertia.W)
+    for (auto& W : row) sum_over_ranks(comm, W.data(), W.size());
 }
 
 /// Sums V'K_b V of this rank. Rows go to three stacks in groups of three: a shell's are its mean curvature, its edges'
@@ -142,6 +147,7 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
     fem::piece_rows(structure, cell, {true, true, true, true}, pieces);
     for (const fem::PieceRows& piece : pieces) {
       inertia.add(piece, piece.mass);
+      inertia.add(piece, piece.rotary);
       line.add(piece, piece.line);
       if (k == 0) continue;
       fem::take_strained(structure, piece, V, ranges, strained);

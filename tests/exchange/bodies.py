@@ -33,8 +33,21 @@ loads: {tip: {type: force, at: plate.p3, force: [0, 0, 1]}}
 motion: {end: 0.05, step: 1e-3}
 """
 
+# In space, oblique: beams whose sections rotate.
+BLADE = """
+bodies:
+  blade:
+    mesh: {polyline: {points: [[0, 0, 0], [0.7, 0.1, 0.2], [1, 0.4, 0.1]], elements: [4, 3]}}
+    section: {A: 1, Iy: 0.002, Iz: 0.01, J: 0.004, orientation: [0.1, 1, 0]}
+    material: {E: 1e3, G: 400, rho: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 4, derivatives: all}
+joints: {root: {type: fixed, between: [ground, blade.start]}}
+motion: {end: 1, step: 1e-3}
+"""
+
 FINE = CANTILEVER.replace("elements: 16", "elements: 32").replace("modes: 5", "modes: 8")
-SCENES = {"cantilever": CANTILEVER, "fine": FINE, "pinned": PINNED, "plate": PLATE}
+SCENES = {"blade": BLADE, "cantilever": CANTILEVER, "fine": FINE, "pinned": PINNED, "plate": PLATE}
 
 
 def floe(program, folder, *words, code=0):
@@ -68,6 +81,8 @@ class Truth:
             self.psi = np.zeros_like(self.S)
             self.psi[:, 2] = get("places/psi")[:, 0]
         self.points()
+        W = get("inertia/W") if "inertia/W" in self.file else np.zeros((self.d, self.d, self.k, self.k))
+        self.W = self.in_space(self.in_space(W, 0), 1)
 
     def in_space(self, array, axis):
         width = [(0, 0)] * array.ndim
@@ -100,10 +115,21 @@ class Truth:
         v, omega, rate = motion[:3], motion[3:6], motion[6:]
         return self.one[:, None] * v + np.cross(omega, self.place + self.N @ q) + self.N @ rate
 
+    def rotary(self, q, p):
+        """int rho a x n(q, p), n the displacement of second order of sections that rotate, twice."""
+        W = np.einsum("abij,i,j->ab", self.W, q, p)
+        return np.array([W[1, 2] - W[2, 1], W[2, 0] - W[0, 2], W[0, 1] - W[1, 0]])
+
     def mass_matrix(self, q):
         """Of (v, omega, q'): the Hessian of the kinetic energy."""
         columns = np.array([self.velocity(q, e).reshape(-1) for e in np.eye(6 + self.k)])
-        return columns @ columns.T
+        mass = columns @ columns.T
+        C = np.einsum("abij,i,j->ab", self.W, q, q)
+        mass[3:6, 3:6] += np.trace(C) * np.eye(3) - (C + C.T) / 2
+        for i, e in enumerate(np.eye(self.k)):
+            mass[3:6, 6 + i] += self.rotary(q, e)
+            mass[6 + i, 3:6] += self.rotary(q, e)
+        return mass
 
     def quadratic(self, q, omega, rate):
         """What the equations of motion hold beside mass matrix x accelerations (a, alpha, q''), from the kinetic energy

@@ -14,16 +14,46 @@ namespace {
 using namespace floe;
 using namespace floe::output;
 
-constexpr std::array datasets{"body/name",        "body/dimension",   "body/dofs",          "body/nodes",
-                              "body/cells",       "inertia/m",        "inertia/s0",         "inertia/C0",
-                              "inertia/S",        "inertia/h",        "inertia/M",          "line/m",
-                              "line/h",           "line/M",           "elasticity/bending", "elasticity/F",
-                              "elasticity/pairs", "damping",          "places/names",       "places/x",
-                              "places/S",         "places/psi",       "columns/kind",       "columns/label",
-                              "columns/omega",    "columns/kept",     "frequencies/omega",  "frequencies/residual",
-                              "frame/kind",       "frame/origin",     "frame/axes",         "made/scene",
-                              "made/ranks",       "made/phases",      "made/seconds",       "elasticity",
-                              "places",           "columns/new_part", "columns/interaction"};
+constexpr std::array datasets{"body/name",
+                              "body/dimension",
+                              "body/dofs",
+                              "body/nodes",
+                              "body/cells",
+                              "inertia/m",
+                              "inertia/s0",
+                              "inertia/C0",
+                              "inertia/S",
+                              "inertia/h",
+                              "inertia/M",
+                              "inertia/W",
+                              "line/m",
+                              "line/h",
+                              "line/M",
+                              "elasticity/bending",
+                              "elasticity/F",
+                              "elasticity/pairs",
+                              "damping",
+                              "places/names",
+                              "places/x",
+                              "places/S",
+                              "places/psi",
+                              "columns/kind",
+                              "columns/label",
+                              "columns/omega",
+                              "columns/kept",
+                              "frequencies/omega",
+                              "frequencies/residual",
+                              "frame/kind",
+                              "frame/origin",
+                              "frame/axes",
+                              "made/scene",
+                              "made/ranks",
+                              "made/phases",
+                              "made/seconds",
+                              "elasticity",
+                              "places",
+                              "columns/new_part",
+                              "columns/interaction"};
 constexpr std::array attributes{"format", "version", "complete", "shapes", "checksum"};
 
 /// Two coordinates, two places: every dataset has entries.
@@ -35,6 +65,7 @@ ReducedBodyFile sound() {
   body::Inertia inertia(d, k);
   inertia.m = 1;
   inertia.C0.setIdentity(), inertia.S.setOnes();
+  inertia.allocate_rotary();
   file.body.inertia = file.body.line = inertia;
   file.body.elasticity.bending = Eigen::MatrixXd::Identity(k, k);
   file.body.elasticity.pairs = {{0, 0}, {0, 1}, {1, 1}};

@@ -251,6 +251,80 @@ joints: {root: {type: driven, between: [ground, shaft.start], axis: [1, 0, 0], a
   }
 }
 
+// The propeller moment, (rho Iz - rho Iy) Omega^2 phi: omega^2 = omega_t^2 +- Omega^2 (Iz - Iy)/(Iz + Iy), + for the
+// chord in the plane of rotation. omega_t = pi/2 sqrt(GJ/rho (Iy + Iz)) = 10 for a root that is held.
+TEST_CASE("campbell: the propeller moment in the torsion of a flat blade") {
+  const auto blade = [](const std::string& chord) {
+    return fill(R"yaml(
+bodies:
+  blade:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 20}}
+    section: {A: 1, Iy: 1e-6, Iz: 0.01, J: 0.4052847e-2, orientation: $chord}
+    material: {E: 1e8, G: 100, rho: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 6, derivatives: all}
+joints: {root: {type: driven, between: [ground, blade.start], axis: [0, 0, 1], angle: "t"}}
+)yaml",
+                {{"chord", chord}});
+  };
+  const double share = (0.01 - 1e-6) / (0.01 + 1e-6);
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto flat = diagram(blade("[0, 1, 0]"), formulation, "0,5,10", 3),
+               upright = diagram(blade("[0, 0, 1]"), formulation, "0,8", 3);
+    for (const auto& point : flat.points) {
+      INFO(scene::name_of(formulation) << ", chord in the plane, " << point.speed);
+      const double torsion = std::sqrt(100 + point.speed * point.speed * share);
+      CHECK(omega(point).at(0) == Approx(torsion).epsilon(5e-4));
+    }
+    for (const auto& point : upright.points) {
+      INFO(scene::name_of(formulation) << ", chord along the axis, " << point.speed);
+      const double torsion = std::sqrt(100 - point.speed * point.speed * share);
+      CHECK(omega(point).at(0) == Approx(torsion).epsilon(1e-3));
+    }
+  }
+}
+
+// Rayleigh's shaft, clamped and free, r = rhoI/(rhoA L^2) = 0.01: seen from axes that turn with it whirl has
+//   omega^2 (A + r S) + 2 Omega omega A + Omega^2 (A - r S) - K = 0,   A = int w^2, S = int w'^2, K = int w''^2,
+// both directions of whirl by the sign of omega; Galerkin's method with w = x^k, k = 2..8. Gyroscopic moments and the
+// moment of inertia about the axis, which falls as sections tilt, are in it.
+TEST_CASE("campbell: a thick shaft whirls as Rayleigh's does") {
+  constexpr int n = 7;
+  const double r = 0.01, W = 2;
+  Eigen::MatrixXd A(n, n), S(n, n), K(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double a = i + 2, b = j + 2;
+      A(i, j) = 1 / (a + b + 1), S(i, j) = a * b / (a + b - 1), K(i, j) = a * (a - 1) * b * (b - 1) / (a + b - 3);
+    }
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(2 * n, 2 * n), right = Eigen::MatrixXd::Identity(2 * n, 2 * n);
+  left.topRightCorner(n, n).setIdentity();
+  left.bottomLeftCorner(n, n) = K - W * W * (A - r * S);
+  left.bottomRightCorner(n, n) = -2 * W * A;
+  right.bottomRightCorner(n, n) = A + r * S;
+  const Eigen::VectorXcd exponents = Eigen::GeneralizedEigenSolver<Eigen::MatrixXd>(left, right).eigenvalues();
+  std::vector<double> whirl;
+  for (const auto& each : exponents) whirl.push_back(std::abs(each.real()));
+  std::sort(whirl.begin(), whirl.end());
+  const std::string shaft = R"yaml(
+bodies:
+  shaft:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 16}}
+    section: {A: 1, Iy: 0.01, Iz: 0.01, J: 1, orientation: [0, 1, 0]}
+    material: {E: 100, G: 1e4, rho: 1}
+    frame: {type: clamped, at: start}
+    reduction: {modes: 12, derivatives: all}
+joints: {root: {type: driven, between: [ground, shaft.start], axis: [1, 0, 0], angle: "t"}}
+)yaml";
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto found = omega(diagram(shaft, formulation, number(W), 2).points.at(0));
+    for (int i = 0; i < 2; ++i) {
+      INFO(scene::name_of(formulation) << ", whirl " << i + 1);
+      CHECK(found.at(i) == Approx(whirl.at(i)).epsilon(1e-3));
+    }
+  }
+}
+
 // omega a^2 sqrt(rho h / D), nu = 0.3, the plate in the plane of rotation: independent converged computation. The error
 // of the mesh is of order 2.
 TEST_CASE("campbell: a rotating square plate") {

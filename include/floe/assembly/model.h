@@ -27,6 +27,7 @@ using namespace scene;
 struct BodyReport {
   std::string name;
   std::string file = {};  ///< of a body that was reduced before
+  int file_version = 0;   ///< of its format
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
   std::string frame = {};                 ///< pinned, clamped, mean-axis, or of another body; set by body_sizes

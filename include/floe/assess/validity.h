@@ -30,11 +30,13 @@ struct OutOfRange {
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
 ///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
 ///   membrane    energy over that of bending, without derivatives to relieve it; limit 2 %
-///   in-plane, coupling, rotary
-///               what strains and rotary inertia leave out at second order (fem::MissingStiffness): quadratic strains
-///               of shells in their plane, coupling of bending with torsion, rotation of sections under spin; its work
-///               against the stiffness, along the deformation or in the shape that it changes most; limit 5 %.
+///   in-plane, coupling
+///               what strains leave out at second order (fem::MissingStiffness): quadratic strains of shells in their
+///               plane, coupling of bending with torsion; its work against the stiffness, along the deformation or in
+///               the shape that it changes most; limit 5 %.
 ///               `unchecked`: K could not be solved with
+///   rotary      (Omega/omega)^2 of a reduced body from a file without Inertia::W: the most that rotary inertia of
+///               second order can change of its stiffness; limit 5 %
 ///   load        rms rate over rms value of a load, gravity or the ground's acceleration against the highest kept
 ///               frequency; limit 0.5
 ///   step        times the fastest rate of what moves (rms rate of the deformations over their rms, loads); limit 0.25,
@@ -47,7 +49,7 @@ std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, con
 /// likewise.
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<solve::State>& states, MPI_Comm comm);
 
-/// Whether the full order of the same mesh errs in it, too: slope, mesh, in-plane, coupling, rotary.
+/// Whether the full order of the same mesh errs in it, too: slope, mesh, in-plane, coupling.
 bool also_of_full_order(const OutOfRange& one);
 
 }  // namespace floe::assess

@@ -8,14 +8,14 @@ namespace floe::body {
 /// Inertia rows of the equations of motion, M(q) a - Q_v(q, v), with sigma = s0 + S q, A = A(theta), J =
 /// [[0,-1],[1,0]]:
 ///   R      m R.. + A (J sigma th.. + S q.. - th.^2 sigma + 2 th. J S q.)
-///   theta  (A J sigma).R.. + (C0 + 2 h q + q'M q) th.. + (g + B'q).q.. + 2 th. (h + M q).q.
-///   q      S'A'R.. + (g + B'q) th.. + M q.. - th.^2 (h + M q) - 2 th. B q.
+///   theta  (A J sigma).R.. + (C0 + 2 h q + q'D q) th.. + (g + B'q).q.. + 2 th. (h + D q).q.
+///   q      S'A'R.. + (g + B'q) th.. + M q.. - th.^2 (h + D q) - 2 th. B q.
 /// Source: Shabana, Dynamics of multibody systems, ch. 5.
 /// @param q, v, a  k + 3 each, frame first
 /// @param work     its arrays are made once and used again: nothing is allocated in a step
 struct InertiaWork {
   Eigen::VectorXd e, ed, edd;              ///< elastic parts of q, v, a
-  Eigen::VectorXd Me, Be, Med, Bed, Bedd;  ///< their products with M and B
+  Eigen::VectorXd De, Be, Ded, Bed, Bedd;  ///< their products with D and B
 };
 void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                        const Eigen::VectorXd& a, InertiaWork& work, Eigen::VectorXd& r);

@@ -19,12 +19,13 @@ struct StrainPoint {
   Eigen::VectorXd bilinear(const Eigen::VectorXd& slope_a, const Eigen::VectorXd& slope_b) const;
 };
 
-/// An element is its strains, its bending stiffness and its mass points: energy, forces, tangents, derivative
-/// right-hand sides and inertia constants all follow from these, for every element alike.
+/// An element is its strains, its bending stiffness, its mass points and the rotation of its sections: energy, forces,
+/// tangents, derivative right-hand sides and inertia constants all follow from these, for every element alike.
 struct ElementMaps {
   Eigen::MatrixXd bending;  ///< dofs x dofs: bending and torsion
   std::vector<StrainPoint> membrane;
   std::vector<body::MassPoint> mass;
+  std::vector<body::RotatingMass> rotary;  ///< those of the mass points that belong to sections that rotate rigidly
 
   Eigen::MatrixXd stiffness() const;  ///< K = K_b + sum w L'DL
   /// d2U/dq2 = K_b + sum w [E'D E + sum_s sigma_s G'P_s G],  E = L + e(q, .),  sigma = D (L q + e(q, q)/2)

@@ -3,9 +3,8 @@
 
 namespace floe::fem {
 
-/// What the strains and the rotary inertia of the elements leave out, at second order, about a deformed and spinning
-/// state: S(phi) = 1/2 phi' A phi of a small further deformation phi, by cause. Null: no element has it. MATSBAIJ, no
-/// conditions.
+/// What the strains of the elements leave out, at second order, about a deformed state: S(phi) = 1/2 phi' A phi of a
+/// small further deformation phi, by cause. Null: no element has it. MATSBAIJ, no conditions.
 ///
 ///   in_plane   shells, von Karman against Green-Lagrange: membrane forces N on the squares of the gradients of (u, v)
 ///   in
@@ -16,20 +15,15 @@ namespace floe::fem {
 ///              v' = theta_z + 1/2 phi theta_y and w' = -theta_y + 1/2 phi theta_z at the nodes; S is half the second
 ///              variation of 1/2 int EI kappa^2 + GJ tau^2 less that of the linear curvatures, moments being those of
 ///              the linear ones
-///   rotary     beams: a section rotates rigidly, R = exp(theta), where the mass points of the element move linearly.
-///              With E = int rho a a' over the section and Theta = theta x, seen in a frame that spins at Omega:
-///                S = 1/2 Omega' Theta^2 E Omega + 1/2 |Omega|^2 tr(Theta E Theta')
-///              (in the plane 1/2 rhoI Omega^2 w'^2; in space the propeller moment is among it)
 ///
 /// Sources: Hodges & Dowell, NASA TN D-7818, 1974 (curvatures); theory.md.
 struct MissingStiffness {
-  petsc::MatHandle in_plane, coupling, rotary;
+  petsc::MatHandle in_plane, coupling;
 };
 
-/// @param q     deformation in the frame [m], [rad]
-/// @param spin  Omega in body axes [rad/s]; in the plane (0, 0, Omega)
+/// @param q  deformation in the frame [m], [rad]
 /// Collective. One pass over the elements.
-MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Eigen::Vector3d& spin);
+MissingStiffness missing_stiffness(const Structure& structure, Vec q);
 
 /// Of the strains that the elements have, the same: sum w G'(sigma P) G, sigma the membrane forces at q (without
 /// conditions, MATSBAIJ). Collective.

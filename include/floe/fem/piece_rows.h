@@ -33,6 +33,12 @@ struct MassRows {
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> N;
 };
 
+/// Mass that rotates rigidly, as body::RotatingMass.
+struct RotaryRows {
+  Eigen::Matrix3d moments;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> turn;
+};
+
 /// A cell or, of a quadrilateral, one of its triangles: what products of many columns are made of.
 struct PieceRows {
   std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of hinge lines
@@ -47,7 +53,8 @@ struct PieceRows {
   SmallRows bending;  ///< U_b = 1/2 |bending q|^2
   std::vector<StrainRows> strain;
   std::vector<MassRows> mass;
-  std::vector<MassRows> line;  ///< Structure::line
+  std::vector<RotaryRows> rotary;  ///< made with mass
+  std::vector<MassRows> line;      ///< Structure::line
 };
 
 /// Which of them to make.

@@ -26,7 +26,8 @@ enum class MembraneStrain { averaged, pointwise };
 /// Source: Przemieniecki, Theory of matrix structural analysis, ch. 5; Friedman & Kosmatka, Comput. Struct. 47 (1993)
 /// 473.
 ///
-/// Mass points stand at y = +-sqrt(rhoI/rhoA), so that rotary inertia is exact; on the axis if rhoI = 0.
+/// Mass points stand at y = +-sqrt(rhoI/rhoA), so that rotary inertia is exact; on the axis if rhoI = 0. They rotate
+/// with the section to second order (body::RotatingMass), T = 1/2 int rhoI (theta' + psi')^2 in a frame at theta'.
 /// @param from, to  positions of the nodes in body axes, apart from each other
 ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamSection& section,
                         MembraneStrain strain);

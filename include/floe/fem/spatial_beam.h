@@ -41,6 +41,8 @@ struct SpatialBeamStrain {
 ///
 /// Mass points stand at four Gauss stations, in each at +-sqrt(n s/rhoA) along the n = 2 principal axes of the section
 /// (n = 1, or one point, where second moments s vanish): total, first and second moments and consistent mass are exact.
+/// They rotate with the section about its centroid to second order (body::RotatingMass), by (rx, -w_S' + gamma_z, v_S'
+/// - gamma_y); an offset of the centroid is an arm of first order.
 /// Source: Przemieniecki, Theory of matrix structural analysis, ch. 5 and 11 (linear part); Hodges & Dowell, NASA TN
 /// D-7818, 1974 (rx'^2 in the axial strain).
 /// @throws floe::InputError  place (element_axes) or section (check) not admissible

@@ -63,6 +63,7 @@ struct ReducedBodyFile {
   ReducedFrame frame;
   MadeBy made;
   bool has_shapes = false;  ///< set by reading
+  int version = 2;          ///< of the format: 1 knows no Inertia::W
 };
 
 /// The basis at every node, and the mesh, for pictures and for places that are thought of later: this rank's share.
@@ -95,10 +96,10 @@ void check_reduced_path(MPI_Comm comm, const std::filesystem::path& path, bool o
 /// leaves half a file there. `file` the same on every rank; rank 0 writes all but the shapes, which all ranks write
 /// together, rows in original order: the file does not depend on the number of ranks.
 ///
-/// Attributes of the file: `format` = "floe reduced body", `version` = 1, `shapes`, `checksum` (FNV-1a of all but the
-/// shapes), `complete` = 1. Each dataset has the attributes `unit` and `description` (left out where empty). Arrays are
-/// row-major, [a][b] as in body::Inertia; pairs count from 0; shapes/basis is k x nodes x dofs. In NumPy, energy and a
-/// place's displacement of coordinates q:
+/// Attributes of the file: `format` = "floe reduced body", `version` = 2 (1: without inertia/W), `shapes`, `checksum`
+/// (FNV-1a of all but the shapes), `complete` = 1. Each dataset has the attributes `unit` and `description` (left out
+/// where empty). Arrays are row-major, [a][b] as in body::Inertia; pairs count from 0; shapes/basis is k x nodes x
+/// dofs. In NumPy, energy and a place's displacement of coordinates q:
 ///
 ///     f = h5py.File("arm.h5"); F = f["elasticity/F"][:]; pairs = f["elasticity/pairs"][:]
 ///     s = np.array([q[a] * q[b] * (0.5 if a == b else 1) for a, b in pairs])

@@ -29,6 +29,27 @@ body::Inertia integrated(int dimension = 2) {
   return inertia;
 }
 
+/// A section with two points at +-arm of its centre that rotates by psi = turn . e.
+const Vector2d arm(0.3, -0.7);
+VectorXd turn() { return Random(16).vector(k); }
+body::MassPoint centre() {
+  Random random(17);
+  return {1.3, random.vector(2), 0.4 * random.matrix(2, k)};
+}
+
+body::PlanarInertia section() {
+  body::Inertia inertia(2, k);
+  const body::MassPoint c = centre();
+  for (const double side : {-1., 1.})
+    inertia.add({c.mass / 2, c.x + side * arm, c.N + side * Vector2d(-arm.y(), arm.x()) * turn().transpose()});
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  moments.topLeftCorner<2, 2>() = c.mass * arm * arm.transpose();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, k);
+  rows.row(2) = turn().transpose();
+  inertia.add(body::RotatingMass{moments, rows});
+  return body::planar(inertia);
+}
+
 body::PlanarInertia inertia() { return body::planar(integrated()); }
 
 /// Where a point of the body is: R + A (x + N q).
@@ -46,10 +67,10 @@ double quadrature(const VectorXd& q, const VectorXd& v) {
   return sum;
 }
 
-VectorXd force(const VectorXd& q, const VectorXd& v, const VectorXd& a) {
+VectorXd force(const VectorXd& q, const VectorXd& v, const VectorXd& a, const body::PlanarInertia& in = inertia()) {
   VectorXd r = VectorXd::Zero(k + 3);
   body::InertiaWork work;
-  body::add_inertia_force(inertia(), q, v, a, work, r);
+  body::add_inertia_force(in, q, v, a, work, r);
   return r;
 }
 
@@ -90,16 +111,29 @@ TEST_CASE("kinetic energy is that of the deformed body, point by point") {
   }
 }
 
+TEST_CASE("a section's kinetic energy is m/2 |r'|^2 + rhoI/2 (theta' + psi')^2 at any rotation") {
+  Random random(18);
+  const body::MassPoint c = centre();
+  for (int i = 0; i < 5; ++i) {
+    const VectorXd q = 2 * random.vector(k + 3), v = random.vector(k + 3);
+    const auto r = [&](double t) { return position(c, q + t * v); };
+    const double rate = v[2] + turn().dot(v.tail(k)), moment = c.mass * arm.squaredNorm();
+    const double exact = 0.5 * c.mass * testing::derivative(r, 0, 1e-3).squaredNorm() + 0.5 * moment * rate * rate;
+    CHECK(body::kinetic_energy(section(), q, v) == Approx(exact).epsilon(1e-10));
+  }
+}
+
 TEST_CASE("inertia force is d/dt(dT/dv) - dT/dq of the deformed body") {
+  const body::PlanarInertia in = GENERATE(false, true) ? section() : inertia();
   Random random(13);
   for (int i = 0; i < 3; ++i) {
     const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
-    const auto T = [](const VectorXd& x, const VectorXd& xd) { return body::kinetic_energy(inertia(), x, xd); };
+    const auto T = [&](const VectorXd& x, const VectorXd& xd) { return body::kinetic_energy(in, x, xd); };
     const auto momentum = [&](double t) {
       return testing::gradient([&](const VectorXd& xd) { return T(q + t * v + t * t / 2 * a, xd); }, v + t * a, 0.1);
     };
     const VectorXd by_place = testing::gradient([&](const VectorXd& x) { return T(x, v); }, q, 1e-3);
-    CHECK(testing::relative_error(force(q, v, a), testing::derivative(momentum, 0, 1e-3) - by_place) < 1e-9);
+    CHECK(testing::relative_error(force(q, v, a, in), testing::derivative(momentum, 0, 1e-3) - by_place) < 1e-9);
   }
 }
 
@@ -120,15 +154,16 @@ TEST_CASE("inertia force of the frame is the rate of the points' momentum and mo
 }
 
 TEST_CASE("inertia tangents in q, v and a are the differences of the force") {
+  const body::PlanarInertia in = GENERATE(false, true) ? section() : inertia();
   Random random(15);
   const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
-  const auto by_q = testing::jacobian([&](const VectorXd& x) { return force(x, v, a); }, q, 1e-3);
-  const auto by_v = testing::jacobian([&](const VectorXd& x) { return force(q, x, a); }, v, 1e-3);
-  const auto by_a = testing::jacobian([&](const VectorXd& x) { return force(q, v, x); }, a, 1e-3);
+  const auto by_q = testing::jacobian([&](const VectorXd& x) { return force(x, v, a, in); }, q, 1e-3);
+  const auto by_v = testing::jacobian([&](const VectorXd& x) { return force(q, x, a, in); }, v, 1e-3);
+  const auto by_a = testing::jacobian([&](const VectorXd& x) { return force(q, v, x, in); }, a, 1e-3);
   const auto tangent = [&](double wq, double wv, double wa) {
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(k + 3, k + 3);
     body::InertiaWork work;
-    body::add_inertia_tangent(inertia(), q, v, a, wq, wv, wa, work, J);
+    body::add_inertia_tangent(in, q, v, a, wq, wv, wa, work, J);
     return J;
   };
   CHECK(testing::relative_error(tangent(1, 0, 0), by_q) < 1e-9);

@@ -28,6 +28,36 @@ std::vector<body::MassPoint> points(int k, const Vector3d& moves = Vector3d::One
   return all;
 }
 
+/// A mass of seven points that rotates rigidly about its centre, theta = turn e.
+struct Rotor {
+  body::MassPoint centre;
+  Eigen::MatrixXd turn;
+  std::vector<Vector3d> arms;
+  explicit Rotor(int k, unsigned seed) {
+    Random random(seed);
+    centre = {1.2, random.vector(3), 0.4 * random.matrix(3, k)};
+    turn = random.matrix(3, k);
+    for (int i = 0; i < 3; ++i) {
+      arms.push_back(random.vector(3));
+      arms.push_back(-arms.back());
+    }
+  }
+  void add_to(body::Inertia& sum) const {
+    Matrix3d moments = Matrix3d::Zero();
+    for (const Vector3d& arm : arms) {
+      moments += centre.mass * arm * arm.transpose();
+      sum.add({centre.mass, centre.x + arm, centre.N - math::skew(arm) * turn});
+    }
+    sum.add(body::RotatingMass{moments, turn});
+  }
+};
+
+body::SpatialInertia with_rotors(int k) {
+  body::Inertia sum(3, k);
+  for (unsigned seed : {31u, 32u}) Rotor(k, seed).add_to(sum);
+  return body::spatial(sum);
+}
+
 body::Inertia summed(const std::vector<body::MassPoint>& mass) {
   body::Inertia sum(3, static_cast<int>(mass.front().N.cols()));
   for (const auto& point : mass) sum.add(point);
@@ -97,7 +127,7 @@ TEST_CASE("inertia force in space: the points' mass times acceleration, energies
 
 TEST_CASE("power of the inertia force in space is the rate of the kinetic energy, its wrench that of the momenta") {
   const int k = 5;
-  const body::SpatialInertia in = body::spatial(summed(points(k)));
+  const body::SpatialInertia in = GENERATE(false, true) ? with_rotors(k) : body::spatial(summed(points(k)));
   Random random(23);
   const Path path(random, k + 6);
   const VectorXd f = force(in, path.q(0), path.v(0), path.a(0));
@@ -113,8 +143,8 @@ TEST_CASE("power of the inertia force in space is the rate of the kinetic energy
 
 TEST_CASE("inertia tangents in space are the differences of the force along base exp(x), x not zero") {
   const int k = GENERATE(0, 4);
-  const Vector3d moves = GENERATE(Vector3d(1, 1, 1), Vector3d(0, 0, 1));
-  const body::SpatialInertia in = body::spatial(summed(points(k, moves)));
+  const Vector3d moves = GENERATE(Vector3d(1, 1, 1), Vector3d(0, 0, 1), Vector3d(0, 0, 0));  // 0: what rotates
+  const body::SpatialInertia in = moves.isZero() ? with_rotors(k) : body::spatial(summed(points(k, moves)));
   Random random(24);
   const VectorXd q = random.vector(k + 6), v = random.vector(k + 6), a = random.vector(k + 6);
   const auto by_q = testing::jacobian([&](const VectorXd& y) { return force(in, y, v, a); }, q, 1e-3);
@@ -133,9 +163,55 @@ TEST_CASE("inertia tangents in space are the differences of the force along base
   CHECK(testing::relative_error(tangent(0, 0, 1), tangent(0, 0, 1).transpose()) < 1e-14);  // the mass matrix
 }
 
+// With u = theta x a + 1/2 theta x (theta x a) the kinetic energy is a quartic in (e, e'), of which the terms to the
+// second order are kept: those of a rotation exp(theta).
+TEST_CASE("masses that rotate have the kinetic energy of their points to second order, and its Lagrangian force") {
+  const int k = 4;
+  const body::SpatialInertia in = with_rotors(k);
+  Random random(26);
+  const Path path(random, k + 6);
+  const auto scaled = [&](VectorXd y, double s) {
+    y.tail(k) *= s;
+    return y;
+  };
+  const auto exact = [&](double s) {
+    double sum = 0;
+    for (unsigned seed : {31u, 32u}) {
+      const Rotor rotor(k, seed);
+      for (const Vector3d& arm : rotor.arms) {
+        const auto r = [&](double t) {
+          const VectorXd q = scaled(path.q(t), s), e = q.tail(k);
+          const Vector3d theta = rotor.turn * e;
+          return Vector3d(q.head<3>() + axes(q) * (rotor.centre.x + rotor.centre.N * e + arm + theta.cross(arm) +
+                                                   theta.cross(theta.cross(arm)) / 2));
+        };
+        sum += 0.5 * rotor.centre.mass * testing::derivative(r, 0, 1e-3).squaredNorm();
+      }
+    }
+    return sum;
+  };
+  const double none = exact(0), up = exact(1), down = exact(-1), far_up = exact(2), far_down = exact(-2);
+  const double first = (8 * (up - down) / 2 - (far_up - far_down) / 2) / 6,
+               second = (16 * ((up + down) / 2 - none) - ((far_up + far_down) / 2 - none)) / 12;
+  const VectorXd q = path.q(0), v = path.v(0), a = path.a(0);
+  CHECK(body::kinetic_energy(in, axes(q), q, v) == Approx(none + first + second).epsilon(1e-9));
+
+  const auto momenta = [&](double t) {
+    const VectorXd at = path.q(t), rate = path.v(t);
+    return testing::gradient([&](const VectorXd& y) { return body::kinetic_energy(in, axes(at), at, y); }, rate, 0.1);
+  };
+  const VectorXd by_place =
+      testing::gradient([&](const VectorXd& y) { return body::kinetic_energy(in, axes(q), y, v); }, q, 1e-3);
+  const VectorXd expected = testing::derivative(momenta, 0, 1e-3) - by_place;
+  CHECK(testing::relative_error(force(in, q, v, a).tail(k), expected.tail(k)) < 1e-9);
+}
+
 TEST_CASE("a body that moves in the plane has the inertia force of the planar frame") {
   const int k = 3;
-  const body::Inertia sum = summed(points(k, {1, 1, 0}));
+  body::Inertia sum = summed(points(k, {1, 1, 0}));
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3, k);
+  turn.row(2) = Random(27).vector(k);
+  sum.add(body::RotatingMass{Vector3d(0.3, 0.7, 0).asDiagonal(), turn});
   Random random(25);
   const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
   VectorXd planar = VectorXd::Zero(k + 3), found = VectorXd::Zero(k + 6);
@@ -163,4 +239,5 @@ TEST_CASE("forms that vanish are left out: a flat plate that bends has one, a st
   CHECK(body::spatial(summed(points(4))).kinds.size() == 9);
   CHECK(body::spatial(summed(points(1))).kinds.size() == 6);  // a single coordinate has no skew forms
   CHECK(body::spatial(summed(points(0))).kinds.empty());
+  CHECK(with_rotors(4).kinds.size() == 12);
 }

@@ -126,6 +126,17 @@ TEST_CASE("linear stiffness and consistent mass are the textbook's") {
   CHECK(testing::relative_error(maps.mass_matrix(), M) < 1e-14);
 }
 
+TEST_CASE("under spin the sections of a planar element have no centrifugal force of their own") {
+  fem::BeamSection slender = section;
+  slender.rhoI = 0;
+  const MatrixXd one = MatrixXd::Identity(6, 6);
+  const auto of = [&](const fem::BeamSection& s) {
+    return body::planar(fem::inertia(fem::planar_beam(from, to, s, MembraneStrain::averaged), one));
+  };
+  CHECK(testing::relative_error(of(section).D, of(slender).M) < 1e-13);
+  CHECK(testing::relative_error(of(slender).D, of(slender).M) == 0);
+}
+
 TEST_CASE("element mass sums to rho V and the inertia of a rigid bar with its section's") {
   const fem::ElementMaps maps = oblique(MembraneStrain::averaged);
   const MatrixXd rigid = rigid_motions(), M = rigid.transpose() * maps.mass_matrix() * rigid;

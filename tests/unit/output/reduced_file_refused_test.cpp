@@ -118,7 +118,7 @@ const std::vector<std::pair<Change, std::string>>& changes() {
       {[](hid_t f) { replace(f, "frequencies/residual", {2}, H5T_IEEE_F64LE); }, "found 2"},
       {[](hid_t f) { set_first(f, "elasticity/F", Doubles{1.5}); }, "the file is damaged"},
       {[](hid_t f) { set_first(f, "made/ranks", Integers{7}); }, "the file is damaged"},
-      {[](hid_t f) { set_flag(f, "version", 2); }, "expected version 1 of the format, found version 2"},
+      {[](hid_t f) { set_flag(f, "version", 3); }, "expected version 1 to 2 of the format, found version 3"},
       {[](hid_t f) { set_flag(f, "complete", 0); }, "whose writing was broken off"},
       {[](hid_t f) { check_hdf5(H5Adelete(f, "format")); }, "found an HDF5 file of another kind"},
   };

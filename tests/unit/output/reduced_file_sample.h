@@ -20,6 +20,9 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
     all.s0 = matrix(d, 1), all.C0 = matrix(d, d), all.S = matrix(d, k);
     for (int a = 0; a < d; ++a)
       for (int b = 0; b < d; ++b) all.h[a][b] = matrix(k, 1), all.M[a][b] = matrix(k, k);
+    all.allocate_rotary();
+    for (auto& row : all.W)
+      for (auto& W : row) W = matrix(k, k);
     return all;
   };
   output::ReducedBodyFile file;
@@ -65,10 +68,13 @@ inline void check_same(const floe::body::Inertia& a, const floe::body::Inertia& 
   CHECK((same(a.s0, b.s0) && same(a.C0, b.C0) && same(a.S, b.S)));
   for (int i = 0; i < a.dimension(); ++i)
     for (int j = 0; j < a.dimension(); ++j) CHECK((same(a.h[i][j], b.h[i][j]) && same(a.M[i][j], b.M[i][j])));
+  REQUIRE(a.W.size() == b.W.size());
+  for (std::size_t i = 0; i < a.W.size(); ++i)
+    for (std::size_t j = 0; j < a.W.size(); ++j) CHECK(same(a.W[i][j], b.W[i][j]));
 }
 
 inline void check_same(const floe::output::ReducedBodyFile& a, const floe::output::ReducedBodyFile& b) {
-  CHECK((a.name == b.name && a.dimension == b.dimension));
+  CHECK((a.name == b.name && a.dimension == b.dimension && a.version == b.version));
   CHECK((a.dofs == b.dofs && a.nodes == b.nodes && a.cells == b.cells && a.has_shapes == b.has_shapes));
   check_same(a.body.inertia, b.body.inertia);
   check_same(a.body.line, b.body.line);

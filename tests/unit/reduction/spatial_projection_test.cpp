@@ -73,6 +73,26 @@ TEST_CASE("reduced inertia constants of bodies in space are V' times those of th
     const MatrixXd found = in.h[b][c] - in.h[c][b], expected = rigid.col(3 + a).transpose() * M * V;
     CHECK((found.reshaped() - expected.reshaped()).cwiseAbs().maxCoeff() < 1e-10 * std::sqrt(mass(3 + a, 3 + a)));
   }
+  if (what == What::mixed) {  // W of the elements, by their own maps
+    body::Inertia full(3, static_cast<int>(s.dofs()));
+    full.allocate_rotary();
+    for (const auto& cell : s.mesh.cells) {
+      MatrixXd pick = MatrixXd::Zero(static_cast<Eigen::Index>(s.cell_dofs(cell).size()), s.dofs());
+      for (Eigen::Index i = 0; i < pick.rows(); ++i) pick(i, s.original_dof(s.cell_dofs(cell)[i])) = 1;
+      for (const body::RotatingMass& part : s.maps(cell).rotary)
+        full.add(body::RotatingMass{part.moments, part.turn * pick});
+    }
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        MPI_Allreduce(MPI_IN_PLACE, full.W[a][b].data(), static_cast<int>(full.W[a][b].size()), MPI_DOUBLE, MPI_SUM,
+                      s.mesh.comm);
+        const MatrixXd expected = V.transpose() * full.W[a][b] * V;
+        CHECK(expected.norm() > 0);
+        CHECK(testing::relative_error(in.W[a][b], expected) < 1e-11);
+      }
+  } else {
+    CHECK(in.W.empty());
+  }
   const MatrixXd sum = in.M[0][0] + in.M[1][1] + in.M[2][2];
   CHECK((sum - MatrixXd::Identity(V.cols(), V.cols())).cwiseAbs().maxCoeff() < 1e-10);
 }
