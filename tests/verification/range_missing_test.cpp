@@ -131,7 +131,7 @@ joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, b
 // Skins shorten by w'^2/2 and webs, which bend in their own plane, do not: self-stress, a cubic stiffness. The loss of
 // deflection against the linear response is that error, because the true tube stays linear to (d/L)^2; 7.5 % and 18 %
 // at a deflection of 4 % of the length are the figures for tubes of 10 and 15 sides with rigid ends.
-TEST_CASE("range: boxes of shells that bend far are too stiff, and the number is the deflection that they lose") {
+TEST_CASE("validity: boxes of shells at large deflections are too stiff by the reported fraction") {
   const Scratch scratch;
   const std::string name = (scratch.path / "scene.yaml").string();
   const auto compare = [&](int sides, double deflection, double tolerance) {
@@ -152,7 +152,7 @@ TEST_CASE("range: boxes of shells that bend far are too stiff, and the number is
 
 // lag^2 = flap^2 - gamma^2 (flap: independent converged computation, 4.1373196 at gamma = 2) for 3.5160153^2 - gamma^2
 // without the stretching of the line.
-TEST_CASE("range: rotation does not stiffen shells against bending in their plane") {
+TEST_CASE("validity: rotation does not stiffen shells against bending in their plane") {
   const double EI_rhoA = 7e10 * 0.05 * 0.05 / 12 / 2700, gamma = 2;
   const std::string strip = driven("{plate: {along: [1, 0, 0], across: [0, 0.05, 0], elements: [40, 2]}}",
                                    "section: {thickness: 2e-3}\n    material: {E: 7e10, nu: 0, rho: 2700}", "left");
@@ -168,7 +168,7 @@ TEST_CASE("range: rotation does not stiffen shells against bending in their plan
 
 // Without coupling the beam stays straight in its plane at any load. With it the lateral stiffness is 1 - (P/P_cr)^2 of
 // what it was (Timoshenko & Gere, Theory of elastic stability, art. 6.3), because twist follows statically.
-TEST_CASE("range: lateral buckling of spatial beams, which one frame does not have") {
+TEST_CASE("validity: lateral buckling of spatial beams, absent in one frame") {
   for (const double share : {0.3, 0.9, 1.2}) {
     const auto said = at_rest(narrow(share, clamped), 1).said;
     REQUIRE(said.count("coupling"));
@@ -179,7 +179,7 @@ TEST_CASE("range: lateral buckling of spatial beams, which one frame does not ha
 }
 
 // CalculiX has 26.34 Hz where one frame gives 32.50: (26.34/32.50)^2 - 1 = -34 %, and -37 % in the next mode.
-TEST_CASE("range: a swept tip couples bending with torsion as it turns") {
+TEST_CASE("validity: a swept tip couples bending with torsion under rotation") {
   const std::string said = turned(
       driven("{polyline: {points: [[0, 0, 0], [0.8687, 0, 0], [0.9769, 0.1082, 0]], elements: [16, 4]}}",
              std::string("section: {shape: rectangle, width: 0.0254, height: 1.6e-3, orientation: [0, 1, 0]}\n") +
@@ -191,7 +191,7 @@ TEST_CASE("range: a swept tip couples bending with torsion as it turns") {
 }
 
 // 4.955 is the lag frequency at gamma = 10 with rhoI/(rhoA L^2) = 0.01, 4.565 what floe has.
-TEST_CASE("range: rotary inertia under spin in the plane") {
+TEST_CASE("validity: rotary inertia under spin in the plane") {
   const auto lag = [](const std::string& rhoI, const std::string& speed) {
     return turned(fill(R"yaml(
 bodies:
@@ -212,7 +212,7 @@ joints: {root: {type: driven, angle: "2*t", between: [ground, beam.start]}}
 
 // Torsion of a thin blade at Omega = omega_t: omega^2 is 2 omega_t^2 where its chord lies in the plane of rotation, and
 // 0, as floe has it, where the chord is along the axis.
-TEST_CASE("range: the propeller moment") {
+TEST_CASE("validity: the propeller moment") {
   const auto blade = [](const std::string& chord) {
     return turned(driven("{line: {from: [0, 0, 0], to: [1, 0, 0], elements: 20}}",
                          "section: {A: 1, Iy: 1e-6, Iz: 0.01, J: 0.4052847e-2, orientation: " + chord +
