@@ -87,7 +87,7 @@ STUDIES = [
     Study("small amplitudes in space", "tip forces from 1e-30 to 1e-9", "itself at amplitude 1e-6",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: in_space(floe, a, f), 1e-8, quick=False)
            for f in ("nlffr", "vm+md") for a in (1e-30, 1e-12, 1e-9)]),
-    Study("small swings", "a pendulum released from 1e-10 to 1e-6 rad", "itself at 1e-4 rad",
+    Study("small oscillations", "a pendulum released from 1e-10 to 1e-6 rad", "itself at 1e-4 rad",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: swung(floe, a, f), max(1e-7, 1e-15 / a), misses=Miss(SWINGS, 3e-11 / a))
            for f in ("nlffr", "vm+md") for a in (1e-10, 1e-9, 1e-6)],
           "limit: the round-off of an angle near pi/2, once"),
