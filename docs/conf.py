@@ -1,4 +1,4 @@
-# Sphinx' settings for the manual (make manual). The sources are the repository itself, so that links between pages,
+# Settings of Sphinx for the manual (make manual). The sources are the repository itself, so that links between pages,
 # examples and files are the same in the repository and in the manual.
 import os
 import re
@@ -48,7 +48,7 @@ INDEXED = {"docs/index": "docs/*.md", "docs/benchmarks/index": "docs/benchmarks/
 
 
 def not_named(index, text):
-    """Pages that an index does not name: whoever adds one need not know of it."""
+    """Pages that an index does not list."""
     folder = (ROOT / index).parent
     pages = (page.relative_to(folder).with_suffix("").as_posix() for page in ROOT.glob(INDEXED[index]))
     named = set(re.findall(r"^[\w./]+$", text, re.M)) | {"index", "api"}
@@ -56,10 +56,10 @@ def not_named(index, text):
 
 
 def complete(app, docname, source):
-    """Fills the page of keys; puts pages that an index does not name at its end."""
+    """Fills the page of keys; appends pages that an index does not list."""
     if docname == "docs/scene_reference":
-        source[0] = ("# All keys of a scene\n\nFrom `floe schema`: every key with its meaning, what it may be, its unit and "
-                     "its default. [Writing scenes](scenes.md) says how they go together.\n\n" + schema())
+        source[0] = ("# All keys of a scene\n\nFrom `floe schema`: every key with its meaning, permitted values, unit and "
+                     "default. [Writing scenes](scenes.md) describes the structure of a scene.\n\n" + schema())
     if docname in INDEXED:
         more = not_named(docname, source[0])
         if more:

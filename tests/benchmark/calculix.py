@@ -137,7 +137,7 @@ def table_of(rows):
     if not rows:
         return "Not measured: `ccx` (package calculix-ccx) was not found, or took too long."
     lines = ["| nodes, floe and CalculiX | floe CPU [s] | CalculiX CPU [s] | ratio | floe wall [s] | CalculiX wall [s] | floe GB | "
-             "CalculiX GB | frequencies apart |", "|" + "---:|" * 9]
+             "CalculiX GB | max difference of frequencies |", "|" + "---:|" * 9]
     for row in rows:
         ours, theirs = row["floe"], row["calculix"]
         lines.append(f"| {row['nodes']}, {row['their nodes']} | {ours['cpu']:.2f} | {theirs['cpu']:.2f} | "

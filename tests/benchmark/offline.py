@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Times the offline stage, from mesh to reduced body, against what its matrix costs bare, on growing plates; against
-CalculiX; on one and two ranks; and projects what it would cost on many.
+"""Times the offline stage, from mesh to reduced body, relative to the linear algebra alone, on growing plates; relative to
+CalculiX; on one and two ranks; and projects the cost on many.
 
-Every ratio is of two numbers of one run. Processor seconds of the slowest rank on one rank, so that a busy machine does
-not spoil them; wall seconds on several. Written: offline.md (tables) and offline.png. Nothing passes or fails on a clock.
-What takes longer than --limit is ended and said to be missing. --small leaves 1.2 million dofs and CalculiX' largest out.
+Every ratio is of two numbers of one run. Processor seconds on one rank, which do not depend on the load of the
+machine; wall seconds on several. Written: offline.md (tables) and offline.png. No test passes or fails by time.
+Runs longer than --limit are stopped and reported as missing. --small omits 1.2 million dofs and CalculiX' largest model.
 """
 import argparse
 import datetime
@@ -164,10 +164,10 @@ def main():
     parser.add_argument("--stage", required=True, help="the program offline_stage")
     parser.add_argument("--floe", help="the program floe, to be compared with CalculiX")
     parser.add_argument("--out", required=True, help="folder to write to")
-    parser.add_argument("--cells", type=int, nargs="*", default=CELLS, help="cells along the plate")
+    parser.add_argument("--cells", type=int, nargs="*", default=CELLS, help="elements along the plate")
     parser.add_argument("--compared", type=int, nargs="*", default=COMPARED, help="the same, for CalculiX")
     parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2])
-    parser.add_argument("--most-for-ranks", type=int, default=316, help="most cells along for more ranks than one")
+    parser.add_argument("--most-for-ranks", type=int, default=316, help="maximum of elements along the plate for several ranks")
     parser.add_argument("--limit", type=float, default=300, help="seconds for each run")
     parser.add_argument("--small", action="store_true", help="up to 60 thousand dofs")
     args, options = parser.parse_known_args()

@@ -79,18 +79,18 @@ def seconds(model, dofs, p):
 
 
 def messages_of(rows):
-    """What PETSc sent on two ranks, but for the bare solves; MUMPS' own messages are not counted by it."""
+    """Messages of PETSc on two ranks, without the bare solves; MUMPS' own messages are not counted by it."""
     lines = [f"At {row['dofs']} dofs on two ranks each sent {row['messages']['count']} messages of {1e-6 * row['messages']['bytes']:.1f} MB "
              f"in all through PETSc (-log_view's counts) and took part in {row['messages']['reductions']} of its reductions."
              for row in rows if row["ranks"] == 2]
-    return " ".join(lines) or "PETSc's messages were not counted: that takes two ranks."
+    return " ".join(lines) or "PETSc's messages were not counted: this requires two ranks."
 
 
 RANKS = [1, 64, 256, 1024, 4096]
 
 
 def table(model, dofs_on):
-    lines = ["| ranks | dofs | factorisation [s] | solves [s] | everything else [s] | total [s] | factor a rank [GB] | efficiency |",
+    lines = ["| ranks | dofs | factorisation [s] | solves [s] | other [s] | total [s] | factor per rank [GB] | efficiency |",
              "|" + "---:|" * 8]
     alone = None
     for p in RANKS:
@@ -108,14 +108,14 @@ def section(rows, per_rank=60000):
     model = model_of(rows)
     growth = ", ".join(f"{name} n^{model[name][1]:.2f}" for name in ("operations", "entries", "front"))
     lines = [
-        "This is a model's projection, not a measurement (`tests/benchmark/offline_projection.py` holds the model). Measured on one rank "
-        f"at {model['dofs']} dofs, and put into it: {model['operations'][0]:.3g} operations of the factorisation at {model['rate']:.3g} a second, "
-        f"{model['entries'][0]:.3g} entries, a greatest front of {model['front'][0]} (they grow as {growth} from the size before), "
-        f"{model['single']:.3g} s a single solve, {model['many']:.3g} s a solve in a block, {1e6 * model['even']:.3g} us a dof for everything "
-        f"else. Assumed: {1e6 * LATENCY:.0f} us a message, {BANDWIDTH / 1e9:.0f} GB/s a rank, ranks that do not slow one another's memory "
-        "down, a tree that is balanced, analysis on one rank left out of account. Efficiency is against one rank with enough memory. "
+        "This is the projection of a model (`tests/benchmark/offline_projection.py`), not a measurement. Its parameters, measured on one rank "
+        f"at {model['dofs']} dofs: {model['operations'][0]:.3g} operations of the factorisation at {model['rate']:.3g} per second, "
+        f"{model['entries'][0]:.3g} entries, a maximum front of {model['front'][0]} (growing as {growth} from the previous size), "
+        f"{model['single']:.3g} s per single solve, {model['many']:.3g} s per solve in a block, {1e6 * model['even']:.3g} us per dof for everything "
+        f"else. Assumed: {1e6 * LATENCY:.0f} us per message, {BANDWIDTH / 1e9:.0f} GB/s per rank, no competition of ranks for memory "
+        "bandwidth, a balanced tree, no cost of the analysis on one rank. Efficiency is relative to one rank with enough memory. "
         + messages_of(rows),
         "", f"Strong scaling, {model['dofs']} dofs:", "", table(model, lambda p: model["dofs"]),
-        "", f"Weak scaling, {per_rank} dofs a rank (the factorisation grows faster than n, so the time does):", "",
+        "", f"Weak scaling, {per_rank} dofs per rank (time grows because the factorisation grows faster than n):", "",
         table(model, lambda p: per_rank * p)]
     return "\n".join(lines)

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Times one step of reduced models in motion, and full order beside them.
+"""Times one step of reduced models, and of the full-order models for comparison.
 
-Processor time of the integration on one rank (all of TS, SNES, KSP and the equations; nothing recorded in between), the
-least of several runs that take turns: on a shared machine the least is what the program needs. Full order and reduced
-model of one scene run the same steps; errors are those of the reduced model's probes. Written: online.md. Nothing
-passes or fails on a clock.
+Processor time of the integration on one rank (all of TS, SNES, KSP and the equations; without recording), the
+minimum of several alternating runs: on a shared machine the minimum is the time of the program itself. Full-order and reduced
+model of one scene use the same steps; errors are those of the reduced model's probes. Written: online.md. This is not a
+test that passes or fails by time.
 """
 import argparse
 import csv
@@ -54,7 +54,7 @@ probes:
 
 # f_1 = 1.0 Hz; the drive bends the fin by a third of its length.
 FLAPPING = """
-title: Fin that a driven hinge flaps
+title: Fin flapped by a driven hinge
 bodies:
   panel:
     mesh: {plate: {along: [1, 0, 0], across: [0, 0.1, 0], elements: CELLS}}
@@ -69,12 +69,12 @@ probes:
   bend: {at: panel.right, quantity: deflection}
 """
 
-STEPS = [  # name, scene, microseconds that were wanted
+STEPS = [  # name, scene, target in microseconds
     ("plane, 3 modes + 6 derivatives, hinge", BEAM, 8),
     ("space, 5 modes + 15 derivatives, hinge", PANEL.replace("MODES", "5").replace("END", "5"), 20),
     ("space, 10 modes + 55 derivatives, hinge", PANEL.replace("MODES", "10").replace("END", "2"), 300),
 ]
-FULL = [  # cells, end of the motion [s]
+FULL = [  # elements, end of the simulation [s]
     ([100, 10], 1.0),
     ([320, 32], 0.5),
 ]
@@ -129,7 +129,7 @@ def measure_full(arguments, folder):
     found = []
     for cells, end in FULL[:arguments.full]:
         text = FLAPPING.replace("CELLS", str(cells)).replace("END", str(end))
-        print(f"full order, {cells[0]} by {cells[1]} cells", file=sys.stderr)
+        print(f"full-order model, {cells[0]} by {cells[1]} elements", file=sys.stderr)
         full = run(arguments.floe, text, "nlffr", folder)
         kinds = {"vm+md": [run(arguments.floe, text, "vm+md", folder) for _ in range(arguments.repeat)],
                  "lffr": [run(arguments.floe, text, "lffr", folder)] if cells == FULL[0][0] else []}
@@ -171,11 +171,11 @@ def document(steps, full, arguments):
     lines = ["# Time per step", "",
              f"{datetime.date.today()}, {processor()}, {os.cpu_count()} cores, load average {os.getloadavg()[0]:.1f}; "
              f"floe {origin['floe']['version']} ({origin['floe']['commit']}). `make bench-online` writes this page.", "",
-             f"Processor time of a step, microseconds, one rank, least and greatest of {arguments.repeat} runs.", ""]
-    lines += table(["model", "k", "coordinates", "Newton iterations a step", "least [us]", "greatest [us]",
-                    "wanted [us]"], step_rows(steps))
-    lines += ["A fin of shells that a driven hinge flaps: its tip bends by a third of its length. Full order (NLFFR) "
-              "and 6 modes with their 21 derivatives take the same steps of 5 ms.", ""]
+             f"Processor time per step, microseconds, one rank, minimum and maximum of {arguments.repeat} runs.", ""]
+    lines += table(["model", "k", "coordinates", "Newton iterations per step", "min [us]", "max [us]",
+                    "target [us]"], step_rows(steps))
+    lines += ["A shell fin flapped by a driven hinge: its tip deflects by a third of its length. The full-order model (NLFFR) "
+              "and 6 modes with their 21 derivatives use the same steps of 5 ms.", ""]
     lines += table(["dofs", "coordinates", "steps", "NLFFR [us]", "reduced [us]", "ratio", "error of the tip [%]",
                     "error of its deflection [%]", "offline [s]"], full_rows(full))
     here = os.path.dirname(os.path.abspath(__file__))

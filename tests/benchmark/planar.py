@@ -17,7 +17,7 @@ import tempfile
 
 SCENE = "examples/cantilever/scene.yaml"
 MESHES = [20, 200, 2000, 20000]
-FORMULATIONS = {"vm+md": "12 VMs + 5 MDs", "vm": "17 VMs", "nlffr": "NLFFR, full order", "cfr": "CFR, full order"}
+FORMULATIONS = {"vm+md": "12 VMs + 5 MDs", "vm": "17 VMs", "nlffr": "NLFFR, full-order", "cfr": "CFR, full-order"}
 REDUCED = ("vm+md", "vm")
 PHASES = ("modes", "derivatives", "projection")
 COLOURS = {"vm+md": "#D55E00", "vm": "#0072B2", "nlffr": "#009E73", "cfr": "#CC79A7"}
@@ -124,15 +124,15 @@ def offline_table(found, arguments):
 
 
 def independence(found, arguments):
-    """The online cost of the reduced model against the number of elements, in one sentence."""
+    """The online cost of the reduced model versus the number of elements, in one sentence."""
     few, many = min(arguments.elements), max(arguments.elements)
     times = [median(found["vm+md", elements, 1], per_step) for elements in arguments.elements]
     iterations = [median(found["vm+md", elements, 1], newton) for elements in arguments.elements]
     grown = [median(found[f, many, 1], per_step) / median(found[f, few, 1], per_step) for f in ("nlffr", "cfr")]
     return (f"From {few} to {many} elements, on one rank, a step of the reduced model takes {min(times):.3g} to "
             f"{max(times):.3g} us ({min(iterations):.2f} to {max(iterations):.2f} Newton iterations), one of NLFFR "
-            f"{grown[0]:.3g} times and one of CFR {grown[1]:.3g} times as long as at {few}. What of the former is the "
-            "busy machine and what is work: see the counts of instructions in the notes.")
+            f"{grown[0]:.3g} times and one of CFR {grown[1]:.3g} times as long as at {few}. The former includes the "
+            "load of the machine: the notes have counts of instructions.")
 
 
 def document(found, arguments):
@@ -144,9 +144,9 @@ def document(found, arguments):
              f"{datetime.date.today()}, {os.cpu_count()} x {processor()}, load average {os.getloadavg()[1]:.1f} (idle: under 1).",
              f"Provenance: {provenance_line(origin)}.", "",
              "The cantilever of the paper, its mesh varied: clamp as a joint, pinned frame, step 1e-3 s. Medians of "
-             f"{arguments.repeat} runs that take turns; the greatest of a set was up to {worst:.1f} times the least. "
+             f"{arguments.repeat} alternating runs; the maximum of a set was up to {worst:.1f} times the minimum. "
              "Recording of results is not counted.", "",
-             "## Microseconds per step", "", "![Microseconds per step against elements](planar.png)", "",
+             "## Microseconds per step", "", "![Microseconds per step versus elements](planar.png)", "",
              independence(found, arguments), ""]
     lines += step_tables(found, arguments)
     lines += ["## Offline: milliseconds of the phases of 12 VMs + 5 MDs", ""] + offline_table(found, arguments)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make tradeoff: floe tradeoff for every example that moves, and docs/tradeoff.md with tables and pictures from it."""
+"""make tradeoff: floe tradeoff for every example with a simulation, and docs/tradeoff.md with its tables and pictures."""
 import argparse
 import datetime
 import json
@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 
-# In the order of the document. rotating_blade has no motion, only spectra.
+# In the order of the document. rotating_blade has no simulation, only spectra.
 EXAMPLES = ["cantilever", "robot_arm", "pendulum", "slider_crank", "spin_up", "shaken_plate", "satellite", "blade"]
 NOTES = "tradeoff_notes.md"
 
@@ -33,12 +33,12 @@ def effectivity(rungs):
             if error is not None and estimate is not None and 1e-6 < error < 0.3]
 
 
-def said(estimate):
+def estimate_words(estimate):
     return "more than 10000 %" if None in estimate else f"{100 * max(estimate, default=0):.2g} %"
 
 
 def choices(rungs):
-    """What was chosen for an accuracy: its true error, and its time against the fastest rung that is as good."""
+    """Of each model selected for an accuracy: its true error, and its time over that of the fastest model as accurate."""
     lines = []
     worst = {rung["name"]: max((e if e is not None else float("inf") for e in rung["rms"]), default=0)
              for rung in rungs if not rung["stopped"]}
@@ -48,14 +48,14 @@ def choices(rungs):
             continue
         asked = float(rung["name"].split()[-2]) / 100
         if rung["stopped"]:
-            lines.append(f"- {100 * asked:g} % asked: {rung['stopped']}.")
+            lines.append(f"- {100 * asked:g} % required: {rung['stopped']}.")
             continue
         good = [other for other in ladder if worst[other["name"]] <= asked]
         best = min(good, key=lambda other: other["motion"], default=None)
-        beside = "no rung of the ladder is as good" if best is None else \
-            f"{rung['motion'] / best['motion']:.2g} of the time of the fastest rung as good ({best['name']})"
-        lines.append(f"- {100 * asked:g} % asked: {100 * worst[rung['name']]:.2g} % true, "
-                     f"{said(rung['estimate'])} said; {beside}; chosen in {rung['offline']:.2g} s.")
+        beside = "no model of the hierarchy is as accurate" if best is None else \
+            f"{rung['motion'] / best['motion']:.2g} of the time of the fastest model as accurate ({best['name']})"
+        lines.append(f"- {100 * asked:g} % required: true error {100 * worst[rung['name']]:.2g} %, "
+                     f"estimate {estimate_words(rung['estimate'])}; {beside}; selected in {rung['offline']:.2g} s.")
     return lines
 
 
@@ -73,13 +73,13 @@ def section(example, folder, out):
     picture = os.path.join(folder, "tradeoff.png")
     if os.path.exists(picture):
         shutil.copyfile(picture, os.path.join(out, f"tradeoff_{example}.png"))
-        lines += [f"![Error against time, {found['title']}](tradeoff_{example}.png)", ""]
+        lines += [f"![Error versus time per step, {found['title']}](tradeoff_{example}.png)", ""]
     lines += [table, ""]
-    lines += ["What `accuracy:` chooses:", "", *choices(found["rungs"]), ""]
+    lines += ["Models selected by `accuracy:`:", "", *choices(found["rungs"]), ""]
     ratios = sorted(effectivity(found["rungs"]))
     if ratios:
         inside = sum(0.3 <= ratio <= 3 for ratio in ratios)
-        lines += [f"Estimate over error (errors from 1e-4 % to 30 %): {ratios[0]:.2g} to {ratios[-1]:.2g}, median "
+        lines += [f"Ratio of estimate and error (errors from 1e-4 % to 30 %): {ratios[0]:.2g} to {ratios[-1]:.2g}, median "
                   f"{ratios[len(ratios) // 2]:.2g}; {inside} of {len(ratios)} between 0.3 and 3.", ""]
     return lines, found["provenance"]
 
@@ -109,7 +109,7 @@ def main():
         with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), NOTES), encoding="utf-8") as file:
             notes = file.read().strip()
         date = datetime.date.today().isoformat()
-        head = ["# How much accuracy for how much speed", "", notes, "",
+        head = ["# Accuracy versus computing time", "", notes, "",
                 f"Written by `make tradeoff` on {date}, floe {origin['floe']['version']} ({origin['floe']['commit']}), "
                 f"{processor()}.", ""]
         with open(os.path.join(arguments.out, "tradeoff.md"), "w", encoding="utf-8") as file:

@@ -59,7 +59,7 @@ void check_order_two(Formulation formulation, double step, const std::string& ra
 
 // Generalised-alpha for index-3 systems, Arnold and Bruels: second order in positions, velocities and multipliers.
 TEST_CASE("order: reduced mechanism, second order in the step") { check_order_two(Formulation::vm_md, 2.5e-4); }
-TEST_CASE("order: floating frames of full order, second order in the step") {
+TEST_CASE("order: full-order floating frames, second order in the step") {
   check_order_two(Formulation::nlffr, 2.5e-4);
 }
 TEST_CASE("order: corotational mechanism, second order in the step") { check_order_two(Formulation::cfr, 2.5e-4); }

@@ -3,8 +3,8 @@ from floe import Floe, relative
 from scenes import cantilever, pendulum, spatial_cantilever, tip_force
 from study import Answer, Miss, Point, Study
 
-SWINGS = ("steps know accelerations to eps of the angle over h^2, which adds up to 3e-12 rad; swings below 6e-11 rad stand "
-          "still")
+SWINGS = ("the accuracy of accelerations in a step is eps of the angle over h^2, which accumulates to 3e-12 rad; "
+          "motions below 6e-11 rad are not resolved")
 SMALL = [1e-150, 1e-100, 1e-30, 1e-16, 1e-12, 1e-9, 1e-6]
 
 
@@ -81,20 +81,20 @@ STUDIES = [
     Study("small amplitudes, other models", "tip force from 1e-150 to 1e-9 EI/L^2; vm+md, vm, cfr", "itself at amplitude 1e-6",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: proportional(floe, a, f), 1e-8, quick=(a, f) == (1e-12, "vm+md"))
            for f in ("vm+md", "vm", "cfr") for a in SMALL[:-1]]),
-    Study("shortening by small loads", "tip force from 1e-12 to 1 EI/L^2, of second order", "closed form -a^2/15",
+    Study("shortening by small loads", "tip force from 1e-12 to 1 EI/L^2, second-order", "closed form -a^2/15",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: shortening(floe, a, f), 1e-5, quick=(a, f) == (1e-6, "vm+md"))
            for f in ("nlffr", "vm+md") for a in (1e-12, 1e-9, 1e-6, 1e-3, 1)]),
     Study("small amplitudes in space", "tip forces from 1e-30 to 1e-9", "itself at amplitude 1e-6",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: in_space(floe, a, f), 1e-8, quick=False)
            for f in ("nlffr", "vm+md") for a in (1e-30, 1e-12, 1e-9)]),
-    Study("small swings", "a pendulum let go from 1e-10 to 1e-6 rad", "itself at 1e-4 rad",
+    Study("small oscillations", "a pendulum released from 1e-10 to 1e-6 rad", "itself at 1e-4 rad",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: swung(floe, a, f), max(1e-7, 1e-15 / a), misses=Miss(SWINGS, 3e-11 / a))
            for f in ("nlffr", "vm+md") for a in (1e-10, 1e-9, 1e-6)],
           "limit: the round-off of an angle near pi/2, once"),
-    Study("small drives", "a clamp turned by 1e-30 to 1e-8 rad", "itself at 1e-5 rad",
+    Study("small drives", "a clamp rotated by 1e-30 to 1e-8 rad", "itself at 1e-5 rad",
           [Point(f"{a:g}, {f}", lambda floe, a=a, f=f: driven(floe, a, f), 1e-7, quick=(a, f) == (1e-12, "vm+md"))
            for f in ("nlffr", "vm+md") for a in (1e-30, 1e-16, 1e-12, 1e-8)]),
-    Study("overload", "weight let go at once, 10 to 1e5 EI/L^3", "total energy does not rise; elastic energy >= 0",
+    Study("overload", "weight applied suddenly, 10 to 1e5 EI/L^3", "total energy does not rise; elastic energy >= 0",
           [Point(f"{w:g}, {f}, {r}", lambda floe, w=w, f=f, r=r: overloaded(floe, w, f, r), 1e-3, "did not converge",
                  quick=(w, f, r) == (1e3, "vm+md", "clamped"))
            for f in ("nlffr", "vm+md", "vm") for r in ("clamped", "pinned") for w in (1e1, 1e2, 1e3, 1e4, 1e5)]),

@@ -102,22 +102,22 @@ def faulty(key, word):
 
 
 STUDIES = [
-    Study("no numbers in a scene", ", ".join(NOT_NUMBERS) + " in nine keys", "a refusal that names the key",
+    Study("non-finite numbers in a scene", ", ".join(NOT_NUMBERS) + " in nine keys", "a refusal that names the key",
           [Point(f"{name}: {word}", faulty(key, word), None, name, quick=(name, word) in (("EI", ".nan"), ("force", "1/0")))
            for key, name in KEYS.items() for word in NOT_NUMBERS]),
     Study("smallest and largest numbers", "stiffness, mass and load of 1e-310 to 1e300", "the scaled copy",
           [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: denormal(floe, s, f), 1e-8 if 1e-120 <= s <= 1e110 else None,
                  "double precision", quick=(s, f) == (1e-310, "vm+md"))
            for f in ("vm+md", "nlffr") for s in (1e-310, 1e-200, 1e-120, 1e-50, 1e50, 1e110, 1e200, 1e300)]),
-    Study("formulas that fail in the middle", "not a number at t = 0.037 of 0.1", "the run that ends before, and the time told",
+    Study("formulas that fail in the middle", "not a number at t = 0.037 of 0.1", "the run that ends before, and the time in the message",
           [Point(f"{name}, {f}", blows_up(scene, f), 1e-12, quick=(name, f) == ("force", "vm+md"))
            for name, scene in BLOWN.items() for f in ("vm+md", "nlffr")] +
           [Point(f"{name}, {f}", blows_up(scene, f), 1e-12, quick=(name, f) == ("speed", "vm+md"))
            for name, scene in (("angle", DRIVEN), ("speed", SPEED), ("pressure", PRESSED)) for f in ("vm+md", "nlffr")]),
     Study("formulas that overflow", "exp(20000 t)", "a refusal when the scene is read",
           [Point("force", too_large, None, "infinite", quick=True)]),
-    Study("shapes that are no numbers", "initial deformation within the beam", "a refusal that names the key",
+    Study("shapes that are not finite", "initial deformation within the beam", "a refusal that names the key",
           [Point(f, lambda floe, f=f: bad_shape(floe, f), None, "deformation", quick=True)
            for f in ("sqrt(abs(x - 0.4) - 0.2)", "1/(x - 0.5)", "log(x)")]),
-    Study("events that are no numbers", "a formula of t", "a refusal", [Point("when", bad_event, None, "not a number", quick=True)]),
+    Study("events that are not finite", "a formula of t", "a refusal", [Point("when", bad_event, None, "not a number", quick=True)]),
 ]

@@ -32,17 +32,17 @@ def bent(floe: Floe, c, formulation):
 
 
 def standing(scene):
-    """A hub that could turn, for floe campbell."""
+    """A hub that could rotate, for floe campbell."""
     scene["joints"]["clamp"] = {"type": "driven", "between": ["ground", "beam.start"], "angle": "0*t"}
     return scene
 
 
 def frequency_error(points, exact):
-    """Of the first vibration; or floe says that so slow a one cannot be told from zero beside the fastest."""
+    """Of the first vibration; or a message that so low a frequency cannot be distinguished from zero."""
     first = points[0]["vibrations"][0]
     if not first["zero"]:
         return abs(first["rad_per_s"] / exact - 1)
-    assert first["below_rad_per_s"] > exact, f"not told from zero below {first['below_rad_per_s']}, and it is {exact}"
+    assert first["below_rad_per_s"] > exact, f"not distinguished from zero below {first['below_rad_per_s']}, and it is {exact}"
     return Answer(0.0, f"{exact:.1e} rad/s: \"zero mode, or below {first['below_rad_per_s']:.2g} rad/s\"")
 
 

@@ -1,4 +1,4 @@
-"""Equal frequencies, mechanisms, columns that repeat one another, many derivatives, nothing at all."""
+"""Equal frequencies, mechanisms, dependent basis vectors, many derivatives, no loads."""
 import math
 
 import numpy
@@ -23,7 +23,7 @@ def nearly_square(floe: Floe, gap, formulation, command):
 
 
 def turned(floe: Floe, angle, formulation):
-    """A square section whose equal modes may lie anyhow: turned about the beam, the same motion."""
+    """A square section whose equal modes may lie anyhow: rotated about the beam, the same motion."""
     def answer(a):
         h = 0.02
         scene = spatial_cantilever(h, h, 8, modes=4, E=12 / h**4, rho=1 / h**2,
@@ -43,9 +43,9 @@ def split_pair(floe: Floe, count):
     scene["probes"] = {"one": {"at": {"body": "plate", "node": [0.75, 0.25, 0]}},
                        "two": {"at": {"body": "plate", "node": [0.25, 0.75, 0]}}}
     moved = floe.run(scene, "vm+md")
-    told = moved.warned("frequency") or moved.warned("mode")
+    warned = moved.warned("frequency") or moved.warned("mode")
     symmetric = relative(moved.probes["one.z"], moved.probes["two.z"])
-    return Answer(0.0 if told else symmetric, next((w for w in moved.warnings if "mode" in w), ""))
+    return Answer(0.0 if warned else symmetric, next((w for w in moved.warnings if "mode" in w), ""))
 
 
 def torsion_spring(floe: Floe, k, formulation):
@@ -161,18 +161,18 @@ def far_and_loose(floe: Floe, arm, k):
 
 
 def repeated(floe: Floe, copies):
-    """Attachments of loads at one place, many times, and at its neighbours: columns that others hold already."""
+    """Attachments of loads at one place, many times, and at its neighbours: linearly dependent basis vectors."""
     loads = {f"l{i}": {"type": "force", "at": {"body": "beam", "node": [1 - (i % 4) / 16, 0]},
                        "force": [0, "sin(5*t)" if i == 0 else "0*t"]} for i in range(copies)}
     moved = floe.run(cantilever(16, EA=1e4, attachment="all", loads=loads), "vm+md")
     full = floe.run(cantilever(16, EA=1e4, loads=tip_force(0, "sin(5*t)")), "nlffr")
     basis = moved.summary["bodies"][0]["basis"]
     return Answer(relative(moved.vector("tip"), full.vector("tip")),
-                  f"{sum(not c['kept'] for c in basis)} columns dropped, {sum(c['kept'] for c in basis)} kept")
+                  f"{sum(not c['kept'] for c in basis)} vectors dropped, {sum(c['kept'] for c in basis)} kept")
 
 
 def tolerances(floe: Floe, tolerance):
-    """Nearly dependent columns, kept as long as drop_tolerance lets them: the full model's answer all the same."""
+    """Nearly dependent basis vectors, kept according to drop_tolerance: the solution of the full-order model all the same."""
     def scene(value=None):
         s = cantilever(16, EA=1e4, modes=8, loads=tip_force(0, "sin(5*t)"))
         if value is not None:
@@ -180,7 +180,7 @@ def tolerances(floe: Floe, tolerance):
         return s
     moved = floe.run(scene(tolerance), "vm+md")
     kept = sum(c["kept"] for c in moved.summary["bodies"][0]["basis"])
-    return Answer(relative(moved.vector("tip"), floe.run(scene(), "nlffr").vector("tip")), f"{kept} columns kept")
+    return Answer(relative(moved.vector("tip"), floe.run(scene(), "nlffr").vector("tip")), f"{kept} vectors kept")
 
 
 _full = {}
@@ -212,7 +212,7 @@ def derivatives_in_space(floe: Floe, modes):
 
 
 def no_modes(floe: Floe, formulation):
-    """Static columns alone: at rest under a tip force they are exact."""
+    """Attachment modes only: static deflections under a tip force are exact."""
     scene = cantilever(8, modes=0, attachment="all", loads=tip_force(0, "0.5*t"))
     end = floe.static(scene, formulation, "--at", "1", "--steps", "1").vector("tip")[-1]
     return abs(end[1] * 6 - 1)
@@ -274,17 +274,17 @@ STUDIES = [
            for f in ("vm+md", "nlffr") for c in ("static", "run") for g in (1e-15, 1e-12, 1e-9, 1e-8, 1e-6)] +
           [Point(f"{g:g}, vm, run", lambda floe, g=g: nearly_square(floe, g, "vm", "run"), max(1e-7, 50 * g))
            for g in (1e-9, 1e-6)]),
-    Study("equal frequencies", "square section turned about its beam", "itself, not turned",
+    Study("equal frequencies", "square section rotated about the beam axis", "itself, not rotated",
           [Point(f"{a:g} rad, {f}", lambda floe, a=a, f=f: turned(floe, a, f), 1e-7, quick=(a, f) == (0.3, "vm+md"))
            for f in ("vm+md", "nlffr") for a in (1e-9, 0.3, 0.7853981633974483)]),
-    Study("a pair of equal modes, cut", "1 to 6 modes of a clamped square plate", "the symmetry of its load, or a note",
+    Study("a pair of equal modes, cut", "1 to 6 modes of a clamped square plate", "the symmetry of its load, or a warning",
           [Point(f"{m}", lambda floe, m=m: split_pair(floe, m), 1e-6, quick=m == 2) for m in (1, 2, 3, 4, 5, 6)]),
     Study("weak and strong springs", "a hinge's spring of 1e-30 to 1e30 N m/rad, rigid and flexible bar", "closed form M/k",
           [Point(f"{k:g}, rigid", lambda floe, k=k: torsion_spring(floe, k, "nlffr"), 1e-9, quick=k == 1e-12)
            for k in (1e-30, 1e-12, 1e-6, 1, 1e6, 1e12, 1e30)] +
           [Point(f"{k:g}, {f}", lambda floe, k=k, f=f: flexible_on_spring(floe, k, f), 1e-6, quick=k == 1e-6)
            for f in ("nlffr", "vm+md") for k in (1e-9, 1e-6, 1, 1e3)]),
-    Study("pendulums at rest", "let down from -3 to 0.3 rad, springs of 0 to 100 N m/rad", "where a slow rod comes to rest",
+    Study("pendulums at rest", "released from -3 to 0.3 rad, springs of 0 to 100 N m/rad", "the rest position of a slow rod",
           [Point(f"{a:g} rad, {k:g} N m/rad, {f}", lambda floe, a=a, k=k, f=f: hanging(floe, a, k, f), 1e-5,
                  quick=(a, k, f) in ((0.0, 0.0, "nlffr"), (1e-3, 1e-3, "vm+md"), (-0.3, 0.0, "cfr")))
            for f in ("nlffr", "vm+md", "cfr") for a in STARTS for k in (0.0, 1e-3, 1.0, 100.0)] +
@@ -303,9 +303,9 @@ STUDIES = [
            for f, r in (("vm+md", True), ("vm+md", False), ("nlffr", False))] +
           [Point(f"{arm:g}, k = {k:g}, free", lambda floe, arm=arm, k=k: far_and_loose(floe, arm, k), None, "nothing holds",
                  quick=(arm, k) == (1e4, 1e9)) for arm in (0, 1e2, 1e4, 1e6) for k in (1e5, 1e9)]),
-    Study("columns that repeat others", "2 to 200 loads with static columns at four places", "nlffr",
+    Study("dependent basis vectors", "2 to 200 loads with attachment modes at four places", "nlffr",
           [Point(f"{n}", lambda floe, n=n: repeated(floe, n), 1e-4, quick=n == 20) for n in (2, 20, 200)]),
-    Study("nearly dependent columns", "drop_tolerance from 1e-1 to 1e-15", "nlffr",
+    Study("nearly dependent basis vectors", "drop_tolerance from 1e-1 to 1e-15", "nlffr",
           [Point(f"{t:g}", lambda floe, t=t: tolerances(floe, t), 1e-3, quick=t == 1e-12)
            for t in (1e-1, 1e-3, 1e-7, 1e-10, 1e-12, 1e-15)]),
     Study("derivatives", "1 to 21 modes with all their derivatives, p = 1 to 231", "nlffr",
@@ -313,12 +313,12 @@ STUDIES = [
            for m in (1, 2, 3, 4, 6, 8, 12, 16, 20, 21)]),
     Study("derivatives in space", "1 to 20 modes with all their derivatives, p = 1 to 210", "nlffr",
           [Point(f"m = {m}", lambda floe, m=m: derivatives_in_space(floe, m), 1e-1 if m < 8 else 5e-3, quick=False,
-                 misses=Miss("one mode bends in one direction and the load asks for two; the estimate says 39 %", 0.5)
+                 misses=Miss("one mode bends in one direction, the load acts in two; the estimate is 39 %", 0.5)
                  if m == 1 else None)
            for m in (1, 2, 4, 8, 12, 16, 20)]),
-    Study("no modes", "static columns alone, or none at all", "closed form; nothing moves",
+    Study("no modes", "attachment modes only, or no basis vectors", "closed form; no motion",
           [Point("attachments", lambda floe: no_modes(floe, "vm+md"), 1e-8, quick=True),
-           Point("no columns", no_columns, 1e-15, quick=True)]),
+           Point("no basis vectors", no_columns, 1e-15, quick=True)]),
     Study("no loads", "forces of zero", "0, to the bit",
           [Point(f, lambda floe, f=f: no_loads(floe, f), 1e-300, quick=f == "vm+md") for f in ("nlffr", "vm+md", "vm", "cfr")]),
     Study("no density", "a part, or all, of a body without mass", "own beam elements; density 1e-9; a refusal",

@@ -78,7 +78,7 @@ def long_vibration(floe: Floe, steps, formulation):
     scene["bodies"]["beam"]["reduction"] = {"modes": {"count": 1, "alone": 1}, "derivatives": "none", "attachment": "none"}
     moved = floe.run(scene, formulation)
     total = moved.energy.sum(axis=1)
-    return Answer(abs(total[-1] / total[0] - 1), f"{len(moved.t)} rows kept")
+    return Answer(abs(total[-1] / total[0] - 1), f"{len(moved.t)} rows stored")
 
 
 def turning(floe: Floe, turns, formulation):
@@ -141,24 +141,24 @@ STUDIES = [
           [Point(f"{h:g} s, {f}", lambda floe, h=h, f=f: falling(floe, h, f), 1e-8 + 100 * (200 * h)**4 + 1e-6,
                  quick=(h, f) == (1e-8, "vm+md"))
            for f in ("vm+md", "nlffr") for h in (1e-12, 1e-10, 1e-8, 1e-6, 1e-4)]),
-    Study("long steps under slow loads", "1 to 1e4 first periods a step", "closed form F/3",
+    Study("long steps under slow loads", "1 to 1e4 first periods per step", "closed form F/3",
           [Point(f"{h:g} T, {f}", lambda floe, h=h, f=f: slow(floe, h, f), 1e-4, quick=(h, f) == (1e2, "vm+md"))
            for f in ("nlffr", "vm+md") for h in (1e0, 1e1, 1e2, 1e4)]),
-    Study("long steps under sudden loads", "1 to 1e4 first periods a step",
-          "a warning, bounded energy, and the equilibrium in the end",
+    Study("long steps under sudden loads", "1 to 1e4 first periods per step",
+          "a warning, bounded energy, and the final equilibrium",
           [Point(f"{h:g} T, {f}", lambda floe, h=h, f=f: coarse(floe, h, f), 1e-2, "did not converge",
                  quick=(h, f) == (1e2, "vm+md"))
            for f in ("nlffr", "vm+md") for h in (1e0, 1e1, 1e2, 1e4)]),
     Study("many steps", "1e4 to 1e6 steps of a pendulum", "constraints met to round-off",
           [Point(f"{n:g}, {f}", lambda floe, n=n, f=f: long_swing(floe, n, f), 1e-13, quick=(n, f) == (10**4, "vm+md"))
            for f, n in [("vm+md", 10**4), ("vm+md", 10**6), ("nlffr", 10**5)]]),
-    Study("many vibrations", "1e6 steps of 1/200 period", "total energy, which the scheme alone takes away",
+    Study("many vibrations", "1e6 steps of 1/200 period", "total energy, dissipated by the scheme only",
           [Point(f"{n:g}, {f}", lambda floe, n=n, f=f: long_vibration(floe, n, f), 1e-2, quick=False)
            for f, n in [("vm", 10**5), ("vm", 10**6)]]),
-    Study("revolutions", "10 to 1000 turns of a flexible beam on a hub", "closed form of its stretch; 20 turns",
+    Study("revolutions", "10 to 1000 revolutions of a flexible beam on a hub", "closed form of its stretch; 20 revolutions",
           [Point(f"{n}, {f}", lambda floe, n=n, f=f: revolutions(floe, n, f), 1e-5, quick=(n, f) == (100, "vm+md"))
            for f, n in [("vm+md", 100), ("vm+md", 1000), ("nlffr", 1000)]]),
-    Study("tumbling", "10 to 1000 turns about the middle axis", "unit quaternions",
+    Study("tumbling", "10 to 1000 revolutions about the intermediate axis", "unit quaternions",
           [Point(f"{n}", lambda floe, n=n: tumbling(floe, n), 1e-14, quick=n == 100) for n in (10, 100, 1000)]),
     Study("ends and steps that do not fit", "1e3 to 1e6 steps", "their number, and the time at the end",
           [Point(f"{end:g} by {step!r}", lambda floe, end=end, step=step, n=n: awkward(floe, end, step, n), 1e-12,

@@ -172,16 +172,16 @@ def estimates(floe, convert, units):
 
 MACHINES = {
     "crank": Machine("crank, flexible rod, slider, stops and springs, reduced", motion(crank())),
-    "crank at full order": Machine("the same, nlffr", motion(crank(), "nlffr")),
+    "full-order crank": Machine("the same, nlffr", motion(crank(), "nlffr")),
     "crank, exact beams": Machine("the same, cfr", motion(undamped_crank(), "cfr")),
     "arm in space": Machine("driven arm, hinge with stops, ball joint, gravity, reduced", motion(arm_in_space())),
-    "arm in space at full order": Machine("the same, nlffr", motion(arm_in_space(), "nlffr")),
-    "wing": Machine("plate under follower pressure on a shaken ground, reduced", motion(wing())),
+    "full-order arm in space": Machine("the same, nlffr", motion(arm_in_space(), "nlffr")),
+    "wing": Machine("plate under follower pressure on a moving ground, reduced", motion(wing())),
     "flight": Machine("free spinning plate, pushed at a corner, reduced", motion(flight())),
-    "four-bar": Machine("four-bar in space with repeated constraints", motion(four_bar())),
-    "adaptive": Machine("pendulum, steps by tolerance, stopped by a probe", motion(adaptive())),
+    "four-bar": Machine("four-bar in space with redundant constraints", motion(four_bar())),
+    "adaptive": Machine("pendulum, adaptive steps, stopped by a probe event", motion(adaptive())),
     "equilibria": Machine("beam bent by PL^2/EI = 1", resting(cantilever(8, loads=tip_force(0, "t")), "vm+md")),
-    "equilibria at full order": Machine("the same, nlffr", resting(cantilever(8, loads=tip_force(0, "t")), "nlffr")),
+    "full-order equilibria": Machine("the same, nlffr", resting(cantilever(8, loads=tip_force(0, "t")), "nlffr")),
     "spectra": Machine("Campbell diagram and modes", spectra),
     "estimates": Machine("estimated errors", estimates, 1e-2),
 }

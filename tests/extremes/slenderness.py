@@ -55,7 +55,7 @@ def thin(floe: Floe, h, formulation, cells="triangles"):
 
 
 def strip(floe: Floe, width, cells, formulation="nlffr"):
-    """A narrow strip of long cells under its weight bends as a beam, w = q L^4 / 8 D with nu = 0: against square cells."""
+    """A narrow strip of long elements under its weight bends as a beam, w = q L^4 / 8 D with nu = 0: compared with square elements."""
     h = 1e-3
     def tip(elements):
         scene = plate(1, width, elements, h, cells, nu=0, E=12 / h**3, rho=1 / h, gravity=[0, 0, "1e-6*t"])
@@ -64,16 +64,16 @@ def strip(floe: Floe, width, cells, formulation="nlffr"):
 
 
 def spread(floe: Floe, width, cells):
-    """A strip with nu = 0 under its weight, 16 by 4 cells: w = q L^4 / 8 D at its corner, whatever its width."""
+    """A strip with nu = 0 under its weight, 16 by 4 elements: w = q L^4 / 8 D at its corner, whatever its width."""
     h = 1e-3
     scene = plate(1, width, (16, 4), h, cells, nu=0, E=12 / h**3, rho=1 / h, gravity=[0, 0, "1e-6*t"])
     rest = floe.static(scene, "nlffr", "--at", "1", "--steps", "1")
     error = abs(rest.end("tip.z") / (1e-6 / 8) - 1)
-    return Answer(0, f"{100 * error:.2g} %, told") if rest.warned("within single cells") else error
+    return Answer(0, f"{100 * error:.2g} %, warning") if rest.warned("within single cells") else error
 
 
 def long_frequency(floe: Floe, cells_along, cells):
-    """A cantilever plate of so many cells along and four across: its first frequency against 40 along."""
+    """A cantilever plate of so many elements along and four across: its first frequency relative to that with 40 along."""
     def first(n):
         return floe.modes(plate(1, 1, (n, 4), 1e-3, cells, E=12 / 1e-9, rho=1e3, modes=2))[0]
     return abs(first(cells_along) / first(40) - 1)
@@ -85,10 +85,10 @@ def ratios(measure, values, formulations, limit, quick=(), misses=None, says=Non
 
 
 DROPPED = ("drop_tolerance 1e-7 drops a derivative of which 1e-7 is new, and the axis is (L/r)^2 times as stiff as the "
-           "bending; 1e-9 holds it (and keeps noise as a column in other scenes)")
+           "bending; 1e-9 keeps it (and keeps noise as a basis vector in other scenes)")
 
 
-SPREAD = ("cells of DKT sag freely under spread loads; the share of that in the deflection, by which it is told, is below "
+SPREAD = ("DKT elements deflect freely between their edges under distributed loads; the intra-element part of the deflection, which triggers the warning, is below "
           "5 % yet")
 # EA/EI = 1e14: the bending is within some eps of the stretching in the tangent of full order
 TOO_SLENDER = {(1e7, "nlffr"): "round-off of what holds the rest"}
@@ -114,14 +114,14 @@ STUDIES = [
                               (1e-6, "nlffr", "triangles", False), (1e-5, "nlffr", "quadrilaterals", False),
                               (1e-2, "vm+md", "triangles", False), (1e-5, "vm+md", "triangles", True),
                               (1e-6, "vm+md", "triangles", False), (1e-5, "vm+md", "quadrilaterals", False)]]),
-    Study("long cells", "strips of 8 by 8 cells 12.5 to 1e4 times as long as wide, as nlffr", "a strip of 8 by 1 cells",
+    Study("long elements", "strips of 8 by 8 elements 12.5 to 1e4 times as long as wide, as nlffr", "a strip of 8 by 1 elements",
           [Point(f"width {w:g}, {c}", lambda floe, w=w, c=c: strip(floe, w, c), 2e-2 if w > 5e-3 else None, "nothing holds",
                  quick=(w, c) == (1e-2, "triangles"))
            for c in ("triangles", "quadrilaterals") for w in (1e-1, 3e-2, 1e-2, 3e-3, 1e-4)]),
-    Study("wide cells", "cells 10 to 1000 times as wide as long, first frequency", "the plate with 40 by 4 cells",
+    Study("wide elements", "elements 10 to 1000 times as wide as long, first frequency", "the plate with 40 by 4 elements",
           [Point(f"{n} by 4, {c}", lambda floe, n=n, c=c: long_frequency(floe, n, c), 1e-2, quick=(n, c) == (400, "triangles"))
            for c in ("triangles", "quadrilaterals") for n in (160, 400, 1000, 4000)]),
-    Study("wide cells under spread loads", "cells 4 to 4000 times as wide as long", "closed form w = q L^4 / 8 D (nu = 0); or a warning",
+    Study("wide elements under distributed loads", "elements 4 to 4000 times as wide as long", "closed form w = q L^4 / 8 D (nu = 0); or a warning",
           [Point(f"width {w:g}, {c}", lambda floe, w=w, c=c: spread(floe, w, c), 2e-3, quick=(w, c) == (100, "triangles"),
                  misses={2: Miss(SPREAD, 0.02), 4: Miss(SPREAD, 0.08)}.get(w))
            for c in ("triangles", "quadrilaterals") for w in (1, 2, 4, 10, 100, 1000)]),

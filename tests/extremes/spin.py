@@ -1,4 +1,4 @@
-"""Beams on hubs that turn up to ten times their first frequency."""
+"""Beams on hubs that rotate at up to ten times their first frequency."""
 import math
 
 from floe import Floe, relative
@@ -54,7 +54,7 @@ def spun_up(floe: Floe, share, formulation):
 
 
 def linear_fails(floe: Floe, share):
-    """A linear elastic force beyond the first frequency has no stable rotation: growth sqrt(gamma^2 - omega^2) is told."""
+    """A linear elastic force beyond the first frequency has no stable rotation: growth sqrt(gamma^2 - omega^2) is reported."""
     gamma = share * CANTILEVER
     found = floe.campbell(hub(gamma), repr(gamma), "lffr")[0]
     growth = max(g for _, g in found)
@@ -70,7 +70,7 @@ def linear_warns(floe: Floe, share):
     return 0.0
 
 
-FEWER = Miss("drop_tolerance 1e-7 drops columns that hold a ten-millionth; 1e-9 holds this limit (and keeps noise elsewhere)", 0.02)
+FEWER = Miss("drop_tolerance 1e-7 drops basis vectors with an independent part of 1e-7; 1e-9 satisfies this limit (and keeps noise elsewhere)", 0.02)
 STUDIES = [
     Study("spin, in the plane", "speeds up to 10 first frequencies", "Rayleigh-Ritz in numpy",
           [Point(f"{s:g}, {f}", lambda floe, s=s, f=f: lagging(floe, s, f), 2e-4 if f == "nlffr" else 2e-3,

@@ -1,4 +1,4 @@
-"""docs/extremes.md from what was found."""
+"""docs/extremes.md from the results of the studies."""
 import datetime
 import os
 import platform
@@ -6,17 +6,17 @@ import subprocess
 
 import numpy
 
-HEAD = """# floe at its numerical limits
+HEAD = """# Numerical extremes
 
-Every row drives one thing to an extreme. At each of its points floe either gives an answer, whose error is measured against
-something that floe did not compute (a closed form, a table, a few lines of numpy), against the same scene written otherwise (in
-other units, to another scale), or against a run without the extreme; or it refuses with an exit code and one line that says why.
-Anything else fails the campaign: a number outside its limit, a missing warning, a number that is none, a crash, a message of
-PETSc's. `make check` runs some of the points ({quick}), `make extremes` all of them, and writes this page.
+Every row varies one parameter to an extreme. At each point floe either returns a result or refuses with an exit code and a message of one
+line. The error of a result is measured relative to a reference that floe did not compute (a closed form, a table, a few lines of numpy), to the same
+scene in another form (in other units, at another scale), or to a run without the extreme.
+Anything else fails the campaign: an error above its limit, a missing warning, a number that is not finite, a crash, a message of
+PETSc. `make check` runs some of the points ({quick}), `make extremes` all of them, and writes this page.
 
 Written by `make extremes` on {date}, floe {version}, {machine}: {points} points, {missed} missed, {failed} failed, {seconds:.0f} s.
 
-*Greatest error* is that of all points of the row that were answered, *limit* the one that it had to stay below there.
+*Maximum error* is that of all points of the row with a result, relative to the *limit* of the point.
 """
 
 
@@ -49,7 +49,7 @@ def row(study, found):
     words = []
     if refused:
         one = refused[0]
-        words.append(f"{len(refused)} refused with exit code {one.refusal.code}, as \"{clean(one.refusal.text)}\"")
+        words.append(f"{len(refused)} refused with exit code {one.refusal.code}: \"{clean(one.refusal.text)}\"")
     notes = [f for f in answered if f.note]
     if notes:
         words.append(f"{notes[-1].point.label}: {clean(notes[-1].note)}")
@@ -69,8 +69,8 @@ def write(path, results, floe, seconds):
                        version=version(floe), machine=processor(), points=len(results),
                        missed=sum(bool(f.miss) for f in results), failed=sum(bool(f.fault) for f in results),
                        seconds=seconds)
-    lines = [head, "| extreme | range tried | verified against | held | greatest error | refused, noted, missed |",
-             "| ------- | ----------- | ---------------- | ---: | -------------- | ----------------------- |"]
+    lines = [head, "| extreme | range | reference | passed | maximum error | refusals, remarks, misses |",
+             "| ------- | ----- | --------- | -----: | ------------- | ------------------------- |"]
     lines += [row(study, [f for f in results if f.study is study]) for study in studies]
     with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "notes.md"), encoding="utf-8") as file:
         lines += ["", file.read().strip()]

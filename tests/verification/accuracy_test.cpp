@@ -48,7 +48,7 @@ app::Series truth(scene::Scene scene) {
 
 }  // namespace
 
-TEST_CASE("accuracy: what is chosen errs by no more than what was asked, and says so") {
+TEST_CASE("accuracy: the selected model satisfies the required error, and reports it") {
   for (const std::string& text : {pendulum, plate}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");
     const app::Series full = truth(scene);
@@ -73,7 +73,7 @@ TEST_CASE("accuracy: what is chosen errs by no more than what was asked, and say
   }
 }
 
-TEST_CASE("accuracy: a probe that symmetry holds changes nothing") {
+TEST_CASE("accuracy: a probe that is zero by symmetry has no effect") {
   const auto chosen = [](const std::string& probes) {
     return app::choose(scene::parse_scene(R"yaml(
 gravity: [0, -9.81]
@@ -96,7 +96,7 @@ probes: {middle: {at: rod.middle, quantity: deflection})yaml" +
   CHECK(two.supported == Approx(one.supported).epsilon(0.01));
 }
 
-TEST_CASE("accuracy: the scene that is written moves as the model that was chosen") {
+TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
   for (const auto& [text, accuracy] : {std::pair{pendulum, 0.01}, std::pair{plate, 0.05}}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");
     app::Chosen chosen = app::choose(scene, accuracy, PETSC_COMM_WORLD);
@@ -112,7 +112,7 @@ TEST_CASE("accuracy: the scene that is written moves as the model that was chose
   }
 }
 
-TEST_CASE("accuracy: responses, for which scenes have no words, are written into the file of a reduced body") {
+TEST_CASE("accuracy: residual responses are written to the file of a reduced body") {
   const scene::Scene scene = scene::parse_scene(plate, "scene");
   app::Chosen chosen = app::choose(scene, 0.01, PETSC_COMM_WORLD);
   REQUIRE(chosen.pool->has_responses(chosen.selection));
@@ -129,7 +129,7 @@ TEST_CASE("accuracy: responses, for which scenes have no words, are written into
   CHECK(app::worst_error(again.series, result.series) < 1e-8);
 }
 
-TEST_CASE("accuracy: loads that hardly bend leave a linear force, loads that do not bend a rigid body") {
+TEST_CASE("accuracy: small bending selects a linear elastic force, no bending a rigid body") {
   const std::string arm = R"yaml(
 bodies:
   arm:
@@ -148,7 +148,7 @@ probes: {tip: {at: arm.end}}
   CHECK(soft.selection.count() > 0);
 }
 
-TEST_CASE("accuracy: bodies of two frames, and one that responses enrich") {
+TEST_CASE("accuracy: bodies of two frames, and one enriched by residual responses") {
   const std::string text = R"yaml(
 bodies:
   beam:
@@ -173,7 +173,7 @@ probes: {tip: {at: beam.end}}
 }
 
 // The pieces of a body have static columns of their own; a written scene has one list for all of them.
-TEST_CASE("accuracy: scenes of bodies in several frames move as the models that were chosen") {
+TEST_CASE("accuracy: scenes of bodies in several frames reproduce the selected models") {
   const std::string arm = R"yaml(
 bodies:
   arm:
@@ -254,7 +254,7 @@ probes: {tip: {at: rod.end}}
   }
 }
 
-TEST_CASE("accuracy: refuses what nothing supports") {
+TEST_CASE("accuracy: refuses scenes without an estimate") {
   const auto refused = [](const std::string& text, const std::string& phrase) {
     CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), 0.01, PETSC_COMM_WORLD), Catch::Contains(phrase));
   };
@@ -262,7 +262,7 @@ TEST_CASE("accuracy: refuses what nothing supports") {
   refused(pendulum + "events: {off: {unlock: hinge, at: 0.1}}\n", "events change the joints");
 }
 
-TEST_CASE("accuracy: what full order of the same mesh errs in is warned of") {
+TEST_CASE("accuracy: errors of the full-order model itself are warned of") {
   const scene::Scene scene = scene::parse_scene(R"yaml(
 bodies:
   beam:

@@ -43,7 +43,7 @@ probes: {apex: {at: a.end}}
 }  // namespace
 
 // The limit load to (h/L)^2; the tangents vanish with the step, the snap does not.
-TEST_CASE("static: a snap is said, with where it is") {
+TEST_CASE("static: a snap-through is reported with its location") {
   const double h = 0.05, limit = 1e3 * 2 * std::pow(h, 3) / (3 * std::sqrt(3.));
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md})
     for (const int steps : {1, 10}) {
@@ -74,7 +74,7 @@ probes: {middle: {at: beam.middle}}
 
 // A strut that is shortened by s = .004 L between hinges bows by +-(2/pi) sqrt(s - pi^2 EI/EA) L: .0398 for EA = 1e5
 // EI.
-TEST_CASE("static: a strut that starts bowed to one side comes to rest there") {
+TEST_CASE("static: a strut that starts bowed to one side has its equilibrium there") {
   const auto middle = [](const std::string& bow, Formulation formulation) {
     const app::RunResult result = at_rest(fill(R"yaml(
 bodies:
@@ -152,7 +152,7 @@ joints:
 }
 
 // A strip of shells, swept by 0.5 rad: its sixth mode is in its plane. At full order it is stable.
-TEST_CASE("campbell: an instability that only the reduced model has is said to be that") {
+TEST_CASE("campbell: an instability of the reduced model only is reported as such") {
   const std::string strip = R"yaml(
 bodies:
   hub:

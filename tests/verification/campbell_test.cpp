@@ -127,7 +127,7 @@ TEST_CASE("campbell: a driven planar beam lags at sqrt(flap^2 - gamma^2)") {
   }
 }
 
-TEST_CASE("campbell: a driven beam in space flaps as the table has it, and lags") {
+TEST_CASE("campbell: flap and lag frequencies of a driven beam in space") {
   const std::string drive = "type: driven, axis: [0, 0, 1], angle: \"t\"";
   const auto coarse = diagram(spatial("12", drive), Formulation::nlffr, "2:12:2", 6),
              fine = diagram(spatial("24", drive), Formulation::nlffr, "2,6,12", 6),
@@ -149,7 +149,7 @@ TEST_CASE("campbell: a driven beam in space flaps as the table has it, and lags"
 
 // A rod that is hinged at the distance e: flap^2 = gamma^2 (1 + 3e/2), lag^2 = gamma^2 3e/2 (moments about the hinge);
 // e = 0: flap omega_1 = gamma exactly, for elastic beams too. Blades fold outwards as the hub begins to turn.
-TEST_CASE("campbell: hinged rods swing in proportion to the speed") {
+TEST_CASE("campbell: frequencies of hinged rods are proportional to the speed") {
   for (const double e : {0., 0.1}) {
     for (const bool flap : {true, false}) {
       INFO("e = " << e << (flap ? ", flap" : ", lag"));
@@ -178,7 +178,7 @@ TEST_CASE("campbell: an elastic beam that is hinged at the axis flaps at the spe
 }
 
 // Hinged at the axis the first flap is gamma (above), so the first lag is neutral: the beam turns on.
-TEST_CASE("campbell: a beam on a free hub has a zero mode, and turns as one that is driven") {
+TEST_CASE("campbell: a beam on a free hub has a zero mode, and rotates as one that is driven") {
   for (const bool space : {false, true}) {
     const auto found =
         diagram(space ? spatial("16", "type: revolute, axis: [0, 0, 1]") : planar("pinned", "type: revolute", "16"),
@@ -353,7 +353,7 @@ TEST_CASE("campbell: the steady stretch has its closed form") {
   }
 }
 
-TEST_CASE("campbell: at rest the frequencies are those of the held body") {
+TEST_CASE("campbell: at rest the frequencies are those of the supported body") {
   for (const std::string& text : {planar("pinned", driven, "16"),
                                   spatial("16", "type: driven, axis: [0, 0, 1], angle: \"t\""), plate("8", "5")}) {
     const auto at = omega(diagram(text, Formulation::vm_md, "0", 4).points.at(0));
@@ -362,7 +362,7 @@ TEST_CASE("campbell: at rest the frequencies are those of the held body") {
   }
 }
 
-TEST_CASE("campbell: scenes that cannot turn are refused in words") {
+TEST_CASE("campbell: scenes without a steady rotation are refused with the reason") {
   using Catch::Matchers::Contains;
   const auto fault = [](const std::string& text, const app::CampbellRequest& axis = {}) -> std::string {
     try {
@@ -388,7 +388,7 @@ TEST_CASE("campbell: scenes that cannot turn are refused in words") {
   CHECK_THAT(fault(spatial("4", drive) + "gravity: [0, -9.81, 0]\n"), Contains("gravity"));
 }
 
-TEST_CASE("campbell: a moment on a free hub leaves no steady rotation") {
+TEST_CASE("campbell: with a moment on a free hub there is no steady rotation") {
   const auto found = diagram(planar("pinned", "type: revolute", "4") +
                                  "loads: {motor: {type: moment, at: beam.end, "
                                  "moment: 0.01}}\n",

@@ -27,13 +27,13 @@ probes: {e: {at: b.end}, r: {at: b.end, quantity: rotation}}
 
 // The modes hold the interface: those of a beam clamped at both ends (22.3733, 61.6728: roots of 1 - cos cosh,
 // squared).
-TEST_CASE("Craig-Bampton: the modes hold the interface") {
+TEST_CASE("Craig-Bampton: the interface is fixed in the modes") {
   const auto omega = omega_of(cantilever("{modes: 2, interface: [end]}", 0, 0));
   CHECK(omega[0] == Approx(22.3732854481).epsilon(1e-4));
   CHECK(omega[1] == Approx(61.6728228676).epsilon(1e-4));
 }
 
-TEST_CASE("Craig-Bampton: what acts on the interface has its exact linear response, whatever the modes") {
+TEST_CASE("Craig-Bampton: loads on the interface have their exact linear response for any number of modes") {
   for (const std::string modes : {"0", "3"}) {
     INFO(modes);
     const History at =
@@ -44,7 +44,7 @@ TEST_CASE("Craig-Bampton: what acts on the interface has its exact linear respon
   }
 }
 
-TEST_CASE("Craig-Bampton: with derivatives of modes and constraint modes the full model is met far from linear") {
+TEST_CASE("Craig-Bampton: derivatives of modes and constraint modes represent large deflections") {
   const History full = rest(cantilever("{modes: 1}", 1, 0.5), Formulation::nlffr, 4),
                 reduced =
                     rest(cantilever("{modes: 3, interface: [end], attachment: none}", 1, 0.5), Formulation::vm_md, 4);
@@ -54,7 +54,7 @@ TEST_CASE("Craig-Bampton: with derivatives of modes and constraint modes the ful
 }
 
 // Both ends of a beam that floats: six constraint modes, of which rigid motions leave three.
-TEST_CASE("Craig-Bampton: rigid motions are no columns") {
+TEST_CASE("Craig-Bampton: rigid-body motions are not basis vectors") {
   const std::string frame = GENERATE("pinned", "clamped", "mean-axis");
   const std::string text = fill(R"yaml(
 bodies:
@@ -70,7 +70,7 @@ motion: {end: 1, step: 0.1}
   CHECK(model.bodies[0].columns == 4 + 3);
 }
 
-TEST_CASE("Craig-Bampton: a node of a plate, and an edge as one rigid piece") {
+TEST_CASE("Craig-Bampton: a node of a plate, and an edge as one rigid region") {
   const auto plate = [](const std::string& reduction, const std::string& place) {
     return fill(R"yaml(
 bodies:

@@ -161,7 +161,7 @@ probes: {tip: {at: beam.end}}
 
 TEST_CASE("damping: decay of one mode, modal") { check_decay(plucked(Formulation::vm_md, "modal: [0.03]"), 0.03); }
 
-TEST_CASE("damping: other modes' ratios leave the first alone") {
+TEST_CASE("damping: ratios of other modes do not affect the first") {
   check_decay(plucked(Formulation::vm_md, "modal: [0, 0.5, 0.5]"), 0);
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("damping: mass-proportional, the same in every frame and formulation")
 }
 
 // The hub weighs a million times the beam: as if it were the ground.
-TEST_CASE("damping: mass-proportional, of a beam on a body that moves") {
+TEST_CASE("damping: mass-proportional, of a beam on a moving body") {
   const Held held = ways_to_hold(2).front();
   const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr);
   const std::string frame = GENERATE("pinned", "mean-axis");
@@ -213,7 +213,7 @@ probes: {tip: {at: beam.end, quantity: position}}
 }
 
 // alpha = 20/s would stop these motions within a tenth of a second.
-TEST_CASE("damping: rigid motions that joints leave free are not damped") {
+TEST_CASE("damping: rigid-body motions permitted by joints are not damped") {
   const int dimension = GENERATE(2, 3);
   const std::string frame = GENERATE("pinned", "mean-axis");
   const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr);
@@ -249,7 +249,7 @@ probes: {tip: {at: beam.end, quantity: position}}
 
 // Foreshortening is no strain and not damped: with C = beta K one frame gave a third of what four gave. The decay is
 // that of the linear mode, beta omega^2 / 2.
-TEST_CASE("damping: a large deflection decays alike in one frame and in several, reduced and at full order") {
+TEST_CASE("damping: decay of a large deflection is the same in one frame and in several, reduced and full-order") {
   const double one = last_extreme("1", "6", Formulation::vm_md), two = last_extreme("2", "4", Formulation::vm_md),
                four = last_extreme("4", "3", Formulation::vm_md), full = last_extreme("1", "6", Formulation::nlffr);
   CHECK(one == Approx(four).epsilon(0.01));

@@ -73,7 +73,7 @@ probes: {end: {at: strip.right}}
 
 // Newton and Euler: a free strip that a force pulls at the middle of its edge, or of its half, does not rotate, and its
 // mean edge is the edge's middle.
-TEST_CASE("edge forces: the line of action goes through the middle, however the mesh is graded") {
+TEST_CASE("edge forces: the line of action passes through the midpoint for any grading of the mesh") {
   const Scratch folder;
   const std::string deck = (folder.path / "strip.inp").string();
   for (const bool triangles : {false, true}) {

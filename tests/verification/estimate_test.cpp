@@ -123,7 +123,7 @@ probes: {tip: {at: beam.end, quantity: deflection}}
 
 // A wide thin strip flattens its section as it bends: what a column adds must come with the way out of the membrane's
 // stiffness, which K at rest does not know. 8 modes, fewer derivatives than there are.
-TEST_CASE("estimate: wide thin shells, also within the time that a run gives it") {
+TEST_CASE("estimate: wide thin shells, also within the time budget of a run") {
   const std::string text = R"yaml(
 bodies:
   strip:

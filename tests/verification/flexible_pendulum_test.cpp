@@ -47,7 +47,7 @@ TEST_CASE("flexible pendulum: tip in von Karman strain, full and reduced") {
 }
 
 // Hinge and gravity keep the energy; the scheme's own damping is of the third order in the step.
-TEST_CASE("flexible pendulum: energy stays what it was") {
+TEST_CASE("flexible pendulum: energy is conserved") {
   const auto drift = [](const std::string& step) {
     const History at = move(scene_of("10", step), Formulation::vm_md);
     const auto total = [](const dynamics::Energy& e) { return e.kinetic + e.elastic + e.potential; };

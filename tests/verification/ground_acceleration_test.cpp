@@ -29,7 +29,7 @@ probes: {tip: {at: mast.end, quantity: deflection}}
 
 }  // namespace
 
-TEST_CASE("ground acceleration: a mast on a ground that shakes, and on a slide that is driven") {
+TEST_CASE("ground acceleration: a mast on a moving ground, and on a driven slide") {
   const std::string shaking = "ground: {acceleration: [\"4*cos(20*t)\", \"8*cos(20*t)\", 0]}",
                     slide = "type: driven_slide, axis: [1, 2, 0], position: \"sqrt(80)/400*(1 - cos(20*t))\"";
   for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
@@ -40,7 +40,7 @@ TEST_CASE("ground acceleration: a mast on a ground that shakes, and on a slide t
 }
 
 // x.. = g(t) - a(t)
-TEST_CASE("gravity and ground acceleration of time: a body that falls, in the plane, in all formulations") {
+TEST_CASE("time-dependent gravity and ground acceleration: a falling body, in the plane, in all formulations") {
   const std::string text = R"yaml(
 gravity: [0, "-9*cos(3*t)"]
 ground: {acceleration: ["-8*sin(2*t)", 0]}

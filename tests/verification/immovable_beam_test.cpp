@@ -102,7 +102,7 @@ probes: {middle: {at: beam.middle}, end: {at: beam.end}}
 
 // Columns of a body that joints hold satisfy them: the second joint repeats what the first says, and only its own rows
 // stand: 3 of 4 rows of two hinges, 3 of 6 of two clamps.
-TEST_CASE("immovable beam: reduced between two joints, rows that repeat are left out") {
+TEST_CASE("immovable beam: reduced between two joints, redundant constraints are eliminated") {
   for (const auto& [type, rows] : {std::pair{"revolute", 3}, {"fixed", 3}}) {
     INFO(type);
     const History full = rest(between(type, "pinned"), Formulation::nlffr, 4),

@@ -45,7 +45,7 @@ TEST_CASE("joint modes: modes of the clamped beam with all their derivatives con
 }
 
 // `derivatives: all` counts the axial mode among the five, and its derivatives reach further still.
-TEST_CASE("joint modes: the default choice is the full model to a thousandth") {
+TEST_CASE("joint modes: the default agrees with the full-order model to a thousandth") {
   const History full = full_order();
   const Errors found = errors(full, Formulation::vm_md, "{modes: 5, derivatives: all}");
   CHECK(found.v < 1e-3);
@@ -54,7 +54,7 @@ TEST_CASE("joint modes: the default choice is the full model to a thousandth") {
 
 // A hinged mode has no curvature at the root, where the clamp needs its moment: independent computations gave 34 / 77 %
 // for 17 modes and 28 / 58 % for 12 modes and 5 derivatives. A program that finds less here does something else.
-TEST_CASE("joint modes: hinged modes of a clamped beam stay wrong") {
+TEST_CASE("joint modes: hinged modes of a clamped beam do not converge") {
   const History full = full_order();
   const Errors modes = errors(full, Formulation::vm, "{modes: {count: 12, of: frame, alone: 17}, attachment: none}");
   CHECK(modes.v == Approx(.34).epsilon(0.1));
@@ -66,7 +66,7 @@ TEST_CASE("joint modes: hinged modes of a clamped beam stay wrong") {
   CHECK(derivatives.u > .5);
 }
 
-TEST_CASE("joint modes: the user is told of modes that cannot carry the clamp") {
+TEST_CASE("joint modes: a warning of modes that cannot represent the moment of the clamp") {
   const auto warnings = [](const std::string& reduction) {
     return assembly::build(scene::parse_scene(text_of({.reduction = reduction}), "scene"), Formulation::vm_md,
                            PETSC_COMM_WORLD)

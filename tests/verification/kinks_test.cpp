@@ -64,7 +64,7 @@ TEST_CASE("a ramp of the angle: the speed is that of the ramp, with fixed and ad
 
 // The rod is free but for the force J at its end: v_end = J (1/m + (l/2)^2/(m l^2/12)) = 4 J/m, so that J = m v/4 and
 // the energy is J v/2 = m v^2/8; it turns against the bar by 3 v/(2 l).
-TEST_CASE("a drive that starts at once strikes what hangs on it: impulse, energy and motion as of a free rod") {
+TEST_CASE("a drive that starts suddenly: impulse, energy and motion as of a free rod") {
   const double step = 0.002;
   const History at = move(bars("angle: \"ramp(t, .1, 10.1)*40\"", fmt::format("{{end: .2, step: {}}}", step), true),
                           Formulation::vm_md);
@@ -109,7 +109,7 @@ probes: {middle: {at: cube.middle, quantity: velocity}}
     CHECK(vector_at(slide, "middle", i).norm() == Approx(slide.t[i] > 0.105 + 1e-9 ? 2 : 0).margin(1e-9));
 }
 
-TEST_CASE("a kink at the start is no kink: the motion begins with the speed just after it") {
+TEST_CASE("a kink at the start: the simulation begins with the speed just after it") {
   for (const std::string angle : {"abs(t)", "ramp(t, 0, 10)*10", "t > 0 ? t : 0"}) {
     const History at = move(bars("angle: \"" + angle + "\"", "{end: .1, step: .01}"), Formulation::vm_md);
     CHECK(at.events.empty());
@@ -118,7 +118,7 @@ TEST_CASE("a kink at the start is no kink: the motion begins with the speed just
 }
 
 // r = 0.2 t^1.5: w = 0.3 sqrt(t); the angular acceleration is infinite at t = 0.
-TEST_CASE("a drive of infinite acceleration is smoothed for ten steps, said so, and right after them") {
+TEST_CASE("a drive of infinite acceleration is smoothed for ten steps with a warning, and exact after them") {
   const History at = move(bars("angle: \".2*sqrt(t^3)\"", "{end: .5, step: .005}"), Formulation::vm_md);
   REQUIRE(at.model.warnings.size() == 1);
   CHECK_THAT(at.model.warnings[0],
@@ -128,7 +128,7 @@ TEST_CASE("a drive of infinite acceleration is smoothed for ten steps, said so, 
 }
 
 // m v = F (t - t1): forces that begin and end between the steps' instants of a whole step.
-TEST_CASE("a force that jumps acts for as long as it says, gravity and the ground's acceleration likewise") {
+TEST_CASE("a force with jumps acts for its exact duration, gravity and the ground's acceleration likewise") {
   const std::string text = R"yaml(
 bodies:
   bar: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {rhoA: 3}}

@@ -107,7 +107,7 @@ $more
 
 }  // namespace
 
-TEST_CASE("a plate held by a hub on rigid links has the frequencies of one whose edge is held") {
+TEST_CASE("a plate supported by a hub on rigid links has the frequencies of one with a clamped edge") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();
   std::string text = linked_deck();
@@ -160,7 +160,7 @@ TEST_CASE("a deck's point mass, and two on one node") {
   CHECK(omega[0] == Approx(1.2479174 * 1.2479174 * std::sqrt(2e11 * 0.05 * 8e-6 / 12 / 7.8)).epsilon(1e-3));
 }
 
-TEST_CASE("a load on a rigid tip block: full order, reduced, and at nodes that only follow") {
+TEST_CASE("a load on a rigid tip block: full-order, reduced, and at dependent nodes") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();
   write_text(folder + "/plate.inp", linked_deck());

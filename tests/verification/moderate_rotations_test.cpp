@@ -84,7 +84,7 @@ const std::string clamped = "{type: clamped, at: start}";
 
 }  // namespace
 
-TEST_CASE("range: slopes, full order of beams under moments, forces and distributed loads in every frame") {
+TEST_CASE("validity: slopes, full-order beams under moments, forces and distributed loads in every frame") {
   for (const std::string load : {"moment", "force", "spread"})
     for (const std::string& frame : {clamped, std::string("pinned"), std::string("mean-axis")})
       for (const int frames : {1, 2, 4})
@@ -93,13 +93,13 @@ TEST_CASE("range: slopes, full order of beams under moments, forces and distribu
             check({load, frame, size * (load == "spread" ? 2 : 1), frames}, Formulation::nlffr);
 }
 
-TEST_CASE("range: slopes, reduced, whose modes make waves of a moment at the end") {
+TEST_CASE("validity: slopes, reduced, where modes represent an end moment by oscillating curvature") {
   for (const std::string load : {"moment", "force", "spread"})
     for (const std::string& frame : {clamped, std::string("pinned")})
       for (const double size : {2., 4.}) check({load, frame, size, 1}, Formulation::vm_md);
 }
 
-TEST_CASE("range: slopes in space are told as in the plane") {
+TEST_CASE("validity: slopes in space are reported as in the plane") {
   for (const std::string load : {"moment", "force", "spread"})
     for (const Case& c : {Case{load, clamped, 2, 1}, Case{load, "mean-axis", 4, 1}, Case{load, clamped, 4, 4}}) {
       const auto plane = errors(c, Formulation::nlffr), space = errors(c, Formulation::nlffr, true);

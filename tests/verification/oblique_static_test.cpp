@@ -67,7 +67,7 @@ probes: {p: {at: f.p2}, end: {at: f.end}}
 
 // u = F L / (E A) along the first member, 1e7 ... 1e8 times as stiff as across it: the three unit loads along the axes
 // of an oblique body all bend it.
-TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced as full order") {
+TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced as full-order") {
   const int orientation = GENERATE(0, 1, 2, 3);
   const Matrix3d R = turned_by(orientation);
   for (const double radius : {1e-3, 1e-4}) {
@@ -78,7 +78,7 @@ TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced a
   }
 }
 
-TEST_CASE("an oblique pull that no column follows is told, though columns follow each of its components") {
+TEST_CASE("an oblique load that no basis vector represents is reported, although its components are represented") {
   const auto notes = [](const std::string& scene) {
     const assembly::Model model =
         assembly::build(scene::parse_scene(scene, "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
@@ -100,7 +100,7 @@ TEST_CASE("an oblique frame at the limit of double precision, r/L = 4e-6") {
 }
 
 // The same at the corner of a fold, along the edge of the plate that is clamped.
-TEST_CASE("an oblique folded plate is pulled in the plane of a panel: reduced as full order") {
+TEST_CASE("an oblique folded plate is pulled in the plane of a panel: reduced as full-order") {
   const int orientation = GENERATE(0, 1, 3);
   const Matrix3d R = turned_by(orientation);
   const Scratch scratch;
@@ -134,7 +134,7 @@ probes: {p: {at: f.floor.p2}, q: {at: f.floor.p3}, r: {at: f.wall.p3}}
 }
 
 // In the plane.
-TEST_CASE("an oblique planar frame is pulled along a member: reduced as full order") {
+TEST_CASE("an oblique planar frame is pulled along a member: reduced as full-order") {
   const double angle = GENERATE(0., 0.4, 2.1), radius = 1e-4, EA = 7e10 * M_PI * radius * radius;
   const Eigen::Rotation2Dd R(angle);
   const auto text = [&](double x, double y) {

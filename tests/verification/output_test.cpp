@@ -49,7 +49,7 @@ probes: {tip: {at: rod.end, quantity: position}, rate: {at: rod.end, quantity: v
   check_output(pendulum, Formulation::nlffr);
 }
 
-TEST_CASE("output: between steps, of a body that tumbles in space") {
+TEST_CASE("output: between steps, of a tumbling body in space") {
   check_output(R"yaml(
 bodies:
   box:
@@ -63,7 +63,7 @@ probes: {corner: {at: {body: box, node: [1, 0.2, 0.1]}, quantity: position}, rat
                Formulation::vm_md);
 }
 
-TEST_CASE("output: adaptive steps are stored at equal times") {
+TEST_CASE("output: adaptive steps are stored at equal intervals") {
   const std::string text = R"yaml(
 bodies:
   beam:

@@ -54,7 +54,7 @@ int axial_modes(const std::string& name, int modes) {
 
 }  // namespace
 
-TEST_CASE("paper: cantilever in the pinned frame, 12 modes and 5 derivatives against 17 modes") {
+TEST_CASE("paper: cantilever in the pinned frame, 12 modes and 5 derivatives, and 17 modes") {
   const History full = example("cantilever/scene", Formulation::nlffr);
   const History few = example("cantilever/scene", Formulation::vm_md),
                 modes = example("cantilever/scene", Formulation::vm);
@@ -79,7 +79,7 @@ TEST_CASE("paper: cantilever in the pinned frame, 12 modes and 5 derivatives aga
   CHECK(hinged.model.warnings[0].find("clamp") != std::string::npos);
 }
 
-TEST_CASE("paper: cantilever in the clamped frame, 12 modes and 5 derivatives against 17 modes") {
+TEST_CASE("paper: cantilever in the clamped frame, 12 modes and 5 derivatives, and 17 modes") {
   const History full = example("cantilever/clamped_frame", Formulation::nlffr);
   const History few = example("cantilever/clamped_frame", Formulation::vm_md);
   CHECK(percent("tip.x", few, full) < 0.1);
@@ -89,7 +89,7 @@ TEST_CASE("paper: cantilever in the clamped frame, 12 modes and 5 derivatives ag
   CHECK(percent("tip.y", modes, full) > 50);
 }
 
-TEST_CASE("paper: four frames bring the cantilever to the corotational beam") {
+TEST_CASE("paper: cantilever in four frames agrees with corotational beams") {
   const History exact = example("cantilever/scene", Formulation::cfr);
   const History one = example("cantilever/scene", Formulation::nlffr);
   const History four = example("cantilever/four_frames", Formulation::vm_md);
@@ -98,7 +98,7 @@ TEST_CASE("paper: four frames bring the cantilever to the corotational beam") {
   CHECK(percent("tip.y", four, exact) < 1);
 }
 
-TEST_CASE("paper: the membrane strain taken point by point locks") {
+TEST_CASE("paper: the pointwise membrane strain locks") {
   const History averaged = example("cantilever/scene", Formulation::nlffr);
   const History pointwise = example("cantilever/pointwise_strain", Formulation::nlffr);
   CHECK(percent("tip.x", pointwise, averaged) > 4);
@@ -110,7 +110,7 @@ TEST_CASE("paper: 7 of the first 17 modes are axial with rotary inertia, 8 witho
   CHECK(axial_modes("cantilever/no_rotary_inertia", 17) == 8);
 }
 
-TEST_CASE("paper: robot arm, 3 modes and 6 derivatives against 9 modes") {
+TEST_CASE("paper: robot arm, 3 modes and 6 derivatives, and 9 modes") {
   const History full = example("robot_arm/scene", Formulation::nlffr);
   const History few = example("robot_arm/scene", Formulation::vm_md),
                 modes = example("robot_arm/scene", Formulation::vm);

@@ -143,7 +143,7 @@ std::string released(const std::string& edges, int modes, const std::string& sha
 
 }  // namespace
 
-TEST_CASE("edges of plates: large oscillations, with estimates, as at full order and by Chu and Herrmann") {
+TEST_CASE("edges of plates: large oscillations, with estimates, as the full-order model and by Chu and Herrmann") {
   // Four hinged edges that do not move in the plane: amplitude 0.6 thicknesses, frequency 1.1625 times that of small
   // oscillations (Chu & Herrmann, J. Appl. Mech. 23, 1956)
   const std::string shape = "0.006*sin(pi*x)*sin(pi*y)";
@@ -190,7 +190,7 @@ std::string roof_deck(int n) {
 }  // namespace
 
 // Its diaphragm and its plane of symmetry are held node by node; linear bodies deflect in proportion to their load.
-TEST_CASE("edges of plates: a linear shell that the ground holds is linear") {
+TEST_CASE("edges of plates: a linear shell supported by the ground is linear") {
   const Scratch folder;
   constexpr int n = 8;
   write_text((folder.path / "roof.inp").string(), roof_deck(n));

@@ -69,7 +69,7 @@ probes: {tip: {at: flap.p3, quantity: deflection}}
 }  // namespace
 
 // v. = a (0, -sin wt, cos wt) where it follows, a (0, 0, 1) where it does not; a = p A / m = 2, w = 3.
-TEST_CASE("pressure: the resultant on a free body, turning with it or not") {
+TEST_CASE("pressure: the resultant on a free body, following or dead") {
   for (const std::string rigid : {"true", "false"}) {
     const History follower = free_plate("true", rigid), dead = free_plate("false", rigid);
     for (std::size_t i = 0; i < dead.t.size(); ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("pressure: the resultant on a free body, turning with it or not") {
   }
 }
 
-TEST_CASE("pressure: a clamped plate at rest, dead as the load per area, following a little apart from it") {
+TEST_CASE("pressure: a clamped plate in equilibrium, dead as the load per area, following with a small difference") {
   const std::string dead = "type: pressure, pressure: \"10*t\", follower: false",
                     follower = "type: pressure, pressure: \"10*t\"";
   const double loaded = deflection("type: distributed, force: [0, 0, \"10*t\"]", Formulation::nlffr);
@@ -95,7 +95,7 @@ TEST_CASE("pressure: a clamped plate at rest, dead as the load per area, followi
 }
 
 // Six modes are too few for a swing of a tenth of the length; ten follow it.
-TEST_CASE("pressure: a flap that is spun up, reduced against full order, following and dead") {
+TEST_CASE("pressure: a flap that is spun up, reduced and full-order, following and dead") {
   std::array<History, 2> full{move(flap("true", "6"), Formulation::nlffr),
                               move(flap("false", "6"), Formulation::nlffr)};
   CHECK(apart(full[0], full[1], "tip") > 0.05);

@@ -132,7 +132,7 @@ joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, b
 // Skins shorten by w'^2/2 and webs, which bend in their own plane, do not: self-stress, a cubic stiffness. The loss of
 // deflection against the linear response is that error, because the true tube stays linear to (d/L)^2; 7.5 % and 18 %
 // at a deflection of 4 % of the length are the figures for tubes of 10 and 15 sides with rigid ends.
-TEST_CASE("range: boxes of shells that bend far are too stiff, and the number is the deflection that they lose") {
+TEST_CASE("validity: boxes of shells at large deflections are too stiff by the reported fraction") {
   const Scratch scratch;
   const std::string name = (scratch.path / "scene.yaml").string();
   const auto compare = [&](int sides, double deflection, double tolerance) {
@@ -153,7 +153,7 @@ TEST_CASE("range: boxes of shells that bend far are too stiff, and the number is
 
 // lag^2 = flap^2 - gamma^2 (flap: independent converged computation, 4.1373196 at gamma = 2) for 3.5160153^2 - gamma^2
 // without the stretching of the line.
-TEST_CASE("range: rotation does not stiffen shells against bending in their plane") {
+TEST_CASE("validity: rotation does not stiffen shells against bending in their plane") {
   const double EI_rhoA = 7e10 * 0.05 * 0.05 / 12 / 2700, gamma = 2;
   const std::string strip = driven("{plate: {along: [1, 0, 0], across: [0, 0.05, 0], elements: [40, 2]}}",
                                    "section: {thickness: 2e-3}\n    material: {E: 7e10, nu: 0, rho: 2700}", "left");
@@ -169,7 +169,7 @@ TEST_CASE("range: rotation does not stiffen shells against bending in their plan
 
 // Without coupling the beam stays straight in its plane at any load. With it the lateral stiffness is 1 - (P/P_cr)^2 of
 // what it was (Timoshenko & Gere, Theory of elastic stability, art. 6.3), because twist follows statically.
-TEST_CASE("range: lateral buckling of spatial beams, which one frame does not have") {
+TEST_CASE("validity: lateral buckling of spatial beams, absent in one frame") {
   for (const double share : {0.3, 0.9, 1.2}) {
     const auto said = at_rest(narrow(share, clamped), 1).said;
     REQUIRE(said.count("coupling"));
@@ -180,7 +180,7 @@ TEST_CASE("range: lateral buckling of spatial beams, which one frame does not ha
 }
 
 // CalculiX has 26.34 Hz where one frame gives 32.50: (26.34/32.50)^2 - 1 = -34 %, and -37 % in the next mode.
-TEST_CASE("range: a swept tip couples bending with torsion as it turns") {
+TEST_CASE("validity: a swept tip couples bending with torsion under rotation") {
   const std::string said = turned(
       driven("{polyline: {points: [[0, 0, 0], [0.8687, 0, 0], [0.9769, 0.1082, 0]], elements: [16, 4]}}",
              std::string("section: {shape: rectangle, width: 0.0254, height: 1.6e-3, orientation: [0, 1, 0]}\n") +
@@ -193,7 +193,7 @@ TEST_CASE("range: a swept tip couples bending with torsion as it turns") {
 
 // A reduced body of the first version of the format has rotary inertia of first order: (Omega/omega_1)^2 bounds what
 // that can change. As it is written now it has all of it: the torsion of a blade at Omega = omega_t is sqrt(2) omega_t.
-TEST_CASE("range: reduced bodies from files, with rotary inertia of second order and without") {
+TEST_CASE("validity: reduced bodies from files, with rotary inertia of second order and without") {
   Scratch scratch;
   const std::string
       blade =

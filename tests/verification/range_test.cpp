@@ -65,7 +65,7 @@ probes: {tip: {at: beam.end}}
 
 }  // namespace
 
-TEST_CASE("range: spin against the first frequency, where nothing stiffens the body") {
+TEST_CASE("validity: spin relative to the first frequency, without centrifugal stiffening") {
   const auto vm = said(judged(turning("1.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm));
   REQUIRE(vm.count("spin"));
   CHECK(vm.at("spin") == Approx(1.5 / 3.516).epsilon(1e-2));
@@ -74,7 +74,7 @@ TEST_CASE("range: spin against the first frequency, where nothing stiffens the b
   CHECK_FALSE(said(judged(turning("0.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm)).count("spin"));
 }
 
-TEST_CASE("range: slopes against the frame that they are measured in") {
+TEST_CASE("validity: slopes relative to their frame") {
   const std::string tangent = "{type: clamped, at: start}";
   const auto lines = said(judged(bent(tangent, "1.6"), Formulation::vm_md));
   REQUIRE(lines.count("slope"));
@@ -84,7 +84,7 @@ TEST_CASE("range: slopes against the frame that they are measured in") {
   CHECK_FALSE(said(judged(bent(tangent, "0.5"), Formulation::vm_md)).count("slope"));
 }
 
-TEST_CASE("range: a linear elastic force does not shorten the body, and modes alone stretch it") {
+TEST_CASE("validity: a linear elastic force has no foreshortening, and modes alone stretch the body") {
   const auto linear = said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::lffr));
   REQUIRE(linear.count("shortening"));
   CHECK(linear.at("shortening") == Approx(0.32).epsilon(0.2));
@@ -92,7 +92,7 @@ TEST_CASE("range: a linear elastic force does not shorten the body, and modes al
   CHECK_FALSE(said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::vm_md)).count("membrane"));
 }
 
-TEST_CASE("range: loads against kept frequencies, and the step against what moves") {
+TEST_CASE("validity: load frequencies relative to those of the modes, and the step relative to the periods") {
   const auto fast =
       said(judged(text_of({.end = "0.5", .reduction = "{modes: 2, derivatives: all}"}), Formulation::vm_md));
   REQUIRE(fast.count("load"));  // cos(9.5 t) under modes to 9.0 rad/s
@@ -102,7 +102,7 @@ TEST_CASE("range: loads against kept frequencies, and the step against what move
 }
 
 // A plate that falls freely does not deform: what its nodes move by in its frame is round-off.
-TEST_CASE("range: nothing is said of deformations that are round-off") {
+TEST_CASE("validity: no warning of deformations that are round-off") {
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
@@ -117,7 +117,7 @@ probes: {tip: {at: plate.p3}}
   for (const auto formulation : {Formulation::nlffr, Formulation::vm_md}) CHECK(judged(text, formulation).empty());
 }
 
-TEST_CASE("range: gravity, a shaken ground and pressure have spectra as loads have") {
+TEST_CASE("validity: gravity, ground acceleration and pressure have spectra as loads have") {
   // Two modes of a cantilever, to 22.0 rad/s; the excitation at 60 rad/s.
   const auto shaken = [](const std::string& excitation) {
     return said(judged(excitation + R"yaml(
@@ -157,7 +157,7 @@ motion: {end: 0.1, step: 1e-3}
   CHECK(blown.at("load") == Approx(200 / 26.5).epsilon(0.1));  // f1 = 4.217 Hz (Leissa's plate, converged)
 }
 
-TEST_CASE("range: a load without a finite rate somewhere between the steps is left to those that have one") {
+TEST_CASE("validity: a load without a finite rate between steps is excluded from the spectra") {
   const auto lines = said(judged(R"yaml(
 bodies:
   beam:
@@ -196,7 +196,7 @@ probes: {tip: {at: plate.p3}}
 
 }  // namespace
 
-TEST_CASE("cells that are wider than their plate is long are told, in motion, at rest and by their modes", "[range]") {
+TEST_CASE("elements wider than their plate is long: warnings in simulations, equilibria and modes", "[range]") {
   for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
     CHECK(said(judged(wide(1), formulation)).count("mesh") == 0);
     CHECK(said(judged(wide(20), formulation)).at("mesh") > 0.3);

@@ -104,7 +104,7 @@ probes:
 }  // namespace
 
 // Small: omega^2 = m g L/2 / (m L^2/3 - (m L/2)^2 / (M + m)).
-TEST_CASE("rigid mechanisms: small swing of a pendulum on a slider") {
+TEST_CASE("rigid mechanisms: small oscillation of a pendulum on a slider") {
   const History at = hanging(1e-3);
   const double omega = std::sqrt(9.81 / 2 / (1. / 3 - 0.25 / 3));
   for (std::size_t i = 0; i < at.t.size(); ++i)
@@ -113,7 +113,7 @@ TEST_CASE("rigid mechanisms: small swing of a pendulum on a slider") {
 
 // Large: no force along x keeps the centre of mass where it was, the energy gives the speed in the lowest place:
 // (1/2) theta.^2 (m L^2/3 - (m L/2)^2/(M+m)) = m g L/2 (1 - cos tilt).
-TEST_CASE("rigid mechanisms: large swing of a pendulum on a slider") {
+TEST_CASE("rigid mechanisms: large oscillation of a pendulum on a slider") {
   const double tilt = 2;
   const History at = hanging(tilt);
   const double centre = 2 * at["slider.x"][0] + at["centre.x"][0];
@@ -126,7 +126,7 @@ TEST_CASE("rigid mechanisms: large swing of a pendulum on a slider") {
 }
 
 // Pendulum of any amplitude: the first passage is after a quarter of the period 4 K(sin(a/2)) / omega_0.
-TEST_CASE("rigid mechanisms: period of a rod that swings widely") {
+TEST_CASE("rigid mechanisms: period of a pendulum at large amplitude") {
   const History at = move(R"yaml(
 gravity: [0, -9.81]
 bodies:

@@ -23,7 +23,7 @@ probes: {tip: {at: plate.p3}}
 }  // namespace
 
 // Ten per cent of the length at the corner: the plate must draw in to bend, and only derivatives let it.
-TEST_CASE("shaken plate: modes with derivatives follow the shells of full order, modes alone do not") {
+TEST_CASE("shaken plate: modes with derivatives agree with the full-order shells, modes alone do not") {
   const History full = move(scene_text, Formulation::nlffr), reduced = move(scene_text, Formulation::vm_md),
                 modes = move(scene_text, Formulation::vm);
   CHECK(relative_error(reduced, full, "tip.z") < 0.01);

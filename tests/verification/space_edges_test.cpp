@@ -62,7 +62,7 @@ double off(const std::vector<double>& found, const std::vector<double>& expected
 
 }  // namespace
 
-TEST_CASE("edges in space: a shell clamped to a hub by its edge vibrates as one that the ground clamps") {
+TEST_CASE("edges in space: a shell clamped to a hub by its edge vibrates as one clamped to the ground") {
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
     const std::string ground = "root: {type: driven, between: [ground, plate.left], axis: [0, 0, 1], angle: \"t\"}";
     const std::vector<double> clamped = frequencies(on_hub(held + ground), formulation);
@@ -95,7 +95,7 @@ probes: {tip: {at: plate.p3}, side: {at: plate.p2}}
 
 // The left edge is clamped to a rigid hub and the bottom edge to a rigid bar: they share p1, and are one piece. Loads
 // and probes at nodes of the piece act on it and move with it.
-TEST_CASE("edges in space: two edges with a common corner, loads and probes on what follows") {
+TEST_CASE("edges in space: two edges with a common corner, loads and probes at dependent nodes") {
   const auto moved = [](const std::string& load, Formulation formulation) {
     return move(on_hub("post: {type: revolute, between: [ground, hub.start], axis: [0, 1, 0]}, " + clamp +
                            ", bar: {type: fixed, between: [plate.bottom, bar.middle]}",
@@ -129,7 +129,7 @@ probes: {corner: {at: plate.p1}, edge: {at: plate.left}, far: {at: plate.p2}, ti
 }
 
 // Two panels that unfold by a driven hinge along their common edge: reduced against full order.
-TEST_CASE("edges in space: panels on driven hinges, reduced as at full order") {
+TEST_CASE("edges in space: panels on driven hinges, reduced as full-order") {
   const std::string text = R"yaml(
 bodies:
   inner:
@@ -227,7 +227,7 @@ TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies
 }
 
 // Two panels that a free hinge joins along an oblique edge, in a turned body, one of them on a hinge to a free hub.
-TEST_CASE("edges in space: panels on free hinges, reduced as at full order, energy kept") {
+TEST_CASE("edges in space: panels on free hinges, reduced as full-order, energy conserved") {
   const Turned turn;
   const std::string text = fill(R"yaml(
 bodies:
@@ -318,7 +318,7 @@ const std::vector<std::string> holding_in_part{
 }  // namespace
 
 // What the ground holds along oblique axes it holds as along the mesh's own: the frame has the joints' axes.
-TEST_CASE("edges in space: a plate hinged to the ground, however its mesh is turned") {
+TEST_CASE("edges in space: a plate hinged to the ground, for any orientation of its mesh") {
   const Turned turn;
   for (const std::string& joints : holding_in_part) {
     INFO(joints);
@@ -359,7 +359,7 @@ TEST_CASE("edges in space: equilibria and estimates of a plate on oblique hinges
     CHECK(turned.estimate.probes[i] == Approx(as_is.estimate.probes[i]).epsilon(1e-3).margin(1e-8));  // 0: held
 }
 
-TEST_CASE("edges in space: edges that the ground holds and that meet are one rim without constraints") {
+TEST_CASE("edges in space: edges supported by the ground that meet are one rim without constraints") {
   for (const bool turned : {false, true})
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
       const assembly::Model model =
@@ -432,7 +432,7 @@ probes: {inner: {at: plate.inner}}
 
 // A plate that slides along an edge, along the axes and turned anyhow: static columns of forces and their derivatives
 // are of its plane or across it in both, so that none is left of round-off.
-TEST_CASE("a sliding plate moves the same however its mesh lies") {
+TEST_CASE("a sliding plate moves the same for any orientation of its mesh") {
   const auto motion = [](const Eigen::Matrix3d& R) {
     const auto words = [](const Eigen::Vector3d& v) {
       return number(v.x()) + ", " + number(v.y()) + ", " + number(v.z());

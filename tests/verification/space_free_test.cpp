@@ -116,7 +116,7 @@ TEST_CASE("free in space: momenta of a tumbling beam and plate to order 2, reduc
 }
 
 // One body seen from three frames: strains differ by the square of slopes, which are small here.
-TEST_CASE("free in space: pinned, clamped and mean axes give one motion") {
+TEST_CASE("free in space: pinned, clamped and mean axes give the same motion") {
   const auto run = [](const std::string& frame, Formulation formulation) {
     return move(beam(frame, "0.5", "2e-3", "[0.3, 0.8, 0.5]", "9"), formulation);
   };
@@ -133,7 +133,7 @@ TEST_CASE("free in space: pinned, clamped and mean axes give one motion") {
 }
 
 // A beam that turns about its axis of greatest moment, 100 times, without a force: its middle keeps its velocity.
-TEST_CASE("free in space: a hundred turns without drift") {
+TEST_CASE("free in space: a hundred revolutions without drift") {
   const History at = move(R"yaml(
 bodies:
   beam:

@@ -36,7 +36,7 @@ const std::string cube = R"yaml(
 }  // namespace
 
 // x = 1 + 0.1 e^(-c t/2m) (cos w t + c/(2m w) sin w t), w^2 = k/m - (c/2m)^2; on a cylinder it spins steadily.
-TEST_CASE("joints in space: a mass on a spring along a guide that turns or does not") {
+TEST_CASE("joints in space: a mass on a spring along a rotating or fixed guide") {
   for (const std::string guide : {"prismatic", "cylindrical"}) {
     const History at =
         moved("bodies:" + cube + R"yaml(
@@ -59,7 +59,7 @@ probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, qu
 }
 
 // Slides as a free body in its plane, turns steadily about the normal; weight along the normal is carried.
-TEST_CASE("joints in space: a cube on a plane moves as if nothing held it there") {
+TEST_CASE("joints in space: a cube on a plane moves as a free one in the plane") {
   const History at = moved("gravity: $g\nbodies:" + cube + R"yaml(
     initial: {rotation: $turn, velocity: $v, angular_velocity: $w}
 joints: {floor: {type: planar, between: [ground, cube.middle], axis: $z}}
@@ -77,7 +77,7 @@ probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, qu
 
 // The cube's middle is a spherical pendulum. Steady on a cone of half angle c:
 // W^2 = g / (l cos c).
-TEST_CASE("joints in space: a mass at a distance goes round as a conical pendulum") {
+TEST_CASE("joints in space: a mass at a fixed distance moves as a conical pendulum") {
   const double c = 0.5, l = 0.8, g = 9.81, W = std::sqrt(g / (l * std::cos(c))), r = l * std::sin(c);
   const History at = moved("gravity: $g\nbodies:" + cube + R"yaml(
     initial: {position: $place, velocity: $v}
@@ -107,7 +107,7 @@ probes: {cube: {at: cube.middle, quantity: position}}
 }
 
 // Axes x, y, z of a bushing are the world's: small motions are six oscillators, w^2 = k/m and k/I.
-TEST_CASE("joints in space: a cube on a bushing swings in six directions with closed forms") {
+TEST_CASE("joints in space: a cube on a bushing oscillates in six directions with closed forms") {
   const History at = moved("bodies:" + cube + R"yaml(
     initial: {velocity: [1e-3, 2e-3, -1e-3], angular_velocity: [0.01, -0.02, 0.03]}
 joints:
@@ -128,7 +128,7 @@ probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, qu
   }
 }
 
-TEST_CASE("joints in space: a bushing of great and skew motions keeps the energy") {
+TEST_CASE("joints in space: a bushing in large skew motions conserves energy") {
   const auto lost = [](const std::string& step) {
     return drift(moved("bodies:" + cube + R"yaml(
     initial: {velocity: [0.3, 0.2, -0.5], angular_velocity: [2, -3, 1]}
@@ -144,7 +144,7 @@ motion: {end: 2, step: $step}
 
 // phi = (w0 / W) sin(W t), W^2 = k/I: 3.2 turns to either side. A twist known only up to whole turns would be caught
 // half a turn out.
-TEST_CASE("joints in space: a torsional spring is wound up by three turns and unwinds again") {
+TEST_CASE("joints in space: a torsional spring is wound up by three rotations and unwinds") {
   const double k = 1. / 150, w0 = 20;  // k = I
   const History at = moved("bodies:" + cube + R"yaml(
     initial: {rotation: $turn, angular_velocity: $w}

@@ -58,7 +58,7 @@ const std::string square = "shape: rectangle, width: sqrt(1e-3), height: sqrt(1e
 }  // namespace
 
 // Table: independent converged computation, von Karman in the pinned frame.
-TEST_CASE("in space: a flexible pendulum, full order") {
+TEST_CASE("in space: a flexible pendulum, full-order") {
   for (const std::string frame : {"pinned", "clamped"}) {
     INFO(frame);
     Words words{{"frame", frame}, {"elements", "10"}, {"modes", "1"}, {"end", "0.5"}, {"step", "2e-3"}};
@@ -89,7 +89,7 @@ TEST_CASE("in space: a flexible pendulum, reduced to the modes of its plane and 
 
 // Square and on a ball: each mode comes twice, and the two of a pair with their derivatives span what the plane's modes
 // do there.
-TEST_CASE("in space: a flexible pendulum of square section on a ball, reduced") {
+TEST_CASE("in space: a flexible pendulum of square section on a spherical joint, reduced") {
   Words words{{"frame", "pinned"}, {"elements", "10"}, {"modes", "3"}, {"end", "0.5"}, {"step", "2e-3"}};
   const History flat = plane(flat_pendulum, words, Formulation::vm_md);
   words[2].second = "6";
@@ -158,7 +158,7 @@ void check_arm(const std::string& flat_joints, const std::string& joints, Formul
 
 }  // namespace
 
-TEST_CASE("in space: a flexible double pendulum, its elbow a hinge, a ball or a cross of axes") {
+TEST_CASE("in space: a flexible double pendulum with a revolute, spherical or universal joint") {
   const std::string hinges =
       "a: {type: revolute, between: [ground, upper.start]}, b: {type: revolute, between: [upper.end, lower.start]}";
   for (const std::string elbow : {"type: revolute, axis: $z", "type: spherical",
@@ -331,7 +331,7 @@ const Pins hinges{"type: revolute, axis: $z", "type: revolute, axis: $z", "prism
 }  // namespace
 
 // Table: geometrically exact deflection over the rod's length, independent converged computation.
-TEST_CASE("in space: slider-crank of hinges, as many as there are in the plane") {
+TEST_CASE("in space: slider-crank of revolute joints, as in the plane") {
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
     INFO(name_of(formulation));
     const History flat = plane(flat_crank, {}, formulation);
@@ -345,7 +345,7 @@ TEST_CASE("in space: slider-crank of hinges, as many as there are in the plane")
 }
 
 // No constraint is left over: a ball and a cylinder, or a cross and a ball, take the place of two hinges.
-TEST_CASE("in space: slider-crank with balls, crosses and cylinders in place of hinges") {
+TEST_CASE("in space: slider-crank with spherical, universal and cylindrical joints") {
   const History flat = plane(flat_crank, {}, Formulation::nlffr);
   for (const Pins& pins : {Pins{"type: spherical", "type: revolute, axis: $z", "cylindrical"},
                            Pins{"type: spherical", "type: universal, axis: $z, second_axis: $y", "prismatic"}}) {

@@ -72,7 +72,7 @@ History alone(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("reduced in space: a frame that spins up, with derivatives within 1 % of full order, without far off") {
+TEST_CASE("reduced in space: spin-up of a frame, with derivatives within 1 % of the full-order model") {
   const std::string text = frame("1");
   const History full = move(text, Formulation::nlffr);
   for (const std::string place : {"tip", "knee"}) {
@@ -82,7 +82,7 @@ TEST_CASE("reduced in space: a frame that spins up, with derivatives within 1 % 
   }
 }
 
-TEST_CASE("reduced in space: a plate that flaps about its edge, with derivatives within 1 %, without far off") {
+TEST_CASE("reduced in space: a plate that flaps about its edge, with derivatives within 1 %") {
   const std::string text = plate("1");
   const History full = move(text, Formulation::nlffr);
   for (const std::string place : {"tip", "side"}) {
@@ -93,7 +93,7 @@ TEST_CASE("reduced in space: a plate that flaps about its edge, with derivatives
 }
 
 // Under mpirun: what all ranks compute together is what each computes alone.
-TEST_CASE("reduced in space: full order does not depend on the number of ranks") {
+TEST_CASE("reduced in space: the full-order model does not depend on the number of ranks") {
   for (const std::string& text : {frame("0.2"), plate("0.2")}) {
     const History together = move(text, Formulation::nlffr), one = alone(text);
     CHECK(error(together, one, "tip") < 1e-9);

@@ -90,7 +90,7 @@ std::string fault_of(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("redundant in space: a four-bar of four hinges moves as in the plane, and the last joint loses three rows") {
+TEST_CASE("redundant in space: a four-bar of four hinges moves as in the plane, without three rows of a joint") {
   const std::string z = turn(0, 0, 1);
   const History flat = plane(), at = move(scene_of({z, z, z, z}), Formulation::vm_md);
   CHECK(apart(at, turn.Q, flat, "middle") < 1e-9);
@@ -101,7 +101,7 @@ TEST_CASE("redundant in space: a four-bar of four hinges moves as in the plane, 
 // Screws of the loop: three about parallel axes have rank 3, a fourth that is tilted against them is independent of
 // them. Rank 4 of 4 leaves no motion, and 20 rows for 18 freedoms leave 2 over: the mechanism stands, whatever its
 // weight.
-TEST_CASE("redundant in space: with one axis tilted the four-bar is stuck") {
+TEST_CASE("redundant in space: with one axis tilted the four-bar cannot move") {
   const std::string z = turn(0, 0, 1), tilted = turn(std::sin(0.05), 0, std::cos(0.05));
   const std::string text = scene_of({z, z, tilted, z});
   const History at = move(text, Formulation::vm_md);
@@ -114,7 +114,7 @@ TEST_CASE("redundant in space: with one axis tilted the four-bar is stuck") {
 }
 
 // Two arms, welded to one another, each driven by the ground.
-TEST_CASE("redundant in space: drives that ask for different angles of one body are refused, equal ones are not") {
+TEST_CASE("redundant in space: conflicting drives of one body are refused, equal ones are not") {
   const auto two = [](const std::string& second) {
     return fill(R"yaml(
 bodies:

@@ -65,7 +65,7 @@ TEST_CASE("rigid in space: a heavy top precesses steadily at the rate of the clo
 }
 
 // Of two equal moments: the axis of the body goes round the momentum L at |L| / J while its inclination stays.
-TEST_CASE("rigid in space: a torque-free rod goes round its momentum at the rate of the closed form") {
+TEST_CASE("rigid in space: a torque-free rod precesses at the rate of the closed form") {
   const double b = 0.4, J1 = along(b), J = across(b);
   const Vector3d x = turn.Q * Vector3d::UnitX(), L = turn.Q * Vector3d(6 * J1, J, 0), pole = L.normalized();
   const History at = move(fill(R"yaml(
@@ -96,7 +96,7 @@ probes: {start: {at: rod.start, quantity: position}, end: {at: rod.end, quantity
 }
 
 // Jacobi: a body of three moments that turns about the middle one is unstable; energy and momentum hold all the same.
-TEST_CASE("rigid in space: energy of a body that tumbles about its middle axis") {
+TEST_CASE("rigid in space: energy of a body that tumbles about its intermediate axis") {
   const auto lost = [](const std::string& step) {
     return drift(move(fill(R"yaml(
 bodies:
@@ -117,7 +117,7 @@ motion: {end: 3, step: $step}
   CHECK(fine < coarse / 3.5);
 }
 
-TEST_CASE("rigid in space: energy of a double pendulum on balls") {
+TEST_CASE("rigid in space: energy of a double pendulum on spherical joints") {
   const auto lost = [](const std::string& step) {
     return drift(move(fill(R"yaml(
 gravity: [0, 0, -9.81]

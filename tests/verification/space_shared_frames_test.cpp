@@ -45,7 +45,7 @@ probes:
 
 }  // namespace
 
-TEST_CASE("shared frames: bodies that are fixed to a rigid one move as with frames of their own") {
+TEST_CASE("welded bodies: bodies fixed to a rigid one move as with frames of their own") {
   const History shared = move(hub(""), Formulation::nlffr), own = move(hub("share_frames: false"), Formulation::nlffr);
   for (const std::string probe : {"tip", "bend", "top"}) CHECK(apart(shared, own, probe) < 1e-6);
   const History reduced = move(hub(""), Formulation::vm_md);
@@ -53,7 +53,7 @@ TEST_CASE("shared frames: bodies that are fixed to a rigid one move as with fram
   CHECK(apart(reduced, shared, "bend") < 0.02);
 }
 
-TEST_CASE("shared frames: one frame for three bodies, and rows for no joint but the pivot") {
+TEST_CASE("welded bodies: one frame for three bodies, and constraints of the pivot only") {
   const auto size = [](const std::string& words) {
     const assembly::Model model =
         assembly::build(scene::parse_scene(hub(words), "hub"), Formulation::vm_md, PETSC_COMM_WORLD);

@@ -52,7 +52,7 @@ probes: {tip: {at: beam.end, quantity: position}, speed: {at: beam.start, quanti
 
 }  // namespace
 
-TEST_CASE("a free beam in space starts bent as its planar twin does") {
+TEST_CASE("a free beam in space with initial bending agrees with the planar beam") {
   for (const std::string frame : {"pinned", "clamped", "mean-axis"})
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
       INFO(frame << ", " << scene::name_of(formulation));

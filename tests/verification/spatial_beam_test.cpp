@@ -57,7 +57,7 @@ TEST_CASE("a cantilever in any direction bends about both axes, twists and stret
 }
 
 // A portal in the plane x-z that is bent in its plane only has the frequencies of the same planar frame.
-TEST_CASE("a frame in space holds the modes of the same frame in the plane") {
+TEST_CASE("a spatial frame has the modes of the same frame in the plane") {
   const std::string joints =
       "a: {type: fixed, between: [ground, frame.p1]}, b: {type: fixed, between: [ground, frame.p4]}";
   const auto scene = [&](const std::string& points, const std::string& section, const std::string& material,

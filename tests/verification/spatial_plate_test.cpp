@@ -102,7 +102,7 @@ TEST_CASE("simply supported cross-ply plate (Navier)") {
 }
 
 // Plies turned by 90 degrees and the axis turned back are the same plate.
-TEST_CASE("angles of plies and the axis of the section turn alike") {
+TEST_CASE("ply angles and the section axis rotate together") {
   const std::string material = "{E1: 100e9, E2: 10e9, nu12: 0.25, G12: 5e9, rho: 1600}",
                     root = on_edges("fixed", {"left"});
   const auto turned = [&](const std::string& section) {

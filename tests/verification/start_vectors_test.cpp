@@ -37,7 +37,7 @@ probes: {mid: {at: beam.middle, quantity: deflection}, end: {at: beam.end, quant
 
 // The tension EA 0.002 = 40 kN stiffens the beam: f = sqrt(EI pi^4 + T pi^2)/(2 pi sqrt(rhoA)), here 5.0 times that of
 // the beam without it.
-TEST_CASE("a hinged beam that is stretched at the start swings as a string does, in reduced models") {
+TEST_CASE("a hinged beam that is stretched at the start vibrates as a string, in reduced models") {
   for (const Formulation formulation : {Formulation::vm_md, Formulation::vm, Formulation::nlffr}) {
     INFO(scene::name_of(formulation));
     const History at = move(between_hinges("[\"0.002*x\", \"1e-5*sin(pi*x)\"]"), formulation);
@@ -52,7 +52,7 @@ TEST_CASE("a hinged beam that is stretched at the start swings as a string does,
   }
 }
 
-TEST_CASE("the ground's joints stay where a shortened beam begins, and so does full order") {
+TEST_CASE("joints to the ground keep the position of an initially shortened beam, as in the full-order model") {
   const std::string text = between_hinges("[\"-1e-5*x\", \"1e-3*sin(pi*x) + 2e-4*sin(2*pi*x)\"]");
   const Estimated reduced = move_and_estimate(text, Formulation::vm_md);
   const History full = move(text, Formulation::nlffr);
@@ -64,7 +64,7 @@ TEST_CASE("the ground's joints stay where a shortened beam begins, and so does f
 
 // A free bar, fixed at its end, let go stretched by e: c = sqrt(E/rho); its end moves as a triangle between +e L and
 // -e L of period 4 L/c (d'Alembert).
-TEST_CASE("a bar let go stretched: waves along it, not a rigid bar") {
+TEST_CASE("a bar released from a stretched state: axial waves, no rigid bar") {
   const std::string text = R"yaml(
 bodies:
   bar:
@@ -85,7 +85,7 @@ probes: {end: {at: bar.end}}
   }
 }
 
-TEST_CASE("rates at the start that modes do not contain keep their kinetic energy; in space as in the plane") {
+TEST_CASE("initial rates outside the span of the modes keep their kinetic energy; in space as in the plane") {
   const auto bar = [](const std::string& mesh, const std::string& section, const std::string& material,
                       const std::string& initial) {
     return fill(R"yaml(
@@ -117,7 +117,7 @@ probes: {end: {at: bar.end, quantity: velocity}}
   }
 }
 
-TEST_CASE("a start that the basis contains adds no basis vector") {
+TEST_CASE("an initial state in the span of the basis adds no basis vector") {
   const History at = move(between_hinges("[0, \"0.01*sin(pi*x)\"]"), Formulation::vm_md);
   for (const auto& origin : at.model.bodies[0].origins) CHECK(origin.kind != reduction::ColumnOrigin::Kind::attachment);
 }

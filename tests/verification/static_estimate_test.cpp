@@ -65,7 +65,7 @@ probes: {middle: {at: {body: plate, node: [1, 0.5, 0]}}, corner: {at: {body: pla
 
 }  // namespace
 
-TEST_CASE("static estimate: plates whose stretching modes alone do not know") {
+TEST_CASE("static estimate: plates whose stretching is missing in modes alone") {
   check_effectivity("plate", bent_plate("2e3", "{modes: 2, attachment: none}"), 0.9, 1.1);
   check_effectivity("plate, loaded far", bent_plate("2e4", "{modes: 1, attachment: none}"), 0.8, 1.25);
 }
@@ -110,7 +110,7 @@ probes: {tip: {at: door.end}}
                     0.9, 1.1);
 }
 
-TEST_CASE("static estimate: without time there is the last equilibrium's, and what is round-off has no error") {
+TEST_CASE("static estimate: without time budget of the last equilibrium only; no error for round-off") {
   const std::string text = bent_plate("2e3", "{modes: 2, attachment: none}");
   const assess::Estimate whole = rest_and_estimate(text, Formulation::vm_md, 4).estimate,
                          last = rest_and_estimate(text, Formulation::vm_md, 4, 0).estimate;
@@ -124,7 +124,7 @@ TEST_CASE("static estimate: without time there is the last equilibrium's, and wh
             .estimate.probes[1] == 0);
 }
 
-TEST_CASE("static estimate: none for full order") {
+TEST_CASE("static estimate: none for full-order models") {
   const scene::Scene scene = scene::parse_scene(bent_plate("1", "{modes: 2}"), "scene");
   const assembly::Model model = assembly::build(scene, Formulation::nlffr, PETSC_COMM_WORLD, true);
   CHECK(assess::estimate_error_at_rest(model, {}, 1).none == "it belongs to reduced models (vm, vm+md)");

@@ -50,7 +50,7 @@ void check_hangs(const History& at) {
 
 }  // namespace
 
-TEST_CASE("equilibrium of a pendulum: it hangs, wherever below it starts, in the plane and in space") {
+TEST_CASE("equilibrium of a pendulum: it hangs down from any start below, in the plane and in space") {
   for (const auto formulation : {Formulation::nlffr, Formulation::vm_md, Formulation::cfr})
     for (const std::string angle : {"-3", "-1.2", "-0.3", "-0.1", "0", "0.001", "0.02", "0.3"}) {
       INFO(scene::name_of(formulation) << " from " << angle);
@@ -69,7 +69,7 @@ TEST_CASE("equilibrium of a pendulum that falls on a stop: it leans on it, not b
 
 // Without load, and under one that is round-off of what the joints know of their places, the configuration is the
 // start.
-TEST_CASE("equilibrium of a plate on a bushing and an oblique hinge: nothing moves it without a load") {
+TEST_CASE("equilibrium of a plate on a bushing and an oblique hinge: no displacement without a load") {
   const std::string text = R"yaml(
 bodies:
   p:

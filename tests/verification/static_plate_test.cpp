@@ -36,7 +36,7 @@ double deflection(double Q, int n, const std::string& cells, Formulation formula
 }  // namespace
 
 // w/h at the centre for Q = q a^4 / (E h^4): a converged independent computation.
-TEST_CASE("clamped plate under pressure: large static deflection at full order") {
+TEST_CASE("clamped plate under pressure: large static deflection of the full-order model") {
   const std::string cells = GENERATE("triangles", "quadrilaterals");
   for (const auto& [Q, w] : {std::pair{1., .013816}, {25., .326962}, {100., .937420}, {200., 1.364028}}) {
     INFO(cells << ", Q = " << Q);

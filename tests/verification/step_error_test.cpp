@@ -74,13 +74,13 @@ probes: {tip: {at: arm.end, quantity: position}}
 
 }  // namespace
 
-TEST_CASE("error of the step: half the step and twice the step tell it within a factor of three") {
+TEST_CASE("error of the step: half and twice the step give it within a factor of three") {
   const double allowed = GENERATE(2., 1.);
   check_step(pendulum, "4e-3", "5e-4", allowed);
   check_step(turning_arm, "4e-3", "5e-4", allowed);
 }
 
-TEST_CASE("error of the step: where time is short the first part is moved again, and none of adaptive steps") {
+TEST_CASE("error of the step: with a small time budget from the first part only, and none for adaptive steps") {
   const Moved part = move_with_step_error(fill(pendulum, {{"step", "4e-3"}}), 0.25);
   REQUIRE(part.error.none == "");
   CHECK_FALSE(part.error.halved);

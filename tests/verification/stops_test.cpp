@@ -75,7 +75,7 @@ TEST_CASE("stops: contact time and rebound of a rod are those of the penalty osc
 
 // A linear damped contact with the damping ratio z leaves with exp(-z pi / sqrt(1 - z^2)) of the speed when d = 0
 // again; a width small against the depth changes that little.
-TEST_CASE("stops: damping takes away the speed that it should") {
+TEST_CASE("stops: damping dissipates the expected speed") {
   const double z = 0.1;
   const History at = move(fill(fill_planar(4, 2 * z * std::sqrt(k), 0.5), {}), Formulation::vm_md);
   const Contact found = contact(at, at["rod.angle"], 0.5);
@@ -83,7 +83,7 @@ TEST_CASE("stops: damping takes away the speed that it should") {
 }
 
 // In space, more than a turn away: turns are counted.
-TEST_CASE("stops in space: a hinge after more than a turn, and a slide on both sides") {
+TEST_CASE("stops in space: a hinge after more than one revolution, and a slide on both sides") {
   const Turned turn;
   const std::string rod = R"yaml(
 bodies:
@@ -148,7 +148,7 @@ void check_landing(const History& at, double step) {
 
 }  // namespace
 
-TEST_CASE("stops: hits and releases are told once each, in order, with times and speeds") {
+TEST_CASE("stops: contacts and releases are reported once each, in order, with times and speeds") {
   const double there = 0.5, release = there + duration(1), back = release + 1.5;
   const std::string adaptive = GENERATE("", ", tolerance: 1e-8");
   std::string text = fill_planar(1, 0, 3);
@@ -172,7 +172,7 @@ TEST_CASE("stops: hits and releases are told once each, in order, with times and
 
 // A body thrown up against a limit that is a millionth below where it would turn: soft as nothing, it is hit and left
 // within one step, which begins and ends on one side of it.
-TEST_CASE("stops: a hit and its release within one step") {
+TEST_CASE("stops: contact and release within one step") {
   const double dip = std::sqrt(2 * 1e-6 / 10);
   const History at = move(R"yaml(
 gravity: [0, -10]
@@ -198,7 +198,7 @@ probes: {ball: {at: ball.middle}}
 }
 
 // Many hits: each rebound is told of, and the energy that damping takes makes the speeds fall.
-TEST_CASE("stops in space: a bouncing slide alternates hits and releases") {
+TEST_CASE("stops in space: a bouncing slide alternates contacts and releases") {
   const Turned turn;
   const History at = move(fill(R"yaml(
 gravity: $g

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes docs/verification.md from what the verification and convergence tests compare: Catch2's own report of every
-comparison, expected and computed. Which of them the table shows, and in what words, is in table.toml; no figure is."""
+comparison, expected and computed. table.toml has the rows of the table and their descriptions, without numbers."""
 import argparse
 import collections
 import datetime
@@ -73,7 +73,7 @@ def run(program, folder):
 
 
 def distance(one):
-    """How far a comparison is from failing, as a share of what is allowed; to find the worst."""
+    """Difference of a comparison over its tolerance; to find the worst."""
     if one.relation == "==":
         return abs(one.computed - one.expected) / (one.tolerance or abs(one.expected) or 1)
     share = one.computed / one.expected if one.expected else one.computed
@@ -81,7 +81,7 @@ def distance(one):
 
 
 def digits(x):
-    """Catch2 tells ten decimals."""
+    """Catch2 prints ten decimals."""
     return f"{x:.6g}" if x else "0 (below 1e-10)"
 
 
@@ -98,7 +98,7 @@ def off_words(one):
 
 
 def rows_of(wanted, cases):
-    """The lines of the table. @raise SystemExit  a row whose test or comparison is no more"""
+    """The lines of the table. @raise SystemExit  a row whose test or comparison does not exist"""
     lines = []
     for row in wanted:
         case = cases.get(row["test"])
@@ -135,15 +135,15 @@ def page(wanted, cases, commit):
              f"Written by `make verification` on {datetime.date.today()}, floe {commit}: {len(cases)} cases, {checks} checks, "
              f"{failed} failed, on one rank. `make verify-ranks` runs them on 2, 3 and 4.", "",
              "Expected and computed numbers are those that the tests compare, taken from their report; none is typed by hand. "
-             "`< x` is a bound that a test sets. *Off* is the relative difference. Sources: closed forms are in the "
-             "comment above each test; a `.py` is a program in tests/verification/references that shares nothing with floe and is run "
+             "`< x` is a bound that a test sets. *Error* is the relative difference. Sources: closed forms are in the "
+             "comment above each test; a `.py` is a program in tests/verification/references, independent of floe and run "
              "by `make references`. The identities (force is the gradient of the energy, joints do no "
              "work, and so on) are in `tests/unit`, on 1 to 4 ranks.", "",
-             "| case | source | expected | computed | off | test |", "|---|---|---|---|---|---|"]
+             "| case | source | expected | computed | error | test |", "|---|---|---|---|---|---|"]
     words += rows_of(wanted, cases)
     for title, folder in (("All verification cases", "tests/verification"), ("All convergence cases", "tests/convergence")):
         words += ["", f"## {title}", "",
-                  f"`{folder}`. The fourth column is the difference of the worst comparison of a case, as a share of the difference "
+                  f"`{folder}`. The fourth column is the difference of the worst comparison of a case, in per cent of the difference "
                   "at which it would fail, where the test writes its tolerance as a number. That difference is the larger of the "
                   "relative tolerance times the expected number and the absolute one; where a test writes an absolute one alone, "
                   "Catch2 also takes a relative difference of 1.2e-5.", "", "| test | checks | result | tolerance used | seconds |",
