@@ -74,18 +74,18 @@ void write_nodes(output::ResultFile& file, const std::string& group, const scene
   }
   file.write_of_nodes(
       group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
-      {"", (in_world && body.dimension == 3
-                ? "first column of motion/U of the place and of the rotation vector from the undeformed body, in world axes"
-                : std::string("first column of motion/U of the displacements and rotations, in ") +
-                      (in_world ? "world axes" : "the axes of the floating frame")) +
-               ", that move the node; its place from where they act, which is not zero where it follows another one"});
+      {"",
+       (in_world && body.dimension == 3
+            ? "first column of motion/U of the place and of the rotation vector from the undeformed body, in world axes"
+            : std::string("first column of motion/U of the displacements and rotations, in ") +
+                  (in_world ? "world axes" : "the axes of the floating frame")) +
+           ", that move the node; its place from where they act, which is not zero where it follows another one"});
 }
 
 /// Whether local unknown x is a turn of one of the body's own nodes.
 bool turns_node(const scene::BodyReport& body, int x) {
   const int at = x - body.first_dof;
-  return body.dimension == 3 && body.first_dof >= 0 && at >= 0 &&
-         at < 6 * static_cast<int>(body.positions.size() / 3);
+  return body.dimension == 3 && body.first_dof >= 0 && at >= 0 && at < 6 * static_cast<int>(body.positions.size() / 3);
 }
 
 }  // namespace

@@ -152,9 +152,9 @@ void CorotationalBody::start(const CorotationalStart& at) {
     if (found == attitude_.end() || hinge.axis.isZero(0)) continue;
     const auto u = of_node(shape, hinge.leader), ud = of_node(rates, hinge.leader);
     const int slot = 3 + fem::spin_slot(hinge.axis);
-    const Vector3d theta = u.tail<3>(), e = hinge.axis,
-                   own = e * (of_node(shape, hinge.node)[slot] - e.dot(theta)),
-                   ownd = e * (of_node(rates, hinge.node)[slot] - e.dot(ud.tail<3>())), arm = math::rotation(theta) * hinge.arm;
+    const Vector3d theta = u.tail<3>(), e = hinge.axis, own = e * (of_node(shape, hinge.node)[slot] - e.dot(theta)),
+                   ownd = e * (of_node(rates, hinge.node)[slot] - e.dot(ud.tail<3>())),
+                   arm = math::rotation(theta) * hinge.arm;
     found->second->base = (turned(theta) * math::quaternion(own)).normalized();
     if (!start_.contains(hinge.node)) continue;
     const PetscInt local = hinge.node - mesh.first_node;
@@ -287,8 +287,7 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   for (const fem::Mesh::Cell& cell : mesh.cells)
     if (cell.kind != fem::CellKind::point)
       stiffest = std::max(
-          stiffest,
-          structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 1, 0).diagonal().maxCoeff());
+          stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 1, 0).diagonal().maxCoeff());
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     if (start_.contains(mesh.first_node + i)) continue;

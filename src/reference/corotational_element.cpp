@@ -88,7 +88,8 @@ Eigen::Quaterniond CorotationalElement::guess() const {
 bool CorotationalElement::measure(const Matrix3d& Q) const {
   for (Index i = 0; i < X_.cols(); ++i) {
     r_.col(i) = Q.transpose() * (places_[i].p - places_[0].p);
-    const Vector3d theta = math::rotation_vector(Eigen::Quaterniond(Matrix3d(Q.transpose() * places_[i].D)).normalized());
+    const Vector3d theta =
+        math::rotation_vector(Eigen::Quaterniond(Matrix3d(Q.transpose() * places_[i].D)).normalized());
     d_.segment<3>(6 * i) = r_.col(i) - (X_.col(i) - X_.col(0));
     d_.segment<3>(6 * i + 3) = theta;
     H_[i] = rotation_tangent(-theta).inverse();
@@ -173,9 +174,11 @@ CorotationalElement::Square CorotationalElement::by_places(const Square& K, cons
     for (Index i = 0; i < X_.cols(); ++i) {
       const Vector3d theta = d_.segment<3>(6 * i + 3), turning = rate_.segment<3>(6 * i + 3);
       if (i > 0)
-        rates.middleRows<3>(6 * i) = skew(velocity_.col(i) - velocity_.col(0)) * S - skew(spin_) * P.middleRows<3>(6 * i);
-      rates.middleRows<3>(6 * i + 3) = H_[i] * (skew(turning_.col(i)) * S + rotation_tangent_derivative(-theta, turning) *
-                                                                               P.middleRows<3>(6 * i + 3));
+        rates.middleRows<3>(6 * i) =
+            skew(velocity_.col(i) - velocity_.col(0)) * S - skew(spin_) * P.middleRows<3>(6 * i);
+      rates.middleRows<3>(6 * i + 3) =
+          H_[i] *
+          (skew(turning_.col(i)) * S + rotation_tangent_derivative(-theta, turning) * P.middleRows<3>(6 * i + 3));
     }
     rates -= (W_ * (R_ * rates)).eval();
     df += C * rates;

@@ -16,7 +16,8 @@ SpatialPlaces::SpatialPlaces(std::vector<dynamics::SpatialMarker> markers)
 void SpatialPlaces::see(const dynamics::Motion& motion, dynamics::Extent extent) {
   for (std::size_t i = 0; i < marker_.size(); ++i) {
     dynamics::pick(where_[i], motion.q, q_);
-    if (extent == dynamics::Extent::motion) dynamics::pick(where_[i], motion.v, v_), dynamics::pick(where_[i], motion.a, a_);
+    if (extent == dynamics::Extent::motion)
+      dynamics::pick(where_[i], motion.v, v_), dynamics::pick(where_[i], motion.a, a_);
     dynamics::pose(marker_[i], q_, v_, a_, pose_[i], extent);
   }
 }

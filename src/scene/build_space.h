@@ -42,7 +42,7 @@ class SpaceAssembly {
   void refuse() const;
   bool compact(int body) const;    // described by a ReducedBody
   bool corotated(int body) const;  // a CorotationalBody
-  bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
+  bool stands(int joint) const;    // the ground holds a body that stands still there: nothing is left to do
   const fem::Conditions& held(int body) const;
   int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;

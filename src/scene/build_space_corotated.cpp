@@ -32,8 +32,7 @@ bool in(const std::vector<PetscInt>& piece, const PreparedPlace& place) {
 
 /// Whether the place is the mean of nodes that move by themselves.
 bool is_mean(const PreparedPlace& place, const Pieces& pieces) {
-  return place.nodes.size() > 1 && !place.line &&
-         std::count_if(place.levers.begin(), place.levers.end(), leads) > 1 &&
+  return place.nodes.size() > 1 && !place.line && std::count_if(place.levers.begin(), place.levers.end(), leads) > 1 &&
          std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return in(piece, place); });
 }
 
@@ -44,7 +43,9 @@ std::vector<std::vector<PetscInt>> SpaceAssembly::clamped_edges(int b) const {
   Pieces pieces;
   for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
     const PreparedPlace* place = held_place(prepared_, j);
-    if (!place || place->body != b || !prepared_.joint_held[j] || !clamps(prepared_.scene.joints[j])) continue;
+    const Joint& joint = prepared_.scene.joints[j];
+    if (!place || place->body != b || !prepared_.joint_held[j] || !clamps(joint)) continue;
+    if (is_unlocked(prepared_.scene, joint.name)) continue;  // its edge deforms when it is free
     if (place->nodes.size() < 2 || std::count_if(place->levers.begin(), place->levers.end(), leads) < 2) continue;
     std::vector<PetscInt> piece;
     for (const Lever& lever : place->levers)
@@ -52,8 +53,7 @@ std::vector<std::vector<PetscInt>> SpaceAssembly::clamped_edges(int b) const {
     std::sort(piece.begin(), piece.end());
     for (std::size_t p = 0; p < pieces.size();) {
       std::vector<PetscInt> both;
-      std::set_union(piece.begin(), piece.end(), pieces[p].begin(), pieces[p].end(),
-                     std::back_inserter(both));
+      std::set_union(piece.begin(), piece.end(), pieces[p].begin(), pieces[p].end(), std::back_inserter(both));
       if (both.size() == piece.size() + pieces[p].size()) {
         ++p;
         continue;
@@ -93,8 +93,9 @@ void SpaceAssembly::refuse_corotated(std::vector<std::string>& faults) const {
     const PreparedPlace& place = prepared_.loads[l];
     if (place.body < 0 || !corotated(place.body)) continue;
     if (load.axes == Load::Axes::body && load.kind != Load::Kind::pressure)
-      faults.push_back(load.where.text() + ": axes: body turn with the floating frame, which formulation cfr does not "
-                                           "have; expected axes: world or place");
+      faults.push_back(load.where.text() +
+                       ": axes: body turn with the floating frame, which formulation cfr does not "
+                       "have; expected axes: world or place");
     if (load.axes == Load::Axes::place && mean(place))
       faults.push_back(load.where.text() +
                        ": axes: place of several nodes, which formulation cfr does not know; expected axes: world, or "
@@ -104,14 +105,16 @@ void SpaceAssembly::refuse_corotated(std::vector<std::string>& faults) const {
     const Probe& probe = prepared_.scene.probes[p];
     const auto& [place, other] = prepared_.probes[p];
     if (place.body >= 0 && corotated(place.body) && probe.quantity == Probe::Quantity::deflection)
-      faults.push_back(probe.where.text() +
-                       ": deflection is from the floating frame, which formulation cfr does not have in space; expected "
-                       "displacement, with relative_to a place that stands for the frame");
+      faults.push_back(
+          probe.where.text() +
+          ": deflection is from the floating frame, which formulation cfr does not have in space; expected "
+          "displacement, with relative_to a place that stands for the frame");
     for (const PreparedPlace* at : {&place, &other})
       if (mean(*at))
-        faults.push_back(probe.where.text() +
-                         ": looks at the mean of several nodes, which formulation cfr does not know; expected places of "
-                         "one node");
+        faults.push_back(
+            probe.where.text() +
+            ": looks at the mean of several nodes, which formulation cfr does not know; expected places of "
+            "one node");
   }
 }
 

@@ -28,7 +28,8 @@ SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
   if (place.ground()) return SpatialMarker::ground(place.x);
   const PreparedBody& body = prepared_.bodies[place.body];
   const Slot& slot = slots_[place.body];
-  if (slot.corotated) return owner_ ? corotated_parts(place).front().first : SpatialMarker::ground(Eigen::Vector3d::Zero());
+  if (slot.corotated)
+    return owner_ ? corotated_parts(place).front().first : SpatialMarker::ground(Eigen::Vector3d::Zero());
   SpatialMarker at;
   at.attitude = slot.attitude;
   at.origin = body.place;

@@ -19,17 +19,17 @@ struct CorotationalStart {
 };
 
 /// A body of beams and shells in space without a floating frame (formulation cfr): every node is a rigid frame of its
-/// own, position R in world axes and attitude A with A the frame axes' rotation of the whole body when it moves rigidly,
-/// and every element a CorotationalElement between places of these frames; a quadrilateral is its four triangles at half
-/// weight. Nodes that follow others are places of the frames of these, with their arms turned by finite rotations; nodes
-/// of a hinge line are joined to the frame of the line's leader by hinges, and nodes of rigid pieces (edges that joints
-/// clamp) to that of the piece's first node by fixed joints.
+/// own, position R in world axes and attitude A with A the frame axes' rotation of the whole body when it moves
+/// rigidly, and every element a CorotationalElement between places of these frames; a quadrilateral is its four
+/// triangles at half weight. Nodes that follow others are places of the frames of these, with their arms turned by
+/// finite rotations; nodes of a hinge line are joined to the frame of the line's leader by hinges, and nodes of rigid
+/// pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
 ///
 /// Mass is carried rigidly by the nodes: of a beam half its mass by each, at the Gauss points of two-point quadrature,
-/// with the rotary inertia of the section; of a triangle a third by each corner, half-way from the corner to the centroid.
-/// So the kinetic energy is one of rigid bodies, exact for rigid motions of the undeformed body, of order 2 in the
-/// element's length for others; linear and angular momentum of the nodes are those of the body, and nothing but the
-/// loads changes them.
+/// with the rotary inertia of the section; of a triangle a third by each corner, half-way from the corner to the
+/// centroid. So the kinetic energy is one of rigid bodies, exact for rigid motions of the undeformed body, of order 2
+/// in the element's length for others; linear and angular momentum of the nodes are those of the body, and nothing but
+/// the loads changes them.
 class CorotationalBody {
  public:
   /// @param visited  global nodes that the last rank must see (NodeCoordinates)

@@ -5,8 +5,8 @@
 
 namespace floe::reference {
 
-/// An elastic element in space that floats in a frame of its own: a beam between two places, a triangle of shell between
-/// three. Each place is carried by the rigid frame of a node, finite rotations included.
+/// An elastic element in space that floats in a frame of its own: a beam between two places, a triangle of shell
+/// between three. Each place is carried by the rigid frame of a node, finite rotations included.
 ///
 /// Places i: position p_i, axes D_i (world), X_i in body axes; undeformed D_i = Q for a rotation Q of the body. With Q
 /// the element's rotation from body axes,
@@ -21,9 +21,9 @@ namespace floe::reference {
 ///
 ///   forces F_i = Q f_i,   moments M_i = Q T(theta_i)^-1 m_i,   (f, m) = (I - R'W') dU_e/dd,   R = (Gamma W)^-1 Gamma,
 ///
-/// W = dd/dQ: P = I - W R is the projector of Rankin and Nour-Omid, T that of the rotation vector. The tangent is exact:
-/// material, geometric, and of Q. Kelvin-Voigt damping acts on the strain rates of U_e (body::add_viscous_force) by
-/// d' = P (Q'p_i', T(theta_i)'^-1 Q'w_i); a rigid motion has none.
+/// W = dd/dQ: P = I - W R is the projector of Rankin and Nour-Omid, T that of the rotation vector. The tangent is
+/// exact: material, geometric, and of Q. Kelvin-Voigt damping acts on the strain rates of U_e (body::add_viscous_force)
+/// by d' = P (Q'p_i', T(theta_i)'^-1 Q'w_i); a rigid motion has none.
 ///
 /// Strains are small within the element, and rotations moderate; the mesh makes them so. A rotation of half a turn
 /// within one element, and three corners on a line, give values that are not finite.
@@ -53,7 +53,7 @@ class CorotationalElement final : public dynamics::Term {
   Eigen::Quaterniond guess() const;
   bool measure(const Eigen::Matrix3d& Q) const;
   void see_rates() const;
-  void balance() const;  ///< f_ on d becomes forces in equilibrium; wrenches_
+  void balance() const;      ///< f_ on d becomes forces in equilibrium; wrenches_
   Square of_places() const;  ///< d on (Q'dp, Q'dphi) at fixed Q
   Square by_places(const Square& stiffness, const Square& rate_stiffness) const;
 
@@ -67,12 +67,12 @@ class CorotationalElement final : public dynamics::Term {
   mutable Eigen::VectorXd d_, rate_, f_, wrenches_;
   mutable Eigen::MatrixXd K_, C_, Y_, Yd_;
   mutable Eigen::Matrix3d Q_;
-  mutable Eigen::Matrix3Xd r_;                 // Q'(p_i - p_1)
-  mutable std::array<Eigen::Matrix3d, 3> H_;   // T(theta_i)'^-1
-  mutable Eigen::Matrix3Xd n_;                 // moments T^-1 m_i
+  mutable Eigen::Matrix3Xd r_;                // Q'(p_i - p_1)
+  mutable std::array<Eigen::Matrix3d, 3> H_;  // T(theta_i)'^-1
+  mutable Eigen::Matrix3Xd n_;                // moments T^-1 m_i
   mutable Matrixx3 W_;
   mutable Matrix3x R_;
-  mutable Eigen::Vector3d spin_;               // of Q, in its own axes
+  mutable Eigen::Vector3d spin_;                 // of Q, in its own axes
   mutable Eigen::Matrix3Xd velocity_, turning_;  // Q'p_i', Q'w_i
   mutable body::ElasticityWork work_;
   mutable body::ViscosityWork viscous_work_;

@@ -6,8 +6,8 @@
 
 namespace floe::reference {
 
-/// Several places in space that one term acts on: as dynamics::SpatialPair, of any number. Wrenches in world axes, 6 for
-/// each place, become rows of the places' coordinates.
+/// Several places in space that one term acts on: as dynamics::SpatialPair, of any number. Wrenches in world axes, 6
+/// for each place, become rows of the places' coordinates.
 class SpatialPlaces {
  public:
   explicit SpatialPlaces(std::vector<dynamics::SpatialMarker> markers);

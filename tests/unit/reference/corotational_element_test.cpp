@@ -40,9 +40,9 @@ Sample triangle() {
   Sample s{Matrix3Xd(3, 3), {}};
   s.X.col(0) = random.vector(3);
   s.X.col(1) = s.X.col(0) + Vector3d(1, 0.2, 0.4), s.X.col(2) = s.X.col(0) + Vector3d(0.1, 0.8, -0.3);
-  s.elasticity = fem::elasticity(
-      fem::shell_triangle({s.X.col(0), s.X.col(1), s.X.col(2)}, fem::shell_section({{fem::isotropic(10, 0.3, 1), 0.1}})),
-      Eigen::MatrixXd::Identity(18, 18));
+  s.elasticity = fem::elasticity(fem::shell_triangle({s.X.col(0), s.X.col(1), s.X.col(2)},
+                                                     fem::shell_section({{fem::isotropic(10, 0.3, 1), 0.1}})),
+                                 Eigen::MatrixXd::Identity(18, 18));
   return s;
 }
 
@@ -72,8 +72,8 @@ struct Near {
     q.resize(6 * sample.X.cols());
     for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
       bases.push_back(Q * math::quaternion(size * random.vector(3)));
-      const Vector3d x = i + 1 == sample.X.cols() ? Vector3d(sample.X.col(i) - Vector3d(0.1, -0.2, 0.15))
-                                                  : Vector3d(sample.X.col(i));
+      const Vector3d x =
+          i + 1 == sample.X.cols() ? Vector3d(sample.X.col(i) - Vector3d(0.1, -0.2, 0.15)) : Vector3d(sample.X.col(i));
       q.segment<3>(6 * i) = c + Q * x + size * random.vector(3);
       q.segment<3>(6 * i + 3) = size * random.vector(3);
     }
@@ -112,7 +112,8 @@ TEST_CASE("corotational element in space: two places on one frame", "[corotation
   CHECK(testing::tangent_error(element, s) < 1e-8);
 }
 
-TEST_CASE("corotational element in space: its forces are the gradient of its energy and dissipate", "[corotational-space]") {
+TEST_CASE("corotational element in space: its forces are the gradient of its energy and dissipate",
+          "[corotational-space]") {
   const auto sample = GENERATE(from_range(samples))();
   Random random(905);
   const Near near(random, sample, 0.1);
@@ -155,6 +156,15 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
     bases.push_back(turn * near.bases[i]);
     other.q.segment<3>(6 * i) = turn * Vector3d(one.q.segment<3>(6 * i)) + v;
   }
+  const VectorXd loads = testing::rows_of(bent, one);
+  Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
+  for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {  // no force from within moves the element
+    const Vector3d F = loads.segment<3>(6 * i), R = one.q.segment<3>(6 * i), m = loads.segment<3>(6 * i + 3);
+    force += F;
+    moment += R.cross(F) + near.bases[i] * (math::quaternion(one.q.segment<3>(6 * i + 3)) * m);
+  }
+  CHECK(force.norm() < 1e-12 * loads.norm());
+  CHECK(moment.norm() < 1e-11 * loads.norm());
   const CorotationalElement turned(places(sample, false, bases), sample.X, sample.elasticity);
   const VectorXd f = testing::rows_of(bent, one), g = testing::rows_of(turned, other);
   for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
@@ -168,9 +178,9 @@ TEST_CASE("corotational element in space: the order of the places does not matte
   const Sample one = triangle();
   Sample other = one;
   other.X.col(0) = one.X.col(1), other.X.col(1) = one.X.col(2), other.X.col(2) = one.X.col(0);
-  other.elasticity = fem::elasticity(
-      fem::shell_triangle({other.X.col(0), other.X.col(1), other.X.col(2)}, fem::shell_section({{fem::isotropic(10, 0.3, 1), 0.1}})),
-      Eigen::MatrixXd::Identity(18, 18));
+  other.elasticity = fem::elasticity(fem::shell_triangle({other.X.col(0), other.X.col(1), other.X.col(2)},
+                                                         fem::shell_section({{fem::isotropic(10, 0.3, 1), 0.1}})),
+                                     Eigen::MatrixXd::Identity(18, 18));
   Near near(random, one, 0.1);
   auto at = places(one, false, near.bases);
   const CorotationalElement a(at, one.X, one.elasticity), b({at[1], at[2], at[0]}, other.X, other.elasticity);
