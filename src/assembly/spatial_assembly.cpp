@@ -90,12 +90,13 @@ SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, cons
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
       latches_(latches_of(plan.scene)) {
-  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = has_fixed_frame(plan, owner_of_frame(b));
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    slots_[b].still = !corotated(static_cast<int>(b)) && has_fixed_frame(plan, owner_of_frame(b));
 }
 
 int SpatialAssembly::owner_of_frame(std::size_t body) const {
   const int host = plan_.bodies[body].host;
-  return host >= 0 ? host : static_cast<int>(body);
+  return host >= 0 && !corotated(static_cast<int>(body)) ? host : static_cast<int>(body);
 }
 
 bool SpatialAssembly::compact(int body) const {
@@ -103,9 +104,11 @@ bool SpatialAssembly::compact(int body) const {
   return is_reduced(formulation_) || spec.rigid || spec.reduced;
 }
 
+bool SpatialAssembly::corotated(int body) const { return formulation_ == Formulation::cfr && !compact(body); }
+
 bool SpatialAssembly::stands(int j) const {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
-    if (plan_.bodies[b].host_joint == j) return true;
+    if (plan_.bodies[b].host_joint == j && !corotated(static_cast<int>(b))) return true;
     if (slots_[b].still && clamp_of(plan_, static_cast<int>(b)) == j) return true;
   }
   const Joint& joint = plan_.scene.joints[j];
@@ -120,13 +123,14 @@ const fem::Conditions& SpatialAssembly::held(int b) const {
 
 void SpatialAssembly::refuse() const {
   std::vector<std::string> faults;
-  if (formulation_ == Formulation::cfr)
-    faults.push_back(plan_.scene.file + ": formulation cfr is known for planar beams only");
+  refuse_corotated(faults);
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
     if (is_reduced(formulation_) || !plan_.joint_held[j]) continue;
     const Anchor& place = *held_place(plan_, j);
-    if (compact(place.body) || place.nodes.size() < 2 || place.line || slots_[place.body].still) continue;
+    if (compact(place.body) || corotated(place.body) || place.nodes.size() < 2 || place.line ||
+        slots_[place.body].still)
+      continue;
     const fem::Conditions& held = plan_.bodies[place.body].clamp;
     if (std::all_of(place.nodes.begin(), place.nodes.end(),
                     [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
@@ -183,6 +187,10 @@ void SpatialAssembly::add_coordinates() {
     const PlannedBody& body = plan_.bodies[b];
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
+    if (corotated(index)) {
+      add_corotated(index);
+      continue;
+    }
     add_frame(owner_of_frame(b));
     slot.frame = slots_[owner_of_frame(b)].frame, slot.attitude = slots_[owner_of_frame(b)].attitude;
     coordinates_.belongs_to("body " + body.spec.name);
@@ -235,6 +243,10 @@ void SpatialAssembly::add_body(int b) {
       terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
                                                             reduced.body.elasticity));
     std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
+    return;
+  }
+  if (slot.corotated) {
+    for (auto& term : slot.corotated->terms(body.spec.damping.stiffness)) terms_.push_back(std::move(term));
     return;
   }
   if (slot.damping)
@@ -305,13 +317,17 @@ void SpatialAssembly::set_start(Model& model) {
   model.V = layout.create_vector();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
+    if (slots_[b].corotated) {
+      slots_[b].corotated->set_start(coordinates_.global(), model.U, model.V);
+      continue;
+    }
     set_deformation(static_cast<int>(b), body.deformation, model.U);
     set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
     if (slots_[b].damping) set_rigid_part(*slots_[b].damping, body, coordinates_, owner_, model.U, model.V);
   }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PlannedBody& body = plan_.bodies[b];
-    if (slots_[b].still || body.host >= 0) continue;
+    if (slots_[b].still || slots_[b].corotated || body.host >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       const PetscInt row = coordinates_.global()[slots_[b].frame + i],
                      turn = coordinates_.global()[slots_[b].frame + 3 + i];
@@ -350,6 +366,10 @@ Model SpatialAssembly::model() {
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
     report.frame = name_of(plan_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
+    if (slots_[b].corotated) {
+      report.first_dof = slots_[b].corotated->nodes().first();
+      report.frame = "of every element";
+    }
     report.attitude = slots_[b].attitude;
     report.mesh = body_mesh(body);
     report.place = plan_.bodies[owner_of_frame(index)].place;
@@ -365,7 +385,10 @@ Model SpatialAssembly::model() {
   add_probes(model);
   dynamics::Attitudes attitudes;
   for (std::size_t b = 0; b < slots_.size(); ++b)
-    if (slots_[b].attitude && plan_.bodies[b].host < 0) attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
+    if (slots_[b].corotated)
+      slots_[b].corotated->add_attitudes(attitudes);
+    else if (slots_[b].attitude && plan_.bodies[b].host < 0)
+      attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
   for (std::size_t j = 0; j < multipliers_.size(); ++j) {
     std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind));
     std::iota(rows.begin(), rows.end(), 0);

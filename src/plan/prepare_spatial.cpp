@@ -8,11 +8,11 @@
 
 #include "floe/math/rotation.h"
 #include "floe/plan/ground_axes.h"
+#include "floe/plan/prepare_spatial_joints.h"
 #include "floe/plan/reduced_place.h"
 #include "floe/plan/shared_frames.h"
 #include "floe/plan/spatial_start.h"
 #include "floe/scene/file_places.h"
-#include "prepare_spatial_joints.h"
 #include "rims.h"
 
 namespace floe::plan {

@@ -1,4 +1,4 @@
-#include "prepare_spatial_joints.h"
+#include "floe/plan/prepare_spatial_joints.h"
 
 #include <fmt/format.h>
 
