@@ -35,8 +35,8 @@ void write_columns(output::ResultFile& file, const std::string& group, const ass
       group + "/columns_of_motion", {2}, where,
       {"", body.dimension == 2
                ? "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates; -1: none"
-               : "first columns of motion/U: of the frame (R; then three of its turn in the step, see "
-                 "motion/attitude), of the reduced coordinates; -1: it stands still, there are none"});
+               : "first columns of motion/U: of the frame (R; then three of its rotation in the step, see "
+                 "motion/attitude), of the reduced coordinates; -1: fixed frame, none"});
 }
 
 /// Column j of the basis at this rank's nodes.
@@ -71,11 +71,11 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
     const Eigen::Vector3d arm = mesh.arm(i);
     rows.insert(rows.end(), {column_of(model, dof), arm.x(), arm.y(), arm.z()});
   }
-  file.write_of_nodes(
-      group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
-      {"", std::string("first column of motion/U of the displacements and rotations, in ") +
-               (in_world ? "world axes" : "the axes of the floating frame") +
-               ", that move the node; its place from where they act, which is not zero where it follows another one"});
+  file.write_of_nodes(group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
+                      {"", std::string("first column of motion/U of the displacements and rotations, in ") +
+                               (in_world ? "world axes" : "the axes of the floating frame") +
+                               ", of which the node's displacement depends; offset of the node from the node that has "
+                               "them, not zero for a dependent node"});
 }
 
 }  // namespace

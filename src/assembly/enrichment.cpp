@@ -61,8 +61,9 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
     std::move(u.begin(), u.end(), std::back_inserter(all));
   }
   if (unbent)
-    notes.push_back(fmt::format("body {}: its stiffness where it is bent was not factored; that of rest stands in",
-                                body.spec.name));
+    notes.push_back(fmt::format(
+        "body {}: the tangent stiffness of the deformed body was not factored; that of the undeformed body is used",
+        body.spec.name));
   return all;
 }
 

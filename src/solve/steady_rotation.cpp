@@ -77,13 +77,14 @@ void check_balance(const RotatingSystem& rotating, double speed, double spin_up,
   const double small = negligible(at, mass, speed);
   if (std::abs(spin_up) > small)
     throw RunError(
-        fmt::format("a moment about the axis is left that spins the scene up at {:.3g} rad/s2; expected a "
-                    "drive, or loads without such a moment",
+        fmt::format("a residual moment about the axis accelerates the rotation by {:.3g} rad/s2; expected a drive, or "
+                    "loads without such a moment",
                     std::abs(spin_up)));
   double greatest = 0;
   for (Index i = 0; i < at.F.size(); ++i)
     if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.turn));
-  if (!(greatest <= small)) throw RunError(fmt::format("forces cannot balance (left over: {:.3g} rad/s2)", greatest));
+  if (!(greatest <= small))
+    throw RunError(fmt::format("the forces are not in equilibrium (residual load: {:.3g} rad/s2)", greatest));
 }
 
 /// In units of a frame's turn by one radian.
@@ -112,7 +113,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
     }
     last = size;
   }
-  throw RunError("Newton's method found none");
+  throw RunError("Newton's method did not converge");
 }
 
 /// Newton's step at `speed` from U for the forces at `other`.
