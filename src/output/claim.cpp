@@ -99,8 +99,8 @@ bool gone(const ordered_json& who) {
 
 [[noreturn]] void refuse(const fs::path& lock, const std::string& what, const std::optional<ordered_json>& who) {
   if (!who)
-    throw InputError(fmt::format("{}: {} cannot be read, and says who writes there; remove it if no floe does", what,
-                                 lock.string()));
+    throw InputError(fmt::format(
+        "{}: {}, the lock of a running floe, cannot be read; remove it if no floe writes there", what, lock.string()));
   const std::string process =
       fmt::format("{}: floe writes there (process {} on {}, since {})", what, (*who)["pid"].get<std::int64_t>(),
                   (*who)["host"].get<std::string>(), (*who)["since"].get<std::string>());
