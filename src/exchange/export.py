@@ -97,8 +97,8 @@ def write(chosen, paths, body, options):
         import mbsim
         mbsim.write_hdf5(paths[0], body)
         if len(body.pairs):
-            print("Note: MBSim's HDF5 form has no place for nonlinear stiffness: this is the linear body; "
-                  "an .xml has all of it")
+            print("Note: MBSim's HDF5 format cannot store nonlinear stiffness: the linear body is written; "
+                  "use .xml for the nonlinear one")
     else:
         import matrix_market
         for path, (matrix, what) in zip(paths, matrix_market.matrices(body).values()):

@@ -8,8 +8,8 @@ using namespace dynamics;
 
 /// What is wrong where accelerations and multipliers are not determined.
 inline const std::string singular_start =
-    "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
-    "hold the same motion), or a body has no mass";
+    "the initial accelerations are undetermined: redundant or contradictory constraints (two joints that "
+    "constrain the same motion), or a body has no mass";
 /// Whether a linear solve that returned `code` met a singular matrix: each solver has an error of its own for it.
 bool is_singular(PetscErrorCode code);
 
