@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "everywhere.h"
 #include "floe/petsc/error.h"
+#include "gather_to_all.h"
 #include "null_space.h"
 
 namespace floe::solve {
@@ -55,7 +55,7 @@ Trial trial(const RotatingSystem& rotating, Vec U) {
   const KeptState kept(system, U);
   const petsc::VecHandle turned = system.create_vector();
   petsc::check(VecCopy(U, turned));
-  VectorXd forces_aside = everywhere(system, turned);
+  VectorXd forces_aside = gather_to_all(system, turned);
   const std::vector<char> is_multiplier = multiplier_flags(system);
   for (Index i = 0; i < forces_aside.size(); ++i)
     if (is_multiplier[i]) forces_aside[i] = 0;

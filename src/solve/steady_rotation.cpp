@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "everywhere.h"
+#include "gather_to_all.h"
 #include "rotating_axes.h"
 
 namespace floe::solve {
@@ -97,7 +97,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   bool free = false;
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
-    const VectorXd u = everywhere(rotating.system, U);
+    const VectorXd u = gather_to_all(rotating.system, U);
     VectorXd turn = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = turns_freely(at, turn);
     if (!free) turn.setZero();
@@ -120,7 +120,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
 VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
   const VectorXd F = rotating_tangent(rotating, other, U).F;
   RotatingTangent at = rotating_tangent(rotating, speed, U);
-  VectorXd turn = rotating_motion(rotating, 1, everywhere(rotating.system, U)).V;
+  VectorXd turn = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
   if (!turns_freely(at, turn)) turn.setZero();
   at.F = F;
   return newton_step(at, turn).change;
