@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 
+#include "apply_event.h"
 #include "crossings.h"
 #include "floe/petsc/options.h"
 #include "floe/solve/generalized_alpha.h"
 #include "floe/solve/start.h"
-#include "happen.h"
 #include "simplified_newton.h"
 
 namespace floe::solve {
@@ -329,7 +329,7 @@ bool pass_kinks(TS ts, const Integration& how, Context& context) {
   return kink != first;
 }
 
-/// Has the events happen that are due. Returns whether the motion goes on.
+/// Applies the events that are due. Returns whether the motion goes on.
 bool act(TS ts, const Integration& how, Context& context, double nominal) {
   double t = 0;
   Vec U = nullptr, V = nullptr;
@@ -340,7 +340,7 @@ bool act(TS ts, const Integration& how, Context& context, double nominal) {
     const Event& event = context.events[i];
     const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
     if (!due || context.happened[i] != 0) continue;
-    const EventReport report = happen(context.system, event, t, U, V);
+    const EventReport report = apply_event(context.system, event, t, U, V);
     context.happened[i] = 1;
     changed = true, stopped = stopped || event.stops;
     if (how.on_event) how.on_event(report);
