@@ -63,7 +63,7 @@ class Residuals {
       if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), state);
     ++samples;
   }
-  const std::vector<LeftOver>& loads(std::size_t body) const { return loads_[body]; }
+  const std::vector<ResidualLoad>& loads(std::size_t body) const { return loads_[body]; }
   /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
   double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
   int samples = 0;
@@ -112,7 +112,7 @@ class Residuals {
   Offline& offline_;
   Model full_;
   petsc::VecHandle U_, V_, A_, F_;
-  std::vector<std::vector<LeftOver>> loads_;
+  std::vector<std::vector<ResidualLoad>> loads_;
   double unbalanced_ = 0, forces_ = 0;
 };
 

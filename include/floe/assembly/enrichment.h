@@ -4,7 +4,7 @@
 namespace floe::assembly {
 
 /// A residual load in a deformation V eta.
-struct LeftOver {
+struct ResidualLoad {
   petsc::VecHandle load;
   Eigen::VectorXd eta;
 };
@@ -15,8 +15,8 @@ struct LeftOver {
 ///
 /// K at rest alone would lock: what bends a wide thin shell further stretches it, unless the same column holds the way
 /// out, and that depends on how far it is bent.
-reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
-                             int tangents, std::vector<std::string>& notes);
+reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
+                             const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes);
 
 /// Columns that carry most of the fields u: at most `most`, by proper orthogonal decomposition in the norm of M. Those
 /// below 1e-4 of the maximum are left out. Collective.
