@@ -241,7 +241,7 @@ std::string remedy(TS ts, const Context& context, bool newton_failed) {
   check(SNESGetType(snes, &type));
   check(TSGetTolerances(ts, nullptr, nullptr, &tolerance, nullptr));
   if (newton_failed && type != std::string(simplified_newton))
-    return fmt::format("Leave out -{}snes_type {}, or try a smaller motion.step", prefix_of(ts), type);
+    return fmt::format("Remove option -{}snes_type {}, or try a smaller motion.step", prefix_of(ts), type);
   if (!context.adaptive) return "Try a smaller motion.step, or a tolerance for adaptive steps";
   return fmt::format("Try another motion.tolerance than {:.3g}, or a fixed motion.step", tolerance);
 }
