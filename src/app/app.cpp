@@ -62,8 +62,7 @@ scene::Scene read(const std::string& path) {
 scene::Scene read_moving(const std::string& path) {
   scene::Scene scene = read(path);
   if (scene.motion.end <= 0)
-    throw InputError(path +
-                     ": motion: is missing; expected how long and how finely, as `motion: {end: 3, step: 1e-3}`");
+    throw InputError(path + ": motion: is missing; expected end time and time step, as `motion: {end: 3, step: 1e-3}`");
   return scene;
 }
 
@@ -83,7 +82,7 @@ std::string positive(const std::string& word) {
 }
 void add_folder(CLI::App* command, Choices& choices) {
   command->add_option("-o,--out", choices.out, "folder for the results (default: results/NAME-...)");
-  command->add_flag("--force", choices.force, "replace floe's results in a folder that has some");
+  command->add_flag("--force", choices.force, "replace existing floe results in the folder");
 }
 
 }  // namespace
@@ -98,14 +97,14 @@ int main(int argc, char** argv) {
   };
   std::function<void()> work;
   CLI::App app("floe " FLOE_VERSION
-               ": flexible multibody dynamics, reduced with modal derivatives in the floating frame of reference",
+               ": nonlinear model reduction for flexible multibody dynamics in the floating frame of reference",
                "floe");
   app.set_version_flag("--version", std::string("floe " FLOE_VERSION " (" FLOE_COMMIT ")"));
   app.require_subcommand(1);
   app.footer(
       "PETSc's and SLEPc's options follow with one dash: -modes_eps_..., -derivatives_ksp_..., -motion_ts_..., "
       "-static_snes_..., -campbell_pep_..., -log_view; -help lists those of a command's solvers. Under mpirun -n N the "
-      "answer is the "
+      "results are the "
       "same.");
 
   CLI::App* run_command = app.add_subcommand("run", "simulate a scene in one formulation");
@@ -114,20 +113,19 @@ int main(int argc, char** argv) {
   run_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
       ->capture_default_str();
   run_command->add_flag("--no-estimate", choices.no_estimate,
-                        "spare the estimate of the error against full order (vm, vm+md)");
-  run_command->add_option(
-      "--accuracy", choices.accuracy,
-      "choose columns, elastic force and step for this error of the probes, 1% or 0.01 (default: the "
-      "scene's accuracy, if it has one)");
+                        "skip the estimate of the error relative to the full-order model (vm, vm+md)");
+  run_command->add_option("--accuracy", choices.accuracy,
+                          "select basis vectors, elastic force and step for this error of the probes, 1% or 0.01 "
+                          "(default: the scene's accuracy, if given)");
   run_command->add_option("--write-scene", choices.explicit_scene,
-                          "with an accuracy: write the scene with what was chosen into this file");
+                          "with an accuracy: write the scene with the selected model to this file");
   add_folder(run_command, choices);
   run_command->add_option("--checkpoint", choices.checkpoint,
-                          "write a checkpoint each so many steps (1000) or seconds (60s), and at the end");
-  run_command->add_option("--restart", choices.restart,
-                          "go on from the checkpoint in this folder: the same motion, bit for bit");
-  run_command
-      ->add_option("--until", choices.until, "with --restart: to this time (default: the scene's motion.end) [s]")
+                          "write a checkpoint every N steps (1000) or every N seconds (60s), and at the end");
+  run_command->add_option(
+      "--restart", choices.restart,
+      "continue from the checkpoint in this folder; results are bitwise identical to an uninterrupted run");
+  run_command->add_option("--until", choices.until, "with --restart: end time (default: the scene's motion.end) [s]")
       ->check(CLI::Validator(positive, "POSITIVE"));
   run_command->callback([&, formulation_given = run_command->get_option("--formulation")] {
     if (choices.scene.empty() && !choices.restart) throw CLI::RequiredError("SCENE");
@@ -148,16 +146,16 @@ int main(int argc, char** argv) {
       const scene::Scene scene = read_moving(choices.scene);
       const bool chooses = formulation == scene::Formulation::vm_md && (choices.accuracy || scene.accuracy);
       if (choices.explicit_scene && !chooses)
-        throw InputError("--write-scene: goes with an accuracy, of the scene or --accuracy, in formulation vm+md");
+        throw InputError("--write-scene: needs an accuracy, of the scene or --accuracy, and formulation vm+md");
       if (chooses) {
         const double accuracy = choices.accuracy ? scene::accuracy_of(*choices.accuracy) : *scene.accuracy;
         if (choices.no_estimate)
-          throw InputError("--no-estimate: does not go with an accuracy, which is judged by the estimate");
+          throw InputError("--no-estimate: cannot be combined with an accuracy, which needs the estimate");
         if (choices.checkpoint)
-          throw InputError("--checkpoint: does not go with an accuracy; expected the scene of --write-scene");
+          throw InputError("--checkpoint: cannot be combined with an accuracy; expected the scene of --write-scene");
         if (scene.motion.tolerance)
           throw InputError(scene.motion.where.text() +
-                           ".tolerance: does not go with an accuracy, which chooses the step");
+                           ".tolerance: cannot be combined with an accuracy, which selects the step");
         return run_chosen(scene, accuracy, PETSC_COMM_WORLD,
                           output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, "accuracy"), choices.force),
                           choices.explicit_scene, choices.force);
@@ -165,21 +163,21 @@ int main(int argc, char** argv) {
       run_one(scene, formulation, PETSC_COMM_WORLD,
               output::prepare_folder(PETSC_COMM_WORLD, folder_of(choices, choices.formulation), choices.force), plan);
       if (scene.accuracy && petsc::first_rank(PETSC_COMM_WORLD))
-        fmt::print("Note: accuracy goes with formulation vm+md, and was not used\n");
+        fmt::print("Note: accuracy applies to formulation vm+md only, and was ignored\n");
     };
   });
 
-  CLI::App* compare_command = app.add_subcommand("compare", "simulate in several formulations: one table, one picture");
+  CLI::App* compare_command = app.add_subcommand(
+      "compare", "simulate a scene in several formulations and compare them: one table, one picture");
   add_scene(compare_command, choices);
   compare_command
-      ->add_option(
-          "--formulations", choices.formulations,
-          "which, separated by commas (modal damping: vm,vm+md; bodies from files: lffr,vm,vm+md; in space cfr is "
-          "left to be named, in the plane with shear it is not known)")
+      ->add_option("--formulations", choices.formulations,
+                   "the formulations, separated by commas (modal damping: vm,vm+md; bodies from files: lffr,vm,vm+md; "
+                   "cfr in space only where it is named; planar beams with shear: without cfr)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,
-                            "spare the run that shows the reference's own error");
+                            "skip the run that determines the reference's own error");
   add_folder(compare_command, choices);
   compare_command->callback([&, given = compare_command->get_option("--formulations")] {
     work = [&, given] {
@@ -193,7 +191,7 @@ int main(int argc, char** argv) {
                                      [](const scene::Body& body) { return !body.damping.modal.empty(); });
       if (modal && given->count() == 0) {
         choices.formulations = {"vm", "vm+md"};  // those with modes to damp
-        on_first_rank([] { fmt::print("Note: modal damping is that of modes; compared are vm and vm+md\n"); });
+        on_first_rank([] { fmt::print("Note: modal damping needs vibration modes; vm and vm+md are compared\n"); });
       } else if (files && given->count() == 0)
         choices.formulations = {"lffr", "vm", "vm+md"};  // those without a mesh
       else if (given->count() == 0 && (scene.dimension == 3 || shears))
@@ -202,7 +200,7 @@ int main(int argc, char** argv) {
       for (const std::string& name : choices.formulations) {
         const scene::Formulation one = scene::formulation_of(name);
         if (std::find(formulations.begin(), formulations.end(), one) != formulations.end())
-          throw InputError(fmt::format("--formulations: \"{}\" is named twice", name));
+          throw InputError(fmt::format("--formulations: \"{}\" is given twice", name));
         formulations.push_back(one);
       }
       compare(scene, formulations, PETSC_COMM_WORLD, folder_of(choices, "compare"), choices.force,
@@ -210,12 +208,13 @@ int main(int argc, char** argv) {
     };
   });
 
-  CLI::App* tradeoff_command =
-      app.add_subcommand("tradeoff", "a ladder of cheaper models against full order: error against time, one picture");
+  CLI::App* tradeoff_command = app.add_subcommand("tradeoff",
+                                                  "simulate a hierarchy of reduced models and compare them with the "
+                                                  "full-order model: error versus computing time, one picture");
   add_scene(tradeoff_command, choices);
   tradeoff_command->add_option("--reference", choices.reference, "nlffr | cfr")->capture_default_str();
   tradeoff_command
-      ->add_option("--accuracy", choices.tradeoff.accuracy, "the cheapest model within this error is named the choice")
+      ->add_option("--accuracy", choices.tradeoff.accuracy, "select the cheapest model with at most this error")
       ->check(CLI::Range(1e-9, 1.0))
       ->capture_default_str();
   add_folder(tradeoff_command, choices);
@@ -223,24 +222,23 @@ int main(int argc, char** argv) {
     work = [&] {
       choices.tradeoff.reference = scene::formulation_of(choices.reference);
       if (choices.reference != "nlffr" && choices.reference != "cfr")
-        throw InputError("--reference: is " + choices.reference + "; expected nlffr or cfr, of full order");
+        throw InputError("--reference: is " + choices.reference + "; expected nlffr or cfr, the full-order models");
       tradeoff(read_moving(choices.scene), PETSC_COMM_WORLD, choices.tradeoff, folder_of(choices, "tradeoff"),
                choices.force);
     };
   });
 
-  CLI::App* static_command = app.add_subcommand("static", "equilibria of a scene under loads that grow with t");
+  CLI::App* static_command = app.add_subcommand("static", "compute equilibria of a scene under loads that grow with t");
   add_scene(static_command, choices);
   static_command->add_option("--formulation", choices.formulation, "cfr | nlffr | lffr | vm | vm+md")
       ->capture_default_str();
-  static_command
-      ->add_option("--at", choices.at, "t of the last equilibrium, from 0 (default: the end of the motion, or 1)")
+  static_command->add_option("--at", choices.at, "t of the last equilibrium, from 0 (default: motion.end, or 1)")
       ->check(CLI::Validator(positive, "POSITIVE"));
-  static_command->add_option("--steps", choices.steps, "equilibria on the way, at equal distances in t")
+  static_command->add_option("--steps", choices.steps, "number of equilibria, at equal increments of t")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   static_command->add_flag("--no-estimate", choices.no_estimate,
-                           "spare the estimate of the error against full order (vm, vm+md)");
+                           "skip the estimate of the error relative to the full-order model (vm, vm+md)");
   add_folder(static_command, choices);
   static_command->callback([&] {
     work = [&] {
@@ -253,8 +251,8 @@ int main(int argc, char** argv) {
     };
   });
 
-  CLI::App* campbell_command =
-      app.add_subcommand("campbell", "steady rotation of a scene at several speeds, and its vibrations there");
+  CLI::App* campbell_command = app.add_subcommand(
+      "campbell", "compute the steady rotation of a scene at several speeds, and its vibrations about it");
   add_scene(campbell_command, choices);
   campbell_command->add_option("--formulation", choices.formulation, "nlffr | lffr | vm | vm+md")
       ->capture_default_str();
@@ -264,7 +262,7 @@ int main(int argc, char** argv) {
       "direction of the axis X,Y,Z (default: of the one driven or revolute joint to the ground)");
   campbell_command->add_option("--through", choices.campbell.through,
                                "a point of the axis X,Y,Z (default: that joint's, or 0,0,0 with --about)");
-  campbell_command->add_option("--modes", choices.campbell.modes, "how many vibrations at each speed")
+  campbell_command->add_option("--modes", choices.campbell.modes, "number of vibrations at each speed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   add_folder(campbell_command, choices);
@@ -278,7 +276,7 @@ int main(int argc, char** argv) {
   });
 
   CLI::App* sweep_command = app.add_subcommand(
-      "sweep", "simulate a reduced scene with some of its numbers varied, members spread over ranks");
+      "sweep", "simulate a reduced scene for several values of its parameters, distributed over the ranks");
   add_scene(sweep_command, choices);
   sweep_command->add_option("--formulation", choices.formulation, "vm+md | vm")->capture_default_str();
   sweep_command
@@ -287,7 +285,8 @@ int main(int argc, char** argv) {
                    "parameters by their name); several: every combination")
       ->required()
       ->allow_extra_args(false);
-  sweep_command->add_flag("--together", choices.together, "the i-th values of all together, not every combination");
+  sweep_command->add_flag("--together", choices.together,
+                          "vary all together, the i-th value of each, instead of every combination");
   add_folder(sweep_command, choices);
   sweep_command->callback([&] {
     work = [&] {
@@ -299,24 +298,24 @@ int main(int argc, char** argv) {
     };
   });
 
-  CLI::App* modes_command = app.add_subcommand("modes", "frequencies of each body, with residuals");
+  CLI::App* modes_command = app.add_subcommand("modes", "compute the natural frequencies of each body, with residuals");
   add_scene(modes_command, choices);
   modes_command->add_option("--write", choices.out,
                             "shapes of modes and derivatives for ParaView: FILE.xdmf, and FILE.h5 beside it");
   modes_command->add_option("--write-matrices", choices.matrices,
-                            "a folder: K and M of each body under the conditions of its modes, in Matrix Market, and "
-                            "what their rows are");
-  modes_command->add_flag("--force", choices.force, "replace these files if they are there");
+                            "folder for K and M of each body under the conditions of its modes, in Matrix Market "
+                            "format, with the meaning of their rows");
+  modes_command->add_flag("--force", choices.force, "replace these files if they exist");
   modes_command->callback([&] {
     work = [&] { modes(read(choices.scene), PETSC_COMM_WORLD, choices.out, choices.matrices, choices.force); };
   });
 
-  CLI::App* reduce_command =
-      app.add_subcommand("reduce", "reduce one body, offline and in parallel, into a file that needs no mesh");
+  CLI::App* reduce_command = app.add_subcommand(
+      "reduce", "reduce one body, offline and in parallel, and write it to a file that needs no mesh");
   add_scene(reduce_command, choices);
-  reduce_command->add_option("--body", choices.body, "which one (default: the only one)");
+  reduce_command->add_option("--body", choices.body, "name of the body (default: the only one)");
   reduce_command->add_option("-o,--out", choices.out, "the file (default: NAME.h5)");
-  reduce_command->add_flag("--force", choices.force, "replace the file if it is there");
+  reduce_command->add_flag("--force", choices.force, "replace the file if it exists");
   reduce_command->callback([&] {
     work = [&] {
       const std::string path = choices.out ? *choices.out : stem(choices.scene) + ".h5";
@@ -324,17 +323,17 @@ int main(int argc, char** argv) {
     };
   });
 
-  CLI::App* info_command = app.add_subcommand("info", "what a reduced body's file holds");
-  info_command->add_option("FILE", choices.scene, "made by floe reduce")->required();
+  CLI::App* info_command = app.add_subcommand("info", "describe the contents of a reduced body's file");
+  info_command->add_option("FILE", choices.scene, "file written by floe reduce")->required();
   info_command->callback([&] { work = [&] { info(choices.scene, PETSC_COMM_WORLD); }; });
 
   Showing showing;
   add_showing(app, showing, work);
 
-  CLI::App* check_command = app.add_subcommand("check", "validate a scene and say what would be simulated");
+  CLI::App* check_command = app.add_subcommand("check", "check the input; list bodies, unknowns and steps");
   add_scene(check_command, choices);
   check_command->add_option("--formulation", choices.formulation,
-                            "build the scene in this one, as run would (default: at full order, if it can be)");
+                            "build the scene in this formulation, as run would (default: nlffr, if possible)");
   check_command->callback([&, given = check_command->get_option("--formulation")] {
     work = [&, given] {
       const std::optional<scene::Formulation> formulation =
@@ -361,7 +360,7 @@ int main(int argc, char** argv) {
     std::string what = error.what();
     if (app.get_subcommands().empty() && !line.own.empty() && line.own.front()[0] != '-')
       what = fmt::format(
-          "\"{}\" is no command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
+          "\"{}\" is not a command; expected run, compare, tradeoff, sweep, static, campbell, modes, reduce, info, "
           "motion, "
           "plot, report, export, check or schema",
           line.own.front());

@@ -37,16 +37,17 @@ Eigen::Vector3d vector_of(const scene::Point& p) { return {p[0], p[1], p[2]}; }
 Eigen::Vector3d direction_of(const scene::Scene& scene, const CampbellRequest& request, const scene::Joint* hub) {
   if (request.about) {
     const Eigen::Vector3d about = parse_point(*request.about, "--about");
-    if (about.norm() == 0) throw InputError("--about: has no direction; expected three numbers, as [0,0,1]");
+    if (about.norm() == 0) throw InputError("--about: is the zero vector; expected three numbers, as [0,0,1]");
     if (scene.dimension == 2 && about.normalized().z() < 1 - 1e-12)
-      throw InputError("--about: a scene in the plane turns about [0,0,1]");
+      throw InputError("--about: a planar scene rotates about [0,0,1]");
     return about.normalized();
   }
   if (scene.dimension == 2) return Eigen::Vector3d::UnitZ();
   if (hub && hub->axis_given) return vector_of(hub->axis).normalized();
-  throw InputError(fmt::format("{}: {}; expected --about X,Y,Z and --through X,Y,Z", scene.file,
-                               hub ? fmt::format("joint {} about which it turns has no `axis`", hub->name)
-                                   : "the axis is not that of one driven or revolute joint to the ground"));
+  throw InputError(
+      fmt::format("{}: {}; expected --about X,Y,Z and --through X,Y,Z", scene.file,
+                  hub ? fmt::format("the only driven or revolute joint to the ground, {}, has no `axis`", hub->name)
+                      : "the axis is not that of one driven or revolute joint to the ground"));
 }
 
 /// The scene with a probe more, that shows where the hub is at the start.
@@ -78,7 +79,7 @@ solve::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellD
     if (of_nodes) continue;  // every node is a frame among the system's attitudes
     if (body.first_coordinate < 0)
       throw InputError(
-          fmt::format("{}: body {} is clamped to the ground, and cannot turn; expected a joint of type "
+          fmt::format("{}: body {} is clamped to the ground, and cannot rotate; expected a joint of type "
                       "driven or revolute to the ground in place of a fixed one",
                       scene.file, body.name));
     if (!body.attitude) rotating.planar_frames.push_back(body.first_coordinate);
@@ -130,11 +131,11 @@ void warn(double speed, const std::vector<solve::State>& fastest, MPI_Comm comm,
 
 void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
   if (point.jump.ratio == 0) return;
-  diagram.model.warnings.push_back(fmt::format(
-      "between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: it changes {:.2g} times as much as "
-      "its tangents predict (limit {:.2g}). What follows belongs to that branch; start from the speed or the shape "
-      "(`initial`) whose branch is meant",
-      point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
+  diagram.model.warnings.push_back(
+      fmt::format("between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is {:.2g} "
+                  "times that predicted by the tangents (limit {:.2g}). The results above that speed belong to the "
+                  "other branch; start from a speed or a shape (`initial`) on the intended branch",
+                  point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
 }
 
 bool is_unstable(const CampbellPoint& point) {
@@ -163,12 +164,12 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
   }
   if (!point.fault.empty())
     diagram.model.warnings.push_back(
-        fmt::format("{} was not looked at with the full-order model: {}; compare with more modes", what, point.fault));
+        fmt::format("{} was not checked with the full-order model: {}; compare with more modes", what, point.fault));
   else if (!is_unstable(point))
-    diagram.model.warnings.push_back(fmt::format(
-        "{} is that of the reduced model: the full-order model of the same mesh is stable there (growth below 0, its "
-        "first frequency {:.4g} rad/s); take more modes and derivatives, or nlffr",
-        what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
+    diagram.model.warnings.push_back(
+        fmt::format("{} is an artefact of the reduced model: the full-order model of the same mesh is stable there "
+                    "(growth below 0, first frequency {:.4g} rad/s); take more modes and derivatives, or nlffr",
+                    what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
 }
 
 }  // namespace
@@ -177,11 +178,9 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
                          const CampbellRequest& request, std::exception_ptr& fault) {
   const std::vector<double> speeds = parse_speeds(request.speeds);
   if (formulation == scene::Formulation::cfr && given.dimension == 2)
-    throw InputError("--formulation: cfr has no frames that turn in the plane; expected nlffr, lffr, vm or vm+md");
+    throw InputError("--formulation: cfr has no rotating frames in the plane; expected nlffr, lffr, vm or vm+md");
   if (int ranks = 1; formulation == scene::Formulation::cfr && (MPI_Comm_size(comm, &ranks), ranks > 1))
-    throw InputError(
-        "--formulation: cfr, whose nodes are spread over the ranks, is known on one rank only; expected "
-        "one rank, or nlffr, lffr, vm or vm+md");
+    throw InputError("--formulation: cfr is supported on one rank only; expected one rank, or nlffr, lffr, vm or vm+md");
   const scene::Joint* hub = hub_of(given);
   CampbellDiagram diagram;
   diagram.axis.direction = direction_of(given, request, hub);

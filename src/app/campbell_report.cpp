@@ -19,7 +19,7 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
     const std::string empty;
     if (!point.fault.empty() || point.vibrations.empty())
       table.rows.push_back({point.speed, empty, empty, empty, empty,
-                            std::string(point.fault.empty() ? "nothing vibrates"
+                            std::string(point.fault.empty() ? "no vibrations"
                                         : point.steady      ? "vibrations not found"
                                                             : "no steady rotation")});
     for (std::size_t i = 0; i < point.vibrations.size(); ++i) {
@@ -27,7 +27,7 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
       table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
                             v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
                             std::string(v.unstable() ? "unstable"
-                                        : v.zero     ? fmt::format("zero mode, or below {:.2g} rad/s", v.below)
+                                        : v.zero     ? fmt::format("rigid-body mode, or below {:.2g} rad/s", v.below)
                                                      : "")});
     }
   }

@@ -31,14 +31,14 @@ std::vector<double> parse_values(const std::string& text,
                                  const std::function<InputError(const std::string& what)>& fault) {
   if (text.find(':') == std::string::npos) {
     std::vector<double> list = numbers(text, ',');
-    if (list.empty()) throw fault("is no list of numbers");
+    if (list.empty()) throw fault("is not a list of numbers");
     if (list.size() > most) throw fault(fmt::format("has more than {} numbers", most));
     return list;
   }
   const std::vector<double> range = numbers(text, ':');
-  if (range.size() != 3) throw fault("is no range of three numbers");
+  if (range.size() != 3) throw fault("is not a range of three numbers");
   const double steps = (range[1] - range[0]) / range[2];
-  if (!(steps >= 0)) throw fault("never arrives");
+  if (!(steps >= 0)) throw fault("never reaches its end");
   if (steps > most) throw fault(fmt::format("has more than {} numbers", most));
   std::vector<double> speeds;
   for (int i = 0; i <= std::floor(steps + 1e-9); ++i) speeds.push_back(range[0] + i * range[2]);
@@ -57,7 +57,7 @@ Eigen::Vector3d parse_point(const std::string& text, const std::string& option) 
   if (bare.size() > 1 && bare.front() == '[' && bare.back() == ']') bare = bare.substr(1, bare.size() - 2);
   const std::vector<double> x = numbers(bare, ',');
   if (x.size() != 2 && x.size() != 3)
-    throw InputError(fmt::format("{}: \"{}\" is no point; expected three numbers, as [0,0,1]", option, text));
+    throw InputError(fmt::format("{}: \"{}\" is not a point; expected three numbers, as [0,0,1]", option, text));
   return {x[0], x[1], x.size() == 3 ? x[2] : 0};
 }
 

@@ -70,10 +70,10 @@ void check_identity(const ordered_json& of_checkpoint, const ordered_json& now, 
     return value.is_string() ? value.get<std::string>() : value.dump();
   };
   if (differs("formulation"))
-    faults.push_back(fmt::format("--restart {}: the run's formulation was {}; expected no other, not {}", folder,
+    faults.push_back(fmt::format("--restart {}: the run's formulation was {}; expected the same, not {}", folder,
                                  text(of_checkpoint["formulation"]), text(now["formulation"])));
   if (differs("ranks"))
-    faults.push_back(fmt::format("--restart {}: the run was one of {} ranks; expected as many, not {}", folder,
+    faults.push_back(fmt::format("--restart {}: the run had {} ranks; expected the same number, not {}", folder,
                                  text(of_checkpoint["ranks"]), text(now["ranks"])));
   if (differs("petsc_options"))
     faults.push_back(fmt::format("--restart {}: the run had the options \"{}\"; expected the same, not \"{}\"", folder,
@@ -81,8 +81,8 @@ void check_identity(const ordered_json& of_checkpoint, const ordered_json& now, 
   const ordered_json &then = of_checkpoint.at("files"), &files = now.at("files");
   for (std::size_t i = 0; i < std::max(then.size(), files.size()); ++i)
     if (i >= then.size() || i >= files.size() || then[i]["hash"] != files[i]["hash"])
-      faults.push_back(fmt::format("--restart {}: {} has changed since; expected the file that the run was made with",
-                                   folder, text((i < files.size() ? files : then)[i]["path"])));
+      faults.push_back(fmt::format("--restart {}: {} has changed since; expected the file used by that run", folder,
+                                   text((i < files.size() ? files : then)[i]["path"])));
   if (!faults.empty()) throw InputError(faults);
 }
 

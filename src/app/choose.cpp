@@ -121,13 +121,13 @@ class Search {
     }
     if (pool_->columns().empty()) return;
     std::size_t offered = pool_->columns().size();
-    decide("richest model", fmt::format("{} columns", offered),
-           responses > 0 ? fmt::format("{} responses to what is missing: estimated error {} (before: {})", responses,
-                                       math::percent(space_), math::percent(first))
+    decide("richest model", fmt::format("{} basis vectors", offered),
+           responses > 0 ? fmt::format("{} correction vectors from residual responses: estimated error {} (before: {})",
+                                       responses, math::percent(space_), math::percent(first))
                          : "estimated error " + math::percent(space_));
     if (too_low > 2)
-      decisions_.back().reason +=
-          fmt::format("; the first estimates were too low by as much as {:.2g}, which is counted", too_low);
+      decisions_.back().reason += fmt::format(
+          "; the first estimates were too low by a factor of up to {:.2g}, which is accounted for", too_low);
   }
 
   double estimate_of(const RunResult& result) const {
@@ -135,12 +135,13 @@ class Search {
     if (pool_->columns().empty()) {
       if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), from_file))
         throw InputError(scene_.file +
-                         ": accuracy: nothing supports a choice: bodies from files have no mesh to compare "
-                         "with, and there is no other flexible body");
+                         ": accuracy: no error estimate is possible: bodies from files have no mesh to compare with, "
+                         "and there is no other flexible body");
       return 0;
     }
     if (!result.estimate.none.empty())
-      throw InputError(fmt::format("{}: accuracy: nothing supports a choice: {}", scene_.file, result.estimate.none));
+      throw InputError(
+          fmt::format("{}: accuracy: no error estimate is possible: {}", scene_.file, result.estimate.none));
     double worst = 0;
     for (const double error : result.estimate.probes) worst = std::max(worst, error);
     return worst;
@@ -236,7 +237,7 @@ class Search {
     if (!(cheaper.error <= allowance())) return;
     // With no more columns the linear force is the cheaper one, whatever a clock says.
     if (some.count() > selection_.count() && !(seconds_of(some, step_) < 0.9 * seconds_of(selection_, step_))) {
-      linear_ += fmt::format(" with {} columns, and no faster", some.count());
+      linear_ += fmt::format(" with {} basis vectors, but not faster", some.count());
       return;
     }
     selection_ = some, order_ = plain, count_ = some.count();
@@ -260,8 +261,8 @@ class Search {
         decide("bodies", "flexible", "rigid: " + words(rigid));
         Selection less = first_of(order_, count_ - 1);
         less.linear = selection_.linear;
-        decide("columns", fmt::format("{} of {}", count_, pool_->columns().size()),
-               fmt::format("without the last, {}: {}", pool_->columns()[order_[count_ - 1].column].label,
+        decide("basis vectors", fmt::format("{} of {}", count_, pool_->columns().size()),
+               fmt::format("without the last one, {}: {}", pool_->columns()[order_[count_ - 1].column].label,
                            words(tried(less, step_))));
         std::vector<std::string> bodies;
         for (std::size_t i = 0; i < pool_->columns().size(); ++i) {
@@ -272,7 +273,7 @@ class Search {
           Selection of_body = selection_;
           for (std::size_t i = 0; i < of_body.taken.size(); ++i)
             if (pool_->columns()[i].body != body) of_body.taken[i] = 0;
-          decide("  " + body, of_body.count() > 0 ? fmt::format("{} columns", of_body.count()) : "rigid",
+          decide("  " + body, of_body.count() > 0 ? fmt::format("{} basis vectors", of_body.count()) : "rigid",
                  names(of_body));
         }
         decide("elastic force", selection_.linear ? "linear" : "von Karman",
@@ -281,19 +282,19 @@ class Search {
     }
     decide("step", fmt::format("{:.4g} s", step_),
            longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(tried(selection_, 2 * step_)))
-                         : "32 steps of the motion at least");
+                         : "a simulation has at least 32 steps");
   }
 
   Chosen finished() {
     explain();
     for (const scene::Body& body : scene_.bodies)
-      if (body.reduced) decide("  " + body.name, "from a file", "counted as exact: its mesh is not here");
+      if (body.reduced) decide("  " + body.name, "from a file", "assumed exact: its mesh is not available");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
     const double of_choice = tried(selection_, step_).error;
     chosen.supported = richest_ + of_choice;
-    decide("supported error", math::percent(chosen.supported),
-           fmt::format("{} of the choice, {} of the richest model, {} of its step", math::percent(of_choice),
+    decide("estimated error", math::percent(chosen.supported),
+           fmt::format("{} of the selected model, {} of the richest model, {} of its step", math::percent(of_choice),
                        math::percent(space_), math::percent(time_)));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
@@ -327,13 +328,12 @@ class Search {
 Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
   const double begin = MPI_Wtime();
   if (scene.probes.empty())
-    throw InputError(scene.file + ": accuracy: is that of the probes, and there are none; expected `probes: {...}`");
+    throw InputError(scene.file + ": accuracy: applies to the probes, and there are none; expected `probes: {...}`");
   if (!scene.events.empty())
-    throw InputError(
-        scene.file +
-        ": accuracy: nothing supports a choice: events change the joints, or end the motion when the model "
-        "has them do so; expected a scene without");
-  const output::Waiting waiting(comm, "choosing the model");
+    throw InputError(scene.file +
+                     ": accuracy: no error estimate is possible: events change the joints, or end the simulation at a "
+                     "time that depends on the model; expected a scene without events");
+  const output::Waiting waiting(comm, "selecting the model");
   Chosen chosen = Search(scene, accuracy, comm).result();
   chosen.seconds = MPI_Wtime() - begin;
   return chosen;

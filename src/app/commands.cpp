@@ -40,7 +40,7 @@ std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
     case Choice::count:
       return fmt::format("{} {} derivatives by modal interaction", spec.count, kind);
     default:
-      return fmt::format("{} {} derivatives that are named", spec.pairs.size(), kind);
+      return fmt::format("{} {} derivatives as listed", spec.pairs.size(), kind);
   }
 }
 
@@ -57,9 +57,10 @@ std::string basis_words(const scene::Body& body) {
   if (body.rigid) return "rigid";
   if (body.reduced) return reduced_words(*body.reduced->file, body.reduced->path);
   const scene::ModesSpec& modes = body.reduction.modes;
-  return fmt::format("{} modes ({}), {}", modes.count,
-                     modes.of == scene::ModesSpec::Of::joints ? "as its joints hold it" : "of its frame",
-                     derivative_words(body.reduction.derivatives, modes.count));
+  return fmt::format(
+      "{} modes ({}), {}", modes.count,
+      modes.of == scene::ModesSpec::Of::joints ? "with its joints fixed" : "under its frame's conditions",
+      derivative_words(body.reduction.derivatives, modes.count));
 }
 
 /// From so many elements on, `check` does not build the full-order system: it would take seconds and gigabytes.
@@ -130,8 +131,8 @@ std::vector<std::string> notices_of(const Bodies& bodies) {
   return all;
 }
 
-/// In which formulation `check` builds a scene: at full order, or where bodies are from files or their damping is of
-/// modes, in the first that has them.
+/// In which formulation `check` builds a scene: of the full-order model, or where bodies are from files or their
+/// damping is of modes, in the first that has them.
 scene::Formulation first_possible(const scene::Scene& scene) {
   const auto any = [&](const auto& is) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), is); };
   if (any([](const scene::Body& body) { return !body.damping.modal.empty(); })) return scene::Formulation::vm_md;
@@ -161,8 +162,8 @@ std::string unsolved_words(const assembly::BodyReport& body) {
     if (!(body.residual[i] <= greatest)) which.push_back(i + 1), most = std::max(most, body.residual[i]);
   if (which.empty()) return "";
   return fmt::format(
-      "Note: body {}: mode{} {} {} residuals up to {:.2g} (limit {:.0e}): the equations of the mesh are met no better; "
-      "ask for fewer modes\n",
+      "Note: body {}: mode{} {} {} residuals up to {:.2g} (limit {:.0e}): the eigensolver reached no smaller ones; ask "
+      "for fewer modes\n",
       body.name, which.size() > 1 ? "s" : "", ranges_of(which), which.size() > 1 ? "have" : "has", most, greatest);
 }
 
@@ -191,7 +192,8 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
   if (matrices) fmt::print("Matrices: {}\n", *matrices);
   if (!path) return;
   for (const auto& body : bodies)
-    if (!body.file.empty()) fmt::print("Note: body {} comes from {}, which holds its shapes\n", body.name, body.file);
+    if (!body.file.empty())
+      fmt::print("Note: body {} comes from {}, which contains its shapes\n", body.name, body.file);
   fmt::print("Shapes: {}\n", *path);
 }
 
@@ -214,23 +216,26 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
   fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
   if (model)
-    fmt::print("{} coordinates and {} multipliers {}\n", model->coordinates, model->multipliers,
-               formulation == scene::Formulation::nlffr ? "at full order" : "as " + scene::name_of(formulation));
+    fmt::print(
+        "{} coordinates and {} multipliers {}\n", model->coordinates, model->multipliers,
+        formulation == scene::Formulation::nlffr ? "of the full-order model" : "as " + scene::name_of(formulation));
   else
     fmt::print(
-        "the full-order system is not built here, from {} elements on (--formulation vm+md builds the reduced one)\n",
+        "the full-order model is not built by this command from {} elements on (--formulation vm+md builds the reduced "
+        "one)\n",
         greatest_built);
   const bool moves = scene.motion.end > 0;
   if (moves)
-    fmt::print("motion to t = {} s, ", scene.motion.end);
+    fmt::print("simulation to t = {} s, ", scene.motion.end);
   else
-    fmt::print("no motion: fit for modes, reduce, static and campbell; run, compare, tradeoff and sweep need one\n");
+    fmt::print(
+        "no motion: sufficient for modes, reduce, static and campbell; run, compare, tradeoff and sweep need it\n");
   if (moves && scene.motion.tolerance)
     fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
   else if (moves)
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
   if (model && model->velocity_correction > 1e-9)
-    fmt::print("the velocities at the start do not fit the joints and will be changed by {:.2g} of their size\n",
+    fmt::print("the initial velocities violate the joints and will be changed by {:.2g} of their size\n",
                model->velocity_correction);
   std::vector<std::string> notes = notices_of(sizes);
   if (model)
@@ -262,9 +267,10 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   const auto& s = result.summary;
   fmt::print("{} as {} ({}): {} coordinates, {} steps to t = {} s\n", scene.title.empty() ? scene.file : scene.title,
              scene::name_of(formulation), result.label, result.coordinates, result.steps, result.end);
-  fmt::print("offline {:.3g} s, motion {:.3g} s ({:.3g} us a step)\n", result.offline_seconds, result.motion_seconds,
+  fmt::print("offline {:.3g} s, simulation {:.3g} s ({:.3g} us per step)\n", result.offline_seconds,
+             result.motion_seconds,
              1e6 * result.motion_seconds / std::max<double>(1, static_cast<double>(result.steps)));
-  fmt::print("constraints within {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
+  fmt::print("constraint violation at most {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
   const bool estimated = result.estimate.none.empty();
@@ -278,7 +284,7 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   std::size_t number = 0;
   for (const auto& event : s["events"]) {
     if (number++ == shown) {
-      fmt::print("... and {} events more, in summary.json\n", s["events"].size() - shown);
+      fmt::print("... and {} more events, in summary.json\n", s["events"].size() - shown);
       break;
     }
     fmt::print("event {} at t = {:.9g} s: {}{}\n", event["name"].get<std::string>(), event["t"].get<double>(),
@@ -292,7 +298,7 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   }
   if (!s["events"].empty()) fmt::print("\n");
   output::Table table;
-  table.columns = {{"probe", ""}, {"at the end", "", 6}, {"least", "", 6}, {"greatest", "", 6}, {"unit", ""}};
+  table.columns = {{"probe", ""}, {"at the end", "", 6}, {"min", "", 6}, {"max", "", 6}, {"unit", ""}};
   for (std::size_t c = 0; c < result.series.columns.size(); ++c) {
     double least = result.series.values[0][c], greatest = least;
     for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
@@ -341,7 +347,7 @@ void check_target(const std::filesystem::path& target, const std::filesystem::pa
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (std::filesystem::is_directory(target)) throw InputError(name + ": is a folder; expected the name of a file");
   if (!std::filesystem::is_directory(folder) || access(folder.c_str(), W_OK) != 0)
-    throw InputError(name + ": cannot be written there; expected a folder that can");
+    throw InputError(name + ": cannot be written there; expected a writable folder");
   if (!std::filesystem::exists(target)) return;
   if (std::filesystem::equivalent(target, scene))
     throw InputError(name + ": is the scene itself; expected another name");

@@ -90,7 +90,7 @@ void compare(const scene::Scene& as_written, const std::vector<Formulation>& for
   }
   if (rows.empty()) {
     discard();
-    throw RunError("no formulation came to the end of its motion");
+    throw RunError("no formulation reached the end of its simulation");
   }
 
   std::vector<const Compared*> references;
@@ -150,7 +150,7 @@ void compare(const scene::Scene& as_written, const std::vector<Formulation>& for
     output::write_file_atomically(folder.path / "compare.csv", output::to_csv(table));
     output::write_file_atomically(folder.path / "compare.md", output::to_markdown(table));
     fmt::print("{}\n", comparison_text(rows, references, failed, finer, terminal_columns()));
-    fmt::print("Errors: relative L2 over the horizon.");
+    fmt::print("Errors: relative L2 norm over the simulated time.");
     if (!own.name.empty())
       fmt::print(" The last row is the error of the reference itself, {} with {}.", own.name, own.refined);
     fmt::print("\n");

@@ -56,7 +56,7 @@ int become_script(const std::string& name, const std::vector<std::string>& words
   if (later_rank()) return 0;
   const std::string script = script_of(name);
   if (!readable(script)) {
-    std::fprintf(stderr, "floe: %s is missing: floe is not wholly installed\n", script.c_str());
+    std::fprintf(stderr, "floe: %s is missing: the installation of floe is incomplete\n", script.c_str());
     return 1;
   }
   std::vector<std::string> all = {python(), "-B", script};  // -B: leaves nothing beside the script

@@ -37,10 +37,10 @@ void warn_of_instability(const assembly::Model& model, double t, RunResult& resu
   const int directions = looked.value_or(0);
   if (directions == 0) return;
   result.summary["unstable_from"] = t;
-  result.warnings.push_back(fmt::format(
-      "the equilibrium at t = {:.6g} is unstable in {} {}: a disturbance leads away from it. Start nearer to "
-      "a stable one (`initial`), or let the scene come to rest in a damped motion",
-      t, directions, directions == 1 ? "direction" : "directions"));
+  result.warnings.push_back(
+      fmt::format("the equilibrium at t = {:.6g} is unstable in {} {}: small disturbances grow. Start nearer to a "
+                  "stable equilibrium (`initial`), or simulate a damped motion until it comes to rest",
+                  t, directions, directions == 1 ? "direction" : "directions"));
 }
 
 /// Says of a jump where it is and what the probe that it changes most did.
@@ -55,9 +55,9 @@ void warn_of_jump(const assembly::Model& model, const solve::BranchJump& jump, V
       is.empty() ? ""
                  : fmt::format(" ({} from {:.4g} to {:.4g})", result.series.columns[most].name, was[most], is[most]);
   const std::string words = fmt::format(
-      "the equilibrium jumps between t = {:.6g} and {:.6g}{}: it changes {:.2g} times as much as its tangents predict "
-      "(limit {:.2g}): it snaps through, or the load jumps. What follows is another branch of equilibria, not the only "
-      "one there may be: simulate the snap as a damped motion (floe run)",
+      "the equilibrium jumps between t = {:.6g} and {:.6g}{}: the change is {:.2g} times that predicted by the "
+      "tangents (limit {:.2g}), because of snap-through or a discontinuous load. The equilibria after it belong to "
+      "another branch, which need not be the only one; simulate the snap-through as a damped motion (floe run)",
       jump.from, jump.to, probe, jump.ratio, solve::least_jump);
   result.warnings.push_back(words);
   if (!result.summary.contains("jumps")) result.summary["jumps"] = nlohmann::ordered_json::array();
@@ -142,7 +142,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   try {
     const std::string unchecked = petsc::failed_together(
         comm, [&] { result.out_of_range = assess::shapes_out_of_range(model, kept.states(), comm); });
-    if (!unchecked.empty()) result.warnings.push_back("the model's range was not checked: " + unchecked);
+    if (!unchecked.empty()) result.warnings.push_back("the model's validity was not checked: " + unchecked);
     for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
     if (estimate) {
       const output::Waiting waiting(comm, "estimating the error");
@@ -185,7 +185,8 @@ void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   }
   fmt::print("{}", output::to_text(table));
   if (shown < result.series.columns.size())
-    fmt::print("{} more columns are in {}\n", result.series.columns.size() - shown, folder.probes().string());
+    fmt::print("{} more columns of the table are in {}\n", result.series.columns.size() - shown,
+               folder.probes().string());
   if (estimate) fmt::print("{}{}", probes_estimate(result), estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());

@@ -13,9 +13,9 @@ std::string estimate_words(const assess::Estimate& estimate) {
   const std::string error =
       std::isfinite(estimate.deformation)
           ? "estimated error " + math::percent(estimate.deformation)
-          : "estimated error beyond 10000 %, which is no estimate: smaller steps or more columns may help";
-  std::string words =
-      fmt::format("{} (deformations, against the full order of the same mesh; {:.2g} s)\n", error, estimate.seconds);
+          : "estimated error above 10000 %, which is no usable estimate; take smaller steps or more basis vectors";
+  std::string words = fmt::format("{} (deformations, relative to the full-order model of the same mesh; {:.2g} s)\n",
+                                  error, estimate.seconds);
   for (const std::string& note : estimate.notes) words += "Note (estimate): " + note + "\n";
   return words;
 }
@@ -24,19 +24,19 @@ std::string missed_words(double asked, double supported) {
   constexpr int most = 15;
   int digits = 2;
   while (digits < most && math::percent(asked, digits) == math::percent(supported, digits)) ++digits;
-  return fmt::format("an error of {} was asked for, and the best model found has an estimated error of {}",
+  return fmt::format("the best model found has an estimated error of {1} (limit {0}, the accuracy requested)",
                      math::percent(asked, digits), math::percent(supported, digits));
 }
 
 std::string step_words(const nlohmann::ordered_json& step, double end) {
   if (!step.is_object()) return "";
   if (step.contains("none"))
-    return fmt::format("No estimate of the step's error: {}\n", step["none"].get<std::string>());
+    return fmt::format("No estimate of the time-step error: {}\n", step["none"].get<std::string>());
   const double error = step["deformation"], until = step["until"];
   const std::string part = until < 0.99 * end ? fmt::format(", to t = {:.3g} s to save time", until) : "";
-  return fmt::format("error of the step {} (deformations, by the motion with {}{}; {:.2g} s)\n",
-                     std::isfinite(error) ? math::percent(error) : "beyond 10000 %", step["by"].get<std::string>(),
-                     part, step["seconds"].get<double>());
+  return fmt::format("time-step error {} (deformations, relative to the simulation with {}{}; {:.2g} s)\n",
+                     std::isfinite(error) ? math::percent(error) : "above 10000 %", step["by"].get<std::string>(), part,
+                     step["seconds"].get<double>());
 }
 
 }  // namespace floe::app

@@ -82,7 +82,7 @@ std::string option_fault(const std::string& name, const std::string& value) {
   if (begins(name, objects) || begins(name, globals)) return "";
   if (!begins(name, solvers)) {
     const std::string near = meant(name);
-    return fmt::format("option -{}: no solver of floe has this prefix; {}", name,
+    return fmt::format("option -{}: unknown prefix; {}", name,
                        near.empty() ? fmt::format("expected -{}..., or an option of PETSc as a whole (-log_view)",
                                                   fmt::join(solvers, "..., -"))
                                     : fmt::format("did you mean -{}?", near));
@@ -124,13 +124,13 @@ void check_options(const std::string& command) {
     if (!fault.empty())
       faults.push_back(fault);
     else if (!commands.empty() && std::find(commands.begin(), commands.end(), command) == commands.end())
-      faults.push_back(fmt::format("option {}: floe {} has no such solver; expected it with {}", written({name, value}),
-                                   command, fmt::join(commands, ", ")));
+      faults.push_back(fmt::format("option {}: floe {} has no solver with this prefix; expected it with {}",
+                                   written({name, value}), command, fmt::join(commands, ", ")));
   });
   if (faults.empty())
     for (const Option& option : unread(given))
-      faults.push_back(fmt::format(
-          "option {}: nothing reads it; floe <command> SCENE -help lists what the solvers read", written(option)));
+      faults.push_back(
+          fmt::format("option {}: unknown; floe <command> SCENE -help lists the solvers' options", written(option)));
   if (!faults.empty()) throw InputError(faults);
 }
 
@@ -154,8 +154,7 @@ void check_unused() {
   MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   for_each_left([&](const std::string& name, const std::string& value) {
     if (begins(name, globals) || (ranks == 1 && begins(name, partitioning))) return;
-    faults.push_back(
-        fmt::format("option {}: nothing in this run has read it; its results are complete", written({name, value})));
+    faults.push_back(fmt::format("option {}: not used in this run; its results are complete", written({name, value})));
   });
   if (!faults.empty()) throw InputError(faults);
 }

@@ -45,9 +45,8 @@ std::string fault_of(const Words& words) {
   if (alias && words.size() == 3 && is_option(words[1]) && is_option(words[2])) return "";
   if (alias) return "alias has no two options after it; expected alias -NEW -OLD";
   if (!is_option(words[0]))
-    return fmt::format("\"{}\" is no option; expected -NAME VALUE, or # before a comment", words[0]);
-  if (words.size() > 2)
-    return fmt::format("\"{}\" stands after option and value; expected one option in a line", words[2]);
+    return fmt::format("\"{}\" is not an option; expected -NAME VALUE, or # before a comment", words[0]);
+  if (words.size() > 2) return fmt::format("\"{}\" follows option and value; expected one option in a line", words[2]);
   return "";
 }
 

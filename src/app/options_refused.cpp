@@ -26,43 +26,52 @@ const std::vector<std::string_view> off = {"false", "no", "0"};
 
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> all = {
-      {"ts_exact_final_time", {"matchstep"}, {}, "a motion ends, and is interrupted by events, at the end of a step"},
-      {"ts_init_time", {"0"}, {}, "a motion begins at t = 0"},
-      {"ts_time_span", {}, {}, "motion.output of the scene gives the times of results"},
+      {"ts_exact_final_time",
+       {"matchstep"},
+       {},
+       "a simulation ends, and is interrupted by events, at the end of a step"},
+      {"ts_init_time", {"0"}, {}, "a simulation begins at t = 0"},
+      {"ts_time_span", {}, {}, "motion.output of the scene sets the output times"},
       {"ts_monitor_cancel", off, {}, "results are written by a monitor"},
-      {"ts_rhs_jacobian_test_mult", off, {}, "a motion has no right-hand side"},
-      {"ts_rhs_jacobian_test_mult_transpose", off, {}, "a motion has no right-hand side"},
+      {"ts_rhs_jacobian_test_mult", off, {}, "the equations of motion have no right-hand side function"},
+      {"ts_rhs_jacobian_test_mult_transpose", off, {}, "the equations of motion have no right-hand side function"},
       {"ts_adjoint_solve", off, {}, "there is no adjoint problem"},
       {"ts_dmswarm_monitor_moments", {}, {}, "there are no particles"},
       {"ts_monitor_sp_swarm", {}, {}, "there are no particles"},
-      {"ts_adapt_type", {"none", "basic", "dsp"}, {}, "it has what generalized-alpha does not estimate"},
+      {"ts_adapt_type", {"none", "basic", "dsp"}, {}, "it needs quantities that generalized-alpha does not estimate"},
       {"ts_convergence_estimate", {}, {}, "there is no sequence of meshes"},
       {"snes_convergence_estimate", {}, {}, "there is no sequence of meshes"},
-      {"snes_convergence_test", {}, {}, "floe's own test measures updates, or round-off"},
+      {"snes_convergence_test", {}, {}, "floe's own convergence test measures updates, or round-off"},
       {"snes_grid_sequence", {"0"}, {}, "there is no sequence of meshes"},
       {"snes_monitor_fields", {}, {}, "there are no fields of a DM"},
       {"snes_monitor_python", {}, {}, "there is no Python in floe"},
       {"ts_monitor_python", {}, {}, "there is no Python in floe"},
-      {"static_snes_type", {"newtonls", "newtontr"}, {}, "equilibria converge by the size of Newton's updates"},
-      {"snes_type", {"simplified-newton", "newtonls"}, {}, "steps converge by the size of Newton's updates"},
+      {"static_snes_type",
+       {"newtonls", "newtontr"},
+       {},
+       "the convergence test for equilibria uses the size of Newton's updates"},
+      {"snes_type",
+       {"simplified-newton", "newtonls"},
+       {},
+       "the convergence test for steps uses the size of Newton's updates"},
       {"snes_linesearch_type", {}, {"shell"}, "there is no such function"},
       {"snes_linesearch_damping",
        {"1", "1."},
        {},
-       "a damped update does not show how far Newton's method has converged"},
+       "a damped update does not measure the convergence of Newton's method"},
       {"motion_ksp_type",
        {},
        {"symmlq", "pipelcg"},
-       "it is for symmetric matrices, and off by 4e-4 (or without end) here"},
-      {"ksp_type", {}, {"pipelcg"}, "it may not end (PETSc 3.18)"},
+       "it is for symmetric matrices; here its error reaches 4e-4, or it does not terminate"},
+      {"ksp_type", {}, {"pipelcg"}, "it may not terminate (PETSc 3.18)"},
       {"ksp_convergence_test", {}, {"skip"}, "an iteration would end with any residual"},
       {"ksp_norm_type", {}, {"none"}, "an iteration would end with any residual"},
-      {"ksp_view_diagonal_scale", off, {}, "PETSc 3.18 ends in it where nothing is scaled"},
-      {"pc_type", {}, {"redistribute"}, "PETSc 3.18 ends in it for a matrix that keeps one half"},
-      {"pc_factor_mat_ordering_type", {}, {"wbm"}, "its library is not free, and ends the program"},
-      {"eps_hermitian", {}, {}, "modes are those of two matrices, K and M"},
-      {"eps_non_hermitian", {}, {}, "modes are those of two matrices, K and M"},
-      {"pep_type", {}, {"jd"}, "SLEPc 3.18 ends in it for dense matrices"},
+      {"ksp_view_diagonal_scale", off, {}, "PETSc 3.18 aborts in it where nothing is scaled"},
+      {"pc_type", {}, {"redistribute"}, "PETSc 3.18 aborts in it for a matrix with symmetric storage"},
+      {"pc_factor_mat_ordering_type", {}, {"wbm"}, "its library is not free software, and aborts the program"},
+      {"eps_hermitian", {}, {}, "modes solve a generalized eigenproblem with K and M"},
+      {"eps_non_hermitian", {}, {}, "modes solve a generalized eigenproblem with K and M"},
+      {"pep_type", {}, {"jd"}, "SLEPc 3.18 aborts in it for dense matrices"},
       {"eps_conv_user", {}, {}, "there is no such function"},
       {"eps_stop_user", {}, {}, "there is no such function"},
   };
@@ -80,13 +89,13 @@ std::string refused_viewer(const std::string& name, const std::string& value) {
                      name.find("_converged_reason") != std::string::npos;
   if (!views) return "";
   for (const char* kind : {"socket", "saws", "matlab"})
-    if (value.starts_with(kind)) return fmt::format("option -{} {}: is not served", name, value);
+    if (value.starts_with(kind)) return fmt::format("option -{} {}: is not supported", name, value);
   const Words windows = {"_monitor_lg", "_monitor_draw", "_monitor_sp", "_monitor_envelope", "_draw"};
   const bool draws = value.starts_with("draw") || std::any_of(windows.begin(), windows.end(), [&](std::string_view w) {
                        return name.find(w) != std::string::npos;
                      });
   if (!draws || std::getenv("DISPLAY")) return "";
-  return fmt::format("option -{}: draws into a window, and there is no display (DISPLAY is not set)", name);
+  return fmt::format("option -{}: needs a window, and there is no display (DISPLAY is not set)", name);
 }
 
 }  // namespace
@@ -101,7 +110,7 @@ std::string refusal(const std::string& name, const std::string& value) {
     if (!ends_in(name, rule.tail)) continue;
     if (has(rule.allowed) || (!rule.refused.empty() && !has(rule.refused))) return "";
     const bool choice = !rule.allowed.empty() && rule.allowed != off;
-    return fmt::format("option -{}{}{}: is not taken: {}{}", name, value.empty() ? "" : " ", value, rule.why,
+    return fmt::format("option -{}{}{}: is rejected: {}{}", name, value.empty() ? "" : " ", value, rule.why,
                        choice ? fmt::format("; expected {}", fmt::join(rule.allowed, " or ")) : "");
   }
   return refused_viewer(name, value);

@@ -36,8 +36,8 @@ void write_columns(output::ResultFile& file, const std::string& group, const ass
       group + "/columns_of_motion", {2}, where,
       {"", body.dimension == 2
                ? "first columns of motion/U: of the frame (R_x, R_y, theta), of the reduced coordinates; -1: none"
-               : "first columns of motion/U: of the frame (R; then three of its turn in the step, see "
-                 "motion/attitude), of the reduced coordinates; -1: it stands still, there are none"});
+               : "first columns of motion/U: of the frame (R; then three of its rotation in the step, see "
+                 "motion/attitude), of the reduced coordinates; -1: fixed frame, none"});
 }
 
 /// Column j of the basis at this rank's nodes.
@@ -76,13 +76,14 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
       group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
       {"",
        (in_world && body.dimension == 3
-            ? "first column of motion/U of the place and of the rotation vector from the undeformed body, in world axes"
+            ? "first column of motion/U of the position and of the rotation vector from the undeformed body, in world axes"
             : std::string("first column of motion/U of the displacements and rotations, in ") +
                   (in_world ? "world axes" : "the axes of the floating frame")) +
-           ", that move the node; its place from where they act, which is not zero where it follows another one"});
+           ", of which the node's displacement depends; offset of the node from the node that has them, not zero for a "
+           "dependent node"});
 }
 
-/// Whether local unknown x is a turn of one of the body's own nodes.
+/// Whether local unknown x is a rotation of one of the body's own nodes.
 bool turns_node(const assembly::BodyReport& body, int x) {
   const int at = x - body.first_dof;
   return body.dimension == 3 && body.first_dof >= 0 && at >= 0 && at < 6 * static_cast<int>(body.positions.size() / 3);

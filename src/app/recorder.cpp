@@ -78,7 +78,8 @@ ordered_json first_summary(const scene::Scene& scene, const assembly::Model& mod
 
 /// What a summary says until the run is assessed: also that of a run which was killed over it.
 constexpr const char* unassessed =
-    "not done: the run was ended while its model's range was checked or its error estimated; its results are whole";
+    "not done: the run was interrupted while the model's validity was checked or its error was estimated; its results "
+    "are complete";
 
 ordered_json estimate_json(const assess::Estimate& estimate, const assembly::Model& model) {
   if (!estimate.none.empty()) return {{"none", estimate.none}};
@@ -156,12 +157,12 @@ std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_seri
       {"motion/U", unknowns, {"", "coordinates and multipliers"}},
       {"motion/V", unknowns, {"", "their rates"}},
       {"motion/energy", 3, {"J", "kinetic, elastic, potential"}},
-      {"motion/constraints", 2, {"", "greatest violation of the constraints, and of their rates"}}};
+      {"motion/constraints", 2, {"", "maximum violation of the constraints, and of their rates"}}};
   if (const int frames = assembly::moving_frames(model_); frames > 0)
     all.emplace_back(
         "motion/attitude", 4 * frames,
-        output::Label{"",
-                      "unit quaternion (w, x, y, z) of each frame that moves in space, in the order of the bodies"});
+        output::Label{
+            "", "unit quaternion (w, x, y, z) of each moving frame of a spatial scene, in the order of the bodies"});
   return all;
 }
 
@@ -258,10 +259,10 @@ void Recorder::write_estimate() {
   for (const auto& row : estimate.errors) errors.insert(errors.end(), row.begin(), row.end());
   file_->write_array("estimate/t", {rows}, estimate.t, {"s", "time"});
   file_->write_array("estimate/deformation", {rows}, estimate.relative,
-                     {"", "estimated error of the deformations, mass-weighted, of their root mean square"});
+                     {"", "estimated error of the deformations, mass-weighted, relative to their root mean square"});
   if (columns > 0)
     file_->write_array("estimate/probes", {rows, columns}, errors,
-                       {"", "estimated error of each column of probes.csv: full order less this model"});
+                       {"", "estimated error of each column of probes.csv: full-order model minus this model"});
 }
 
 void Recorder::store_state(Vec U, Vec V) {
@@ -337,9 +338,9 @@ std::string Recorder::growth_warning() const {
   const double scale = std::max(balance_.turnover(), energy_greatest_), growth = balance_.growth();
   if (!(growth > limit * scale)) return "";
   return fmt::format(
-      "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the greatest energy "
-      "in the motion (limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and no "
-      "options -motion_snes_... that end Newton's method early",
+      "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the maximum energy "
+      "(limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and remove options "
+      "-motion_snes_... that stop Newton's method early",
       growth, balance_.work(), 100 * growth / scale, 100 * limit);
 }
 

@@ -73,12 +73,12 @@ void check_range(const scene::Scene& scene, const assembly::Model& model, const 
       petsc::failed_together(comm, [&] { result.out_of_range = assess::out_of_range(scene, model, kept, comm); });
   if (!why.empty()) {  // as of frequencies that nothing else asked for
     result.out_of_range.clear();
-    result.warnings.push_back("the model's range was not checked: " + why);
+    result.warnings.push_back("the model's validity was not checked: " + why);
   }
   if (plan.measured)
     std::erase_if(result.out_of_range, [](const assess::OutOfRange& one) { return !assess::also_of_full_order(one); });
   for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
-  if (plan.from) result.warnings.push_back("the model's range was checked from the restart on only");
+  if (plan.from) result.warnings.push_back("the model's validity was checked only after the restart");
 }
 
 /// What the step does, for the summary, by the motion with another step; warns where it does much. Collective.
@@ -102,7 +102,7 @@ ordered_json step_error(const assembly::Model& model, const assess::MotionStart&
   j["until"] = error.until;
   j["seconds"] = error.seconds;
   if (!error.probes.empty() && error.probes[worst] > limit)
-    result.warnings.push_back(fmt::format("motion.step {:.3g} s: its error in probe {} is {} (limit {}): take {:.2g} s",
+    result.warnings.push_back(fmt::format("motion.step {:.3g} s: its error in probe {} is {} (limit {}); take {:.2g} s",
                                           how.step, model.probes[worst].name, math::percent(error.probes[worst]),
                                           math::percent(limit), how.step * std::sqrt(limit / error.probes[worst])));
   return j;
@@ -204,11 +204,11 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   }
   if (report.type == TSALPHA2)
     result.warnings.push_back(
-        "-motion_ts_type alpha2: PETSc's type starts with a wrong acceleration before release 3.22, which makes it of "
-        "first order; multipliers may oscillate");
+        "-motion_ts_type alpha2: before release 3.22 PETSc's integrator starts with a wrong acceleration, which "
+        "reduces it to first order; multipliers may oscillate");
   if (scene.motion.output && report.type != solve::generalized_alpha)
     result.warnings.push_back(
-        fmt::format("motion.output: PETSc's type {} has no values within steps; of the instants that are wanted those "
+        fmt::format("motion.output: PETSc's integrator {} does not interpolate within steps; only those output times "
                     "are stored at which a step ends",
                     report.type));
   result.steps = report.steps;
@@ -218,7 +218,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
   if (const std::string warning = recorder.growth_warning(); !warning.empty()) result.warnings.push_back(warning);
   if (plan.keep_states) result.states = kept.states();
-  if (plan.estimate && plan.from) result.estimate.none = "the run was taken up from a checkpoint";
+  if (plan.estimate && plan.from) result.estimate.none = "the run was restarted from a checkpoint";
   if (plan.estimate && !plan.from && changes_joints(scene)) result.estimate.none = "events change the joints";
   const bool assesses = !fault && (estimates || plan.check_range);
   const std::exception_ptr later = fault_of([&] {

@@ -58,7 +58,7 @@ int guarded(const std::function<void()>& work) {
     return 0;
   } catch (const InputError& error) {
     const std::string text = error.what();
-    return report(2, text.find("cannot be taken: PETSc") == std::string::npos ? text : with_options(text));
+    return report(2, text.find("is rejected: PETSc") == std::string::npos ? text : with_options(text));
   } catch (const std::exception& error) {
     return report(1, with_options(error.what()));
   }

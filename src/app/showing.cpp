@@ -23,7 +23,7 @@ std::string finite(const std::string& word) {
 }
 
 void add_amplify(CLI::App* command, Showing& showing) {
-  command->add_option("--amplify", showing.amplify, "enlarge deformations so many times (default: 1)")
+  command->add_option("--amplify", showing.amplify, "scale factor of the deformations (default: 1)")
       ->check(CLI::Validator(finite, "NUMBER"));
 }
 
@@ -35,29 +35,29 @@ void write_motion(const Showing& showing) {
   request.frames = showing.frames;
   request.overwrite = showing.force;
   const output::MotionWritten written = [&] {
-    const output::Waiting waiting(PETSC_COMM_WORLD, "writing the motion");
+    const output::Waiting waiting(PETSC_COMM_WORLD, "writing the simulation");
     return output::write_motion(PETSC_COMM_WORLD, request);
   }();
   int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   if (rank != 0) return;
-  fmt::print("{} instants from t = {} to {} s, {} nodes and {} cells of {}\n", written.t.size(), written.t.front(),
+  fmt::print("{} instants from t = {} to {} s, {} nodes and {} elements of {}\n", written.t.size(), written.t.front(),
              written.t.back(), written.nodes, written.cells, fmt::join(written.bodies, ", "));
   for (const std::string& name : written.without)
-    fmt::print("Note: {} has no mesh in the results and is left out\n", name);
+    fmt::print("Note: {} has no mesh in the results and is omitted\n", name);
   fmt::print("For ParaView: {}\n", request.xdmf.string());
 }
 
 void add_motion(CLI::App& app, Showing& showing, std::function<void()>& work) {
   CLI::App* command =
-      app.add_subcommand("motion", "the moving mechanism of a run for ParaView, all nodes of its meshes");
-  command->add_option("DIR", showing.folder, "what floe run left")->required();
+      app.add_subcommand("motion", "write the motion of a run's mechanism for ParaView, with all nodes of its meshes");
+  command->add_option("DIR", showing.folder, "folder with the results of floe run")->required();
   command->add_option("-o,--out", showing.out, "FILE.xdmf, and FILE.h5 beside it (default: DIR/motion.xdmf)");
   add_amplify(command, showing);
-  command->add_option("--frames", showing.frames, "at most so many instants; 0: all that the run kept")
+  command->add_option("--frames", showing.frames, "maximum number of instants; 0: all stored ones")
       ->check(CLI::Range(0, 1000000000))
       ->capture_default_str();
-  command->add_flag("--force", showing.force, "replace these files if they are there");
+  command->add_flag("--force", showing.force, "replace these files if they exist");
   command->callback([&] { work = [&] { write_motion(showing); }; });
 }
 
@@ -83,37 +83,39 @@ std::vector<std::string> plot_words(const Showing& showing) {
 
 void add_plot(CLI::App& app, Showing& showing) {
   CLI::App* command =
-      app.add_subcommand("plot", "pictures of results: histories, energy, shapes, comparisons, diagrams, animations");
+      app.add_subcommand("plot", "draw results: histories, energy, shapes, comparisons, diagrams, animations");
   command
       ->add_option("PATH", showing.paths,
-                   "folders that floe run, static, compare, tradeoff, sweep or campbell left; shapes (modes.xdmf), "
+                   "result folders of floe run, static, compare, tradeoff, sweep or campbell; shapes (modes.xdmf), "
                    "reduced bodies (NAME.h5)")
       ->required();
   command
       ->add_option("--kind", showing.kinds,
-                   "which pictures, separated by commas: probes, energy, deformed, animation, shapes, campbell, "
-                   "compare, tradeoff, sweep (default: all that PATH has, but for the animation)")
+                   "kinds of pictures, separated by commas: probes, energy, deformed, animation, shapes, campbell, "
+                   "compare, tradeoff, sweep (default: all that PATH has, except animation)")
       ->delimiter(',');
-  command->add_option("-o,--out", showing.out,
-                      "a picture (.png .svg .pdf, an animation .gif .mp4) or a folder (default: beside the results)");
+  command->add_option(
+      "-o,--out", showing.out,
+      "a picture (.png .svg .pdf, an animation .gif .mp4) or a folder (default: in the folder of the results)");
   command->add_option("--format", showing.format, "png | svg | pdf (default: png)")
       ->check(CLI::IsMember({"png", "svg", "pdf"}));
   command->add_option("--probes", showing.probes, "columns of probes.csv, separated by commas: tip.x (default: all)")
       ->delimiter(',');
   command->add_option("--times", showing.times, "instants of deformed shapes, A,B,C [s] (default: six)");
   add_amplify(command, showing);
-  command->add_option("--view", showing.view, "on mechanisms in space: AZIMUTH,ELEVATION [degrees] (default: -60,25)");
-  command->add_option("--body", showing.body, "whose shapes (default: each body's)");
-  command->add_option("--shapes", showing.shapes, "how many shapes, in their order")
+  command->add_option("--view", showing.view,
+                      "view direction of spatial mechanisms: AZIMUTH,ELEVATION [degrees] (default: -60,25)");
+  command->add_option("--body", showing.body, "body whose shapes are drawn (default: all bodies)");
+  command->add_option("--shapes", showing.shapes, "number of shapes, in their order")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   command->add_option("--frames", showing.pictures, "of an animation")
       ->check(CLI::Range(2, 10000))
       ->capture_default_str();
-  command->add_option("--fps", showing.fps, "pictures of an animation in a second")
+  command->add_option("--fps", showing.fps, "frames per second of an animation")
       ->check(CLI::Range(0.1, 120.0))
       ->capture_default_str();
-  command->add_option("--dpi", showing.dpi, "dots per inch of a PNG")
+  command->add_option("--dpi", showing.dpi, "resolution of a PNG [dots per inch]")
       ->check(CLI::Range(20, 1200))
       ->capture_default_str();
   command->callback([&] { showing.script = {"plot", plot_words(showing)}; });
@@ -121,8 +123,8 @@ void add_plot(CLI::App& app, Showing& showing) {
 
 void add_report(CLI::App& app, Showing& showing) {
   CLI::App* command =
-      app.add_subcommand("report", "one page (HTML) on a run: scene, model, tables, pictures, the moving mechanism");
-  command->add_option("DIR", showing.folder, "what floe run, static, compare, tradeoff, sweep or campbell left")
+      app.add_subcommand("report", "write one HTML page on a run: scene, model, tables, pictures, animated mechanism");
+  command->add_option("DIR", showing.folder, "result folder of floe run, static, compare, tradeoff, sweep or campbell")
       ->required();
   command->add_option("-o,--out", showing.out,
                       "the page (default: DIR/report.html); needs no network and no other file");
@@ -145,22 +147,23 @@ std::vector<std::string> export_words(const Showing& showing) {
 
 void add_export(CLI::App& app, Showing& showing) {
   CLI::App* command = app.add_subcommand(
-      "export", "a reduced body for other programs: NumPy, Standard Input Data (SID), MBSim, Matrix Market");
-  command->add_option("BODY", showing.folder, "made by floe reduce")->required();
+      "export", "export a reduced body to other programs: NumPy, Standard Input Data (SID), MBSim, Matrix Market");
+  command->add_option("BODY", showing.folder, "file written by floe reduce")->required();
   command
       ->add_option("-o,--out", showing.out,
-                   "the file; its ending says the format: .npz, .sid .SID_FEM, .xml (MBSim, nonlinear), .h5mbs (MBSim, "
-                   "linear), .mtx (NAME-K.mtx, NAME-M.mtx, NAME-C.mtx)")
+                   "the file; its extension selects the format: .npz, .sid .SID_FEM, .xml (MBSim, nonlinear), .h5mbs "
+                   "(MBSim, linear), .mtx (NAME-K.mtx, NAME-M.mtx, NAME-C.mtx)")
       ->required();
-  command->add_option("--format", showing.format, "npz | sid | mbsim | mbsim-hdf5 | mtx, whatever the ending")
+  command->add_option("--format", showing.format, "npz | sid | mbsim | mbsim-hdf5 | mtx (default: by the extension)")
       ->check(CLI::IsMember({"npz", "sid", "mbsim", "mbsim-hdf5", "mtx"}));
-  command->add_flag("--shapes", showing.with_shapes, "npz: with the mesh and the basis at all nodes");
+  command->add_flag("--shapes", showing.with_shapes, "npz: include the mesh and the basis at all nodes");
   command
       ->add_option("--columns", showing.columns,
-                   "sid: modes (and static columns; derivatives act by geometric stiffness) | all (default: modes)")
+                   "sid: modes (with attachment modes; derivatives act by geometric stiffness) | all (default: modes)")
       ->check(CLI::IsMember({"modes", "all"}));
-  command->add_flag("--no-geometric-stiffness", showing.no_geometric_stiffness, "sid: leave out these terms");
-  command->add_flag("--force", showing.force, "replace the file if it is there");
+  command->add_flag("--no-geometric-stiffness", showing.no_geometric_stiffness,
+                    "sid: omit the geometric stiffness terms");
+  command->add_flag("--force", showing.force, "replace the file if it exists");
   command->callback([&] { showing.script = {"export", export_words(showing)}; });
 }
 

@@ -195,14 +195,14 @@ class Collection {
 Plan plan_of(const std::string& file, scene::Formulation formulation, const std::vector<Varied>& varied,
              bool together) {
   if (!scene::is_reduced(formulation))
-    throw InputError(fmt::format("--formulation {}: a sweep moves reduced models; expected vm+md or vm",
+    throw InputError(fmt::format("--formulation {}: a sweep simulates reduced models; expected vm+md or vm",
                                  scene::name_of(formulation)));
   Plan plan{file, scene::read_scene(file).text, formulation, members_of(varied, together)};
   const scene::Scene first = scene::parse_scene(plan.text, file, plan.members.front());  // are the paths there
   if (first.motion.end <= 0)
-    throw InputError(file +
-                     ": motion: is missing; expected how long and how finely, as `motion: {end: 3, step: 1e-3}`");
-  if (first.probes.empty()) throw InputError(file + ": probes: is missing; expected what the sweep is to show");
+    throw InputError(file + ": motion: is missing; expected end time and time step, as `motion: {end: 3, step: 1e-3}`");
+  if (first.probes.empty())
+    throw InputError(file + ": probes: is missing; expected the quantities that the sweep records");
   return plan;
 }
 
@@ -261,7 +261,8 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
   double saved = begin;
   bool stopped = false;
   for (std::size_t m = rank; m < plan.members.size(); m += ranks) {
-    Member member = stopped ? Member{.fault = "not moved: the sweep was interrupted"} : move_member(plan, m, offline);
+    Member member =
+        stopped ? Member{.fault = "not simulated: the sweep was interrupted"} : move_member(plan, m, offline);
     stopped = stopped || Interruption::happened(PETSC_COMM_SELF);
     if (rank != 0) {
       collection.send(m, member);
@@ -286,7 +287,7 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
   MPI_Allreduce(&offline.reductions, &numbers[1], 1, MPI_INT64_T, MPI_SUM, comm);
   const double seconds = MPI_Wtime() - begin;
   if (rank == 0) {
-    fmt::print("{} members ({} failed) in {:.3g} s; bodies were reduced {} times\n", plan.members.size(), numbers[0],
+    fmt::print("{} members ({} failed) in {:.3g} s; {} reductions of bodies\n", plan.members.size(), numbers[0],
                seconds, numbers[1]);
     for (const SweepWarning& warning : file->warnings()) fmt::print("Note: {}\n", words_of(warning));
     fmt::print("Results: {}\nPicture: {}\n", folder.path.string(), draw("sweep", folder.path.string()));

@@ -43,10 +43,10 @@ SweepFile::SweepFile(const output::ResultFolder& folder, const std::string& scen
   file_->write_text("columns", ordered_json{{"members", of_member}, {"probes", of_rows}}.dump(2));
   file_->add_series("members", static_cast<std::int64_t>(of_member.size()),
                     {"",
-                     "a row each: its number from 1, what was varied, whether it failed (1), steps, time reached, "
-                     "greatest absolute value, root of the mean square over time and last value of each probe"});
+                     "one row per member: its number from 1, the varied values, whether it failed (1), steps, time "
+                     "reached, maximum absolute value, root mean square over time and last value of each probe"});
   file_->add_series("probes", static_cast<std::int64_t>(of_rows.size()),
-                    {"", "of all members one after another: the member's number, time, probes"});
+                    {"", "all members in sequence: the member's number, time, probes"});
   file_->publish();
   save("running");
 }

@@ -16,7 +16,7 @@ Varied parse_varied(const std::string& text) {
         "--vary: \"{}\" {}; expected PATH=FROM:TO:STEP, as loads.tip.force[2]=0:2500:50, or PATH=A,B,C", text, what));
   };
   const auto equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw fault("names no path and values");
+  if (equals == std::string::npos || equals == 0) throw fault("has no path or no values");
   Varied varied{text.substr(0, equals), {}};
   const std::string values = text.substr(equals + 1);
   varied.values = parse_values(values, fault);
@@ -30,8 +30,8 @@ std::vector<std::vector<scene::Variation>> members_of(const std::vector<Varied>&
   for (const Varied& each : varied) {
     if (!paths.insert(each.path).second) throw InputError(fmt::format("--vary: {} is varied twice", each.path));
     if (together && each.values.size() != varied.front().values.size())
-      throw InputError(fmt::format("--together: {} has {} values and {} has {}; expected as many", varied.front().path,
-                                   varied.front().values.size(), each.path, each.values.size()));
+      throw InputError(fmt::format("--together: {} has {} values and {} has {}; expected equal numbers of values",
+                                   varied.front().path, varied.front().values.size(), each.path, each.values.size()));
     if (!together) count *= static_cast<double>(each.values.size());
   }
   if (count > most) throw InputError(fmt::format("--vary: {:.0f} members; expected at most {:.0f}", count, most));
@@ -58,7 +58,7 @@ std::string words_of(const SweepWarning& warning) {
   for (const scene::Variation& each : warning.of) values.push_back(fmt::format("{} = {:.6g}", each.path, each.value));
   const std::size_t more = warning.members.size() - 1;
   return fmt::format("{} (member {}: {}{})", warning.text, warning.members.front(), fmt::join(values, ", "),
-                     more > 0 ? fmt::format("; likewise {} more", more) : "");
+                     more > 0 ? fmt::format("; {} more likewise", more) : "");
 }
 
 }  // namespace floe::app

@@ -20,9 +20,9 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// `the motion stopped at t = 1.2 of 3, after ...`: diverged at t = 1.2 s.
+/// `the simulation stopped at t = 1.2 of 3, after ...`: diverged at t = 1.2 s.
 std::string short_reason(const std::string& text) {
-  const std::string begin = "the motion stopped at t = ";
+  const std::string begin = "the simulation stopped at t = ";
   const auto at = text.find(begin);
   if (at == std::string::npos) return "failed: " + text.substr(0, std::min(text.find('\n'), std::size_t{160}));
   const auto from = at + begin.size();
@@ -45,7 +45,7 @@ Rung measured(const RunResult& result, const References& references) {
   if (result.estimate.none.empty()) rung.estimate = result.estimate.probes;
   const double end = references.exact.t.back();
   if (!std::isfinite(rung.energy) || std::any_of(rung.rms.begin(), rung.rms.end(), [](double e) { return !(e < 1e3); }))
-    rung.stopped = "errors beyond 1e5 %";
+    rung.stopped = "errors above 1e5 %";
   else if (std::abs(result.end - end) > 1e-2 * end)
     rung.stopped = fmt::format("ends at t = {:.4g} s instead of {:.4g} s", result.end, end);
   return rung;
@@ -102,13 +102,13 @@ std::vector<Rung> climb_all(const std::vector<Candidate>& members, const Referen
 
 std::string words(const TradeoffRequest& request, int ranks) {
   return fmt::format(
-      "Errors: of each probe as a vector against {} with a quarter of the step, root mean square over that of the "
-      "reference (peak: greatest over greatest); the first row's is that of the scene's step, the second row's that of "
-      "its mesh. Estimate: without the reference, of the reduction alone (of what is chosen: the error that is "
-      "supported, with that of the step). Speed-up: of the motion. Every model has its own offline stage, nothing is "
+      "Errors: of each probe as a vector relative to {} with a quarter of the step, ratio of root mean squares (peak: "
+      "ratio of maxima); first row: error of the scene's time step, second row: error of its mesh. Estimate: error of "
+      "the reduction, computed without the reference (selected models: including the error of the time step). "
+      "Speed-up: of the simulation. Every model has its own offline stage, nothing is "
       "shared{}.",
       scene::name_of(request.reference),
-      ranks > 1 ? fmt::format("; {} models ran at a time, one rank each", ranks) : "");
+      ranks > 1 ? fmt::format("; {} models ran concurrently, one rank each", ranks) : "");
 }
 
 /// The scene in steps of a quarter, stored as often.
@@ -143,7 +143,7 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
     References references;
     const RunResult result = run(scene, request.reference, comm, std::nullopt);
     if (result.series.columns.empty())
-      throw InputError(scene.file + ": probes: there are none; a trade-off compares what they show");
+      throw InputError(scene.file + ": probes: there are none; expected the quantities that a trade-off compares");
     names = probes(result.series.columns);
     references.own = result.series;
     references.exact = run(in_quarter_steps(scene), request.reference, comm, std::nullopt).series;
@@ -183,9 +183,9 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
     fmt::print("{}\n{}\n", output::to_text(tradeoff_table(names, reference, finer, rungs, chosen, false)),
                words(request, size));
     if (!chosen)
-      fmt::print("No model is within {}\n", math::percent(request.accuracy));
+      fmt::print("No model has an error of at most {}\n", math::percent(request.accuracy));
     else
-      fmt::print("Choice for {}: {} ({}), error {}, {:.3g} times faster than {}\n", math::percent(request.accuracy),
+      fmt::print("Selected for {}: {} ({}), error {}, {:.3g} times faster than {}\n", math::percent(request.accuracy),
                  rungs[*chosen].name, rungs[*chosen].formulation, math::percent(rungs[*chosen].worst()),
                  reference.motion / rungs[*chosen].motion, reference.name);
     fmt::print("Picture: {}\n", draw("tradeoff", folder.path.string()));

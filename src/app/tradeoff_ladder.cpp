@@ -75,14 +75,14 @@ void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
   const struct {
     Attachment choice;
     const char* name;
-  } all[] = {{Attachment::none, "no static columns"},
-             {Attachment::joints, "static columns at joints"},
-             {Attachment::all, "static columns at joints and loads"}};
+  } all[] = {{Attachment::none, "no attachment modes"},
+             {Attachment::joints, "attachment modes at joints"},
+             {Attachment::all, "attachment modes at joints and loads"}};
   for (const auto& [kind, name] : all) {
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(),
                      [kind = kind](const Body& body) { return meshed(body) && body.reduction.attachment != kind; }))
       continue;
-    members.push_back({"static columns", name,
+    members.push_back({"attachment modes", name,
                        changed(scene, [kind = kind](Body& body) { body.reduction.attachment = kind; }),
                        Formulation::vm_md});
   }
@@ -114,7 +114,7 @@ void add_steps(const Scene& scene, std::vector<Candidate>& members) {
 std::vector<Candidate> ladder(const Scene& scene) {
   std::vector<Candidate> members;
   const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.rigid; });
-  members.push_back({"scene", "as the scene says", scene, Formulation::vm_md});
+  members.push_back({"scene", "the scene's own model", scene, Formulation::vm_md});
   if (!flexible) return members;
   members.push_back({"linear", "LFFR", scene, Formulation::lffr});
   members.push_back({"rigid", "rigid bodies", changed(scene, [](Body& body) { body.rigid = true; }), Formulation::vm});
@@ -125,7 +125,7 @@ std::vector<Candidate> ladder(const Scene& scene) {
     scene::Scene any = scene;
     any.motion.tolerance.reset();
     members.push_back(
-        {"accuracy", fmt::format("chosen for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
+        {"accuracy", fmt::format("selected for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
   }
   return members;
 }

@@ -87,7 +87,7 @@ output::Table tradeoff_table(const std::vector<std::string>& probes, const Rung&
   if (own) table.rows.push_back(cells(*own, reference, probes.size(), full));
   for (std::size_t i = 0; i < rungs.size(); ++i) {
     Rung rung = rungs[i];
-    if (chosen == i) rung.name += " <- choice";
+    if (chosen == i) rung.name += " <- selected";
     table.rows.push_back(cells(rung, reference, probes.size(), full));
   }
   return table;

@@ -90,8 +90,9 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generato
   if (spec.choice == Choice::pairs)
     for (const auto& [i, j] : spec.pairs) {
       if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)
-        throw InputError(fmt::format("{}: [{}, {}] names mode {}; expected at most {}, of which the body has no more",
-                                     spec.where.text(), i, j, j, modes));
+        throw InputError(
+            fmt::format("{}: [{}, {}] refers to mode {}; expected at most {}, the number of modes of the body",
+                        spec.where.text(), i, j, j, modes));
       pairs.push_back({i - 1, j - 1});
     }
   return pairs;
@@ -133,7 +134,7 @@ void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>
       if (std::find(all.begin(), all.end(), label) != all.end()) continue;
       const std::string near = math::nearest(label, all);
       faults.push_back(fmt::format(
-          "{}: body {} has no column \"{}\"; expected one that `floe run` lists in summary.json{}",
+          "{}: body {} has no basis vector \"{}\"; expected one that `floe run` lists in summary.json{}",
           spec.columns_where.text(), name, label, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
     }
   }

@@ -2,9 +2,9 @@
 
 #include "drive.h"
 #include "floe/assembly/offline.h"
+#include "floe/assembly/reduce_once.h"
 #include "floe/assembly/start_vectors.h"
 #include "floe/scene/places.h"
-#include "floe/assembly/reduce_once.h"
 #include "floe/solve/simulation.h"
 #include "planar_assembly.h"
 #include "spatial_assembly.h"
@@ -50,7 +50,7 @@ void refuse_meshless(const Scene& scene, Formulation formulation) {
   std::vector<std::string> faults;
   for (const Body& body : scene.bodies)
     if (body.reduced)
-      faults.push_back(fmt::format("{}: has no mesh, which formulation {} needs; expected vm+md, vm or lffr",
+      faults.push_back(fmt::format("{}: has no mesh, but formulation {} needs one; expected vm+md, vm or lffr",
                                    body.reduced->where.text(), name_of(formulation)));
   if (!faults.empty()) throw InputError(faults);
 }

@@ -20,7 +20,7 @@ void check_modes(const Scene& whole, MPI_Comm comm) {
     const reduction::Statics statics(body.structure, body.frame, holding);
     const PetscInt available = reduction::ModeSolver(body.structure, body.frame, holding, statics).available();
     if (modes.count <= available) continue;
-    std::string fault = fmt::format("{}: {} modes are asked of a body that has {} elastic dofs under its conditions",
+    std::string fault = fmt::format("{}: {} modes requested of a body that has {} elastic dofs under its conditions",
                                     modes.where.text(), modes.count, available);
     if (std::find(faults.begin(), faults.end(), fault) == faults.end()) faults.push_back(std::move(fault));
   }

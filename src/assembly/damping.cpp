@@ -127,11 +127,10 @@ std::vector<std::string> damping_warnings(const Plan& plan) {
     if (name == body.name || body.damping.mass == 0 || (b > 0 && whole_name(plan.bodies[b - 1].spec) == name)) continue;
     const auto frames = std::count_if(plan.bodies.begin(), plan.bodies.end(),
                                       [&](const PlannedBody& one) { return whole_name(one.spec) == name; });
-    warnings.push_back(
-        fmt::format("body {}: damping.mass acts on the deformation of each of its {} frames relative to the frame "
-                    "before it (limit 1 "
-                    "frame), and decays are less than alpha/(2 omega); use frames: 1, or damping.stiffness",
-                    name, frames));
+    warnings.push_back(fmt::format(
+        "body {}: damping.mass acts on the deformation of each of its {} frames relative to the previous frame (limit "
+        "1 frame), so that damping ratios are less than alpha/(2 omega); use frames: 1, or damping.stiffness",
+        name, frames));
   }
   return warnings;
 }

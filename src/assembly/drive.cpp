@@ -80,9 +80,9 @@ dynamics::TimeFunction as_written(const Joint& joint, const Motion& motion) {
             [f](double t) { return f.derivative(t); }};
   }
   if (std::abs(f(0)) > 1e-9 * greatest_of(f, motion.end > 0 ? motion.end : 1))
-    throw InputError(
-        fmt::format("{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the start",
-                    joint.where.text(), key_of(joint), f(0)));
+    throw InputError(fmt::format(
+        "{}: the driven {} is {:.6g} at t = 0; expected 0, because it is measured from the initial configuration",
+        joint.where.text(), key_of(joint), f(0)));
   return {[f](double t) { return f(t); }, [f](double t) { return f.derivative(t); },
           [f](double t) { return f.second_derivative(t); }};
 }

@@ -14,7 +14,7 @@ using petsc::check;
 namespace {
 
 /// The greatest of the deformations, and up to `most` in all of which a good part is in none before.
-std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
+std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most) {
   if (loads[0].eta.size() == 0) return {};
   Eigen::MatrixXd left(loads[0].eta.size(), static_cast<Eigen::Index>(loads.size()));
   for (std::size_t i = 0; i < loads.size(); ++i) left.col(static_cast<Eigen::Index>(i)) = loads[i].eta;
@@ -35,13 +35,13 @@ std::vector<std::size_t> unlike(const std::vector<LeftOver>& loads, int most) {
 
 }  // namespace
 
-reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
-                             int tangents, std::vector<std::string>& notes) {
+reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
+                             const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes) {
   if (loads.empty()) return {};
   std::vector<Eigen::VectorXd> tangents_at = {Eigen::VectorXd::Zero(loads[0].eta.size())};
   for (const std::size_t i : unlike(loads, tangents)) tangents_at.push_back(loads[i].eta);
   std::vector<reduction::Columns> met(tangents_at.size());
-  for (const LeftOver& one : loads) {
+  for (const ResidualLoad& one : loads) {
     const auto nearest = std::min_element(tangents_at.begin(), tangents_at.end(), [&](const auto& a, const auto& b) {
       return (one.eta - a).norm() < (one.eta - b).norm();
     });
@@ -61,8 +61,9 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
     std::move(u.begin(), u.end(), std::back_inserter(all));
   }
   if (unbent)
-    notes.push_back(fmt::format("body {}: its stiffness where it is bent was not factored; that of rest stands in",
-                                body.spec.name));
+    notes.push_back(fmt::format(
+        "body {}: the tangent stiffness of the deformed body was not factored; that of the undeformed body is used",
+        body.spec.name));
   return all;
 }
 

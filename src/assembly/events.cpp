@@ -50,7 +50,7 @@ std::size_t column_of(const Event& event, const Model& model) {
   const auto found = std::find(names.begin(), names.end(), event.probe);
   if (found != names.end()) return found - names.begin();
   const std::string near = math::nearest(event.probe, names);
-  throw InputError(fmt::format("{}.probe: is \"{}\"; expected a column of the probes{}", event.where.text(),
+  throw InputError(fmt::format("{}.probe: is \"{}\"; expected a component of a probe{}", event.where.text(),
                                event.probe, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
 }
 

@@ -20,8 +20,8 @@ int leading_fields(const PlannedBody& body) {
                [](const ReducedColumn& column) { return column.kept; });
   if (!std::is_partitioned(kept.begin(), kept.end(), std::not_fn(derivative)))
     throw InputError(
-        fmt::format("{}: a derivative stands before a mode in \"{}\", so that formulation vm has no modes "
-                    "alone; expected formulation vm+md or lffr",
+        fmt::format("{}: a derivative precedes a mode in \"{}\", so that formulation vm cannot use the modes alone; "
+                    "expected formulation vm+md or lffr",
                     spec.where.text(), spec.path));
   return static_cast<int>(std::count_if(kept.begin(), kept.end(), std::not_fn(derivative)));
 }

@@ -90,7 +90,7 @@ std::vector<std::string> write_matrices(const Scene& whole, MPI_Comm comm, const
     if (!body.spec.rigid && !body.spec.reduced) names.push_back(body.spec.name);
   if (names.empty())
     throw InputError(
-        fmt::format("{}: no body has a mesh that deforms; expected one whose matrices can be written", scene.file));
+        fmt::format("{}: no body is flexible and has a mesh; expected one whose matrices can be written", scene.file));
   const output::ResultFolder results = output::prepare_folder(comm, folder, overwrite);
   for (const PlannedBody& body : plan.bodies)
     if (!body.spec.rigid && !body.spec.reduced) write_body_matrices(comm, body, results.path);

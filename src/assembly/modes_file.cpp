@@ -86,7 +86,7 @@ std::vector<BodyReport> write_modes(const Scene& whole, MPI_Comm comm, const std
   }
   if (grids.empty())
     throw InputError(
-        fmt::format("{}: no body has a mesh that deforms; expected one whose shapes can be written", scene.file));
+        fmt::format("{}: no body is flexible and has a mesh; expected one whose shapes can be written", scene.file));
   output::write_shapes(comm, path, grids);
   return reports;
 }

@@ -111,7 +111,7 @@ void PlanarAssembly::add_body_terms(int b) {
     return;
   }
   if (!damping.modal.empty())
-    throw InputError(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
+    throw InputError(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is a full-order model",
                                  damping.where.text(), name_of(formulation_)));
   if (formulation_ != Formulation::cfr) {
     auto more = reference::full_order_terms(

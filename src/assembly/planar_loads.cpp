@@ -19,7 +19,7 @@ void PlanarAssembly::add_loads() {
       Marker at = marker(place);
       if (axes == Force::Axes::body && formulation_ == Formulation::cfr && !compact(place.body))
         throw InputError(load.where.text() +
-                         ": axes: body turn with the floating frame, which formulation cfr does not have");
+                         ": axes: body rotate with the floating frame, which formulation cfr does not have");
       if (owner_) markers.push_back(std::move(at));
     } else if (compact(place.body)) {
       if (owner_) markers.push_back(density(place.body, reduced_[place.body].body.line));
@@ -30,7 +30,7 @@ void PlanarAssembly::add_loads() {
     } else {
       if (axes == Force::Axes::body)
         throw InputError(load.where.text() +
-                         ": axes: body turn with the floating frame, which formulation cfr does not have");
+                         ": axes: body rotate with the floating frame, which formulation cfr does not have");
       markers = reference::corotational_line_markers(plan_.bodies[place.body].structure, *slots_[place.body].nodes);
     }
     for (Marker& at : markers) {

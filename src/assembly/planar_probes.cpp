@@ -14,7 +14,8 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
         formulation_ == Formulation::cfr) {
       const PlannedBody& body = plan_.bodies[place.body];
       if (body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
-        throw InputError(spec.where.text() + ": deflection from mean axes is not known in formulation cfr");
+        throw InputError(spec.where.text() +
+                         ": deflection relative to a mean-axis frame is not available in formulation cfr");
       for (const Anchor& node : body.frame_places) probe.frame.push_back(marker({place.body, node.node, node.x}));
     }
     if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && compact(place.body))

@@ -112,18 +112,19 @@ void check_left_out(const Plan& plan, const HeldBody& held, int b, const std::ve
     const Joint& joint = plan.scene.joints[hold.joint];
     if (hold.driven && !std::binary_search(kept.begin(), kept.end(), end - 1))
       throw InputError(
-          fmt::format("{}: no column of body {} follows the rotation that joint {} drives, because other joints hold "
-                      "it too; expected attachment: joints, or modes: {{of: frame}}",
+          fmt::format("{}: no basis vector of body {} represents the rotation driven by joint {}, because other joints "
+                      "constrain it as well; expected attachment: joints, or modes: {{of: frame}}",
                       joint.where.text(), body.name, joint.name));
   }
   for (int sample = 0; sample < 3; ++sample) {
     const auto [row, far] = departure(held, kept, sample);
     if (!(far > 1e-9 * plan.extent)) continue;
     const Where& place = body.reduced ? body.reduced->where : body.frame.where;
-    throw InputError(fmt::format(
-        "{}: several joints hold body {} to the ground, and its columns meet joint {} only while it is undeformed; "
-        "expected frame: pinned, from one joint to the other, with attachment: joints, or modes: {{of: frame}}",
-        place.text(), body.name, plan.scene.joints[hold_of(held, row).joint].name));
+    throw InputError(
+        fmt::format("{}: several joints attach body {} to the ground, and its basis satisfies joint {} only while it "
+                    "is undeformed; expected frame: pinned, from one joint to the other, with attachment: joints, or "
+                    "modes: {{of: frame}}",
+                    place.text(), body.name, plan.scene.joints[hold_of(held, row).joint].name));
   }
 }
 

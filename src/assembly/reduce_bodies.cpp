@@ -70,16 +70,14 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
     const auto& [first, second] = plan.joints[j];
     if (of_interface(first.body == index ? first : second)) continue;  // its columns carry all
     warnings.push_back(fmt::format(
-        "body {}: its modes cannot carry the moment of joint {} (they have none there), and converge slowly. Choose "
-        "{}attachment: joints",
+        "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
         body.spec.name, joint.name, held_here ? "modes: {of: joints}, or " : ""));
   }
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
     if (held_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(
-          fmt::format("body {}: its joints hold it lengthwise, and without derivatives no column can give way to the "
-                      "bending: its cubic "
-                      "stiffness comes out too high (by half for a hinged beam)",
+          fmt::format("body {}: its joints prevent axial displacement, and without modal derivatives the basis locks "
+                      "in membrane: its cubic stiffness is too high (by half for a hinged beam); add modal derivatives",
                       body.spec.name));
 }
 
@@ -116,8 +114,8 @@ void warn_of_loads(const Plan& plan, int index, const Stage& stage, const Reduce
     const double part = k > 0 ? image.dot(stiffness.solve(image)) / whole : 0;
     if (part >= 0.5) continue;
     const std::string text = fmt::format(
-        "body {}: its columns hold {:.2g} % of the work of load {} on its static response, and follow it as little. "
-        "Choose attachment: {}",
+        "body {}: its basis represents {:.2g} % of the work of load {} on its static response (limit 50 %); use "
+        "attachment: {}",
         body.spec.name, 100 * std::max(part, 0.0), loads[l].label,
         body.spec.reduction.attachment == ReductionSpec::Attachment::joints ? "all" : "loads");
     if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);

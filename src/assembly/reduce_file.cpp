@@ -24,7 +24,7 @@ int index_of(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const Body& body : scene.bodies) names.push_back(body.name);
   if (name.empty() && names.size() != 1)
-    throw InputError(fmt::format("{}: has {} bodies ({}); expected the name of one, --body NAME", scene.file,
+    throw InputError(fmt::format("{}: has {} bodies ({}); expected the name of one (--body NAME)", scene.file,
                                  names.size(), fmt::join(names, ", ")));
   const auto found = name.empty() ? names.begin() : std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
@@ -181,16 +181,15 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const PlannedBody& body = plan.bodies[0];
   warnings = body.notices;
   if (body.spec.damping.stiffness != 0)
-    warnings.push_back(fmt::format(
-        "body {}: a file holds damping.stiffness as C = beta K of the undeformed body, which damps foreshortening, "
-        "too, "
-        "where deflections are large (beyond a few percent of the length); keep the body's mesh in the scene for these",
-        body.spec.name));
+    warnings.push_back(
+        fmt::format("body {}: the file stores damping.stiffness as C = beta K of the undeformed body, which also damps "
+                    "foreshortening at large deflections (above a few percent of the length); for such motions keep "
+                    "the body's mesh in the scene",
+                    body.spec.name));
   if (body.spec.damping.mass != 0 && scene.bodies.size() > 1)
     warnings.push_back(
-        fmt::format("body {}: a file holds damping.mass as the body's joints to the ground see it; joints to the other "
-                    "{} bodies of the "
-                    "scene do not count there",
+        fmt::format("body {}: the file stores damping.mass for the body with its joints to the ground; joints to the "
+                    "other {} bodies of the scene are not included",
                     body.spec.name, scene.bodies.size() - 1));
   const double meshed = MPI_Wtime();
   const std::vector<ReducedBody> reduced = reduce_bodies(

@@ -136,24 +136,24 @@ void SpatialAssembly::refuse() const {
                     [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
       continue;
     faults.push_back(fmt::format(
-        "{}: holds {} nodes of body {}, which formulation {} knows only where the frame is clamped to them; expected "
+        "{}: fixes {} nodes of body {}, which formulation {} supports only for a frame clamped to them; expected "
         "frame: {{type: clamped, at: ...}} at that place, or a place of one node",
         joint.where.text(), place.nodes.size(), plan_.bodies[place.body].spec.name, name_of(formulation_)));
   }
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
     if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
-      faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is of full order",
+      faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is full-order",
                                    body.spec.damping.where.text(), name_of(formulation_)));
     if (slots_[b].still && body.deformation &&
         ((body.place - start_of_mesh(body.spec, body.origin)).norm() > 1e-6 * plan_.extent ||
          (body.attitude - attitude_of_mesh(body.spec) * body.axes).norm() > 1e-6))
       faults.push_back(
-          fmt::format("{}.deformation: moves or turns body {} where the ground clamps it; expected neither there",
+          fmt::format("{}.deformation: displaces or rotates body {} where the ground clamps it; expected neither there",
                       body.spec.initial.where.text(), body.spec.name));
     if (slots_[b].still && body.host < 0 &&
         (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
-      faults.push_back(fmt::format("{}: gives a velocity to body {}, which the ground clamps; expected none",
+      faults.push_back(fmt::format("{}: gives a velocity to body {}, which is clamped to the ground; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
   }
   if (!faults.empty()) throw InputError(faults);

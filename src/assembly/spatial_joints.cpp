@@ -121,7 +121,7 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
   const double apart = (start_of(placed.places[1]).p - start_of(placed.places[0]).p).norm();
   if (joint.stiffness != 0 && joint.length.value_or(0) > 0 && apart <= 1e-12 * plan_.extent)
     throw InputError(
-        fmt::format("{}: the places of spring {} coincide at the start, and no direction is that of its "
+        fmt::format("{}: the places of spring {} coincide at the start, which leaves undefined the direction of its "
                     "force; expected length: 0, or places apart",
                     joint.where.text(), joint.name));
   terms_.push_back(std::make_unique<dynamics::SpatialSpring>(

@@ -18,7 +18,7 @@ using Chosen = std::function<bool(const fem::Mesh::Cell&)>;
 Chosen shells_of(const Load& load, const PlannedBody& body) {
   if (body.spec.reduced)
     throw InputError(
-        fmt::format("{}: acts on body {}, which comes from a file without its shells; expected a body "
+        fmt::format("{}: acts on body {}, which comes from a file without shells; expected a body "
                     "with a mesh",
                     load.where.text(), body.spec.name));
   const auto part = std::find(body.parts.begin(), body.parts.end(), load.part);

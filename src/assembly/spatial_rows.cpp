@@ -118,9 +118,9 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
   const auto complain = [&](Index row, const std::string& when) {
     const Joint& joint = plan_.scene.joints[entry_of(row).joint];
     throw InputError(
-        fmt::format("{}: joint {} holds what other joints hold already, and not in the same way {}; expected joints "
-                    "that leave each "
-                    "body as free as they move it",
+        fmt::format("{}: joint {} is redundant with other joints and inconsistent with them {}; expected joints "
+                    "whose constraints "
+                    "are consistent throughout the motion",
                     joint.where.text(), joint.name, when));
   };
   Index row = 0;
@@ -187,7 +187,7 @@ std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
     for (Index i = first; i < first + entry.rows; ++i)
       if (!std::binary_search(kept.begin(), kept.end(), i) && gradient.row(i).norm() > 1e-6) ++left_out;
     if (left_out > 0)
-      notes += fmt::format("joint {}: {} of its {} constraints follow from other joints and are left out\n",
+      notes += fmt::format("joint {}: {} of its {} constraints are redundant with other joints and eliminated\n",
                            plan_.scene.joints[entry.joint].name, left_out, entry.rows);
     first += entry.rows;
   }

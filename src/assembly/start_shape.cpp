@@ -61,8 +61,8 @@ std::string expected_to_meet(const Plan& plan, Formulation formulation, std::siz
   const auto shaped = [&](const Anchor& place) { return place.body >= 0 && plan.bodies[place.body].deformation; };
   const auto& places = plan.joints[joint];
   if (!is_reduced(formulation) || std::none_of(places.begin(), places.end(), shaped)) return "the same point";
-  return "the same point; the deformation at the start counts there as far as columns can take it (attachment: joints, "
-         "or more modes or derivatives)";
+  return "the same point; the initial deformation is projected onto the basis, which may be too small (attachment: "
+         "joints, or more modes or derivatives)";
 }
 
 }  // namespace floe::assembly

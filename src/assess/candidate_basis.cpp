@@ -160,7 +160,7 @@ std::shared_ptr<Offline> Pool::Parts::offline_of(const std::vector<char>& made_r
   if (!same_frames(*one)) one = prepared_with(false);
   if (!same_frames(*one)) {
     rigid.erase(made_rigid);
-    throw RunError("a flexible body would share the frame of one that is made rigid");
+    throw RunError("a flexible body would be welded to one that is replaced by a rigid body");
   }
   return one;
 }
@@ -358,15 +358,14 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
     if (const InitialSpec& start = body.initial;
         files.contains(body.name) && (start.deformation || start.deformation_rate || start.spatial_deformation ||
                                       start.spatial_deformation_rate || loaded(body.name)))
-      throw InputError(
-          body.where.text() +
-          ": has columns of the error estimate, which a scene cannot name, and a deformation at the start or a "
-          "pressure, which a body from a file cannot have; expected another accuracy");
+      throw InputError(body.where.text() +
+                       ": has correction vectors of the error estimate, which a scene cannot specify, and an initial "
+                       "deformation or a pressure, which a body from a file cannot have; expected another accuracy");
   for (const Body& body : parts.whole.bodies)
     if (files.contains(body.name) && body.frames > 1)
       throw InputError(body.where.text() +
-                       ": is split into frames and has columns of the error estimate, which a scene "
-                       "cannot name; expected frames: 1, or another accuracy");
+                       ": is split into frames and has correction vectors of the error estimate, which a scene cannot "
+                       "specify; expected frames: 1, or another accuracy");
   std::vector<std::string> written{path};
   petsc::agree(parts.comm, [&] {
     if (!overwrite && std::filesystem::exists(scene))

@@ -63,7 +63,7 @@ class Residuals {
       if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), state);
     ++samples;
   }
-  const std::vector<LeftOver>& loads(std::size_t body) const { return loads_[body]; }
+  const std::vector<ResidualLoad>& loads(std::size_t body) const { return loads_[body]; }
   /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
   double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
   int samples = 0;
@@ -112,7 +112,7 @@ class Residuals {
   Offline& offline_;
   Model full_;
   petsc::VecHandle U_, V_, A_, F_;
-  std::vector<std::vector<LeftOver>> loads_;
+  std::vector<std::vector<ResidualLoad>> loads_;
   double unbalanced_ = 0, forces_ = 0;
 };
 
@@ -170,7 +170,7 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
         static_cast<int>(time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
     if (most < most_columns)
       estimate.notes.push_back(
-          fmt::format("body {}: {} columns instead of {}, to save time", body.spec.name, most, most_columns));
+          fmt::format("body {}: {} basis vectors instead of {}, to save time", body.spec.name, most, most_columns));
     const auto W = std::make_shared<const reduction::Columns>(main_columns(
         body.structure,
         responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1, estimate.notes), most));
@@ -217,9 +217,9 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     estimate.relative.push_back(std::sqrt(e));
   };
   const solve::DeviationReport report = solve::deviation(system, motion.begin(), states, observe);
-  if (report.steps == 0) throw RunError("the error cannot be followed from the start");
+  if (report.steps == 0) throw RunError("the equations of the error cannot be integrated from the start");
   if (report.steps < std::ssize(states))
-    estimate.notes.push_back(fmt::format("the error grows out of what can be followed at t = {:.6g} s", report.end));
+    estimate.notes.push_back(fmt::format("the equations of the error diverge at t = {:.6g} s", report.end));
   const auto steps = static_cast<double>(report.steps);
   estimate.probes = known(probes.relative(estimate.t.back() - motion.begin()));
   const bool nothing = std::max(error, size) <= steps * round_off_of(*reduced.offline);
@@ -242,7 +242,7 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   Estimate estimate;
   estimate.none.clear();
   if (!model.offline || !is_reduced(model.formulation)) {
-    estimate.none = "it belongs to reduced models (vm, vm+md)";
+    estimate.none = "it applies to reduced models only (vm, vm+md)";
     return estimate;
   }
   const Offline& offline = *model.offline;
@@ -252,7 +252,7 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
   if (!keeps_factors(offline))
     estimate.none = "the factors of the stiffness were not kept";
   else if (motion.states().empty())
-    estimate.none = "the integrator gives no accelerations";
+    estimate.none = "the integrator provides no accelerations";
   if (!estimate.none.empty()) return estimate;
   fill_in(estimate, offline.plan.comm, time, seconds, [&] { make(model, motion, time, estimate); });
   return estimate;

@@ -82,7 +82,7 @@ class FullOrder {
     check(VecNorm(X_, NORM_INFINITY, &size));
     if (fault.empty() && !std::isfinite(size)) fault = "it is singular";
     if (!fault.empty())
-      throw RunError(fmt::format("the tangent of full order at t = {:.6g} has no factor: {}", t_, fault));
+      throw RunError(fmt::format("the tangent of the full-order model at t = {:.6g} was not factored: {}", t_, fault));
     check(VecAXPY(U_, 1, X_));
     VectorXd x;
     system_.gather(X_, x);
@@ -235,11 +235,15 @@ void make(const Model& model, const std::vector<State>& states, const Allowance&
   estimate.deformation = nothing ? 0 : known(std::sqrt(error / whole));
   estimate.probes = known(probes.relative(0));
   if (!open.empty())
-    estimate.notes.push_back(fmt::format(
-        "Newton's method at full order did not come to its end at t = {}: the error is of this order", open));
+    estimate.notes.push_back(
+        fmt::format("Newton's method for the full-order model did not converge at t = {}; only the order of magnitude "
+                    "of the error is known",
+                    open));
   if (!late.empty())
-    estimate.notes.push_back(fmt::format(
-        "one or a few of Newton's steps at full order at t = {}, to save time: the error is of this order", late));
+    estimate.notes.push_back(
+        fmt::format("only a few Newton steps of the full-order model at t = {}, to save time; only the order of "
+                    "magnitude of the error is known",
+                    late));
 }
 
 }  // namespace
@@ -248,7 +252,7 @@ Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& st
   Estimate estimate;
   estimate.none.clear();
   if (!model.offline || !is_reduced(model.formulation)) {
-    estimate.none = "it belongs to reduced models (vm, vm+md)";
+    estimate.none = "it applies to reduced models only (vm, vm+md)";
     return estimate;
   }
   const Allowance time(model.offline->plan.comm, seconds);

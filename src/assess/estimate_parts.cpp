@@ -25,10 +25,9 @@ PetscInt elements_of(const Offline& offline) {
 
 std::string without_estimate(const Offline& offline) {
   if (std::none_of(offline.plan.bodies.begin(), offline.plan.bodies.end(), has_structure))
-    return "no body has a mesh: those from files, or rigid, have no structure to compare with";
+    return "no body has a mesh; bodies from files and rigid bodies have no full-order model to compare with";
   if (const PetscInt elements = elements_of(offline); elements >= most_elements)
-    return fmt::format("its full order of {} elements would take too long; it is made below {}", elements,
-                       most_elements);
+    return fmt::format("the full-order model has {} elements (limit {})", elements, most_elements);
   return "";
 }
 
@@ -83,8 +82,8 @@ double round_off_of(const Offline& offline) {
 void note_files(const Offline& offline, Estimate& estimate) {
   for (const PlannedBody& body : offline.plan.bodies)
     if (body.spec.reduced)
-      estimate.notes.push_back(
-          fmt::format("body {} comes from a file without its mesh: its own error is not in it", body.spec.name));
+      estimate.notes.push_back(fmt::format(
+          "body {} comes from a file without its mesh; its reduction error is not included", body.spec.name));
 }
 
 }  // namespace floe::assess

@@ -141,7 +141,7 @@ Found found_at(const BodyReport& body, const reduction::Statics& statics, const 
 }
 
 std::string words(const BodyReport& body, const Found& found, double spin) {
-  const std::string of = found.own ? "against its deformation" : "of one of its shapes";
+  const std::string of = found.own ? "for its own deformation" : "of one of its shapes";
   const std::string number = math::percent(std::abs(found.change)), too = found.change > 0 ? "soft" : "stiff";
   if (found.what == "coupling")
     return fmt::format(
@@ -150,10 +150,10 @@ std::string words(const BodyReport& body, const Found& found, double spin) {
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "
-      "(limit 5 %), and are not in von Karman's strains: too {}; {}",
+      "(limit 5 %), and are not part of von Karman's strains: too {}; {}",
       body.name, of, number, too,
-      spin > 0 ? "model it by beams in space, whose strains have them, or turn it more slowly"
-               : "model it by beams in space (several frames), or bend it less");
+      spin > 0 ? "model it by beams in space, whose strains include them, or reduce the rotation speed"
+               : "model it by beams in space (several frames), or reduce the loads");
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ void judge_missing(const Model& model, std::size_t b, const std::vector<const St
         worst = found, spin = spin_of(body, *state).norm();
   } catch (const RunError& error) {  // of a solve with K, on all ranks
     out.push_back({"unchecked", body.name, 0, most_change,
-                   fmt::format("body {}: strains of second order were not checked: {}", body.name, error.what())});
+                   fmt::format("body {}: second-order strains were not checked: {}", body.name, error.what())});
     return;
   }
   if (!(std::abs(worst.change) > most_change)) return;

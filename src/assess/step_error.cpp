@@ -97,8 +97,8 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
                               solve::Integration how, double took, double allowed) {
   StepError error;
   error.none.clear();
-  if (how.tolerance) error.none = "steps are adaptive, and follow their tolerance";
-  if (motion.states().empty()) error.none = "the integrator gives no accelerations";
+  if (how.tolerance) error.none = "steps are adaptive, controlled by motion.tolerance";
+  if (motion.states().empty()) error.none = "the integrator provides no accelerations";
   if (!error.none.empty()) return error;
   const double begin = MPI_Wtime();
   error.halved = refinement * took <= allowed;
@@ -116,7 +116,7 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
       *model.system, how, model.U, model.V, [&](const solve::Instant& instant) { comparison.observe(instant); });
   const double steps = error.until / how.step;
   if (report.type != solve::generalized_alpha || comparison.count() == 0)
-    error.none = "the integrator has no values within steps";
+    error.none = "the integrator does not interpolate within steps";
   else if (static_cast<double>(report.steps) < 0.75 * steps || static_cast<double>(report.steps) > 1.5 * steps + 2)
     error.none = "options set the step";
   const double power = std::pow(refinement, order);

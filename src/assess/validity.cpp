@@ -137,8 +137,8 @@ void judge_shortening(const BodyReport& body, double slope, std::vector<OutOfRan
   const double shortening = slope * slope / 2;
   if (shortening > 0.01)
     out.push_back({"shortening", body.name, shortening, 0.01,
-                   fmt::format("body {}: slopes to {:.2g} shorten it by {}, which a linear elastic force does "
-                               "not know (limit 1 %): take vm+md or nlffr",
+                   fmt::format("body {}: foreshortening (slopes up to {:.2g}) of {} is not represented by "
+                               "the linear elastic model (limit 1 %); use vm+md or nlffr",
                                body.name, slope, math::percent(shortening))});
 }
 
@@ -148,17 +148,17 @@ bool is_stiff(const BodyReport& body, bool linear) { return linear || !stretches
 void judge_spin(const BodyReport& body, const Seen& seen, double omega, bool linear, std::vector<OutOfRange>& out) {
   if (!is_stiff(body, linear) || !(omega > 0 && seen.spin > 0.2 * omega)) return;
   out.push_back({"spin", body.name, seen.spin / omega, 0.2,
-                 fmt::format("body {}: spins at {:.3g} rad/s, {:.2g} of its first frequency (limit 0.2), and nothing "
-                             "stiffens it as it turns: stiffness off by about {}; {}",
+                 fmt::format("body {}: rotates at {:.3g} rad/s, {:.2g} of its first frequency (limit 0.2), without "
+                             "centrifugal stiffening: error of the stiffness about {}; {}",
                              body.name, seen.spin, seen.spin / omega, math::percent(std::pow(seen.spin / omega, 2)),
-                             linear ? "take vm+md or nlffr" : "give it derivatives")});
+                             linear ? "use vm+md or nlffr" : "add modal derivatives")});
 }
 
 void judge_stretching(const BodyReport& body, const Seen& seen, std::vector<OutOfRange>& out) {
   if (!is_stiff(body, false) || !(seen.bending > 0 && seen.membrane > 0.02 * seen.bending)) return;
   out.push_back({"membrane", body.name, seen.membrane / seen.bending, 0.02,
-                 fmt::format("body {}: stretching holds {} of the energy of bending (limit 2 %), and without "
-                             "derivatives nothing gives way to it: too stiff; give it derivatives",
+                 fmt::format("body {}: membrane energy is {} of bending energy (limit 2 %); without modal "
+                             "derivatives the basis locks in membrane; add modal derivatives",
                              body.name, math::percent(seen.membrane / seen.bending))});
 }
 

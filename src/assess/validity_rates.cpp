@@ -67,7 +67,7 @@ void judge_loads(const Scene& scene, const Model& model, std::vector<OutOfRange>
       if (share > 0.5)
         out.push_back({"load", load.of.name, share, 0.5,
                        fmt::format("{}: changes at {:.3g} rad/s, {:.2g} of the highest kept frequency of body {} "
-                                   "(limit 0.5): give it more modes",
+                                   "(limit 0.5); use more modes",
                                    load.of.words, load.omega, share, body.name)});
     }
 }
@@ -85,9 +85,9 @@ void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>&
   if (turn > 0.25)
     out.push_back(
         {"step", of, turn, 0.25,
-         fmt::format("motion.step {:.3g} s: only {:.2g} steps in a period of the {}, {:.3g} s (limit 25): take "
-                     "{:.2g} s or less",
-                     scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
+         fmt::format(
+             "motion.step {:.3g} s: only {:.2g} steps per period of the {}, {:.3g} s (limit 25); use at most {:.2g} s",
+             scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
 }
 
 }  // namespace floe::assess

@@ -70,7 +70,7 @@ SlopeError greatest_error(const Model& model, const Whole& whole, const std::vec
 }
 
 std::string remedy(const Whole& whole, const BodyReport& body, bool splits) {
-  if (!splits) return "divide it into several bodies that are joined rigidly";
+  if (!splits) return "divide it into several bodies with fixed joints";
   if (whole.frames() > 1) return fmt::format("take more than {} (frames: {})", whole.frames(), 2 * whole.frames());
   if (body.frame != "clamped") return "take several (frames: 2)";
   return fmt::format("take a {} frame, or several (frames: 2)", body.dimension == 2 ? "pinned" : "mean-axis");
@@ -93,8 +93,8 @@ void judge_slopes(const Model& model, const std::vector<const State*>& states, c
                                                   : fmt::format("{} frame", body.frame);
     out.push_back(
         {"slope", whole.name, found.error, limit,
-         fmt::format("body {}: slopes to {:.2g} against its {}: von Karman's strains err by about {} of its "
-                     "length (limit 1 %); {}",
+         fmt::format("body {}: slopes of up to {:.2g} relative to its {}: the error of von Karman's strains is about "
+                     "{} of its length (limit 1 %); {}",
                      whole.name, slope, frames, math::percent(found.error, 1), remedy(whole, body, found.splits))});
   }
 }

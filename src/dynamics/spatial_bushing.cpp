@@ -127,9 +127,9 @@ void SpatialBushing::begin_step(const Motion& motion) {
   nearest_ = strain(pair_, properties_, nearest_).rho;
   if (nearest_.norm() < 0.8 * 2 * M_PI) return;
   throw RunError(
-      fmt::format("bushing {} is turned by {:.4g} rad; expected less than a turn. A spring's torsional_stiffness about "
+      fmt::format("bushing {} is rotated by {:.4g} rad (limit 1.6 pi). A spring's torsional_stiffness about "
                   "`axis` counts "
-                  "turns",
+                  "full rotations",
                   properties_.name, nearest_.norm()));
 }
 

@@ -50,7 +50,7 @@ SpatialConstraint SpatialConstraint::planar() { return {Rows{Along{2}} + axis_z(
 
 SpatialConstraint SpatialConstraint::distance(double length) {
   if (!(length > 0))
-    throw InputError("the length of a distance joint is not positive (a spherical joint holds places together)");
+    throw InputError("the length of a distance joint is not positive; use a spherical joint for coinciding places");
   return {{Separation{length}}};
 }
 

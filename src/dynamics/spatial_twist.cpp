@@ -14,7 +14,7 @@ Twist twist(const SpatialPair& pair, double nearest) {
   const Matrix3d &one = pair.pose[0].D, &two = pair.pose[1].D;
   const Vector3d &z1 = one.col(2), &z2 = two.col(2);
   const double aligned = 1 + z1.dot(z2);
-  if (!(aligned > 1e-12)) throw RunError("a joint has the z axes of its places opposite to each other: no twist");
+  if (!(aligned > 1e-12)) throw RunError("the z axes of a joint's places are opposite; its twist is undefined");
   const double sine = one.col(1).dot(two.col(0)) - one.col(0).dot(two.col(1)),
                cosine = one.col(0).dot(two.col(0)) + one.col(1).dot(two.col(1));
   const Vector3d h = (z1 + z2) / aligned, slip = pair.pose[1].spin - pair.pose[0].spin;

@@ -212,10 +212,10 @@ System::Astray System::astray(double t, Vec U) const {
 }
 
 std::string System::Astray::text() const {
-  if (standing == Standing::half_turn) return joint + " is met half a turn away from where it is meant to be";
+  if (standing == Standing::half_turn) return joint + " is satisfied on the flipped branch (rotated by 180 deg)";
   return joint +
-         " comes apart: some of its constraints were left out, because other joints held the same, and these "
-         "hold it no longer";
+         " is violated: some of its constraints were eliminated as redundant with other joints, and these "
+         "no longer imply them";
 }
 
 void System::tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const {

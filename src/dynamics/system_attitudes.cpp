@@ -49,7 +49,7 @@ void System::save(std::vector<double>& numbers) const {
 
 void System::load(std::span<const double> numbers) const {
   const auto take = [&](std::size_t count) {
-    if (numbers.size() < count) throw RunError("what bodies and joints carry from step to step is of another system");
+    if (numbers.size() < count) throw RunError("the step state of bodies and joints belongs to another system");
     const auto taken = numbers.first(count);
     numbers = numbers.subspan(count);
     return taken;
@@ -62,7 +62,7 @@ void System::load(std::span<const double> numbers) const {
     term->save(own);  // as many as it takes
     if (!own.empty()) term->load(take(own.size()));
   }
-  if (!numbers.empty()) throw RunError("what bodies and joints carry from step to step is of another system");
+  if (!numbers.empty()) throw RunError("the step state of bodies and joints belongs to another system");
 }
 
 void System::bracket(Vec a, Vec b, Vec W) const {

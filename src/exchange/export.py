@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`floe export`: a reduced body for other programs. The program starts it with its words."""
+"""`floe export`: a reduced body for other programs. The program starts it with its arguments."""
 import argparse
 import contextlib
 import os
@@ -32,11 +32,11 @@ def check_target(path, options):
     if os.path.isdir(path):
         raise Fault(f"--out {path}: is a folder")
     if os.path.exists(path) and not os.path.isfile(path):
-        raise Fault(f"--out {path}: is no regular file")
+        raise Fault(f"--out {path}: is not a regular file")
     if os.path.exists(path) and os.path.samefile(path, options.body):
         raise Fault(f"--out {path}: is the reduced body itself")
     if os.path.exists(path) and not options.force:
-        raise Fault(f"--out {path}: is there already; --force replaces it")
+        raise Fault(f"--out {path}: exists; --force replaces it")
     folder = os.path.dirname(path) or "."
     if not os.path.isdir(folder):
         raise Fault(f"--out {path}: there is no folder {folder}")
@@ -108,8 +108,8 @@ def write(chosen, paths, body, options):
         mbsim.write_hdf5(paths[0], body)
         note_rotary(body)
         if len(body.pairs):
-            print("Note: MBSim's HDF5 form has no place for nonlinear stiffness: this is the linear body; "
-                  "an .xml has all of it")
+            print("Note: MBSim's HDF5 format cannot store nonlinear stiffness: the linear body is written; "
+                  "use .xml for the nonlinear one")
     else:
         import matrix_market
         for path, (matrix, what) in zip(paths, matrix_market.matrices(body).values()):

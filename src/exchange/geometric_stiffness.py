@@ -15,8 +15,8 @@ def geometric_stiffness(body):
     try:
         factor = np.linalg.cholesky(K * np.outer(scale, scale))
     except np.linalg.LinAlgError:
-        raise Fault("the reduced stiffness is singular, and geometric stiffness needs the static answer to loads; "
-                    "leave it out with --no-geometric-stiffness") from None
+        raise Fault("the reduced stiffness is singular, but geometric stiffness needs the static response to loads; "
+                    "omit it with --no-geometric-stiffness") from None
     half = np.linalg.solve(factor, scale[:, None] * L.T)
     stress = np.linalg.solve(factor.T, half) * scale[:, None]  # K^-1 L'
     return lambda loads: np.tensordot(np.asarray(loads).T @ stress, B, 1)

@@ -118,7 +118,7 @@ def write_xml(path, body):
 
 
 def write_hdf5(path, body):
-    """The input data file of ExternalFlexibleFfrBody: the linear body, for that reader knows no nonlinear stiffness."""
+    """The input data file of ExternalFlexibleFfrBody: the linear body, because that reader supports no nonlinear stiffness."""
     import h5py
     body = in_space(body)
     upper = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]

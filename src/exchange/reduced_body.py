@@ -18,7 +18,7 @@ def damage(path):
             OSError) as error:
         if isinstance(error, OSError) and error.errno is not None:
             raise
-        raise Fault(f"{path}: is damaged: {' '.join(str(error).split())} (floe info says more)") from None
+        raise Fault(f"{path}: is damaged: {' '.join(str(error).split())} (see floe info)") from None
 
 
 @dataclasses.dataclass
@@ -75,23 +75,23 @@ def open_file(path):
     import h5py
     import os
     if not os.path.exists(path):
-        raise Fault(f"{path}: is not there")
+        raise Fault(f"{path}: does not exist")
     if not os.path.isfile(path):
-        raise Fault(f"{path}: expected a file that floe reduce wrote, found a folder")
+        raise Fault(f"{path}: expected a file written by floe reduce, found a folder")
     try:
         file = h5py.File(path, "r")
     except OSError:
-        raise Fault(f"{path}: expected a file that floe reduce wrote, found one that is not HDF5 or is cut "
+        raise Fault(f"{path}: expected a file written by floe reduce, found one that is not HDF5 or is cut "
                     "off") from None
     found = file.attrs.get("format")
     if not isinstance(found, bytes) or found.rstrip(b"\0") != b"floe reduced body":
         file.close()
-        raise Fault(f"{path}: expected a file that floe reduce wrote, found an HDF5 file of another kind")
+        raise Fault(f"{path}: expected a file written by floe reduce, found an HDF5 file of another kind")
     for name, wanted, what in (("version", (1, 2), "of another version of the format"),
                                ("complete", (1,), "that is incomplete")):
         if file.attrs.get(name) not in wanted:
             file.close()
-            raise Fault(f"{path}: expected a reduced body of version 1 or 2, whole; found one {what}")
+            raise Fault(f"{path}: expected a complete reduced body of version 1 or 2; found one {what}")
     return file
 
 
@@ -106,7 +106,7 @@ def read(path):
     for field in dataclasses.fields(body):
         value = getattr(body, field.name)
         if isinstance(value, np.ndarray) and value.dtype.kind == "f" and not np.isfinite(value).all():
-            raise Fault(f"{path}: is damaged: numbers that are not finite in {field.name} (floe info says more)")
+            raise Fault(f"{path}: is damaged: numbers that are not finite in {field.name} (see floe info)")
     return body
 
 

@@ -101,7 +101,7 @@ def heading(body, geometric, all_columns):
     about = [f"reduced body {one_line(body.name)}, written by floe",
              "with geometric stiffness of first order" if geometric else "no geometric stiffness",
              "ksigma = 0",
-             "all columns" if all_columns else "modes and static columns alone"]
+             "all columns" if all_columns else "modes and attachment modes only"]
     about += [f"node {i + 1} is {one_line(name)}" for i, name in enumerate(body.places)]
     return f"{len(body.places):5d} {body.k:5d}    :No. nodes, No. modes: " + "; ".join(about)
 
@@ -111,7 +111,7 @@ def lines_of(whole, geometric, all_columns):
     all_stiffness = (geometric_stiffness.geometric_stiffness if geometric else geometric_stiffness.none)(whole)
     chosen = [i for i, kind in enumerate(whole.kinds) if all_columns or kind != "derivative"]
     if chosen != list(range(len(chosen))):  # the basis was orthonormalised in its order
-        raise Fault("a derivative stands before a mode or static column, which holds a part of it; take --columns all")
+        raise Fault("a derivative precedes a mode or attachment mode, which contains a part of it; use --columns all")
     body = on_columns(whole, chosen)
 
     def stiffness_of(loads):

@@ -167,7 +167,7 @@ void check_cell(const Structure& structure, const Mesh::Cell& cell) {
       [&](const auto& section) {
         if (!belongs(cell.kind, section))
           throw InputError(
-              fmt::format("the cell at ({:.6g}, {:.6g}, {:.6g}) has a section of another kind: lines are "
+              fmt::format("the element at ({:.6g}, {:.6g}, {:.6g}) has a section of another kind: lines are "
                           "beams, triangles and quadrilaterals shells",
                           at[0].x(), at[0].y(), at[0].z()));
         check_of(at, section);

@@ -62,7 +62,7 @@ void set_inverse(const Structure& structure, ReferenceFrame& frame) {
   const Eigen::MatrixXd by_columns = values * columns.asDiagonal();
   for (int i = 0; i < r; ++i) rows[i] = scale_of(by_columns.row(i));
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(rows.asDiagonal() * by_columns);
-  if (!lu.isInvertible()) throw InputError("the reference conditions leave a rigid motion of the body free");
+  if (!lu.isInvertible()) throw InputError("the frame's conditions leave a rigid motion of the body free");
   frame.inverse = columns.asDiagonal() * lu.inverse() * rows.asDiagonal();
 }
 
@@ -107,7 +107,7 @@ ReferenceFrame held_frame(const Structure& structure, const Conditions& dofs) {
   }
   std::sort(frame.conditions.begin(), frame.conditions.end());
   for (PetscInt dof : frame.conditions) frame.functionals.push_back(unit(structure, dof));
-  if (chosen.rows() < rows.cols()) throw InputError("the reference conditions leave a rigid motion of the body free");
+  if (chosen.rows() < rows.cols()) throw InputError("the frame's conditions leave a rigid motion of the body free");
   set_inverse(structure, frame);
   return frame;
 }

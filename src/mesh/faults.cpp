@@ -41,7 +41,7 @@ Faults Faults::together(MPI_Comm comm) const {
 void Faults::shorten(std::vector<std::string>& lines) const {
   if (lines.size() <= most_) return;
   lines.resize(most_);
-  lines.push_back("and more: the first " + std::to_string(most_) + " are told");
+  lines.push_back("and more: the first " + std::to_string(most_) + " are listed");
 }
 
 void Faults::throw_together(MPI_Comm comm) const {

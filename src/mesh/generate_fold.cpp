@@ -108,7 +108,7 @@ void Fold::refuse_unequal(const Edge& edge, const Edge& other) const {
       "folded plates: " + plates_[edge.plate].name + " and " + plates_[other.plate].name + " have an edge in common, ";
   if (edge.elements != other.elements)
     throw InputError(text + "with " + std::to_string(edge.elements) + " and " + std::to_string(other.elements) +
-                     " cells along it");
+                     " elements along it");
   const double grading = edge.from == other.from ? other.grading : 1 / other.grading;
   if (edge.elements > 1 && std::abs(grading - edge.grading) > same * edge.grading)
     throw InputError(text + "with another grading along it");

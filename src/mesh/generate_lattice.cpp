@@ -85,7 +85,7 @@ RawMesh lattice(MPI_Comm comm, const Lattice& lattice) {
   const Counts boxes{lattice.nx, lattice.ny, lattice.nz};
   for (int axis = 0; axis < 3; ++axis) {
     checks.at_least(1, std::string("n") + "xyz"[axis], boxes[axis]);
-    checks.positive(std::string("cell size along ") + "xyz"[axis], lattice.cell[axis]);
+    checks.positive(std::string("unit cell size along ") + "xyz"[axis], lattice.cell[axis]);
   }
   checks.finish();
   const auto all = families(lattice.diagonals);

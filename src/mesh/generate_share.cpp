@@ -26,7 +26,7 @@ void Checks::at_least(PetscInt least, const std::string& name, PetscInt value) {
 }
 
 void Checks::finite(const std::string& name, const Eigen::Vector3d& value) {
-  require(value.allFinite(), name + " = (" + text_of(value.transpose()) + ") has coordinates that are no numbers");
+  require(value.allFinite(), name + " = (" + text_of(value.transpose()) + ") has coordinates that are not finite");
 }
 
 void Checks::positive(const std::string& name, double value) {
@@ -40,8 +40,9 @@ void Checks::finish() const {
 void require_countable(const std::string& source, double nodes, double cells) {
   constexpr auto most = PETSC_MAX_INT;
   if (nodes < static_cast<double>(most) && cells < static_cast<double>(most)) return;
-  throw InputError(source + ": " + text_of(nodes) + " nodes and " + text_of(cells) + " cells, this build counts to " +
-                   std::to_string(most) + ": use a build on petsc64 (PETSc with 64-bit indices)");
+  throw InputError(source + ": " + text_of(nodes) + " nodes and " + text_of(cells) +
+                   " elements, above the limit of this build, " + std::to_string(most) +
+                   ": use a build on petsc64 (PETSc with 64-bit indices)");
 }
 
 }  // namespace floe::mesh

@@ -18,10 +18,10 @@ class Surface {
     if (bottom || top) {
       const double step = (x - at(0, v + (bottom ? 1 : -1) / nv)).norm();
       for (const double u : {1 / 3., 1 / 2., 1.})
-        require_one(x, at(u, v), step, bottom ? "v = 0 is no pole" : "v = 1 is no pole");
+        require_one(x, at(u, v), step, bottom ? "v = 0 is not a pole" : "v = 1 is not a pole");
     } else if (grid_.closed && node.i == 0 && !node.centre) {
       const double step = (x - at(1 / static_cast<double>(grid_.nu), v)).norm();
-      require_one(x, at(1, v), step, "u = 0 and u = 1 are not one line");
+      require_one(x, at(1, v), step, "u = 0 and u = 1 do not coincide");
     }
     return x;
   }
@@ -31,7 +31,7 @@ class Surface {
     Eigen::Vector3d x = given_.position(u, v);
     if (!x.allFinite())
       throw InputError("shell: position(" + std::to_string(u) + ", " + std::to_string(v) +
-                       ") has coordinates that are no numbers");
+                       ") has coordinates that are not finite");
     return x;
   }
   static void require_one(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double step, const char* text) {

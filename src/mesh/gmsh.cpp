@@ -21,8 +21,8 @@ void refuse_too_many(const GmshStructure& structure, Faults& faults) {
 std::vector<std::string> notices_of(const std::string& path, long long left_out, PetscInt dropped) {
   std::vector<std::string> notices;
   if (left_out > 0)
-    notices.push_back(path + ": " + std::to_string(left_out) + " elements that are in no physical group are left out");
-  if (dropped > 0) notices.push_back(path + ": " + std::to_string(dropped) + " nodes that no cell uses are left out");
+    notices.push_back(path + ": " + std::to_string(left_out) + " elements in no physical group are ignored");
+  if (dropped > 0) notices.push_back(path + ": " + std::to_string(dropped) + " nodes that no element uses are ignored");
   return notices;
 }
 

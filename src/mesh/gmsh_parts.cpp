@@ -60,7 +60,7 @@ void make_part(const GmshStructure& structure, GmshSelection& selection, const s
     if (selection.uses[b].part >= 0)
       faults.add(block.begin.where(place), "these elements belong to two parts, " +
                                                in_quotes(selection.parts[selection.uses[b].part]) + " and " +
-                                               in_quotes(name) + ": name the part that is meant");
+                                               in_quotes(name) + ": specify one of them");
     if (block.type > 3)
       faults.add(block.begin.where(place), "part " + in_quotes(name) + " has elements of type " +
                                                std::to_string(block.type) + " (" + gmsh_type(block.type)->name +

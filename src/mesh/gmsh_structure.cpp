@@ -77,7 +77,7 @@ void read_node_blocks(GmshCursor& cursor, GmshStructure& result) {
   if (!result.nodes.empty()) cursor.refuse("there is a second $Nodes section");
   const long long blocks = cursor.count("the number of node blocks");
   const long long nodes = cursor.count("the number of nodes");
-  for (const char* of : {"the least node number", "the greatest node number"}) cursor.count(of);
+  for (const char* of : {"the minimum node number", "the maximum node number"}) cursor.count(of);
   for (long long i = 0; i < blocks; ++i) {
     const long long dimension = cursor.integer("the dimension of a node block");
     cursor.integer("the entity of a node block");
@@ -106,7 +106,7 @@ void read_element_blocks(GmshCursor& cursor, GmshStructure& result) {
   if (!result.elements.empty()) cursor.refuse("there is a second $Elements section");
   const long long blocks = cursor.count("the number of element blocks");
   const long long elements = cursor.count("the number of elements");
-  for (const char* of : {"the least element number", "the greatest element number"}) cursor.count(of);
+  for (const char* of : {"the minimum element number", "the maximum element number"}) cursor.count(of);
   long long total = 0;
   for (long long i = 0; i < blocks; ++i) {
     const auto dimension = cursor.integer("the dimension of an element block");

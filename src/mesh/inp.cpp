@@ -61,7 +61,7 @@ InpFile read_inp(MPI_Comm comm, const std::string& path) {
   if (numbered.mesh.cell_count == 0) throw InputError(path + ": the deck has no beams or shells");
   numbered.mesh.source = path;
   if (numbered.dropped > 0)
-    reading.notices.push_back(path + ": " + std::to_string(numbered.dropped) + " nodes that nothing uses are left out");
+    reading.notices.push_back(path + ": " + std::to_string(numbered.dropped) + " unused nodes are ignored");
   Deck deck = finished(reading, numbered, masses, links);
   return {std::move(numbered.mesh), std::move(deck), std::move(reading.notices)};
 }

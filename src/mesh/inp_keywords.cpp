@@ -15,7 +15,7 @@ void nothing(const InpBlock&, InpReading&) {}
 
 void left_out(const InpBlock& block, InpReading& reading) {
   const std::string why = block.keyword == "BOUNDARY" ? ": supports are joints of the scene" : "";
-  reading.notices.push_back(reading.faults.text_of(block.where) + ": " + block.name + " is left out" + why);
+  reading.notices.push_back(reading.faults.text_of(block.where) + ": " + block.name + " is ignored" + why);
 }
 
 void read_instance(const InpBlock& block, InpReading& reading) {
@@ -67,7 +67,7 @@ const std::map<std::string, Keyword>& keywords() {
 void check_parameters(const InpBlock& block, const Keyword& keyword, Faults& faults) {
   for (const auto& [key, value] : block.parameters)
     if (std::find(keyword.parameters.begin(), keyword.parameters.end(), key) == keyword.parameters.end())
-      faults.add(block.where, "parameter " + in_quotes(key) + " of " + block.name + " is not known" +
+      faults.add(block.where, "parameter " + in_quotes(key) + " of " + block.name + " is unknown" +
                                   suggestion(key, keyword.parameters));
 }
 
@@ -81,8 +81,8 @@ std::size_t skip_steps(const std::vector<InpBlock>& blocks, std::size_t i, InpRe
   if (i == blocks.size())
     reading.faults.add(step.where, "*STEP has no *END STEP");
   else
-    reading.notices.push_back(reading.faults.text_of(step.where) + ": what stands between *STEP and *END STEP (line " +
-                              std::to_string(blocks[i].where.at) + ") is left out" + inside +
+    reading.notices.push_back(reading.faults.text_of(step.where) + ": what is between *STEP and *END STEP (line " +
+                              std::to_string(blocks[i].where.at) + ") is ignored" + inside +
                               (inside.empty() ? "" : ")") + ": supports and loads are those of the scene");
   return i;
 }

@@ -28,7 +28,7 @@ void read_rigid_body(const InpBlock& block, InpReading& reading) {
   if (!reference.empty() && !nodes.empty()) reading.links.push_back({block.where, reference, nodes});
   if (block.parameters.contains("ROTNODE"))
     reading.notices.push_back(reading.faults.text_of(block.where) +
-                              ": ROT NODE is left out: the reference node has rotations of its own");
+                              ": ROT NODE is ignored: the reference node has rotations of its own");
 }
 
 void read_mpc(const InpBlock& block, InpReading& reading) {
@@ -47,7 +47,7 @@ void read_coupling(const InpBlock& block, InpReading& reading) {
 }
 
 void read_kinematic(const InpBlock& block, InpReading& reading) {
-  if (!reading.coupling) return reading.faults.add(block.where, "*KINEMATIC stands without a *COUPLING before it");
+  if (!reading.coupling) return reading.faults.add(block.where, "*KINEMATIC is given without a *COUPLING before it");
   const InpLink link = *std::exchange(reading.coupling, std::nullopt);
   std::set<int> directions;
   const bool all = block.lines() == 0;

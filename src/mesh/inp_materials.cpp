@@ -9,7 +9,7 @@ namespace {
 // The material that *ELASTIC or *DENSITY belongs to.
 Material* current(const InpBlock& block, InpReading& reading) {
   if (!reading.deck.materials.empty()) return &reading.deck.materials.back();
-  reading.faults.add(block.where, block.name + " stands before any *MATERIAL");
+  reading.faults.add(block.where, block.name + " precedes any *MATERIAL");
   return nullptr;
 }
 

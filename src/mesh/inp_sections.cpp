@@ -72,7 +72,8 @@ void refuse_bad_dimensions(const BeamSection& section, Where where, Faults& faul
   if (section.profile == Profile::pipe) good = good && d[1] <= d[0];
   if (section.profile == Profile::box) good = good && d[3] + d[5] < d[1] && d[2] + d[4] < d[0];
   if (section.profile == Profile::i_section) good = good && d[4] + d[5] < d[1];
-  if (!good) faults.add(where, "the dimensions make no section: they are greater than 0, walls thinner than the whole");
+  if (!good)
+    faults.add(where, "the dimensions are inconsistent: they must be greater than 0, walls thinner than the section");
 }
 
 void read_direction(const std::pair<Where, std::string_view>& line, BeamSection& section, Faults& faults) {

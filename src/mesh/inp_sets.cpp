@@ -120,7 +120,7 @@ void agree_members(MPI_Comm comm, InpReading& reading) {
       auto& set = sets->sets[std::stoul(all[i])];
       set.members.push_back(all[i + 1]);
       if (sets->find(all[i + 1]) < 0)
-        reading.faults.add(set.where, "set " + set.name + " holds " + in_quotes(all[i + 1]) + ", which is no set" +
+        reading.faults.add(set.where, "set " + set.name + " holds " + in_quotes(all[i + 1]) + ", which is not a set" +
                                           suggestion(all[i + 1], sets->names()));
     }
   }

@@ -48,7 +48,7 @@ std::string shape_fault(const Cell& cell, const Corners& corners) {
   if (cell.kind == CellKind::point) return "";
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < i; ++j)
-      if (cell.nodes[i] == cell.nodes[j]) return " has a node twice";
+      if (cell.nodes[i] == cell.nodes[j]) return " has the same node twice";
   const auto edge = [&](int i) {
     return Eigen::Vector3d(corners[cell.nodes[(i + 1) % n]] - corners[cell.nodes[i % n]]);
   };
@@ -60,7 +60,7 @@ std::string shape_fault(const Cell& cell, const Corners& corners) {
   const Eigen::Vector3d normal = (edge(0) + edge(1)).cross(edge(1) + edge(2));
   if (!(normal.norm() / 2 > flat * longest * longest)) return " has no area";
   for (int i = 0; i < n; ++i)
-    if (edge(i).cross(edge(i + 1)).dot(normal) < 0) return " is folded: a corner turns the other way";
+    if (edge(i).cross(edge(i + 1)).dot(normal) < 0) return " is folded: not convex";
   return "";
 }
 
@@ -68,7 +68,7 @@ void check_shapes(const RawMesh& mesh, Faults& faults) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     if (!mesh.positions[i].allFinite())
       faults.add({0, mesh.first_node + static_cast<long long>(i)},
-                 "node " + std::to_string(mesh.node_labels[i]) + " has coordinates that are no numbers");
+                 "node " + std::to_string(mesh.node_labels[i]) + " has coordinates that are not finite");
   const Corners corners(mesh);
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
     bool finite = true;

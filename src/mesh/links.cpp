@@ -64,7 +64,8 @@ std::vector<Follower> followers(const RawMesh& mesh, const std::vector<RigidLink
   chained.erase(std::unique(chained.begin(), chained.end()), chained.end());
   for (long long label : labels_of(mesh, chained))
     faults.push_back(fmt::format(
-        "{}: node {} is the reference of a rigid link and follows another one; expected one link", mesh.source, label));
+        "{}: node {} is the independent node of a rigid link and a dependent node of another one; expected one link",
+        mesh.source, label));
   if (!faults.empty()) throw InputError(faults);
   return all;
 }

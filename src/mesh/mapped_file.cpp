@@ -28,7 +28,7 @@ MappedFile::MappedFile(const std::string& path) : path_(path) {
   if (file.number < 0) throw InputError(path + ": cannot be opened: " + std::strerror(errno));
   struct stat status;
   if (fstat(file.number, &status) != 0) throw InputError(path + ": cannot be read: " + std::strerror(errno));
-  if (!S_ISREG(status.st_mode)) throw InputError(path + ": is no file");
+  if (!S_ISREG(status.st_mode)) throw InputError(path + ": is not a file");
   if (status.st_size == 0) throw InputError(path + ": is empty");
   const auto size = static_cast<std::size_t>(status.st_size);
   void* begin = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0);

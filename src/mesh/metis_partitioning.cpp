@@ -13,7 +13,7 @@ namespace {
 std::vector<idx_t> of_metis(const PetscInt* values, PetscInt count) {
   for (PetscInt i = 0; i < count; ++i)
     if (values[i] > std::numeric_limits<idx_t>::max())
-      throw RunError("the mesh's graph is too large for METIS; take -mesh_mat_partitioning_type ptscotch");
+      throw RunError("the mesh's graph is too large for METIS; use -mesh_mat_partitioning_type ptscotch");
   return {values, values + count};
 }
 

@@ -204,8 +204,8 @@ std::vector<Follower> with_lines(const std::vector<Follower>& followers, std::ve
     if (is_torn(rim, rims, followers)) {
       for (const HingeLine& line : rim)
         faults.push_back(line.where +
-                         ": its edge has nodes in common with two others that joints or links hold; expected one such "
-                         "node at most, or edges: rigid or mean");
+                         ": its edge has nodes in common with two others of joints or links; expected one such node at "
+                         "most, or edges: rigid or mean");
       continue;
     }
     const std::set<PetscInt> leaders = leaders_of(rim, rims, followers);

@@ -108,7 +108,7 @@ class Writer {
     for (const Run& run : runs_) {
       int& known = dimension[run.part];
       if (known >= 0 && known != dimension_of(run.kind))
-        throw InputError("part " + in_quotes(mesh_.parts[run.part]) + " has cells of several dimensions");
+        throw InputError("part " + in_quotes(mesh_.parts[run.part]) + " has elements of several dimensions");
       known = dimension_of(run.kind);
     }
     for (std::size_t p = 0; p < dimension.size(); ++p)
@@ -273,7 +273,7 @@ class Writer {
 }  // namespace
 
 void write_gmsh(const std::string& path, const RawMesh& mesh, GmshEncoding encoding) {
-  if (mesh.cell_count == 0) throw InputError(path + ": a mesh without cells is not written");
+  if (mesh.cell_count == 0) throw InputError(path + ": a mesh without elements is not written");
   Writer(path, mesh, encoding == GmshEncoding::binary).write();
 }
 

@@ -70,8 +70,8 @@ struct Contents {
 Contents read_alone(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored))
-    refuse(path, "is not there: the run was made without --checkpoint, or ended before its first checkpoint");
-  if (!is_of_format(path, format)) refuse(path, "is no checkpoint of floe's, or is damaged");
+    refuse(path, "does not exist: the run was made without --checkpoint, or ended before its first checkpoint");
+  if (!is_of_format(path, format)) refuse(path, "is not a checkpoint of floe, or is damaged");
   std::ifstream file(path, std::ios::binary);
   std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file) refuse(path, "cannot be read");
@@ -131,7 +131,7 @@ Checkpoint read_checkpoint(MPI_Comm comm, const std::filesystem::path& path) {
     text = contents.index.dump();
     const int wrote = contents.index["ranks"];
     if (wrote != 1 && wrote != ranks)
-      refuse(path, fmt::format("was written on {} ranks, and this is a run on {}; expected as many", wrote, ranks));
+      refuse(path, fmt::format("was written on {} ranks, and this run has {}; expected the same number", wrote, ranks));
     if (contents.data.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
         text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
       refuse(path, "is too large");

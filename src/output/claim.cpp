@@ -99,14 +99,15 @@ bool gone(const ordered_json& who) {
 
 [[noreturn]] void refuse(const fs::path& lock, const std::string& what, const std::optional<ordered_json>& who) {
   if (!who)
-    throw InputError(fmt::format("{}: {} cannot be read, and says who writes there; remove it if no floe does", what,
-                                 lock.string()));
+    throw InputError(fmt::format(
+        "{}: {}, the lock of a running floe, cannot be read; remove it if no floe writes there", what, lock.string()));
   const std::string process =
       fmt::format("{}: floe writes there (process {} on {}, since {})", what, (*who)["pid"].get<std::int64_t>(),
                   (*who)["host"].get<std::string>(), (*who)["since"].get<std::string>());
   if (of_this_machine(*who)) throw InputError(process + "; expected another place, or the end of that process");
-  throw InputError(fmt::format("{}; expected another place, or the end of that process; if it is no more, remove {}",
-                               process, lock.string()));
+  throw InputError(
+      fmt::format("{}; expected another place, or the end of that process; if it no longer exists, remove {}", process,
+                  lock.string()));
 }
 
 /// Takes the place of a lock whose holder is gone. @return  whether it is ours now; else it has changed

@@ -77,7 +77,8 @@ std::vector<fs::path> own_results(const fs::path& folder) {
       std::error_code ignored;
       if (!fs::exists(fs::symlink_status(file, ignored))) continue;
       if (!of_floe(file, folder / names.front()))
-        refuse(folder, fmt::format("{} in it is no result of floe's; name another folder, or move it away", *name));
+        refuse(folder,
+               fmt::format("{} in it is not a result of floe; use another folder, or move the file away", *name));
       own.push_back(file);
     }
   }
@@ -114,7 +115,7 @@ std::vector<fs::path> prepare(const fs::path& path, bool overwrite, Claim& claim
   if (error) refuse(path, "cannot be made: " + error.message());
   claim = claim_folder(path);
   if (!overwrite && !is_free(path))
-    refuse(path, "is not empty; name another, or replace the results in it with --force");
+    refuse(path, "is not empty; use another name, or replace the results in it with --force");
   return own_results(path);
 }
 
@@ -165,7 +166,7 @@ ResultFolder reopen_folder(MPI_Comm comm, const fs::path& path) {
   petsc::agree(comm, [&] {
     if (rank != 0) return;
     std::error_code error;
-    if (!fs::is_directory(path, error)) refuse(path, "is not there; expected the results of a run with --checkpoint");
+    if (!fs::is_directory(path, error)) refuse(path, "does not exist; expected the results of a run with --checkpoint");
     folder.claim = claim_folder(path);
   });
   return folder;

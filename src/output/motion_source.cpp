@@ -61,7 +61,7 @@ MotionSource::MotionSource(MPI_Comm comm, const std::filesystem::path& folder) :
     check_hdf5(H5Pset_file_locking(access, false, true));
     file_ = Hid(H5Fopen((folder / "result.h5").c_str(), H5F_ACC_RDONLY, access), H5Fclose);
     if (!has(file_, "motion/t") || !has(file_, "motion/dimension"))
-      throw Fault("result.h5 does not say where the nodes of the bodies are; run the scene again with this version");
+      throw Fault("result.h5 has no node positions of the bodies; run the scene again with this version");
     dimension_ = static_cast<int>(read_whole<double>(file_, "motion/dimension", {}).front());
     const auto summary = nlohmann::json::parse(read_text(file_, "summary"));
     in_world_ = summary.value("formulation", "") == "cfr";

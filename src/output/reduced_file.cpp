@@ -31,8 +31,8 @@ void refuse_taken(const fs::path& path, bool overwrite) {
   const auto status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse(path, "exists and is not a file");
   if (fs::exists(status) && !is_of_format(path, reduced_format))
-    refuse(path, "exists and is no reduced body of floe's; name another");
-  if (fs::exists(status) && !overwrite) refuse(path, "exists; name another, or replace it with --force");
+    refuse(path, "exists and is not a reduced body written by floe; use another name");
+  if (fs::exists(status) && !overwrite) refuse(path, "exists; use another name, or replace it with --force");
 }
 
 void remove_draft(const fs::path& path) {
@@ -82,12 +82,12 @@ std::pair<ReducedBodyFile, Image> read_alone(const fs::path& path) {
     ReducedBodyFile file = parse(open);
     Image image = image_of(file, true);
     if (read_flag(open, "checksum") != image.checksum)
-      throw Fault("expected what its attribute 'checksum' sums up, found other numbers or texts: the file is damaged");
+      throw Fault("expected contents that match its attribute 'checksum', found others: the file is damaged");
     return {std::move(file), std::move(image)};
   } catch (const Fault& fault) {
     refuse(path, fault.what());
   } catch (const std::exception& error) {
-    refuse(path, fmt::format("expected an HDF5 file, whole: {}", error.what()));
+    refuse(path, fmt::format("expected a complete HDF5 file: {}", error.what()));
   }
 }
 

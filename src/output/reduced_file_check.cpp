@@ -25,7 +25,7 @@ void check_columns(const ReducedBodyFile& file) {
     kept += column.kept;
   }
   if (kept != file.body.coordinates())
-    fail("columns/kept", fmt::format("{} columns kept", file.body.coordinates()), fmt::format("{}", kept));
+    fail("columns/kept", fmt::format("{} candidate vectors kept", file.body.coordinates()), fmt::format("{}", kept));
 }
 
 void check_places(const std::vector<ReducedPlace>& places) {

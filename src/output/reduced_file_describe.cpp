@@ -55,14 +55,15 @@ std::string left_out(const ReducedBodyFile& file) {
   std::vector<std::string> all;
   for (const auto& column : file.columns)
     if (column.kind == "attachment" && !column.kept)
-      all.push_back(fmt::format("{} ({})", name_of(column),
-                                column.dropped.empty()
-                                    ? fmt::format("those before it hold all but {:.2g} of it", column.new_part)
-                                    : column.dropped));
+      all.push_back(fmt::format(
+          "{} ({})", name_of(column),
+          column.dropped.empty()
+              ? fmt::format("all but {:.2g} of it is contained in the span of the previous ones", column.new_part)
+              : column.dropped));
   if (all.empty()) return {};
   const std::size_t more = all.size() - std::min(all.size(), shown);
   all.resize(all.size() - more);
-  return fmt::format("left out    {}{}\n", fmt::join(all, ", "), more > 0 ? fmt::format(", and {} more", more) : "");
+  return fmt::format("dropped     {}{}\n", fmt::join(all, ", "), more > 0 ? fmt::format(", and {} more", more) : "");
 }
 
 Table places(const ReducedBodyFile& file) {
@@ -105,14 +106,14 @@ std::string describe(const ReducedBodyFile& file) {
   const auto kept = std::count_if(file.columns.begin(), file.columns.end(), [](const auto& each) { return each.kept; });
   std::string text =
       fmt::format("body        {}, {} dimensions, {:.6g} kg\n", file.name, file.dimension, file.body.inertia.m);
-  text += fmt::format("mesh        {} dofs, {} nodes, {} cells\n", file.dofs, file.nodes, file.cells);
+  text += fmt::format("mesh        {} dofs, {} nodes, {} elements\n", file.dofs, file.nodes, file.cells);
   text += fmt::format("frame       {}\n", frame_text(file.frame));
-  text += fmt::format("basis       {} coordinates of {} columns\n", kept, file.columns.size());
+  text += fmt::format("basis       {} coordinates of {} candidate vectors\n", kept, file.columns.size());
   text += left_out(file);
   text += fmt::format("energy      {} squares of {} coordinates and {} products\n", elasticity.F.rows(),
                       elasticity.bending.rows(), elasticity.pairs.size());
   text += fmt::format("damping     {}\n", file.damping.size() ? "yes" : "none");
-  text += fmt::format("in motion   {:.1f} kB\n", static_cast<double>(online_bytes(file)) / 1000);
+  text += fmt::format("online      {:.1f} kB\n", static_cast<double>(online_bytes(file)) / 1000);
   text += fmt::format("shapes      {}\n", file.has_shapes ? "of all nodes" : "none");
   text += made_text(file.made);
   for (const Table& table : {frequencies(file), columns(file), places(file)})

@@ -130,11 +130,11 @@ void put(Writer& to, const std::vector<ReducedColumn>& columns) {
   to.texts("columns/kind", kinds, "mode, derivative or attachment");
   to.texts("columns/label", labels);
   to.numbers("columns/omega", shape, omega, "rad/s", "of modes");
-  to.numbers("columns/new_part", shape, new_part, "1", "share that the columns before it lack");
-  to.numbers("columns/interaction", shape, interaction, "1", "against the greatest");
+  to.numbers("columns/new_part", shape, new_part, "1", "part not contained in the span of the previous vectors");
+  to.numbers("columns/interaction", shape, interaction, "1", "relative to the maximum");
   to.integers("columns/kept", shape, kept, "1: in the basis");
   if (std::any_of(dropped.begin(), dropped.end(), [](const std::string& each) { return !each.empty(); }))
-    to.remarks("columns/dropped", dropped, "why a static column was no candidate");
+    to.remarks("columns/dropped", dropped, "why an attachment mode was not a candidate");
 }
 
 void put(Writer& to, const MadeBy& made) {

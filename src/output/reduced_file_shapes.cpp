@@ -18,15 +18,16 @@ void check_mine(const ReducedBodyFile& file, const ReducedShapes& shapes) {
   need(shapes.dofs_per_node > 0 && shapes.dofs_per_node * file.nodes == file.dofs,
        fmt::format("{} dofs are not {} for each of {} nodes", file.dofs, shapes.dofs_per_node, file.nodes));
   need(shapes.positions.size() == shapes.nodes.size(), "each node needs a position");
-  need(std::all_of(shapes.nodes.begin(), shapes.nodes.end(), known), "a node without place in the body");
+  need(std::all_of(shapes.nodes.begin(), shapes.nodes.end(), known), "a node without position in the body");
   for (const auto& cell : shapes.cells) {
     const auto end = cell.nodes.begin() + corners(cell.kind);
-    need(std::all_of(cell.nodes.begin(), end, known), "a cell with a node that the body lacks");
-    need(std::all_of(end, cell.nodes.end(), [](auto node) { return node == -1; }), "a cell with too many nodes");
-    need(cell.part >= 0 && cell.part < std::ssize(shapes.parts), "a cell of a part without name");
+    need(std::all_of(cell.nodes.begin(), end, known), "an element with a node that the body does not have");
+    need(std::all_of(end, cell.nodes.end(), [](auto node) { return node == -1; }), "an element with too many nodes");
+    need(cell.part >= 0 && cell.part < std::ssize(shapes.parts), "an element of a part without name");
   }
   for (const auto& [name, nodes] : shapes.sets)
-    need(std::all_of(nodes.begin(), nodes.end(), known), fmt::format("set '{}': a node that the body lacks", name));
+    need(std::all_of(nodes.begin(), nodes.end(), known),
+         fmt::format("set '{}': a node that the body does not have", name));
 }
 
 /// Each set ascending, each node once.
@@ -87,7 +88,8 @@ void add_shapes(MPI_Comm comm, const std::filesystem::path& draft, const Reduced
   MPI_Comm_rank(comm, &rank);
   petsc::agree(comm, [&] { check_mine(body, shapes); });
   const std::int64_t cells = sum(comm, std::ssize(shapes.cells));
-  petsc::agree(comm, [&] { need(cells == body.cells, fmt::format("{} cells, the body has {}", cells, body.cells)); });
+  petsc::agree(comm,
+               [&] { need(cells == body.cells, fmt::format("{} elements, the body has {}", cells, body.cells)); });
   const Shares shares(comm, body.nodes);
   const NodeRows rows(comm, shares, shapes.nodes);
   const auto sets = sets_in_order(comm, shares, shapes);

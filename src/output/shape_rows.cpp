@@ -38,7 +38,7 @@ void write_columns(MPI_Comm comm, hid_t file, const std::string& name, hsize_t c
     const auto share = rows.in_order(mine, static_cast<int>(width));
     petsc::agree(comm, [&] {
       need(std::all_of(share.begin(), share.end(), [](double x) { return std::isfinite(x); }),
-           fmt::format("column {} is not finite", j));
+           fmt::format("basis vector {} is not finite", j));
       write_rows<double>(dataset, {j, hsize_t(rows.first()), 0}, {1, share.size() / width, width}, share, true);
     });
   }

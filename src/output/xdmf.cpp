@@ -20,8 +20,9 @@ void check_free(const fs::path& path, const std::string& what, bool overwrite, b
   std::error_code ignored;
   const auto status = fs::status(path, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse("exists and is not a file");
-  if (fs::exists(status) && !ours) refuse(fmt::format("exists and holds no {} of floe's; name another", what));
-  if (fs::exists(status) && !overwrite) refuse("exists; name another, or replace it with --force");
+  if (fs::exists(status) && !ours)
+    refuse(fmt::format("exists and contains no {} written by floe; use another name", what));
+  if (fs::exists(status) && !overwrite) refuse("exists; use another name, or replace it with --force");
   try {
     write_file_atomically(draft_of(path), "");
   } catch (const RunError& fault) {

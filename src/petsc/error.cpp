@@ -52,7 +52,7 @@ void check_options(PetscErrorCode code, const std::string& prefix) {
   try {
     check(code);
   } catch (const Error& error) {
-    throw InputError("an option -" + prefix + "... cannot be taken: " + error.what());
+    throw InputError("an option -" + prefix + "... is rejected: " + error.what());
   }
 }
 

@@ -26,12 +26,12 @@ std::string mumps_words(PetscInt infog, PetscInt detail, const std::string& pref
     case -17:
     case -20:
       return fmt::format(
-          "its work space is too small, and was enlarged as far as floe does by itself: give it more "
-          "(-{0}mat_mumps_icntl_14 1000, or less bound by -{0}mat_mumps_icntl_23), or {1}",
+          "its work space is too small, although floe enlarged it up to its limit; enlarge it further "
+          "(-{0}mat_mumps_icntl_14 1000, or a higher limit -{0}mat_mumps_icntl_23), or {1}",
           prefix, less);
     case -6:
     case -10:
-      return "the matrix is singular: something is not held, or has next to no stiffness";
+      return "the matrix is singular: an unconstrained rigid-body motion, or almost no stiffness in some direction";
     case -90:
       return "the factor cannot be written to disk (MUMPS_OOC_TMPDIR names the folder)";
     default:

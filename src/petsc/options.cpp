@@ -27,8 +27,8 @@ void refuse_preconditioner_alone(KSP ksp) {
   check(PCGetType(pc, &type));
   check(KSPGetOptionsPrefix(ksp, &prefix));
   throw InputError(
-      fmt::format("option -{0}pc_type {1}: is no solver by itself; expected a factorisation (cholesky, lu), or an "
-                  "iteration beside it (-{0}ksp_type gmres)",
+      fmt::format("option -{0}pc_type {1}: is only a preconditioner; expected a factorisation (cholesky, lu), or an "
+                  "iterative solver with it (-{0}ksp_type gmres)",
                   prefix ? prefix : "", type ? type : "none"));
 }
 

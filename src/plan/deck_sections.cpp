@@ -205,7 +205,7 @@ std::vector<std::string> deck_notices(const mesh::InpFile& file, const DeckSecti
   }
   if (scale != 1 && thickest)
     notices.push_back(fmt::format(
-        "{}: scale {} applies to coordinates alone; sections, materials and masses of the deck remain as written: "
+        "{}: scale {} applies to coordinates only; sections, materials and masses of the deck remain as written: "
         "part {} is {:.4g} thick, {} of the scaled extent {:.4g} ({} in the deck's own units); convert the deck, or "
         "give its parts sections in the scene (parts)",
         mesh.source, scale, thickest->name, thickest->size, math::percent(thickest->size / (scale * extent)),

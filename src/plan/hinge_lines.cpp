@@ -70,14 +70,16 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
                          other.ground() ? "ground" : "body " + other.body});
         continue;
       }
-      const std::string why = fmt::format(
-          "{}.{}", place->body,
-          place->name + (line ? " is a straight edge, and the joint's axis is not along it" : " is no straight edge"));
+      const std::string why =
+          fmt::format("{}.{}", place->body,
+                      place->name + (line ? " is a straight edge, and the joint's axis is not along it"
+                                          : " is not a straight edge"));
       if (joint.edges_given)
         faults.push_back(fmt::format("{}.edges: is line, but {}; expected rigid or mean, or an edge along the axis",
                                      joint.where.text(), why));
       else if (line)
-        notices.push_back(fmt::format("joint {}: {}, so that the mean of its nodes is held", joint.name, why));
+        notices.push_back(
+            fmt::format("joint {}: {}, so that the joint constrains the mean of its nodes", joint.name, why));
     }
   if (!faults.empty()) throw InputError(faults);
   return lines;
@@ -88,14 +90,13 @@ void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out,
   for (const Joint& joint : scene.joints) {
     if (std::find(left_out.begin(), left_out.end(), joint.where.text()) == left_out.end()) continue;
     if (joint.edges_given)
-      faults.push_back(
-          joint.where.text() +
-          ".edges: is line, but its edge meets edges of other bodies or rigid pieces; expected mean, by which the "
-          "ground holds each node of the edge by itself, or edges that do not meet");
+      faults.push_back(joint.where.text() +
+                       ".edges: is line, but its edge meets edges of other bodies or rigid regions; expected mean, "
+                       "with which the ground fixes each node of the edge separately, or edges that do not meet");
     else
       notices.push_back(
-          fmt::format("joint {}: its edge meets edges of other bodies or rigid pieces and is no hinge line; the ground "
-                      "holds each of its nodes by itself (edges: mean)",
+          fmt::format("joint {}: its edge meets edges of other bodies or rigid regions and cannot be a line hinge; the "
+                      "ground fixes each of its nodes separately (edges: mean)",
                       joint.name));
   }
   if (!faults.empty()) throw InputError(faults);

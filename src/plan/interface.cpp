@@ -52,12 +52,13 @@ void check_interface(const Plan& plan, int index) {
     const std::string where = body.spec.reduction.interface[i].where.text();
     const std::string joint = body.structure.dimension() == 3 ? joint_that_holds(plan, index, body.interface[i]) : "";
     if (!joint.empty())
-      faults.push_back(fmt::format(
-          "{}: has a node that joint {} holds; expected a place that no joint to the ground touches", where, joint));
+      faults.push_back(
+          fmt::format("{}: has a node fixed by joint {}; expected a place without joint to the ground", where, joint));
     for (std::size_t j = 0; j < i; ++j)
       if (share_a_node(body.interface[i], body.interface[j]))
         faults.push_back(
-            fmt::format("{}: shares a node with interface[{}]; expected places apart, each a rigid piece of its own",
+            fmt::format("{}: shares a node with interface[{}]; expected places without common nodes, each of which is "
+                        "a rigid region",
                         where, j + 1));
   }
   if (!faults.empty()) throw InputError(faults);

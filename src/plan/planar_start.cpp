@@ -181,8 +181,8 @@ Eigen::Vector3d frame_pose(const DeformedBody& deformed) {
     return pose;
   }
   throw InputError(body.spec.initial.where.text() +
-                   ".deformation: the frame finds no place on the deformed body that meets its conditions; expected a "
-                   "smaller deformation, or another frame");
+                   ".deformation: no position of the floating frame satisfies its conditions on the deformed body; "
+                   "expected a smaller deformation, or another frame");
 }
 
 }  // namespace

@@ -86,10 +86,11 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
   } else if (body.frame.kind == FrameSpec::Kind::pinned) {
     const Anchor a = find(body.frame.from), b = find(body.frame.to);
     if (a.nodes.size() != 1 || b.nodes.size() != 1)
-      throw InputError(fmt::format("{}: a pinned frame goes through two nodes; expected places of one node each",
+      throw InputError(fmt::format("{}: a pinned frame is defined by two nodes; expected places of one node each",
                                    body.frame.where.text()));
     if (a.node == b.node)
-      throw InputError(fmt::format("{}: from and to are one node; expected two", body.frame.where.text()));
+      throw InputError(
+          fmt::format("{}: from and to are the same node; expected two different nodes", body.frame.where.text()));
     choice = {fem::ReferenceFrame::Kind::pinned, a.node, b.node, a.x, chord_axes(b.x - a.x)};
   }
   const bool pinned = choice.kind == fem::ReferenceFrame::Kind::pinned;

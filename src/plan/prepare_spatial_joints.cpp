@@ -44,8 +44,8 @@ Eigen::Vector3d axis_of(const Plan& plan, const Joint& joint, const std::array<A
     if (const auto line = line_of(body.structure.mesh, place)) return body.attitude * *line;
   }
   throw InputError(joint.where.text() +
-                   ".axis: is missing, and the joint's places are no edges whose line could be it; expected three "
-                   "numbers [x, y, z]");
+                   ".axis: is missing, and the joint's places are not straight edges, which would define it; expected "
+                   "three numbers [x, y, z]");
 }
 
 Eigen::Matrix3d joint_axes(const Plan& plan, const Joint& joint, const std::array<Anchor, 2>& places) {
@@ -105,8 +105,8 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBo
       return false;
     if (carried)
       throw InputError(joint.where.text() +
-                       ": its edge has nodes of a rigid piece or hinge line that a link or another joint makes; "
-                       "expected places without a node in common, or edges: mean at the other joint");
+                       ": its edge has nodes of a rigid region or line hinge of a link or another joint; expected "
+                       "places without a node in common, or edges: mean at the other joint");
     return hold({0, 1, 2}), true;
   }
   if (carried) return false;
@@ -163,10 +163,11 @@ void prepare_joints(Plan& plan, const std::function<Anchor(const Place&)>& place
       plan.joint_held.back() = hold_by_joint(joint, plan.joint_axes.back(), body, at, body.held);
     }
     if (at.line && !plan.joint_held.back() && (joint.first.ground() || joint.second.ground()))
-      body.notices.push_back(fmt::format(
-          "joint {}: its edge is oblique to the other joints that hold body {}, whose modes know that it stays in its "
-          "place but not that it keeps its direction; columns at the joint (attachment: joints) make up for it",
-          joint.name, body.spec.name));
+      body.notices.push_back(
+          fmt::format("joint {}: its edge is oblique to the other joints of body {}, whose modes are computed with the "
+                      "position of the edge fixed but its direction free; attachment modes at the joint (attachment: "
+                      "joints) compensate for this",
+                      joint.name, body.spec.name));
     const bool here =
         body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
     if ((clamps(joint) || rim >= 0) && here && !is_unlocked(plan.scene, joint.name))

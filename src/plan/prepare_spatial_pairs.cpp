@@ -24,7 +24,7 @@ void check_pairs(const Plan& plan) {
     const auto& [first, second] = plan.joints[j];
     if (first.body == Anchor::elsewhere || second.body == Anchor::elsewhere) continue;
     if (same_place(first, second))
-      faults.push_back(joint.where.text() + ": joins a place with itself; expected two different places");
+      faults.push_back(joint.where.text() + ": connects a place with itself; expected two different places");
     for (std::size_t i = 0; i < j && !apart(joint); ++i) {
       const auto& [one, other] = plan.joints[i];
       const Joint& before = plan.scene.joints[i];
@@ -33,8 +33,8 @@ void check_pairs(const Plan& plan) {
           !(same_place(one, second) && same_place(other, first)))
         continue;
       faults.push_back(
-          fmt::format("{}: holds the same two places as joint {} (line {}); expected one joint for a pair of places "
-                      "(springs apart)",
+          fmt::format("{}: connects the same two places as joint {} (line {}); expected one joint for a pair of places "
+                      "(besides springs)",
                       joint.where.text(), before.name, before.where.line));
       break;
     }

@@ -117,7 +117,7 @@ void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
     for (const mesh::Component& piece : inspection.components)
       pieces.push_back(fmt::format("{} nodes about node {}", piece.nodes, piece.label));
     faults.push_back(
-        fmt::format("{}: the mesh falls into {} pieces ({}{}), so that {} rigid motions are free; expected "
+        fmt::format("{}: the mesh has {} unconnected parts ({}{}), so that {} rigid motions are free; expected "
                     "one connected mesh (join them by common nodes)",
                     body.mesh.where.text(), inspection.component_count, fmt::join(pieces, ", "),
                     inspection.component_count > static_cast<PetscInt>(pieces.size()) ? ", ..." : "",

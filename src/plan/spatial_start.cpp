@@ -215,8 +215,8 @@ Pose frame_pose(const Shape& shape, double size) {
     if (motion.head<3>().norm() <= 1e-11 * size && motion.tail<3>().norm() <= 1e-11) return pose;
   }
   throw InputError(body.spec.initial.where.text() +
-                   ".deformation: the frame finds no place on the deformed body that meets its conditions; expected a "
-                   "smaller deformation, or another frame");
+                   ".deformation: no position of the floating frame satisfies its conditions on the deformed body; "
+                   "expected a smaller deformation, or another frame");
 }
 
 /// How the frame moves in its own axes; the body's rates lose it.

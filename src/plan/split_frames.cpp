@@ -21,7 +21,7 @@ Body part_of(const Body& body, int i) {
     throw InputError(body.where.text() + ": frames splits one straight line; this mesh has " +
                      std::to_string(body.mesh.segments.size()) + " segments");
   if (body.mesh.elements[0] % body.frames != 0)
-    throw InputError(fmt::format("{}: {} elements cannot be shared by {} frames alike; expected a multiple",
+    throw InputError(fmt::format("{}: {} elements cannot be divided equally among {} frames; expected a multiple",
                                  body.where.text(), body.mesh.elements[0], body.frames));
   Body part = body;
   part.name = part_name(body.name, i);

@@ -1,4 +1,4 @@
-"""A Campbell diagram: frequencies of a turning scene against its speed, with the engine orders."""
+"""A Campbell diagram: frequencies of a rotating scene versus its speed, with the engine orders."""
 import csv
 import math
 import os
@@ -22,9 +22,9 @@ def load(folder):
     except OSError as error:
         raise Fault(f"{path}: {error.strerror}") from error
     except (ValueError, StopIteration) as error:
-        raise Fault(f"{path}: is no table of a Campbell diagram ({error})") from error
+        raise Fault(f"{path}: is not a table of a Campbell diagram ({error})") from error
     if not speeds:
-        raise Fault(f"{path}: nothing vibrates")
+        raise Fault(f"{path}: no vibrations")
     summary = read_json(os.path.join(folder, "summary.json"))
     scene = summary.get("scene", {})
     return speeds, f"{scene.get('title') or scene.get('file', '')}: {summary.get('label', '')}"

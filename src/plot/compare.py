@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the formulations of one scene above each other: a panel per probe component, and their errors against the reference.
+"""Draws the formulations of one scene above each other: a panel per probe component, and their errors relative to the reference.
 
 DIR/compare.json names the runs, the probes and the reference; each run's series is the CSV file that floe wrote.
 """
@@ -42,7 +42,7 @@ def load(folder):
             run["series"] = read_series(os.path.join(folder, run["csv"]))
             run.setdefault("label", run["name"])
     except (KeyError, TypeError) as error:
-        raise Fault(f"{os.path.join(folder, 'compare.json')}: lacks {error}") from error
+        raise Fault(f"{os.path.join(folder, 'compare.json')}: has no {error}") from error
     if not runs or not probes:
         raise Fault(f"{os.path.join(folder, 'compare.json')}: no runs or no probes")
     for run in runs:
@@ -101,7 +101,7 @@ def components(description, probe):
 
 
 def moving(description):
-    """Components worth a panel: those that move in the reference, if only by a thousandth of their probe's greatest."""
+    """Components worth a panel: those that move in the reference, by at least a thousandth of their probe's maximum."""
     name = description.get("reference") or description["runs"][0]["name"]
     series = next(run["series"] for run in description["runs"] if run["name"] == name)
     shown = [probe for probe in description["probes"]
@@ -183,7 +183,7 @@ def main_probe(description):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", help="what floe compare wrote: compare.json and the runs it names")
+    parser.add_argument("folder", help="folder written by floe compare: compare.json and its runs")
     parser.add_argument("-o", "--output", help="picture: .png, .svg or .pdf (default: compare.png in the folder)")
     parser.add_argument("--dpi", type=int, default=150, help="of a PNG (default: 150)")
     arguments = parser.parse_args()

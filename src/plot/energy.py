@@ -1,4 +1,4 @@
-"""Energy of a run over time, how its total changes, and how far the constraints are violated."""
+"""Energy of a run versus time, change of its total, and violation of the constraints."""
 import numpy as np
 
 from style import COLOURS, DASHES, pyplot, save
@@ -23,7 +23,7 @@ def draw(run, path, dpi):
     panels[0].set_ylabel("energy [J]")
     panels[1].plot(t, total - total[0], color="black", linewidth=1.1)
     panels[1].set_ylabel("change of the\ntotal energy [J]")
-    panels[1].set_title("work of loads and drives, less what is dissipated; drift where there are none", fontsize=8,
+    panels[1].set_title("work of loads and drives minus dissipation; without these, numerical drift", fontsize=8,
                         color="0.3", loc="left")
     if drift:
         for i, name in enumerate(("positions", "velocities")):

@@ -1,4 +1,4 @@
-"""Probes of a run over time: a panel for each probe, a line for each of its components."""
+"""Probes of a run versus time: a panel for each probe, a line for each of its components."""
 import os
 
 from style import COLOURS, DASHES, Fault, pyplot, save, with_unit

@@ -1,4 +1,4 @@
-"""The moving mechanism as numbers in a page, for viewer.js: few coordinates where the body is reduced, else samples."""
+"""The mechanism's motion as numbers in a page, for viewer.js: few coordinates where the body is reduced, else samples."""
 import base64
 import json
 

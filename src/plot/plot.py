@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`floe plot`: pictures of what floe's commands left. The program starts it with options that it has checked."""
+"""`floe plot`: pictures of the results of floe's commands. The program starts it with checked options."""
 import argparse
 import os
 import sys
@@ -23,10 +23,10 @@ def kinds_of(path):
                 return [kind], [kind], path
         if has("probes.csv"):
             return OF_RUN, OF_RUN + ["animation", "shapes"], path
-        raise Fault(f"{path}: holds nothing that floe has left; expected the folder of a run, a comparison, a "
+        raise Fault(f"{path}: contains no results of floe; expected the folder of a run, a comparison, a "
                     "trade-off, a sweep or a Campbell diagram")
     if not os.path.exists(path):
-        raise Fault(f"{path}: is not there")
+        raise Fault(f"{path}: does not exist")
     folder, name = os.path.split(path)
     if name in ("result.h5", "probes.csv", "summary.json", "compare.json", "tradeoff.json", "sweep.csv", "sweep.h5",
                 "campbell.csv"):
@@ -52,7 +52,7 @@ def target(options, path, kind, several):
     endings = ENDINGS.get(kind, PICTURES)
     if options.out and not os.path.isdir(options.out) and os.path.splitext(options.out)[1]:
         if several:
-            raise Fault(f"--out {options.out}: is one picture, and there are several; expected a folder, or one --kind")
+            raise Fault(f"--out {options.out}: names one picture for several; expected a folder, or one --kind")
         if os.path.splitext(options.out)[1] not in endings:
             raise Fault(f"--out {options.out}: expected a name that ends in {' '.join(endings)}")
         return options.out
@@ -133,7 +133,7 @@ def work():
              if getattr(options, word)}
     for kind, word in asked.items():
         if kind not in (one for one, _ in chosen):
-            raise Fault(f"--{word}: goes with --kind {kind}, which is not drawn here")
+            raise Fault(f"--{word}: applies to --kind {kind}, which is not drawn")
     several = len(chosen) > 1
     targets = [target(options, path, kind, several) for kind, path in chosen]
     runs, skipped, damaged = {}, [], None
@@ -160,7 +160,7 @@ def work():
     if damaged:
         raise damaged
     if len(skipped) == len(chosen):
-        raise Fault("there is nothing to draw")
+        raise Fault("nothing to draw")
 
 
 if __name__ == "__main__":

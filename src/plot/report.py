@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`floe report`: one page on what a command of floe left, with everything in it: no network, no other file."""
+"""`floe report`: one self-contained page on the results of a floe command: no network, no other file."""
 import argparse
 import base64
 import csv
@@ -16,12 +16,12 @@ from style import Damaged, Fault, drafted, duration, guarded, read_json, reading
 THREE = ["/usr/share/javascript/three/three.min.js", "/usr/share/nodejs/three/build/three.min.js"]
 HERE = os.path.dirname(os.path.abspath(__file__))
 MARK = '<meta name="generator" content="floe">'
-CAPTIONS = {"probes": "Probes over time", "energy": "Energy, its change, and the violation of the constraints",
-            "deformed": "The mechanism at some instants, true to scale", "shapes": "Columns of the reduced basis",
-            "compare": "The formulations, and their errors against the reference",
-            "tradeoff": "Error against time: the Pareto front of the models", "sweep": "The members of the sweep",
-            "campbell": "Frequencies against the speed of rotation"}
-REMARKS = {"mode": "vibration mode", "derivative": "modal derivative", "attachment": "static column at a joint or load"}
+CAPTIONS = {"probes": "Probes versus time", "energy": "Energy, its change, and the violation of the constraints",
+            "deformed": "The mechanism at selected instants, true to scale", "shapes": "Basis vectors",
+            "compare": "The formulations, and their errors relative to the reference",
+            "tradeoff": "Error versus computing time: the Pareto front of the models", "sweep": "The members of the sweep",
+            "campbell": "Frequencies versus speed of rotation"}
+REMARKS = {"mode": "vibration mode", "derivative": "modal derivative", "attachment": "attachment mode of a joint or load"}
 
 
 def escaped(value):
@@ -96,8 +96,8 @@ def overview(summary):
              ("steps", summary.get("integration", {}).get("steps")),
              ("reached", f"{summary['integration']['reached']:g} s" if "integration" in summary else None),
              ("offline", duration(seconds["offline"]) if "offline" in seconds else None),
-             ("motion", duration(seconds["motion"]) if "motion" in seconds else None),
-             ("a step", duration(seconds["per_step"]) if "per_step" in seconds else None),
+             ("simulation", duration(seconds["motion"]) if "motion" in seconds else None),
+             ("per step", duration(seconds["per_step"]) if "per_step" in seconds else None),
              ("estimated error", per_cent(estimate["deformation"]) if "deformation" in estimate else None)]
     good = status == "finished"
     reason = f": {escaped(summary['reason'])}" if summary.get("reason") else ""
@@ -115,24 +115,24 @@ def warnings(summary):
 
 
 def why(column, formulation):
-    weight = f"modal interaction {column['interaction']:.2g} of the greatest" if "interaction" in column else ""
+    weight = f"modal interaction {column['interaction']:.2g} of the maximum" if "interaction" in column else ""
     if column["kept"]:
         return "kept" + (f"; {weight}" if weight else "")
     if formulation == "vm" and column["kind"] == "derivative":
-        return "left out: formulation vm has none"
-    return f"left out: the columns before it lack only {column['new_part']:.1g} of it"
+        return "dropped: formulation vm has none"
+    return f"dropped: all but {column['new_part']:.1g} of it is contained in the span of the previous ones"
 
 
 def choice(summary):
-    """Of a model that floe chose for an accuracy."""
+    """Of a model that floe selected for an accuracy."""
     chosen = summary.get("accuracy")
     if not chosen:
         return ""
-    words = (f"Chosen for an error of {100 * chosen['asked']:.3g} %: {per_cent(chosen['supported'])} is supported, "
-             f"{'within' if chosen['within'] else 'beyond'} what was asked for; {chosen['trials']} motions of reduced models, "
+    words = (f"Selected for an error of at most {100 * chosen['asked']:.3g} %: estimated error {per_cent(chosen['supported'])}, "
+             f"{'within' if chosen['within'] else 'above'} the limit; {chosen['trials']} simulations of reduced models, "
              f"{duration(chosen['seconds'])}.")
     return (f"<p>{escaped(words)}</p>"
-            + table(["what", "choice", "measured reason"],
+            + table(["decision", "selected", "measured reason"],
                     [[one["what"], one["choice"], one["reason"]] for one in chosen.get("decisions") or []]))
 
 
@@ -143,21 +143,21 @@ def model(summary):
         if body.get("rigid"):
             words.append("rigid")
         if "reduced_file" in body:
-            words.append(f"reduced before, from {body['reduced_file']}")
+            words.append(f"reduced body from {body['reduced_file']}")
         columns = body.get("basis") or []
         kept = sum(column["kept"] for column in columns)
         if columns:
-            words.append(f"{body['reduced_coordinates']} coordinates: {kept} of {len(columns)} candidate columns")
+            words.append(f"{body['reduced_coordinates']} coordinates: {kept} of {len(columns)} candidate vectors")
         elif not body.get("rigid"):
-            words.append("of full order")
+            words.append("full-order model")
         text += f"<h3>{escaped(body['name'])}</h3><p>{escaped('; '.join(words))}.</p>"
         if columns:
             hertz = iter(f["Hz"] for f in body.get("frequencies") or [])
             rows = [[c["column"], REMARKS.get(c["kind"], c["kind"]), next(hertz, "") if c["kind"] == "mode" else "",
                      float(c["new_part"]), why(c, summary.get("formulation"))] for c in columns]
             text += "<details open>" if len(rows) <= 30 else "<details>"
-            text += "<summary>columns of the basis, and why</summary>" + table(
-                ["column", "what", "frequency [Hz]", "new part", "decision"], rows,
+            text += "<summary>candidate vectors of the basis, and why they are kept or dropped</summary>" + table(
+                ["candidate vector", "kind", "frequency [Hz]", "new part", "decision"], rows,
                 {i for i, c in enumerate(columns) if not c["kept"]}) + "</details>"
     return text
 
@@ -169,9 +169,9 @@ def errors(summary, run):
     if "none" in estimate:
         return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>"
     rows = [[name, 100 * value if value is not None else BEYOND] for name, value in (estimate.get("probes") or {}).items()]
-    return ("<p>Estimated without moving the full order: what this model errs against the full order of the same mesh, root "
-            f"mean square over the motion. Deformations: {per_cent(estimate['deformation'])}; "
-            f"{estimate['full_order_residuals']} residuals of full order, {estimate['columns']} further columns.</p>"
+    return ("<p>Estimated without integrating the full-order model: error of this model relative to the full-order model of the same mesh, root "
+            f"mean square over the simulated time. Deformations: {per_cent(estimate['deformation'])}; "
+            f"{estimate['full_order_residuals']} full-order residuals, {estimate['columns']} further basis vectors.</p>"
             + (table(["probe", "estimated error [%]"], rows) if rows else ""))
 
 
@@ -237,7 +237,7 @@ def pictures(folder, kinds, run):
     return text
 
 
-CONTROLS = """<div id="mechanism"></div><p id="mechanism-note" class="quiet">Drag to turn, shift and drag to shift, wheel to come nearer.
+CONTROLS = """<div id="mechanism"></div><p id="mechanism-note" class="quiet">Drag to rotate, shift and drag to pan, wheel to zoom.
 Colour: deformation, <span class="scale"></span> 0 to {greatest:.3g} m.</p>
 <div id="mechanism-controls"><button id="mechanism-play" type="button">Play</button>
 <input id="mechanism-time" type="range" min="0" value="0" step="1" aria-label="time"><span id="mechanism-clock"></span>
@@ -258,7 +258,7 @@ def mechanism(run):
 
     three = next((path for path in THREE if os.path.exists(path)), None)
     if three is None:
-        return '<p class="quiet">No moving view: three.js is missing (package libjs-three).</p>', ""
+        return '<p class="quiet">No animation: three.js is missing (package libjs-three).</p>', ""
     try:
         data, none = script_data(run)
     except Damaged:
@@ -266,7 +266,7 @@ def mechanism(run):
     except Fault as fault:
         data, none = None, str(fault)
     if data is None:
-        return f'<p class="quiet">No moving view: {escaped(none)}.</p>', ""
+        return f'<p class="quiet">No animation: {escaped(none)}.</p>', ""
     greatest = float(data.partition('"greatest": ')[2].partition(",")[0])
     return (CONTROLS.format(greatest=greatest),
             script(three) + "<script>" + data + "</script>" + script(os.path.join(HERE, "viewer.js")))
@@ -294,9 +294,9 @@ def of_run(folder, run):
     except Fault:
         scene = ""
     return [("overview", "Overview", overview(summary)), ("warnings", "Warnings", warnings(summary)),
-            ("motion", "The moving mechanism", view), ("pictures", "Pictures", pictures(folder, ["probes", "energy", "deformed"], run)),
+            ("motion", "The mechanism in motion", view), ("pictures", "Pictures", pictures(folder, ["probes", "energy", "deformed"], run)),
             ("probes", "Probes", probes(run)), ("error", "Error of the model", errors(summary, run)),
-            ("model", "The model, and why", model(summary)), ("events", "Events", events(summary)),
+            ("model", "Model selection", model(summary)), ("events", "Events", events(summary)),
             ("numbers", "The integration", numbers(summary)), ("timings", "Timings", timings(summary)),
             ("scene", "The scene", scene),
             ("provenance", "Provenance", provenance(summary))], scripts
@@ -317,10 +317,10 @@ def of_compare(folder, description):
         path = os.path.join(folder, one["name"], "summary.json")
         if os.path.exists(path):
             warned += [f"{one['name']}: {line}" for line in read_json(path).get("warnings") or []]
-    reference = f"<p>Errors are relative, root mean square over the motion; the reference is {escaped(description['reference'])}.</p>"
+    reference = f"<p>Errors are relative, root mean square over the simulated time; the reference is {escaped(description['reference'])}.</p>"
     parts += [("table", "Formulations", reference + table_of_file(os.path.join(folder, "compare.csv"))),
               ("warnings", "Warnings", warnings({"warnings": stopped + warned})),
-              ("pictures", "Pictures", pictures(folder, ["compare"], None)), ("motion", "The moving mechanism", view)]
+              ("pictures", "Pictures", pictures(folder, ["compare"], None)), ("motion", "The mechanism in motion", view)]
     return parts, scripts
 
 
@@ -328,9 +328,9 @@ def of_tradeoff(folder, description):
     words = ""
     if "choice" in description:
         rung = description["rungs"][description["choice"]]
-        words = (f"<p><b>Choice: {escaped(rung['name'])}</b> ({escaped(rung['formulation'])}): the cheapest model within "
+        words = (f"<p><b>Selected: {escaped(rung['name'])}</b> ({escaped(rung['formulation'])}): the cheapest model with an error of at most "
                  f"{100 * description['accuracy']:g} % of {escaped(description['reference']['name'])} in every probe.</p>")
-    return [("choice", "The model, and why", words or "<p>No model is within the accuracy asked for.</p>"),
+    return [("choice", "Model selection", words or "<p>No model has the requested accuracy.</p>"),
             ("pictures", "Pictures", pictures(folder, ["tradeoff"], None)),
             ("table", "Models", table_of_file(os.path.join(folder, "tradeoff.csv")))], ""
 
@@ -349,7 +349,7 @@ def check_target(path):
         raise Fault(f"{path}: exists and is not a file")
     with open(path, encoding="utf-8", errors="replace") as file:
         if MARK not in file.read(400):
-            raise Fault(f"{path}: exists and is no report of floe's; name another with --out")
+            raise Fault(f"{path}: exists and is not a report written by floe; use another name with --out")
 
 
 def work():
@@ -359,7 +359,7 @@ def work():
     options = parser.parse_args()
     folder = options.folder
     if not os.path.isdir(folder):
-        raise Fault(f"{folder}: is not a folder; expected one that a command of floe left")
+        raise Fault(f"{folder}: is not a folder; expected the results of a floe command")
     kinds, _, folder = kinds_of(folder)
     out = options.out or os.path.join(folder, "report.html")
     check_target(out)

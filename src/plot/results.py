@@ -136,7 +136,7 @@ class Run:
     def time_label(self):
         """Of equilibria (floe static) t is no time: loads grow with it."""
         static = self.summary.get("integration", {}).get("type") == "static"
-        return "t, with which the loads grow [s]" if static else "time [s]"
+        return "load parameter t [s]" if static else "time [s]"
 
     def probes(self):
         path = os.path.join(self.folder, "probes.csv")
@@ -148,10 +148,10 @@ class Run:
             return
         path = os.path.join(self.folder, "result.h5")
         if not os.path.exists(path):
-            raise Fault(f"{path}: is not there; expected the results of a run")
+            raise Fault(f"{path}: does not exist; expected the results of a run")
         file = open_hdf5(path)  # stays open: states are read when they are asked for
         if "motion/dimension" not in file:
-            raise Fault(f"{path}: does not say where the nodes of the bodies are; run the scene again with this version")
+            raise Fault(f"{path}: has no node positions of the bodies; run the scene again with this version")
         t = file["motion/t"][:, 0]
         rows = len(t) if np.isfinite(t).all() else int(np.argmin(np.isfinite(t)))
         if rows == 0:

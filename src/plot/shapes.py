@@ -1,4 +1,4 @@
-"""Shapes of modes, attachment columns and derivatives: of `floe modes --write`, of a reduced body, or of a run."""
+"""Shapes of modes, attachment modes and derivatives: of `floe modes --write`, of a reduced body, or of a run."""
 import os
 
 import numpy as np
@@ -8,14 +8,14 @@ from style import Fault, MAP, pyplot, save
 from view import Box, View, draw_mesh, draw_scale, set_frame
 
 WIDTH = 7.6  # inches
-OF_BASIS = "columns of the basis, each less what those before it hold,"
-SHARE = 0.12  # of the body's length: how far the shape's greatest displacement is drawn
+OF_BASIS = "basis vectors, each orthonormalised against the previous ones,"
+SHARE = 0.12  # of the body's length: how far the shape's maximum displacement is drawn
 
 
 class Shapes:
-    """A body's mesh and named displacements of its nodes, each told as `labels` say.
+    """A body's mesh and named displacements of its nodes, named by `labels`.
 
-    what: `shapes`; of a basis, whose columns were orthonormalised in their order, that they are its columns.
+    what: `shapes`; of a basis, that they are its vectors, orthonormalised in their order.
     """
 
     def __init__(self, body, mesh, labels, fields, dimension, what):
@@ -24,7 +24,7 @@ class Shapes:
 
 
 def of_modes(file):
-    """What floe modes --write left."""
+    """Written by floe modes --write."""
     found = []
     for name in file:
         group = file[name]
@@ -40,7 +40,7 @@ def of_modes(file):
 def of_reduced(file, path):
     """A reduced body's basis: orthonormalised, the modes first."""
     if "shapes" not in file:
-        raise Fault(f"{path}: holds no shapes; reduce the body again")
+        raise Fault(f"{path}: contains no shapes; reduce the body again")
     dimension = 2 if file["shapes/basis"].shape[2] == 3 else 3
     kept = file["columns/kept"][()] == 1
     labels = [text_of(label) for label, stays in zip(file["columns/label"][()], kept) if stays]
@@ -82,7 +82,7 @@ def load(path):
         return of_modes(file)
     if form == "floe reduced body":
         return of_reduced(file, path)
-    raise Fault(f"{path}: holds neither shapes nor a reduced body of floe's")
+    raise Fault(f"{path}: contains neither shapes nor a reduced body written by floe")
 
 
 def draw(found, path, dpi, count=6, body=None, direction=(-60.0, 25.0)):
@@ -131,7 +131,7 @@ def draw_panels(panels, several, path, dpi, direction):
         panel.set_aspect("equal")
         panel.set_title((f"{shapes.body}: " if several else "") + shapes.labels[i], fontsize=9)
     bar = figure.colorbar(plt.cm.ScalarMappable(norm, MAP), ax=axes, shrink=0.8, aspect=30)
-    bar.set_label("displacement, of the greatest [1]")
+    bar.set_label("displacement / maximum [-]")
     single = panels[0][0].body + ": " if not several else ""
     figure.suptitle(f"{single}{panels[0][0].what} on the undeformed body (grey)", fontsize=11)
     save(figure, path, dpi, 256)

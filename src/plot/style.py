@@ -43,7 +43,7 @@ def reading(what):
 
 def damage(what, error):
     words = " ".join(str(error).split())[:120]
-    return Damaged(f"{what}: is damaged, or of another version of floe ({type(error).__name__}: {words})")
+    return Damaged(f"{what}: is damaged, or written by another version of floe ({type(error).__name__}: {words})")
 
 
 @contextlib.contextmanager

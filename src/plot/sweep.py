@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a sweep: the greatest absolute value of each probe against the first varied number, a line for each of the others.
+"""Draws a sweep: the maximum absolute value of each probe versus the first varied number, a line for each of the others.
 
 DIR/sweep.csv has a row for each member; members that failed are marked at the bottom.
 """
@@ -46,7 +46,7 @@ def draw(folder, path, dpi):
         if failed:
             panel.plot(failed, [0.02] * len(failed), "kx", transform=panel.get_xaxis_transform(), label="failed")
         quantity, unit = column[len("greatest "):].rsplit(" [", 1)
-        panel.set_ylabel(f"greatest |{quantity}| [{unit}")
+        panel.set_ylabel(f"max |{quantity}| [{unit}")
     panels[-1, 0].set_xlabel(paths[0])
     if len(lines) > 1 or failed:
         panels[0, 0].legend(fontsize="small", frameon=False, ncols=2)

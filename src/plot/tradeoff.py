@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Draws error against time for the models of one scene: the Pareto front, and the choice for an accuracy.
+"""Draws error versus computing time for the models of one scene: the Pareto front, and the model selected for an accuracy.
 
-DIR/tradeoff.json is what floe tradeoff wrote. Time is that of the motion; the error is the greatest of all probes'.
+DIR/tradeoff.json is written by floe tradeoff. Time is that of the simulation; the error is the maximum over the probes.
 """
 import argparse
 import math
@@ -16,7 +16,7 @@ LINE = 0.19
 
 
 def worst(rung):
-    """Greatest error of the probes; None where the model stopped or has no number."""
+    """Maximum error of the probes; None where the model stopped or has no number."""
     errors = rung["rms"]
     if rung["stopped"] or not errors or any(error is None for error in errors):
         return None
@@ -33,9 +33,9 @@ def load(folder):
         description["chosen"] = description["rungs"][description["choice"]] if "choice" in description else None
         shown = [rung for rung in description["rungs"] if rung["error"] and rung["motion"] > 0]
     except (KeyError, TypeError, IndexError) as error:
-        raise Fault(f"{path}: lacks {error}") from error
+        raise Fault(f"{path}: has no {error}") from error
     if not shown:
-        raise Fault(f"{path}: no model came to the end of its motion")
+        raise Fault(f"{path}: no model reached the end of its simulation")
     return description, shown
 
 
@@ -44,7 +44,7 @@ def key_lines(description):
     for number, rung in enumerate(description["front"], start=1):
         words = f"{number}  {rung['name']} ({rung['formulation']}): {per_cent(rung['error'])}, {duration(rung['motion'])}"
         if rung is description["chosen"]:
-            words += f"   ← choice for {per_cent(description['accuracy'])}"
+            words += f"   ← selected for {per_cent(description['accuracy'])}"
         lines.append(words)
     stopped = [rung for rung in description["rungs"] if rung["error"] is None]
     lines += [f"–  {rung['name']} ({rung['formulation']}): {rung['stopped'] or 'no number'}"[:118] for rung in stopped]
@@ -78,11 +78,11 @@ def draw(description, shown, path, dpi):
                   marker="o" if chosen_by_floe else MARKS[i % len(MARKS)], markersize=7,
                   color="black" if chosen_by_floe else COLOURS[i % len(COLOURS)],
                   markeredgecolor="white", markeredgewidth=0.6, zorder=3,
-                  label="chosen by floe" if chosen_by_floe else family)
+                  label="selected by floe" if chosen_by_floe else family)
     chosen = description["chosen"]
     if chosen:
         axes.plot(chosen["motion"], 100 * chosen["error"], linestyle="none", marker="o", markersize=15,
-                  markerfacecolor="none", markeredgecolor="black", markeredgewidth=1.4, zorder=4, label="choice")
+                  markerfacecolor="none", markeredgecolor="black", markeredgewidth=1.4, zorder=4, label="selected")
     reference = description["reference"]
     axes.axvline(reference["motion"], color="0.35", linestyle=(0, (6, 2)), linewidth=1.1,
                  label=f"{reference['name']}: {duration(reference['motion'])}")
@@ -94,22 +94,22 @@ def draw(description, shown, path, dpi):
         axes.annotate(str(number), (rung["motion"], 100 * rung["error"]), xytext=(-6, -6), textcoords="offset points",
                       ha="right", va="top", fontsize=8, fontweight="bold")
     axes.margins(0.1)
-    axes.set_xlabel("time of the motion [s]")
-    axes.set_ylabel("greatest relative error of the probes [%]")
+    axes.set_xlabel("computing time of the simulation [s]")
+    axes.set_ylabel("maximum relative error of the probes [%]")
     handles, labels = axes.get_legend_handles_labels()
-    handles = [copy_of_size(handle, 9) if label == "choice" else handle for handle, label in zip(handles, labels)]
+    handles = [copy_of_size(handle, 9) if label == "selected" else handle for handle, label in zip(handles, labels)]
     figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.745, (below + HEIGHT - 0.42) / whole),
                   frameon=False, fontsize=8, handlelength=2.2)
     figure.text(0.5, 1 - 0.1 / whole, description.get("title", ""), ha="center", va="top", fontsize=11)
     for i, words in enumerate(lines):
         figure.text(0.03, (below - 0.1 - LINE * (i + 1)) / whole, words, fontsize=8, va="bottom",
-                    fontweight="bold" if chosen and "← choice" in words else "normal")
+                    fontweight="bold" if chosen and "← selected" in words else "normal")
     save(figure, path, dpi, 256)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", help="what floe tradeoff wrote")
+    parser.add_argument("folder", help="folder written by floe tradeoff")
     parser.add_argument("-o", "--output", help="picture (default: tradeoff.png in the folder)")
     parser.add_argument("--dpi", type=int, default=150)
     arguments = parser.parse_args()

@@ -223,7 +223,7 @@
     scene.add(new THREE.AmbientLight(0xffffff, 0.65), lamp);
     bodies.forEach(makeBody);
     box.appendChild(renderer.domElement);
-    renderer.domElement.setAttribute("aria-label", "The moving mechanism; drag to turn it");
+    renderer.domElement.setAttribute("aria-label", "The mechanism in motion; drag to rotate");
     resize();
     home();
     slider.max = frames - 1;
@@ -240,7 +240,7 @@
     begin();
     window.floeView = { state, bodies, show, run, canvas: renderer.domElement };
   } catch (error) {
-    note.textContent = "The moving view needs WebGL, which this browser does not offer (" + error.message + "). The pictures below do without.";
+    note.textContent = "The animation needs WebGL, which this browser does not support (" + error.message + "). The pictures below do not need it.";
     by("mechanism-controls").hidden = true;
   }
 })();

@@ -268,7 +268,7 @@ PetscErrorCode set_up(EPS eps) {
   EPSCheckSinvert(eps);
   EPSCheckUnsupported(eps, EPS_FEATURE_ARBITRARY | EPS_FEATURE_REGION | EPS_FEATURE_EXTRACTION | EPS_FEATURE_TWOSIDED);
   PetscCheck(eps->which == EPS_TARGET_MAGNITUDE || !eps->which, PetscObjectComm((PetscObject)eps), PETSC_ERR_SUP,
-             "block-lanczos finds the eigenvalues next to the target only (-%seps_target_magnitude)",
+             "block-lanczos computes the eigenvalues nearest the target only (-%seps_target_magnitude)",
              ((PetscObject)eps)->prefix ? ((PetscObject)eps)->prefix : "");
   eps->which = EPS_TARGET_MAGNITUDE;
   if (eps->ncv == PETSC_DEFAULT) eps->ncv = std::min(eps->n, block_lanczos_space(eps->nev));
@@ -294,7 +294,7 @@ PetscErrorCode set_up_sort(EPS eps) {
 PetscErrorCode set_from_options(EPS eps, PetscOptionItems* PetscOptionsObject) {
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "EPS block Lanczos options");
-  PetscCall(PetscOptionsRangeInt("-eps_block_lanczos_size", "How many vectors a block has", "", data_of(eps)->block,
+  PetscCall(PetscOptionsRangeInt("-eps_block_lanczos_size", "Number of vectors per block", "", data_of(eps)->block,
                                  &data_of(eps)->block, nullptr, 1, 64));
   PetscOptionsHeadEnd();
   PetscFunctionReturn(0);

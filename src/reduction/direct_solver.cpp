@@ -52,7 +52,7 @@ petsc::KspHandle direct_solver(Mat A, const char* prefix) {
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(pc), PCLU, &whole));
   if (whole)
     throw InputError(
-        fmt::format("option -{}pc_type lu: the matrix is symmetric, and one half of it is kept; expected "
+        fmt::format("option -{}pc_type lu: the matrix is symmetric, and one triangle of it is stored; expected "
                     "cholesky",
                     prefix));
   widen_blocks(ksp);

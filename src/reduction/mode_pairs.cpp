@@ -61,7 +61,7 @@ void solve_pairs(EPS eps, const Statics& statics) {
     check(EPSSolve(eps));
   } catch (const petsc::Error& error) {
     if (error.code() == PETSC_ERR_SUP || error.code() == PETSC_ERR_USER_INPUT)
-      throw InputError(std::string("an option -modes_... cannot be taken: ") + error.what());
+      throw InputError(std::string("an option -modes_... is rejected: ") + error.what());
     ST st = nullptr;
     KSP ksp = nullptr;
     const char* prefix = nullptr;
@@ -73,7 +73,7 @@ void solve_pairs(EPS eps, const Statics& statics) {
     check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(st), STSHIFT, &inverts_mass));
     if (inverts_mass && !fault.text.empty())
       throw InputError(
-          "option -modes_st_type shift: inverts the mass matrix, in which rotations may have no mass; expected "
+          "option -modes_st_type shift: inverts the mass matrix, which may be singular (rotations); expected "
           "sinvert");
     if (!fault.text.empty()) throw RunError(fault.text);
     if (error.code() != PETSC_ERR_NOT_CONVERGED) throw;
@@ -243,7 +243,7 @@ void complete(const PairSearch& search, int count, Found& found) {
   const std::size_t equal = found.raw.size() + static_cast<std::size_t>(left);
   if (open && found.raw.size() > before && equal > most) {
     const int first = last_cluster(found.lambda, count).first;
-    throw InputError(fmt::format("modes {} to {}{} have one frequency: ask for {}as many", first + 1,
+    throw InputError(fmt::format("modes {} to {}{} have the same frequency; ask for {}as many", first + 1,
                                  missing ? "" : "more than ", equal,
                                  first > 0 ? fmt::format("{}, or for ", first) : ""));
   }
@@ -251,7 +251,7 @@ void complete(const PairSearch& search, int count, Found& found) {
   const auto near = [&](double l) { return std::abs(l / bound - 1) < 1e-5; };
   if (left == 0 || search.statics.refines() || std::any_of(found.lambda.begin(), found.lambda.end(), near)) return;
   throw RunError(
-      fmt::format("{} of the modes below {:.6g} Hz are not found, of which the negative pivots of K - s M tell; other "
+      fmt::format("{} of the modes below {:.6g} Hz are not found, as counted by the inertia of K - s M; other "
                   "vectors may find them (-modes_eps_block_lanczos_size, -modes_eps_ncv), or another number of modes",
                   left, std::sqrt(bound) / (2 * M_PI)));
 }
@@ -277,8 +277,8 @@ void refuse_rigid(const PairSearch& search, Mat M, const Found& found) {
     if (!(along.dot(inverse.solve(along)) > 0.5 * size)) continue;
     check(EPSGetType(search.eps, &type));
     throw InputError(fmt::format(
-        "option -modes_eps_type {}: does not leave out the rigid motions of a body that is free; expected krylovschur, "
-        "block-lanczos or another type that deflates",
+        "option -modes_eps_type {}: does not deflate the rigid motions of a free body; expected krylovschur, "
+        "block-lanczos or another type with deflation",
         type));
   }
 }

@@ -117,7 +117,7 @@ void refuse_other_operators(EPS eps) {
   check(EPSGetProblemType(eps, &type));
   if (type == EPS_HEP || type == EPS_NHEP)
     throw InputError(
-        "options -modes_eps_hermitian, -modes_eps_non_hermitian: modes are those of two matrices, K and M");
+        "options -modes_eps_hermitian, -modes_eps_non_hermitian: modes solve a generalized problem with K and M");
   check(EPSGetST(eps, &st));
   check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(st), &solves, STSINVERT, STCAYLEY, STSHIFT, ""));
   if (solves) petsc::refuse_preconditioner_alone(solver_of(eps));
@@ -222,7 +222,7 @@ Modes ModeSolver::solve(int count) {
   if (count <= 0) return modes;
   if (count > available())
     throw InputError(
-        fmt::format("{} modes are asked of a body that has {} elastic dofs under its conditions", count, available()));
+        fmt::format("{} modes requested of a body that has {} elastic dofs under its conditions", count, available()));
   if (!eps_) create(std::min<int>(count + 1, static_cast<int>(available())));
   const petsc::Stage stage("modes");
   const Transformation inverse(eps_, statics_, holding_.held);
@@ -267,7 +267,7 @@ Modes ModeSolver::solve(int count) {
     if (modes.residual[i] <= 1e-2 || std::abs(found.lambda[i] / lambda[i] - 1) <= 1e-3) continue;
     if (!statics_.refines())
       throw RunError(
-          fmt::format("mode {} of {} cannot be told from motions without mass; ask for fewer modes", i + 1, count));
+          fmt::format("mode {} of {} is indistinguishable from massless motions; ask for fewer modes", i + 1, count));
     throw too_fine(structure_, fmt::format("mode {} lies between {:.4g} and {:.4g} rad/s", i + 1,
                                            std::sqrt(std::min(lambda[i], std::abs(found.lambda[i]))),
                                            std::sqrt(std::max(lambda[i], std::abs(found.lambda[i])))));

@@ -70,7 +70,7 @@ double Statics::measured_error() const {
   double whole = 0, missing = 0;
   check(VecNorm(u[0], NORM_2, &whole));
   check(VecNorm(correction[0], NORM_2, &missing));
-  if (!std::isfinite(missing)) throw too_fine(structure, "its stiffness has no factor in rounded numbers");
+  if (!std::isfinite(missing)) throw too_fine(structure, "its stiffness matrix is singular to working precision");
   return whole > 0 ? missing / whole : 0;
 }
 

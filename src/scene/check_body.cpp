@@ -30,7 +30,7 @@ void check_frame(Document& document, const Body& body) {
     const auto from = checked_point(document, body, frame.from), to = checked_point(document, body, frame.to);
     if (!from || !to) return;
     if (*from == *to) {
-      document.fault(frame.where, "from and to are one node, so that the frame's rotation stays free",
+      document.fault(frame.where, "from and to are the same node, so that the frame's rotation is undetermined",
                      "two different places");
     } else if (body.frames > 1 && (*from != start || *to != end)) {
       document.fault(frame.where, "does not run from start to end", "start and end when there are several frames");
@@ -42,7 +42,7 @@ void check_interface(Document& document, const Body& body) {
   for (const Place& place : body.reduction.interface) {
     checked_point(document, body, place);
     if (body.frames > 1)
-      document.fault(place.where, "does not go with several frames", "an interface of a body in one frame");
+      document.fault(place.where, "cannot be combined with several frames", "an interface of a body in one frame");
   }
 }
 
@@ -51,7 +51,7 @@ void check_frames(Document& document, const Body& body) {
   Where where = body.where;
   where.key += ".frames";
   if (body.mesh.segments.size() != 1) {
-    const char* what = body.mesh.segments.empty() ? "that is no line" : "of several segments";
+    const char* what = body.mesh.segments.empty() ? "that is not a line" : "of several segments";
     document.fault(where, fmt::format("is {} for a mesh {}", body.frames, what), "1, or a single line");
   } else if (body.mesh.elements[0] % body.frames != 0) {
     document.fault(where, fmt::format("is {} for {} elements", body.frames, body.mesh.elements[0]),
@@ -64,7 +64,7 @@ void check_modes(Document& document, const Body& body) {
   const int elastic = 3 * ((node_count(body.mesh) - 1) / body.frames);
   const auto check = [&](int count, const char* what) {
     if (count <= elastic) return;
-    document.fault(modes.where, fmt::format("asks for {} modes{}", count, what),
+    document.fault(modes.where, fmt::format("has {} modes{}", count, what),
                    fmt::format("at most {}, the elastic dofs of {}{}", elastic, body.name,
                                body.frames > 1 ? " in one of its frames" : ""));
   };

@@ -99,12 +99,12 @@ void check_joints(Document& document, const Scene& scene) {
     if (!spots.first || !spots.second) continue;
     const Spot &first = *spots.first, &second = *spots.second;
     if (first == second) {
-      document.fault(joint.where, first.body ? "joins a place with itself" : "joins the ground with itself",
+      document.fault(joint.where, first.body ? "connects a place with itself" : "connects the ground with itself",
                      "two different places");
       continue;
     }
     if (first.body && first.body == second.body && first.body->rigid) {
-      document.fault(joint.where, "joins two places of one rigid body", "places of two bodies");
+      document.fault(joint.where, "connects two places of one rigid body", "places of two bodies");
       continue;
     }
     check_distance(document, joint, first, second);
@@ -115,8 +115,8 @@ void check_joints(Document& document, const Scene& scene) {
       if (!same) continue;
       document.fault(
           joint.where,
-          fmt::format("holds the same two places as joint {} (line {})", other.joint->name, other.joint->where.line),
-          "one joint for a pair of places (springs apart)");
+          fmt::format("connects the same two places as joint {} (line {})", other.joint->name, other.joint->where.line),
+          "one joint for a pair of places (besides springs)");
       break;
     }
     held.push_back({&joint, first, second});

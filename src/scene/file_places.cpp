@@ -24,8 +24,9 @@ const output::ReducedPlace& named_place(const Body& body, const Place& place) {
   }
   const std::string expected = names.empty() ? "another body" : fmt::format("one of {}", fmt::join(names, ", "));
   if (place.point)
-    throw InputError(fmt::format("{}: names a node by coordinates, and \"{}\" has no shapes to find it; expected {}",
-                                 place.where.text(), body.reduced->path, expected));
+    throw InputError(
+        fmt::format("{}: refers to a node by coordinates, and \"{}\" has no shapes with coordinates; expected {}",
+                    place.where.text(), body.reduced->path, expected));
   const std::string near = math::nearest(place.name, names);
   throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}{}{}", place.where.text(), body.name, place.name,
                                expected, file.has_shapes ? ", or coordinates" : "",

@@ -50,7 +50,7 @@ std::vector<std::string> read_texts(Document& document, const Value& value, cons
     if (!item.node.IsScalar() || item.node.Scalar().empty())
       document.fault(item.where, shown(item.node), "a text");
     else if (std::find(texts.begin(), texts.end(), item.node.Scalar()) != texts.end())
-      document.fault(item.where, in_quotes(item.node.Scalar()) + " stands twice", "each once");
+      document.fault(item.where, in_quotes(item.node.Scalar()) + " is given twice", "each once");
     else
       texts.push_back(item.node.Scalar());
   }
@@ -79,7 +79,7 @@ std::vector<Entry> read_mapping(Document& document, const Value& value, const st
     if (text == "<<") {
       document.fault(where, "merge keys are not supported", "an alias for a whole value (KEY: *NAME)");
     } else if (const auto [first, fresh] = lines.emplace(text, where.line); !fresh) {
-      document.fault(where, fmt::format("stands twice, first in line {}", first->second));
+      document.fault(where, fmt::format("is given twice, first in line {}", first->second));
     } else {
       // A mapping is best found by its name; yaml-cpp gives an absent value the place of what follows.
       const bool by_name = pair.second.IsMap() || pair.second.IsNull();

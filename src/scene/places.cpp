@@ -157,10 +157,10 @@ double short_of_middle(const MeshSpec& mesh) {
 }
 
 std::string never_deflects(const Probe& probe, const Body& body) {
-  return fmt::format(
-      "probe {}: its deflection is 0 throughout, because {}; use quantity displacement, with relative_to", probe.name,
-      body.rigid ? fmt::format("body {} is rigid", body.name)
-                 : fmt::format("the floating frame of body {} is attached to that place", body.name));
+  return fmt::format("probe {}: its deflection is 0 throughout, because {}; use quantity displacement with relative_to",
+                     probe.name,
+                     body.rigid ? fmt::format("body {} is rigid", body.name)
+                                : fmt::format("the floating frame of body {} is attached to that place", body.name));
 }
 
 std::vector<std::string> middles_beside_nodes(const Scene& scene) {
@@ -172,8 +172,8 @@ std::vector<std::string> middles_beside_nodes(const Scene& scene) {
       const double away = short_of_middle(body.mesh), length = total_length(body.mesh);
       if (!(away > 1e-6 * length)) continue;
       std::string text = fmt::format(
-          "place {}.middle: no node at half of the length; it is the node {:.3g} m before it, {:.2g} % of the length "
-          "(limit 0.0001 %); use an even number of elements",
+          "place {}.middle: no node at half of the length; the nearest node before it is used, at a distance of {:.3g} "
+          "m, {:.2g} % of the length (limit 0.0001 %); use an even number of elements",
           body.name, away, 100 * away / length);
       if (std::find(words.begin(), words.end(), text) == words.end()) words.push_back(std::move(text));
     }

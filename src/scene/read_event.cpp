@@ -43,9 +43,9 @@ void check_joint(Document& document, const Scene& scene, const Event& event) {
   }
   const JointKind kind = scene.joints[found - names.begin()].kind;
   if (kind == JointKind::spring || kind == JointKind::bushing)
-    document.fault(where, "is \"" + event.joint + "\", a spring", "a joint that holds something");
+    document.fault(where, "is \"" + event.joint + "\", a spring", "a joint that constrains a motion");
   else if (event.kind == Event::Kind::lock && !lockable(kind, scene.dimension))
-    document.fault(where, "is \"" + event.joint + "\", which leaves nothing free that could be locked",
+    document.fault(where, "is \"" + event.joint + "\", which leaves no motion free that could be locked",
                    scene.dimension == 3 ? "a revolute, prismatic, cylindrical, spherical or planar joint"
                                         : "a revolute or prismatic joint");
 }
@@ -69,7 +69,7 @@ Event read_event(Document& document, const std::string& name, const Value& value
   if (when == "when") event.when = reading.formula("when");
   if (when == "probe") event.probe = reading.text("probe"), event.crosses = reading.number("crosses");
   if (when != "probe" && reading.given("crosses"))
-    document.fault(reading.where("crosses"), "stands without probe", "probe: NAME.COMPONENT, as tip.y");
+    document.fault(reading.where("crosses"), "is given without probe", "probe: NAME.COMPONENT, as tip.y");
   return event;
 }
 

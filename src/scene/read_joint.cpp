@@ -46,7 +46,7 @@ void read_axes(Document& document, Reading& reading, Joint& joint) {
   if (joint.axis_given) joint.axis = direction("axis");
   if (joint.axis_given && document.dimension == 2 && joint.kind != Kind::prismatic)
     document.fault(reading.where("axis"), fmt::format("does not apply to type {}", reading.text("type")),
-                   "it only with type prismatic in the plane");
+                   "this key only with type prismatic in planar scenes");
   if (reading.given("second_axis")) joint.second_axis = direction("second_axis");
 }
 
@@ -76,9 +76,10 @@ void check_axes(Document& document, const Reading& reading, const Joint& joint) 
 void read_drive(Document& document, Reading& reading, const char* key, math::Formula& value,
                 std::optional<math::Formula>& speed) {
   if (reading.given(key) == reading.given("speed"))
-    document.fault(reading.where(reading.given("speed") ? "speed" : key),
-                   reading.given("speed") ? fmt::format("stands beside {}", key) : "is missing, and so is speed",
-                   fmt::format("either {} or speed", key));
+    document.fault(
+        reading.where(reading.given("speed") ? "speed" : key),
+        reading.given("speed") ? fmt::format("is given together with {}", key) : "is missing, and so is speed",
+        fmt::format("either {} or speed", key));
   else if (reading.given(key))
     value = reading.formula(key);
   else
@@ -147,7 +148,7 @@ Joint read_joint(Document& document, const std::string& name, const Value& value
   const bool known = document.fault_count() == before;
   if (known && document.dimension == 2 && joint.kind > Kind::spring)
     document.fault(reading.where("type"), "is " + reading.text("type"),
-                   "fixed, revolute, prismatic, driven or spring in a scene in the plane");
+                   "fixed, revolute, prismatic, driven or spring in a planar scene");
   if (known) reading.set_kind(reading.text("type"));
   if (const auto between = reading.value("between")) {
     const auto places = read_list(document, *between, reading.key("between"), 2);

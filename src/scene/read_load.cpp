@@ -16,7 +16,7 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
                                             {"pressure", Kind::pressure}});
   if (document.fault_count() != before) return load;  // which keys it needs is unknown
   if (load.kind == Kind::pressure && document.dimension == 2) {
-    document.fault(reading.where("type"), "is pressure", "force, moment or distributed in a scene in the plane");
+    document.fault(reading.where("type"), "is pressure", "force, moment or distributed in a planar scene");
     return load;
   }
   reading.set_kind(reading.text("type"));
@@ -39,7 +39,7 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   load.axes = reading.choice<Load::Axes>(
       "axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}, {"place", Load::Axes::place}});
   if (load.axes == Load::Axes::place && (document.dimension == 2 || load.kind == Kind::distributed))
-    document.fault(reading.where("axes"), "is place", "it only for a force or moment in space");
+    document.fault(reading.where("axes"), "is place", "place only for a force or moment in a spatial scene");
   return load;
 }
 

@@ -65,13 +65,13 @@ void read_segments(Document& document, const Value& value, MeshSpec& mesh) {
   if (!join) return;
   for (const auto& [i, j] : read_pairs(document, *join, reading.key("join"))) {
     if (std::max(i, j) > static_cast<int>(mesh.points.size())) {
-      document.fault(join->where, fmt::format("names point {} of {}", std::max(i, j), mesh.points.size()));
+      document.fault(join->where, fmt::format("refers to point {} of {}", std::max(i, j), mesh.points.size()));
     } else if (i == j) {
-      document.fault(join->where, fmt::format("[{}, {}] joins a point with itself", i, j));
+      document.fault(join->where, fmt::format("[{}, {}] connects a point with itself", i, j));
     } else if (std::count(mesh.segments.begin(), mesh.segments.end(), std::array{i - 1, j - 1}) +
                    std::count(mesh.segments.begin(), mesh.segments.end(), std::array{j - 1, i - 1}) >
                0) {
-      document.fault(join->where, fmt::format("[{}, {}] stands twice", i, j));
+      document.fault(join->where, fmt::format("[{}, {}] is given twice", i, j));
     }
     mesh.segments.push_back({i - 1, j - 1});
   }
@@ -122,7 +122,7 @@ void refuse_coincident_points(Document& document, const MeshSpec& mesh) {
       const auto [first, second] = std::minmax(order[a], order[b]);
       document.fault(mesh.where,
                      fmt::format("points {} and {} coincide at ({}, {})", first + 1, second + 1, p[0], p[1]),
-                     "different points (where segments meet, name the same point in `segments: {join: ...}`)");
+                     "different points (where segments meet, use the same point in `segments: {join: ...}`)");
       return;
     }
   }

@@ -16,7 +16,8 @@ Motion read_motion(Document& document, const Value& value) {
   motion.every = reading.integer("every");
   motion.output = reading.optional_number("output");
   if (motion.output && reading.given("every"))
-    document.fault(reading.where("every"), "does not go with output, which does not count steps", "one of them");
+    document.fault(reading.where("every"), "cannot be combined with output, which is independent of the steps",
+                   "one of them");
   if (motion.step > motion.end) {
     document.fault(reading.where("step"), fmt::format("is {}", motion.step),
                    fmt::format("at most end, {}", motion.end));
@@ -27,7 +28,7 @@ Motion read_motion(Document& document, const Value& value) {
   }
   if (motion.output && *motion.output < motion.step / most_between)
     document.fault(reading.where("output"), fmt::format("is {}", *motion.output),
-                   fmt::format("at least a {}th of step, {}", most_between, motion.step / most_between));
+                   fmt::format("at least 1/{} of step, {}", most_between, motion.step / most_between));
   return motion;
 }
 

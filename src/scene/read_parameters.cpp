@@ -22,7 +22,7 @@ void read_parameters(Document& document, const Value& value) {
   for (const char* variable : {"t", "x", "y", "z"}) reserved.push_back(variable);
   for (const auto& entry : read_mapping(document, value, describe(key))) {
     if (!identifier(entry.name)) {
-      document.fault(entry.where, "is no name of a parameter", "letters, digits and _, not beginning with a digit");
+      document.fault(entry.where, "is not a valid parameter name", "letters, digits and _, not starting with a digit");
     } else if (std::count(reserved.begin(), reserved.end(), entry.name)) {
       document.fault(entry.where, "is reserved in formulas", "another name");
     } else {

@@ -11,7 +11,7 @@ void read_file(Document& document, ReducedSpec& reduced) {
   std::error_code ignored;
   if (!std::filesystem::exists(reduced.path, ignored)) {
     document.fault(reduced.where, fmt::format("there is no file \"{}\"", reduced.path),
-                   "one that `floe reduce` wrote, relative to the folder of the scene");
+                   "a file written by `floe reduce`, relative to the folder of the scene");
     return;
   }
   try {
@@ -22,9 +22,8 @@ void read_file(Document& document, ReducedSpec& reduced) {
   }
   const int dimension = reduced.file->dimension;
   if (dimension == document.dimension) return;
-  document.fault(reduced.where,
-                 fmt::format("\"{}\" holds a body in the plane, and the scene is in space", reduced.path),
-                 "bodies that are all in the plane, or all in space");
+  document.fault(reduced.where, fmt::format("\"{}\" contains a planar body, and the scene is spatial", reduced.path),
+                 "bodies that are all planar, or all spatial");
   reduced.file = nullptr;
 }
 
@@ -34,7 +33,7 @@ void refuse_deformation(Document& document, Reading& body) {
   Reading reading(document, *initial, "initial");
   for (const char* key : {"deformation", "deformation_rate"})
     if (reading.given(key))
-      document.fault(reading.where(key), "does not apply to a body from a file", "it only with a mesh");
+      document.fault(reading.where(key), "does not apply to a body from a file", "this key only with a mesh");
 }
 
 }  // namespace
@@ -47,10 +46,10 @@ Body read_reduced(Document& document, const std::string& name, Reading& reading)
   body.reduced = ReducedSpec{reading.text("reduced"), nullptr, reading.where("reduced")};
   for (const Key& key : schema_section("body").keys)
     if (key.name != "reduced" && key.name != "initial" && reading.given(key.name))
-      document.fault(reading.where(key.name), "does not apply beside reduced", "it only with a mesh");
+      document.fault(reading.where(key.name), "does not apply together with reduced", "this key only with a mesh");
   if (body.reduced->path.empty()) {
     if (document.fault_count() == before)
-      document.fault(body.reduced->where, "is empty", "a file that `floe reduce` wrote");
+      document.fault(body.reduced->where, "is empty", "a file written by `floe reduce`");
     return body;
   }
   body.reduced->path = document.beside(body.reduced->path);

@@ -24,12 +24,12 @@ void check_pairs(Document& document, const DerivativesSpec& derivatives, const M
   for (auto pair = derivatives.pairs.begin(); pair != derivatives.pairs.end(); ++pair) {
     const auto [i, j] = *pair;
     if (j > modes.count || i > modes.count) {
-      document.fault(derivatives.where, fmt::format("[{}, {}] names mode {}", i, j, std::max(i, j)),
+      document.fault(derivatives.where, fmt::format("[{}, {}] refers to mode {}", i, j, std::max(i, j)),
                      fmt::format("at most {}, the count of modes", modes.count));
     } else if (i > j) {
       document.fault(derivatives.where, fmt::format("is [{}, {}]", i, j), fmt::format("[{}, {}]: i <= j", j, i));
     } else if (std::count(derivatives.pairs.begin(), pair, *pair) > 0) {
-      document.fault(derivatives.where, fmt::format("[{}, {}] stands twice", i, j));
+      document.fault(derivatives.where, fmt::format("[{}, {}] is given twice", i, j));
     }
   }
 }
@@ -83,12 +83,12 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
     for (const Value& place : read_list(document, *places, reading.key("interface")))
       reduction.interface.push_back(read_own_place(document, place, reading.key("interface"), body));
   if (!reduction.interface.empty() && reduction.modes.of == ModesSpec::Of::frame)
-    document.fault(reading.where("interface"), "does not go with modes: {of: frame}", "modes as the joints hold them");
+    document.fault(reading.where("interface"), "cannot be combined with modes: {of: frame}", "modes: {of: joints}");
   if (const auto columns = reading.value("columns"); columns && reading.given("columns")) {
     reduction.columns_where = reading.where("columns");
     reduction.columns = read_texts(document, *columns, reading.key("columns"));
     if (reading.given("derivatives"))
-      document.fault(reading.where("derivatives"), "does not go with columns, which names the derivatives",
+      document.fault(reading.where("derivatives"), "cannot be combined with columns, which lists the derivatives",
                      "one of them");
   }
   reduction.linear = reading.choice("elastic_force") == "linear";

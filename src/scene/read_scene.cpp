@@ -21,7 +21,7 @@ std::vector<Part> read_named(Document& document, Reading& scene, const std::stri
   if (!value) return parts;
   for (const auto& entry : read_mapping(document, *value, describe(scene.key(key)))) {
     if (!good_name(entry.name)) {
-      document.fault(entry.where, "is no good name", "letters, digits, _ and -");
+      document.fault(entry.where, "is not a valid name", "letters, digits, _ and -");
     } else if (key == "bodies" && entry.name == "ground") {
       document.fault(entry.where, "is the name of the ground", "another name");
     }
@@ -110,7 +110,8 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   if (reading.given("accuracy"))
     scene.accuracy = read_share(document, *reading.value("accuracy"), reading.key("accuracy"));
   if (scene.accuracy && scene.motion.tolerance)
-    document.fault(reading.where("accuracy"), "does not go with motion.tolerance: it chooses the step", "one of them");
+    document.fault(reading.where("accuracy"), "cannot be combined with motion.tolerance: it selects the step",
+                   "one of them");
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
   scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {

@@ -20,7 +20,7 @@ std::optional<Material> read_material(Document& document, Reading& body) {
 double number_of(Document& document, Reading& section, const std::string& name, bool applies, bool required) {
   const char* with = applies ? "" : section.key(name).text.ends_with("with material") ? "with" : "without";
   if (section.given(name) && !applies) {
-    document.fault(section.where(name), "does not apply here", fmt::format("it only {} `material`", with));
+    document.fault(section.where(name), "does not apply here", fmt::format("this key only {} `material`", with));
   } else if (applies && required && !section.given(name)) {
     document.fault(section.where(name), "is missing", describe(section.key(name)));
   }

@@ -82,14 +82,14 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
   if (!material.nu && !material.G) document.fault(material.where, "has neither nu nor G", "one of them for beams");
   const fem::SectionShape shape = shape_of(document, reading);
   const auto centroid = reading.numbers("centroid");
-  if (centroid.size() != 2) document.fault(reading.where("centroid"), "has not two numbers", "[y, z]");
+  if (centroid.size() != 2) document.fault(reading.where("centroid"), "does not have two numbers", "[y, z]");
   const std::size_t read = document.fault_count();
   const auto factors = reading.given("shear_factor") ? reading.numbers("shear_factor") : std::vector<double>{};
   const bool positive = factors.size() == 2 && std::min(factors[0], factors[1]) > 0;
   if (reading.given("shear_factor") && !positive && document.fault_count() == read)
     document.fault(reading.where("shear_factor"), "is not two numbers greater than 0", "[y, z]");
   if (!reading.given("orientation"))
-    document.fault(reading.where(), "has no orientation", "a vector that turns the section of beams");
+    document.fault(reading.where(), "has no orientation", "a vector that orients the section of beams");
   const Point y = reading.given("orientation") ? reading.point("orientation") : Point{};
   if (document.fault_count() != before) return fem::SpatialBeam{};
   const double E = *material.E, G = material.G ? *material.G : fem::shear_modulus(E, *material.nu);
@@ -133,7 +133,7 @@ fem::Section section_of(Document& document, const Value& value, const Material& 
   const bool shell = reading.given("thickness") || reading.given("plies");
   const bool beam = reading.given("shape") || reading.given("A");
   if (shell == beam || (reading.given("thickness") && reading.given("plies")))
-    document.fault(value.where, "is neither of shells nor of beams, or both",
+    document.fault(value.where, "is a section neither of shells nor of beams, or of both",
                    "thickness or plies (shells), or shape or A (beams)");
   const std::size_t before = document.fault_count();
   if (shell == beam) return fem::SpatialBeam{};

@@ -18,7 +18,7 @@ Reading::Reading(Document& document, const Value& value, const std::string& sect
       const int dimension = section_.key(entry.name).dimension;
       if (dimension != 0 && dimension != document.dimension)
         document.fault(entry.value.where, "does not apply here",
-                       dimension == 2 ? "it only in a scene in the plane" : "it only in a scene in space");
+                       dimension == 2 ? "this key only in planar scenes" : "this key only in spatial scenes");
       else
         values_.emplace(entry.name, entry.value);
     } else {
@@ -33,7 +33,7 @@ void Reading::set_kind(const std::string& kind) {
     const bool applies = key.kinds.empty() || std::count(key.kinds.begin(), key.kinds.end(), kind);
     if (given(key.name) && !applies) {
       document_.fault(where(key.name), fmt::format("does not apply to type {}", kind),
-                      fmt::format("it only with type {}", fmt::join(key.kinds, ", ")));
+                      fmt::format("this key only with type {}", fmt::join(key.kinds, ", ")));
     }
   }
 }

@@ -8,43 +8,44 @@ namespace {
 
 const SchemaSection scene_section{
     "scene",
-    "The file: one mapping with these keys.",
+    "The whole file: one mapping with these keys.",
     "title: Cantilever\nparameters: {L: 100, F: 2500}\ngravity: [0, -9.81]\nbodies: {...}\njoints: {...}\nloads: "
     "{...}\n"
     "motion: {...}\nprobes: {...}\nevents: {...}",
     {
-        {"title", Type::text, "", "", "what the scene shows"},
+        {"title", Type::text, "", "", "title of results and pictures; absent: the name of the file"},
         {"parameters", Type::parameters, "", "",
-         "numbers by name, for use in every number and formula below; each may use those above it"},
-        {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity, world axes; absent: none"},
-        part("ground", Type::section, "", "how the ground moves; absent: it stands", "ground"),
+         "named numbers that all numbers and formulas may use; a parameter may use those defined above it"},
+        {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity in world axes; absent: zero"},
+        part("ground", Type::section, "", "prescribed motion of the ground; absent: fixed", "ground"),
         {"share_frames", Type::flag, "", "true",
-         "in space: a body that a fixed joint makes one with a rigid body has its frame (beams where `frame` clamps "
-         "them there), without coordinates and multipliers of its own; false: never"},
-        part("bodies", Type::named_sections, required, "the bodies by name", "body"),
-        part("joints", Type::named_sections, "", "the joints by name; absent: the bodies are free", "joint"),
-        part("loads", Type::named_sections, "", "the loads by name", "load"),
-        part("motion", Type::section, "", "how long and how finely; only commands that move nothing do without",
+         "spatial scenes: a flexible body welded to a rigid body by a fixed joint uses that body's frame as its "
+         "floating frame (beams: where `frame` clamps them there), which eliminates its rigid-body coordinates and the "
+         "joint's multipliers; false: never"},
+        part("bodies", Type::named_sections, required, "bodies by name", "body"),
+        part("joints", Type::named_sections, "", "joints by name; absent: the bodies are free", "joint"),
+        part("loads", Type::named_sections, "", "loads by name", "load"),
+        part("motion", Type::section, "", "end time and time step; required by run, compare, tradeoff and sweep",
              "motion"),
         {"accuracy",
          Type::share,
          "",
          "",
-         "greatest error of the probes against the full order of the same mesh, each as a vector, root mean square: "
-         "floe run chooses columns, elastic force and step for it; absent: as the scene says",
+         "maximum error of the probes relative to the full-order model of the same mesh (each probe as a vector, root "
+         "mean square), for which floe run selects basis vectors, elastic force and time step; absent: the scene's own "
+         "model",
          {0, 1, true, true}},
-        part("probes", Type::named_sections, "", "what to record, by name", "probe"),
-        part("events", Type::named_sections, "", "what happens once in the motion, by name", "event"),
+        part("probes", Type::named_sections, "", "recorded quantities by name", "probe"),
+        part("events", Type::named_sections, "", "events by name; each occurs at most once", "event"),
     }};
 
 const SchemaSection ground_section{
     "ground",
-    "A ground that shakes without turning. The world's axes go with it: positions and velocities are those that one "
-    "sees "
-    "who stands on it, and all that has mass feels the opposite acceleration.",
+    "Translational base excitation. The world axes move with the ground: positions and velocities are relative to it, "
+    "and the inertia force of the opposite acceleration acts on every mass.",
     "acceleration: [0, \"3*sin(20*t)\"]",
     {
-        {"acceleration", Type::formulas, "m/s2", "", "of the ground, along the world's axes; absent: none"},
+        {"acceleration", Type::formulas, "m/s2", "", "acceleration of the ground in world axes; absent: zero"},
     }};
 
 }  // namespace

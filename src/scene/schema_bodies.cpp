@@ -6,39 +6,42 @@ namespace {
 
 const SchemaSection body_section{
     "body",
-    "A structure of beams in one floating frame, named by its key (not `ground`).",
+    "A flexible or rigid body (beams, in spatial scenes also shells) with one floating frame, named by its key (not "
+    "`ground`).",
     "mesh: {line: {from: [0, 0], to: [L, 0], elements: 20}}\nsection: {A: 70, I: 585}\nmaterial: {E: 16000, rho: "
     "0.0078}\n"
     "frame: pinned\nreduction: {modes: 12}",
     {
-        part("mesh", Type::section, required, "the undeformed shape, in the axes of the mesh", "mesh"),
+        part("mesh", Type::section, required, "the undeformed shape in mesh axes", "mesh"),
         {"reduced", Type::text, "", "",
-         "instead of all other keys but initial: a file that `floe reduce` wrote, relative to the folder of the "
-         "scene; its places are those of the file"},
+         "instead of all other keys except initial: a file written by `floe reduce`, relative to the folder of the "
+         "scene; its places are those stored in the file"},
         part("section", Type::section, "",
-             "cross-section, or stiffness and mass per length; in space: of all parts that `parts` does not name",
+             "cross-section, or stiffness and mass per length; in spatial scenes: of all parts not listed in `parts`",
              "section"),
-        part("material", Type::section, "", "absent: section gives EA, EI and rhoA", "material"),
-        in_space(
-            part("parts", Type::named_sections, "", "sections and materials of the mesh's parts, by name", "part")),
+        part("material", Type::section, "", "material; absent: the section has EA, EI and rhoA", "material"),
+        in_space(part("parts", Type::named_sections, "",
+                      "sections and materials of the mesh's parts by name; absent: section and material apply to all",
+                      "part")),
         choice("strain", "averaged",
-               "membrane strain in an element: averaged over it (free of locking) or pointwise (locks)",
+               "membrane strain of an element: averaged over its length (no membrane locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
-        in_plane({"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"}),
+        in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
         {"rigid", Type::flag, "", "false",
-         "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},
+         "rigid body: EA and EI may be absent; frame, reduction, damping and deformation have no effect"},
         part("frame", Type::frame, "",
-             "where the floating frame is attached; absent: in the plane pinned from start to end; in space mean-axis, "
-             "but clamped for plates and meshes from files where a joint clamps them to the ground or to a rigid body",
+             "conditions of the floating frame; absent: pinned from start to end in planar scenes; in spatial scenes "
+             "mean-axis, but clamped for plates and meshes from files that a joint clamps to the ground or to a rigid "
+             "body",
              "frame"),
         {"frames", Type::integer, "", "1",
-         "split a straight line into so many floating frames of the kind that `frame` says, joined rigidly; divides "
-         "the "
-         "elements",
+         "number of floating frames into which a straight line is split, each of the kind given by `frame`, with rigid "
+         "connections; must divide the number of elements",
          counts},
-        part("reduction", Type::section, "", "the reduced basis", "reduction"),
-        part("damping", Type::section, "", "absent: none", "damping"),
-        part("initial", Type::section, "", "absent: at rest, undeformed, mesh axes on world axes", "initial"),
+        part("reduction", Type::section, "", "the reduced basis; absent: the defaults of `reduction`", "reduction"),
+        part("damping", Type::section, "", "damping; absent: none", "damping"),
+        part("initial", Type::section, "",
+             "initial state; absent: at rest, undeformed, mesh axes parallel to world axes", "initial"),
     }};
 
 const SchemaSection mesh_section{
@@ -46,59 +49,61 @@ const SchemaSection mesh_section{
     "The shape of a body: exactly one of these keys.",
     "line: {from: [0, 0], to: [100, 0], elements: 20}",
     {
-        part("line", Type::section, "", "one straight line", "line"),
-        part("polyline", Type::section, "", "straight segments, one after another", "polyline"),
-        part("segments", Type::section, "", "a frame: points and the segments between them", "segments"),
-        part("plate", Type::section, "", "a flat rectangle of shells, in space", "plate"),
-        part("file", Type::section, "", "a mesh file, in space: Gmsh 4.1 (.msh) or a CalculiX/Abaqus deck (.inp)",
-             "file"),
+        part("line", Type::section, "", "one straight segment", "line"),
+        part("polyline", Type::section, "", "consecutive straight segments", "polyline"),
+        part("segments", Type::section, "", "a frame structure: points and the segments between them", "segments"),
+        part("plate", Type::section, "", "a flat parallelogram of shells (spatial scenes)", "plate"),
+        part("file", Type::section, "",
+             "a mesh file (spatial scenes): Gmsh 4.1 (.msh) or a CalculiX/Abaqus deck (.inp)", "file"),
     }};
 
-const SchemaSection line_section{"line",
-                                 "Places: start, end, middle.",
-                                 "from: [0, 0]\nto: [L, 0]\nelements: 20",
-                                 {
-                                     {"from", Type::point, "m", required, "place `start`"},
-                                     {"to", Type::point, "m", required, "place `end`"},
-                                     {"elements", Type::integer, "", required, "of equal length", counts},
-                                 }};
+const SchemaSection line_section{
+    "line",
+    "Places: start, end, middle.",
+    "from: [0, 0]\nto: [L, 0]\nelements: 20",
+    {
+        {"from", Type::point, "m", required, "first point, place `start`"},
+        {"to", Type::point, "m", required, "last point, place `end`"},
+        {"elements", Type::integer, "", required, "number of elements of equal length", counts},
+    }};
 
 const SchemaSection polyline_section{
     "polyline",
     "Places: start, end, middle, p1, p2, ... in the order of the points.",
     "points: [[0, 0], [1, 0], [1, 1]]\nelements: [10, 10]",
     {
-        {"points", Type::points, "m", required, "at least two, all different"},
-        {"elements", Type::integers, "", required, "of each segment, or one number for all", counts},
+        {"points", Type::points, "m", required, "coordinates of at least two different points"},
+        {"elements", Type::integers, "", required, "number of elements of each segment, or one number for all", counts},
     }};
 
 const SchemaSection segments_section{
     "segments",
-    "Places: start (first point), end (last point), p1, p2, ...; all segments hang together.",
+    "Places: start (first point), end (last point), p1, p2, ...; the segments must be connected.",
     "points: [[0, 0], [1, 0], [2, 0], [1, 1]]\njoin: [[1, 2], [2, 3], [2, 4]]\nelements: 10",
     {
-        {"points", Type::points, "m", required, "at least two, all different"},
-        {"join", Type::joins, "", required, "the two points of each segment, numbered from 1", counts},
-        {"elements", Type::integers, "", required, "of each segment, or one number for all", counts},
+        {"points", Type::points, "m", required, "coordinates of at least two different points"},
+        {"join", Type::joins, "", required, "the two end points of each segment, numbered from 1", counts},
+        {"elements", Type::integers, "", required, "number of elements of each segment, or one number for all", counts},
     }};
 
 const SchemaSection section_section{
     "section",
-    "With `material`: A and I. Without: EA, EI and rhoA.",
+    "Section of a beam in a planar scene. With `material`: A and I; without: EA, EI and rhoA.",
     "A: 70\nI: 585",
     {
-        {"A", Type::number, "m2", "", "area; with material", positive},
+        {"A", Type::number, "m2", "", "cross-sectional area; with material", positive},
         {"I", Type::number, "m4", "", "second moment of area; with material", positive},
         {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
         {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
         {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},
-        {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I, or 0 without material",
+        {"rhoI", Type::number, "kg m", "", "rotary inertia per length; absent: rho I with material, 0 without",
          nonnegative},
-        {"GA", Type::number, "N", "", "shear stiffness kappa G A (Timoshenko); absent: sections stay normal", positive},
+        {"GA", Type::number, "N", "",
+         "shear stiffness kappa G A (Timoshenko beam); absent: no shear deformation (Euler-Bernoulli beam)", positive},
     }};
 
 const SchemaSection material_section{"material",
-                                     "Linearly elastic.",
+                                     "Linear elastic material.",
                                      "E: 2.1e11\nrho: 7850",
                                      {
                                          {"E", Type::number, "N/m2", required, "Young's modulus", positive},
@@ -107,85 +112,107 @@ const SchemaSection material_section{"material",
 
 const SchemaSection frame_section{
     "frame",
-    "What makes the elastic displacement unique. The type alone may stand for the section: `frame: clamped`.",
+    "Conditions of the floating frame, which make the elastic displacement unique. The type may be given alone: "
+    "`frame: clamped`.",
     "type: pinned\nfrom: start\nto: end",
     {
         choice("type", "pinned",
-               "pinned: through two places; clamped: tangent at one; mean-axis: without momentum of the deformation",
+               "pinned: through two places; clamped: fixed to the section at one place; mean-axis: zero linear and "
+               "angular momentum of the deformation",
                {"pinned", "clamped", "mean-axis"}),
         only({"pinned"}, {"from", Type::own_place, "", "start", "origin of the frame"}),
-        only({"pinned"}, {"to", Type::own_place, "", "end", "a place on the x axis of the frame"}),
+        only({"pinned"}, {"to", Type::own_place, "", "end", "place on the x axis of the frame"}),
         only({"clamped"},
-             {"at", Type::own_place, "", "start", "origin of the frame, which turns with the section there"}),
+             {"at", Type::own_place, "", "start", "origin of the frame, which rotates with the section there"}),
     }};
 
 const SchemaSection reduction_section{
     "reduction",
-    "The columns of the reduced basis.",
+    "The reduced basis.",
     "modes: {count: 12, of: joints}\nderivatives: [[1, 1], [1, 2], [2, 2]]\nderivative_type: static",
     {
-        part("modes", Type::modes, "6", "vibration modes; an integer is their count", "modes"),
+        part("modes", Type::modes, "6",
+             "vibration modes; an integer is their number; absent: 6, or the number of elastic dofs if that is smaller",
+             "modes"),
         {"derivatives", Type::derivatives, "", "all",
-         "modal derivatives: all, none, so many (chosen by modal interaction), or pairs of modes [i, j], i <= j"},
-        choice("derivative_type", "static", "static: inertia neglected; full: with inertia", {"static", "full"}),
-        choice("attachment", "joints", "where static columns for unit forces are added",
+         "modal derivatives: all, none, their number (selected by modal interaction), or a list of pairs of modes [i, "
+         "j], i <= j"},
+        choice("derivative_type", "static", "static: without inertia terms; full: with inertia terms",
+               {"static", "full"}),
+        choice("attachment", "joints", "places whose unit forces and moments give attachment modes",
                {"none", "joints", "loads", "all"}),
         {"interface", Type::own_places, "", "",
-         "Craig-Bampton: places that the modes hold, each as one rigid piece, with a static column for each of its "
-         "dofs"},
+         "Craig-Bampton reduction: places that are fixed in the vibration modes, each a rigid region, with one "
+         "constraint mode for each of its dofs; absent: none"},
         {"columns", Type::texts, "", "",
-         "only these of the columns and their derivatives, as summary.json names them: mode 1, attachment pin.moment, "
-         "\"derivative 1,2\" (in quotation marks); not with derivatives"},
+         "labels of the basis vectors to use, as in summary.json: mode 1, attachment pin.moment, \"derivative 1,2\" "
+         "(in quotation marks); not with derivatives; absent: all"},
         choice("elastic_force", "von_karman",
-               "of reduced models; linear: without the quadratic and cubic part, for motions that hardly bend",
+               "elastic force of reduced models; linear: without quadratic and cubic terms, for small deflections",
                {"von_karman", "linear"}),
         {"drop_tolerance",
          Type::number,
          "",
          "1e-7",
-         "columns that add less than this (relative) are dropped and reported",
+         "relative tolerance below which a basis vector is linearly dependent on the previous ones; such vectors are "
+         "dropped and reported",
          {0, 1, false, true}},
     }};
 
 const SchemaSection modes_section{
     "modes",
-    "Which vibration modes.",
+    "The vibration modes of the basis.",
     "count: 12\nof: joints\nalone: 17",
     {
-        {"count", Type::integer, "", "6", "how many; the default is less for a mesh with fewer elastic dofs", {0, 1e5}},
+        {"count",
+         Type::integer,
+         "",
+         "6",
+         "number of modes; the default is smaller for a mesh with fewer elastic dofs",
+         {0, 1e5}},
         choice("of", "joints",
-               "of the body as its joints hold it (converges), or under the conditions of its frame alone",
+               "boundary conditions of the modes: joints: dofs constrained by the body's joints are fixed (better "
+               "convergence); frame: only the conditions of its frame",
                {"joints", "frame"}),
-        {"alone", Type::integer, "", "0", "how many in formulation vm; 0: as many as vm+md has columns", {0, 1e5}},
+        {"alone",
+         Type::integer,
+         "",
+         "0",
+         "number of modes in formulation vm; 0: the number of basis vectors of vm+md",
+         {0, 1e5}},
     }};
 
 const SchemaSection damping_section{
     "damping",
-    "Of vibrations: rigid motions that the joints leave free are not damped.",
+    "Damping of vibrations; free rigid-body motions are not damped.",
     "stiffness: 1e-4\nmodal: [0.01, 0.01]",
     {
         {"mass", Type::number, "1/s", "0",
-         "alpha: ratios alpha/(2 omega) of the modes of the body as its joints hold it", nonnegative},
-        {"stiffness", Type::number, "s", "0", "beta: Kelvin-Voigt damping of the strain rates, ratios beta omega/2",
+         "alpha of Rayleigh damping: damping ratios alpha/(2 omega) of the modes of the body with its joints fixed",
          nonnegative},
-        {"modal", Type::numbers, "", "[]", "damping ratios of the first modes, with an interface those that hold it",
+        {"stiffness", Type::number, "s", "0",
+         "beta of Rayleigh damping: Kelvin-Voigt damping of the strain rates, damping ratios beta omega/2",
          nonnegative},
+        {"modal", Type::numbers, "", "[]",
+         "damping ratios of the first modes (with an interface: of the fixed-interface modes)", nonnegative},
     }};
 
 const SchemaSection initial_section{
     "initial",
-    "Position and velocity of the axes of the mesh, deformation in them.",
+    "Initial position and velocity of the mesh axes, and deformation relative to them.",
     "position: [0, 1]\nangle: pi/2\nangular_velocity: 6\ndeformation: [0, \"0.01*sin(pi*x/L)\"]",
     {
-        {"position", Type::point, "m", "", "of the mesh's origin, world axes; absent: 0"},
-        in_plane({"angle", Type::number, "rad", "0", "of the mesh's axes, anticlockwise"}),
-        in_space({"rotation", Type::point, "rad", "", "rotation vector of the mesh's axes, world axes; absent: 0"}),
-        {"velocity", Type::point, "m/s", "", "of the mesh's origin, world axes; absent: 0"},
-        {"angular_velocity", Type::turning, "rad/s", "0", "of the mesh's axes; in space a vector in world axes"},
+        {"position", Type::point, "m", "", "position of the mesh origin, world axes; absent: zero"},
+        in_plane({"angle", Type::number, "rad", "0", "rotation angle of the mesh axes, counterclockwise"}),
+        in_space({"rotation", Type::point, "rad", "", "rotation vector of the mesh axes, world axes; absent: zero"}),
+        {"velocity", Type::point, "m/s", "", "velocity of the mesh origin, world axes; absent: zero"},
+        {"angular_velocity", Type::turning, "rad/s", "0",
+         "angular velocity of the mesh axes; in spatial scenes a vector in world axes"},
         {"deformation", Type::formula_of_place, "m", "",
-         "displacements of the mesh, in its axes; absent: undeformed; the frame goes along. Beams in space do not "
-         "twist"},
-        {"deformation_rate", Type::formula_of_place, "m/s", "", "their rates; absent: 0"},
+         "initial displacement of the mesh in mesh axes, from which the position of the floating frame follows; beams "
+         "in spatial scenes are not twisted by it; absent: undeformed"},
+        {"deformation_rate", Type::formula_of_place, "m/s", "",
+         "initial rate of the displacement, in mesh axes; absent: zero"},
     }};
 
 }  // namespace

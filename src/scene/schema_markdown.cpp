@@ -35,19 +35,18 @@ std::string linked(std::string text, const std::string& section) {
 
 std::string where_it_applies(const Key& key) {
   std::vector<std::string> words;
-  if (key.dimension != 0) words.push_back(key.dimension == 2 ? "in the plane" : "in space");
+  if (key.dimension != 0) words.push_back(key.dimension == 2 ? "in planar scenes" : "in spatial scenes");
   if (!key.kinds.empty()) words.push_back(fmt::format("type {}", fmt::join(key.kinds, ", ")));
   return words.empty() ? "" : fmt::format(" *(only {})*", escaped(fmt::format("{}", fmt::join(words, "; "))));
 }
 
-std::string row(const Key& key) {
-  std::string value = describe(key);
-  if (key.dimension != 2 && describe(key, 3) != value) value += "; in space " + describe(key, 3);
-  value = linked(escaped(value), key.section);
+std::string row(const SchemaSection& section, const Key& key) {
+  std::string value = linked(escaped(described(section, key)), key.section);
   if (const std::string range = key.range.text(); !range.empty()) value += fmt::format("; `{}`", range);
-  const std::string fallback = key.fallback.empty()            ? ""
-                               : key.fallback == Key::required ? "**required**"
-                                                               : "`" + key.fallback + "`";
+  const std::string number = default_text(key);
+  const std::string fallback = key.fallback == Key::required ? "**required**"
+                               : number.empty()              ? ""
+                                                             : "`" + number + "`";
   return fmt::format("| `{}` | {}{} | {} | {} | {} |\n", key.name, escaped(key.text), where_it_applies(key), value,
                      escaped(key.unit), fallback);
 }
@@ -59,7 +58,7 @@ std::string schema_markdown() {
   for (const SchemaSection& section : schema()) {
     out += fmt::format("({})=\n## {}\n\n{}\n\n", target(section.name), section.name, escaped(section.text));
     out += "| key | what it is | value | unit | default |\n|---|---|---|---|---|\n";
-    for (const Key& key : section.keys) out += row(key);
+    for (const Key& key : section.keys) out += row(section, key);
     out += fmt::format("\n```yaml\n{}\n```\n\n", section.example);
   }
   return out;

@@ -7,6 +7,7 @@
 
 #include "floe/scene/scene.h"
 #include "floe/scene/schema.h"
+#include "schema_parts.h"
 
 namespace floe::scene {
 
@@ -55,7 +56,7 @@ std::string describe(const Key& key, int dimension) {
     case Type::number:
       return "a number or a formula of the parameters";
     case Type::share:
-      return "a number, or per cent (1 %)";
+      return "a number, or a percentage (1 %)";
     case Type::numbers:
       return "a list of numbers";
     case Type::point:
@@ -104,24 +105,39 @@ std::string describe(const Key& key, int dimension) {
   throw std::logic_error("a type without a description");
 }
 
+std::string described(const SchemaSection& section, const Key& key) {
+  const auto& spatial = spatial_sections();
+  const bool only_spatial =
+      key.dimension == 3 || std::any_of(spatial.begin(), spatial.end(),
+                                        [&](const SchemaSection& other) { return other.name == section.name; });
+  const std::string planar = describe(key, 2), space = describe(key, 3);
+  if (only_spatial) return space;
+  return key.dimension == 2 || planar == space ? planar : planar + "; in spatial scenes " + space;
+}
+
+std::string default_text(const Key& key) {
+  if (key.fallback == Key::required) return "";
+  return key.type == Type::turning && key.fallback == "0" ? "0; in spatial scenes [0, 0, 0]" : key.fallback;
+}
+
 std::string schema_reference() {
   std::string out =
-      "A scene is a YAML file. Wherever a number is expected, a formula of the parameters may stand (\"pi/2\", L/20).\n"
-      "Formulas know pi, e, + - * / ^, comparisons, `condition ? a : b`, sin, cos, exp, sqrt, abs, min, max and so "
+      "A scene is a YAML file. Every number may be given as a formula of the parameters (\"pi/2\", L/20).\nFormulas "
+      "may contain pi, e, + - * / ^, comparisons, `condition ? a : b`, sin, cos, exp, sqrt, abs, min, max and so "
       "on,\n"
       "triangle(t, rise, fall), ramp(t, from, to) and pulse(t, from, to); in a list, quote a formula that has a "
       "comma.\n"
-      "Names are of letters, digits, _ and -. Units are SI here; any consistent set will do.\n";
+      "Names consist of letters, digits, _ and -. Units are SI here; any consistent set of units may be used.\n";
   for (const SchemaSection& section : schema()) {
     out += fmt::format("\n{}\n{}\n{}\n", section.name, std::string(section.name.size(), '-'), section.text);
     for (const Key& key : section.keys) {
       out += fmt::format("  {:<20} {}\n", key.name, key.text);
-      std::string line = describe(key);
+      std::string line = described(section, key);
       if (!key.unit.empty()) line += fmt::format(" [{}]", key.unit);
       if (const std::string range = key.range.text(); !range.empty()) line += "; " + range;
       if (key.fallback == Key::required) line += "; required";
-      if (!key.fallback.empty() && key.fallback != Key::required) line += "; default " + key.fallback;
-      if (key.dimension != 0) line += key.dimension == 2 ? "; only in the plane" : "; only in space";
+      if (const std::string fallback = default_text(key); !fallback.empty()) line += "; default " + fallback;
+      if (key.dimension != 0) line += key.dimension == 2 ? "; only in planar scenes" : "; only in spatial scenes";
       if (!key.kinds.empty()) line += fmt::format("; only for type {}", fmt::join(key.kinds, ", "));
       out += fmt::format("  {:<20}   {}\n", "", line);
     }

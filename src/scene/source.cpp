@@ -79,7 +79,7 @@ Value parse_yaml(const std::string& text, const std::string& file) {
     root = YAML::Load(text);
   } catch (const YAML::DeepRecursion& error) {
     throw InputError(
-        fmt::format("{}:{}:{}: is nested deeper than any scene", file, error.mark.line + 1, error.mark.column + 1));
+        fmt::format("{}:{}:{}: is nested too deeply for a scene", file, error.mark.line + 1, error.mark.column + 1));
   } catch (const YAML::Exception& error) {
     throw InputError(
         fmt::format("{}:{}:{}: is not valid YAML: {}", file, error.mark.line + 1, error.mark.column + 1, error.msg));

@@ -99,7 +99,7 @@ double read_number(Document& document, const Value& value, const Key& key) {
     const std::string is = plain_number(text) ? "is " + text : fmt::format("{} is {}", in_quotes(text), number);
     document.fault(value.where, is, expected_number(key, "a number"));
   } else if (key.type != Type::parameters && out_of_size(number)) {
-    document.fault(value.where, fmt::format("is {}, whose products leave the range of double precision", number),
+    document.fault(value.where, fmt::format("is {}, whose products exceed the range of double precision", number),
                    fmt::format("0 or a size from {:.0e} to {:.0e}, in units of the problem's own size", least_size,
                                greatest_size));
   }
@@ -129,7 +129,7 @@ double read_share(Document& document, const Value& value, const Key& key) {
 double accuracy_of(const std::string& text) {
   const auto share = plain_share(text);
   if (!share || !(*share > 0 && *share < 1))
-    throw InputError(fmt::format("--accuracy: is \"{}\"; expected a share of one, 0.01, or per cent, 1%", text));
+    throw InputError(fmt::format("--accuracy: is \"{}\"; expected a fraction, as 0.01, or a percentage, as 1%", text));
   return *share;
 }
 

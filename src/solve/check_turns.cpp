@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "everywhere.h"
 #include "floe/petsc/error.h"
+#include "gather_to_all.h"
 #include "null_space.h"
 
 namespace floe::solve {
@@ -40,8 +40,9 @@ std::vector<Index> angle_rows(const RotatingSystem& rotating, const std::vector<
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& expected) {
-  throw InputError(fmt::format(
-      "{} does not turn with the scene about the axis, and there is no steady rotation; expected {}", what, expected));
+  throw InputError(
+      fmt::format("{} does not rotate with the scene about the axis, so that no steady rotation exists; expected {}",
+                  what, expected));
 }
 
 /// The constraints' values and gradients at the configuration and at the turned one, and the forces there.
@@ -54,7 +55,7 @@ Trial trial(const RotatingSystem& rotating, Vec U) {
   const KeptState kept(system, U);
   const petsc::VecHandle turned = system.create_vector();
   petsc::check(VecCopy(U, turned));
-  VectorXd forces_aside = everywhere(system, turned);
+  VectorXd forces_aside = gather_to_all(system, turned);
   const std::vector<char> is_multiplier = multiplier_flags(system);
   for (Index i = 0; i < forces_aside.size(); ++i)
     if (is_multiplier[i]) forces_aside[i] = 0;
@@ -87,10 +88,10 @@ void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std:
       if (!(change > 1e-6 * std::sqrt(size[i] * size[j]) + 1e-11 * greatest)) continue;
       refuse(
           fmt::format(
-              "the stiffness of what acts on {}{}", names[i].empty() ? "the bodies" : names[i],
+              "the stiffness acting on {}{}", names[i].empty() ? "the bodies" : names[i],
               rotating.springs.empty() ? "" : fmt::format(" (to the ground: {})", fmt::join(rotating.springs, ", "))),
-          "springs and bushings to the ground that are on the axis and as stiff in all directions across it, or "
-          "whose first place turns along");
+          "springs and bushings to the ground that lie on the axis and are equally stiff in all directions normal to "
+          "it, or whose first place rotates with the scene");
     }
 }
 
@@ -119,13 +120,13 @@ void check_turns(const RotatingSystem& rotating, Vec U) {
     const bool met = std::abs(at.there.F[i] - at.here.F[i]) <= 1e-7 * size ||
                      std::find(angles.begin(), angles.end(), i) != angles.end();
     if (!met || (size > 0 && lost.col(i).norm() * mass.turn > 1e-7 * size))
-      refuse(names[i], "joints to the ground on the axis that leave the turn about it free or drive it");
+      refuse(names[i], "joints to the ground on the axis that leave the rotation about it free or drive it");
   }
   const VectorXd change = at.there.F - at.here.F, stiff = at.here.K.cwiseAbs() * reach;
   for (Index i = 0; i < unknowns; ++i)
     if (!is_multiplier[i] &&
         std::abs(change[i]) > 1e-7 * std::max(std::abs(at.here.F[i]), std::abs(at.there.F[i])) + 1e-10 * stiff[i])
-      refuse("what acts on " + (names[i].empty() ? "the bodies" : names[i]),
+      refuse("the load on " + (names[i].empty() ? "the bodies" : names[i]),
              "gravity along the axis or none, loads in axes of the body, springs to the ground on the axis");
   check_stiffness(rotating, at, is_multiplier, reach, names);
 }

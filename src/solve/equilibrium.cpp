@@ -34,17 +34,17 @@ std::string none_at(double t, const std::string& why) {
 }
 
 NothingHolds unheld(double t, const std::string& bodies) {
-  return NothingHolds(none_at(
-      t, fmt::format("nothing holds the configuration in some direction{}, or so little that it is round-off of what "
-                     "holds the rest; start from another one (`initial`)",
-                     bodies)));
+  return NothingHolds(
+      none_at(t, fmt::format("singular tangent stiffness{}: an unconstrained rigid-body motion, or ill-conditioning; "
+                             "constrain it, or start from another configuration (`initial`)",
+                             bodies)));
 }
 
 NothingHolds driven_away(double t, const std::string& bodies) {
-  return NothingHolds(none_at(t, fmt::format("nothing holds the configuration in some direction{}, and the loads drive "
-                                             "it on that way without end; hold it, or start from another one "
-                                             "(`initial`)",
-                                             bodies)));
+  return NothingHolds(
+      none_at(t, fmt::format("singular tangent stiffness{}: an unconstrained rigid-body motion, along which the loads "
+                             "are not zero; constrain it, or start from another configuration (`initial`)",
+                             bodies)));
 }
 
 /// Whether nothing but round-off is left of forces and of where joints meet.
@@ -62,9 +62,9 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
   const Undetermined open = open_directions(system, t, U, V);
   if (!open.any()) return 0;
   if (open.repeated)
-    throw RunError(none_at(t, fmt::format("constraints repeat one another{}: leave out one of these joints, or let it "
-                                          "hold less",
-                                          open.joints)));
+    throw RunError(
+        none_at(t, fmt::format("redundant constraints{}: remove one of these joints, or let it constrain fewer motions",
+                               open.joints)));
   if (is_at_rest(system, t, U, V)) throw unheld(t, open.bodies);  // round-off must not set it going
   const petsc::VecHandle before = system.create_vector();
   check(VecCopy(U, before));
@@ -127,13 +127,13 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
   if (!(gain < 0.5)) throw unheld(t, names_of_movers(system, step));
   if (open > 1e-2)  // round-off leaves no more than that where the gain is small: smaller steps of the loads may help
     throw RunError(
-        fmt::format("no equilibrium at t = {:.6g}: further steps of Newton's method do not become short (the "
-                    "last is {:.2g} of the configuration)",
+        fmt::format("no equilibrium at t = {:.6g}: Newton's method does not converge (its last update is {:.2g} of the "
+                    "configuration)",
                     t, open));
-  throw LostInRoundOff(
-      fmt::format("no equilibrium at t = {:.6g}: round-off of the greatest forces leaves {:.2g} of the configuration "
-                  "open (limit {:.0e}); stiffnesses, or the sides of cells, differ too much for double precision",
-                  t, open, open_limit));
+  throw LostInRoundOff(fmt::format(
+      "no equilibrium at t = {:.6g}: round-off of the maximum forces leaves {:.2g} of the configuration undetermined "
+      "(limit {:.0e}); stiffnesses, or the sides of elements, differ too much for double precision",
+      t, open, open_limit));
 }
 
 /// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
@@ -142,7 +142,8 @@ void check_place(const System& system, double t, Vec before, Vec U) {
   if (!astray.joint.empty()) throw RunError(none_at(t, astray.text()));
   if (const double turn = greatest_turn(system, before, U); turn > farthest_turn)
     throw RunError(fmt::format(
-        "no equilibrium at t = {:.6g} within half a turn: Newton's method turns a body by {:.3g} rad", t, turn));
+        "no equilibrium at t = {:.6g} within a rotation of 180 deg: Newton's method rotates a body by {:.3g} rad", t,
+        turn));
 }
 
 /// Whether forces act at U and its tangent is indefinite.

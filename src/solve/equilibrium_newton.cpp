@@ -114,7 +114,7 @@ void solve(SNES snes, Vec U, Context& context, NewtonSearch& search) {
   search.singular = search.singular || fault.singular;
   search.far = context.far;
   if (context.too_far)
-    search.fault = "Newton's method turns a body by more than half a turn";
+    search.fault = "Newton's method rotates a body by more than 180 deg";
   else if (search.singular || (reason < 0 && !context.stands && reason != SNES_DIVERGED_MAX_IT))
     search.fault = fmt::format("{} after {} iterations (options -static_snes_...)",
                                search.singular ? "singular tangent" : SNESConvergedReasons[reason], search.iterations);

@@ -66,7 +66,7 @@ void load_motion(TS ts, const System& system, const MotionState& state) {
              static_cast<PetscInt>(state.vectors[i].second.size()) == local_size(vectors[i].second);
     each_number(ts, [&](const auto&) { ++next; });
     if (!fits || next != state.numbers.size())
-      throw RunError("the state of the motion is that of another system: it has other unknowns");
+      throw RunError("the saved state belongs to another system: its unknowns differ");
   });
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     Changed entries(vectors[i].second);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "everywhere.h"
+#include "gather_to_all.h"
 
 namespace floe::solve {
 
@@ -67,17 +67,17 @@ void add_product(const MatrixXd& Y, const RotatingMotion::Blocks& B, MatrixXd& X
 RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, Vec U) {
   const System& system = rotating.system;
   system.rebase(U);
-  const RotatingMotion motion = rotating_motion(rotating, speed, everywhere(system, U));
+  const RotatingMotion motion = rotating_motion(rotating, speed, gather_to_all(system, U));
   const petsc::VecHandle V = system.create_vector(), A = system.create_vector(), F = system.create_vector();
   set(V, motion.V), set(A, motion.A);
   const petsc::MatHandle J = system.create_tangent();
   const auto tangent = [&](Weights weights) {
     system.tangent(0, U, V, A, weights, J);
-    return everywhere(system, J);
+    return gather_to_all(system, J);
   };
   RotatingTangent out;
   system.residual(0, U, V, A, ConstraintLevel::position, F);
-  out.F = everywhere(system, F);
+  out.F = gather_to_all(system, F);
   out.G = tangent({0, 0, 0});
   out.M = tangent({0, 0, 1}) - out.G;
   const MatrixXd F_v = tangent({0, 1, 0}) - out.G;
@@ -117,7 +117,7 @@ void KeptState::restore(Vec U) const {
 }
 
 VectorXd KeptState::change_to(Vec U) const {
-  VectorXd change = everywhere(system_, U) - everywhere(system_, U_);
+  VectorXd change = gather_to_all(system_, U) - gather_to_all(system_, U_);
   for (std::size_t i = 0; i < bases_.size(); ++i) {
     const auto& [first, attitude] = system_.attitudes()[i];
     change.segment<3>(system_.coordinates().global()[first]) =
@@ -129,7 +129,7 @@ VectorXd KeptState::change_to(Vec U) const {
 void turn(const RotatingSystem& rotating, double angle, Vec U) {
   const System& system = rotating.system;
   system.rebase(U);
-  VectorXd u = everywhere(system, U);
+  VectorXd u = gather_to_all(system, U);
   const Eigen::Quaterniond E(Eigen::AngleAxisd(angle, rotating.axis.direction));
   const Vector3d& c = rotating.axis.point;
   for (const auto& [first, attitude] : system.attitudes()) {

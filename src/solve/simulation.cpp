@@ -8,11 +8,11 @@
 #include <memory>
 #include <utility>
 
+#include "apply_event.h"
 #include "crossings.h"
 #include "floe/petsc/options.h"
 #include "floe/solve/generalized_alpha.h"
 #include "floe/solve/start.h"
-#include "happen.h"
 #include "simplified_newton.h"
 
 namespace floe::solve {
@@ -97,8 +97,8 @@ void refuse_not_finite(Vec U, Vec V) {
   check(VecNorm(V, NORM_2, &sizes[1]));
   if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
     throw RunError(
-        "the state is not finite. Try a smaller motion.step, and no options -motion_snes_... and "
-        "-motion_ts_... that end Newton's method early");
+        "the state is not finite. Try a smaller motion.step, and remove options -motion_snes_... and -motion_ts_... "
+        "that stop Newton's method early");
 }
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
@@ -168,16 +168,16 @@ void refuse_other_types(TS ts, const System& system, const std::string& prefix) 
   check(TSGetExactFinalTime(ts, &at_end));
   if (at_end != TS_EXACTFINALTIME_MATCHSTEP)
     throw InputError(
-        fmt::format("option -{}ts_exact_final_time: a motion ends, and is interrupted by events, at the "
-                    "end of a step; expected matchstep",
+        fmt::format("option -{}ts_exact_final_time: a simulation ends, and is interrupted by events, at the end of a "
+                    "step; expected matchstep",
                     prefix));
   check(TSGetSNES(ts, &snes));
   check(SNESGetType(snes, &newton));
   if (newton != std::string(simplified_newton) && newton != std::string(SNESNEWTONLS))
-    throw InputError(
-        fmt::format("option -{}snes_type {}: steps converge by the size of Newton's updates; expected {} "
-                    "or {}",
-                    prefix, newton, simplified_newton, SNESNEWTONLS));
+    throw InputError(fmt::format(
+        "option -{}snes_type {}: the convergence test for steps uses the size of Newton's updates; expected {} "
+        "or {}",
+        prefix, newton, simplified_newton, SNESNEWTONLS));
   check(SNESGetKSP(snes, &ksp));
   petsc::refuse_preconditioner_alone(ksp);
   PetscBool second_order = PETSC_FALSE;
@@ -186,12 +186,12 @@ void refuse_other_types(TS ts, const System& system, const std::string& prefix) 
   check(TSGetType(ts, &type));
   if (!second_order)
     throw InputError(
-        fmt::format("option -{}ts_type {}: integrates first-order systems, and a motion is of second order; "
-                    "expected {} or {}",
+        fmt::format("option -{}ts_type {}: integrates first-order systems, and the equations of motion are of second "
+                    "order; expected {} or {}",
                     prefix, type, generalized_alpha, TSALPHA2));
   if (!system.attitudes().empty() && type != std::string(generalized_alpha))
-    throw InputError(fmt::format("option -{}ts_type {}: adds rotations in space as if they were vectors; expected {}",
-                                 prefix, type, generalized_alpha));
+    throw InputError(fmt::format("option -{}ts_type {}: adds spatial rotations like vectors; expected {}", prefix, type,
+                                 generalized_alpha));
 }
 
 void set_up(TS ts, const System& system, const Integration& how, Context& context, Vec U, Vec V, Vec F, Mat J) {
@@ -241,7 +241,7 @@ std::string remedy(TS ts, const Context& context, bool newton_failed) {
   check(SNESGetType(snes, &type));
   check(TSGetTolerances(ts, nullptr, nullptr, &tolerance, nullptr));
   if (newton_failed && type != std::string(simplified_newton))
-    return fmt::format("Leave out -{}snes_type {}, or try a smaller motion.step", prefix_of(ts), type);
+    return fmt::format("Remove option -{}snes_type {}, or try a smaller motion.step", prefix_of(ts), type);
   if (!context.adaptive) return "Try a smaller motion.step, or a tolerance for adaptive steps";
   return fmt::format("Try another motion.tolerance than {:.3g}, or a fixed motion.step", tolerance);
 }
@@ -260,12 +260,11 @@ std::string ending(TS ts, TSConvergedReason reason, const Context& context, cons
   check(TSGetTimeStep(ts, &step));
   if (newton >= 0)
     return fmt::format(
-        "the error of a step of {:.3g} is above the tolerance ({} steps tried again; option "
-        "-{}ts_max_reject). {}",
-        step, report.rejected, prefix_of(ts), remedy(ts, context, false));
+        "the error of a step of {:.3g} is above the tolerance ({} steps repeated; option -{}ts_max_reject). {}", step,
+        report.rejected, prefix_of(ts), remedy(ts, context, false));
   return fmt::format(
-      "the step of {:.3g} did not converge ({}{} after {} Newton iterations, {} steps tried again; "
-      "options -{}snes_..., -{}ksp_...). {}",
+      "the step of {:.3g} did not converge ({}{} after {} Newton iterations, {} steps repeated; options -{}snes_..., "
+      "-{}ksp_...). {}",
       step, newton == SNES_DIVERGED_FNORM_NAN ? "the state is not finite: " : "", SNESConvergedReasons[newton],
       iterations, report.rejected, prefix_of(ts), prefix_of(ts), remedy(ts, context, true));
 }
@@ -298,9 +297,9 @@ MotionState keep(const Context& context) {
 
 void take_up(TS ts, const MotionState& state, Context& context) {
   petsc::agree(context.system.comm(), [&] {
-    if (!context.state) throw InputError("only a motion of type generalized-alpha can be taken up again");
+    if (!context.state) throw InputError("only a simulation of type generalized-alpha can be restarted");
     if (state.events.size() != context.events.size())
-      throw RunError("the state of the motion is that of another system: it has other events");
+      throw RunError("the saved state belongs to another system: its events differ");
   });
   check(TSSetUp(ts));
   load_motion(ts, context.system, state);
@@ -330,7 +329,7 @@ bool pass_kinks(TS ts, const Integration& how, Context& context) {
   return kink != first;
 }
 
-/// Has the events happen that are due. Returns whether the motion goes on.
+/// Applies the events that are due. Returns whether the motion goes on.
 bool act(TS ts, const Integration& how, Context& context, double nominal) {
   double t = 0;
   Vec U = nullptr, V = nullptr;
@@ -341,7 +340,7 @@ bool act(TS ts, const Integration& how, Context& context, double nominal) {
     const Event& event = context.events[i];
     const bool due = event.watched() ? context.crossings->located(i) : event.at <= t + 1e-12 * context.end;
     if (!due || context.happened[i] != 0) continue;
-    const EventReport report = happen(context.system, event, t, U, V);
+    const EventReport report = apply_event(context.system, event, t, U, V);
     context.happened[i] = 1;
     changed = true, stopped = stopped || event.stops;
     if (how.on_event) how.on_event(report);
@@ -415,7 +414,7 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
   TSGetKSPIterations(ts, &report.solves);
   TSGetStepRejections(ts, &report.rejected);
   const auto stop = [&](const std::string& why) {
-    throw MotionStopped(fmt::format("the motion stopped at t = {:.6g} of {:.6g}, after {} steps: {}", report.end,
+    throw MotionStopped(fmt::format("the simulation stopped at t = {:.6g} of {:.6g}, after {} steps: {}", report.end,
                                     context.end, report.steps, why),
                         report, why);
   };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "everywhere.h"
+#include "gather_to_all.h"
 #include "rotating_axes.h"
 
 namespace floe::solve {
@@ -77,13 +77,14 @@ void check_balance(const RotatingSystem& rotating, double speed, double spin_up,
   const double small = negligible(at, mass, speed);
   if (std::abs(spin_up) > small)
     throw RunError(
-        fmt::format("a moment about the axis is left that spins the scene up at {:.3g} rad/s2; expected a "
-                    "drive, or loads without such a moment",
+        fmt::format("a residual moment about the axis accelerates the rotation by {:.3g} rad/s2; expected a drive, or "
+                    "loads without such a moment",
                     std::abs(spin_up)));
   double greatest = 0;
   for (Index i = 0; i < at.F.size(); ++i)
     if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.turn));
-  if (!(greatest <= small)) throw RunError(fmt::format("forces cannot balance (left over: {:.3g} rad/s2)", greatest));
+  if (!(greatest <= small))
+    throw RunError(fmt::format("the forces are not in equilibrium (residual load: {:.3g} rad/s2)", greatest));
 }
 
 /// In units of a frame's turn by one radian.
@@ -96,7 +97,7 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   bool free = false;
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
-    const VectorXd u = everywhere(rotating.system, U);
+    const VectorXd u = gather_to_all(rotating.system, U);
     VectorXd turn = rotating_motion(rotating, 1, u).V;
     if (iteration == 1) free = turns_freely(at, turn);
     if (!free) turn.setZero();
@@ -112,14 +113,14 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
     }
     last = size;
   }
-  throw RunError("Newton's method found none");
+  throw RunError("Newton's method did not converge");
 }
 
 /// Newton's step at `speed` from U for the forces at `other`.
 VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
   const VectorXd F = rotating_tangent(rotating, other, U).F;
   RotatingTangent at = rotating_tangent(rotating, speed, U);
-  VectorXd turn = rotating_motion(rotating, 1, everywhere(rotating.system, U)).V;
+  VectorXd turn = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
   if (!turns_freely(at, turn)) turn.setZero();
   at.F = F;
   return newton_step(at, turn).change;

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "everywhere.h"
 #include "floe/solve/start.h"
+#include "gather_to_all.h"
 
 namespace floe::solve {
 namespace {
@@ -90,7 +90,7 @@ bool can_look(const System& system) {
 
 Undetermined null_vectors(const System& system, Mat J) {
   if (!can_look(system)) return {};
-  const Eigen::MatrixXd dense = everywhere(system, J);
+  const Eigen::MatrixXd dense = gather_to_all(system, J);
   if (!dense.allFinite()) return {};
   const Eigen::MatrixXd J_scaled = scaled(dense);
   const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(J_scaled).matrixQR().diagonal().cwiseAbs();

@@ -126,7 +126,7 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count) {
   check(PEPGetConvergedReason(pep, &reason));
   check(PEPGetConverged(pep, &converged));
   if (reason < 0 && converged < 2 * count)
-    throw RunError(fmt::format("vibrations not found (options -campbell_pep_...): {}, {} of them converged",
+    throw RunError(fmt::format("vibrations not found (options -campbell_pep_...): {}, {} converged",
                                PEPConvergedReasons[reason], converged));
   Exponents found(converged);
   for (PetscInt i = 0; i < converged; ++i) {

@@ -87,7 +87,7 @@ def shapes_for_pictures(folder):
     root = one["/blade/positions"][:, 0] == 0
     assert np.all(mode[root] == 0) and np.abs(mode).max() > 0.1
     again = subprocess.run([FLOE, "modes", "scene.yaml", "--write", "on1.xdmf"], cwd=folder, capture_output=True, text=True)
-    assert again.returncode == 2 and again.stderr.count("exists; name another") == 1, again.stderr
+    assert again.returncode == 2 and again.stderr.count("exists; use another name") == 1, again.stderr
     assert not list(folder.glob(".*.partial"))
 
 

@@ -42,8 +42,8 @@ def frequency_error(points, exact):
     first = points[0]["vibrations"][0]
     if not first["zero"]:
         return abs(first["rad_per_s"] / exact - 1)
-    assert first["below_rad_per_s"] > exact, f"not distinguished from zero below {first['below_rad_per_s']}, and it is {exact}"
-    return Answer(0.0, f"{exact:.1e} rad/s: \"zero mode, or below {first['below_rad_per_s']:.2g} rad/s\"")
+    assert first["below_rad_per_s"] > exact, f"indistinguishable from zero below {first['below_rad_per_s']}, and it is {exact}"
+    return Answer(0.0, f"{exact:.1e} rad/s: \"rigid-body mode, or below {first['below_rad_per_s']:.2g} rad/s\"")
 
 
 def vibrating(floe: Floe, stiffness, mass, formulation):

@@ -49,10 +49,10 @@ def coarse(floe: Floe, h, formulation):
     F = 0.1
     scene = cantilever(8, EA=1e4, loads=tip_force(0, F), motion={"end": 200 * h * PERIOD, "step": h * PERIOD})
     moved = floe.run(scene, formulation)
-    assert moved.warned("steps in a period"), f"no warning of the step: {moved.warnings}"
+    assert moved.warned("steps per period"), f"no warning of the step: {moved.warnings}"
     kinetic, elastic, _ = moved.energy.T
     assert elastic.min() >= 0 and kinetic.min() >= 0 and elastic.max() < 20 * F * F / 6, f"elastic energy {elastic.max():.3g}"
-    warning = next(w for w in moved.warnings if "steps in a period" in w)
+    warning = next(w for w in moved.warnings if "steps per period" in w)
     return Answer(abs(moved.end("tip.y") / (F / 3) - 1), warning)
 
 

@@ -66,7 +66,7 @@ def linear_warns(floe: Floe, share):
     scene = hub(share * CANTILEVER, motion={"end": 1, "step": 1e-3})
     scene["bodies"]["beam"]["initial"] = {"angular_velocity": share * CANTILEVER}
     moved = floe.run(scene, "lffr")
-    assert moved.warned("spins at"), f"no warning of the spin: {moved.warnings}"
+    assert moved.warned("rotates at"), f"no warning of the spin: {moved.warnings}"
     return 0.0
 
 

@@ -22,10 +22,10 @@ def scene(mesh="path: part.inp", more=""):
 
 MASSLESS = ("part.inp: material FOAM has no density: it adds stiffness without mass to part RIGHT (1 of 2 elements); "
             "expected *DENSITY")
-STEPS = "is left out (*STATIC, *BOUNDARY, *CLOAD, *DLOAD): supports and loads are those of the scene"
-BEFORE = "part.inp:28: *BOUNDARY is left out: supports are joints of the scene"
+STEPS = "is ignored (*STATIC, *BOUNDARY, *CLOAD, *DLOAD): supports and loads are those of the scene"
+BEFORE = "part.inp:28: *BOUNDARY is ignored: supports are joints of the scene"
 # 2 mm in metres on a mesh whose diagonal is sqrt(5) m after scaling, sqrt(5) 1000 mm before
-SCALED = ("part.inp: scale 0.001 applies to coordinates alone", "part LEFT is 2 thick, 89 % of the scaled extent 2.236",
+SCALED = ("part.inp: scale 0.001 applies to coordinates only", "part LEFT is 2 thick, 89 % of the scaled extent 2.236",
           "(0.089 % in the deck's own units)")
 BY_NAME = ", parts: {%s}" % ", ".join(f"{part}: {{section: {{thickness: 0.002}}, material: {{E: 2e11, nu: 0.3, rho: 7800}}}}"
                                      for part in ("LEFT", "RIGHT"))

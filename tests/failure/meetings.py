@@ -86,7 +86,7 @@ def killed_in_estimate(floe, ranks, folder, *words):
     run.until(lambda: "assessment" in summary(folder), "the estimate")
     run.kill()
     j = summary(folder)
-    assert j["status"] == "finished" and j["assessment"].startswith("not done: the run was ended"), j
+    assert j["status"] == "finished" and j["assessment"].startswith("not done: the run was interrupted"), j
     assert j["estimate"] == {"none": j["assessment"]}, j["estimate"]
     (folder / "out/.floe.lock").unlink()  # which tells the next run of nobody
     files("finished")(folder)

@@ -204,7 +204,7 @@ def refusals(floe, ranks, chance, folder):
     again = ["--restart", "out"]
     refuse(floe, ranks, folder, [*again, "--formulation", "vm"], 2, "the run's formulation was vm+md")
     refuse(floe, ranks, folder, [*again, "-motion_snes_rtol", "1e-9"], 2, "expected the same, not")
-    refuse(floe, 3 - ranks, folder, again, 2, f"the run was one of {ranks} ranks")
+    refuse(floe, 3 - ranks, folder, again, 2, f"the run had {ranks} ranks")
     refuse(floe, ranks, folder, [*again, "--until", "1e-9"], 2, "expected a later time")
     (folder / "scene.yaml").write_text(text + " # changed")
     refuse(floe, ranks, folder, again, 2, "scene.yaml has changed since")

@@ -36,7 +36,7 @@ def stopped_once(folder):
     """A run that a signal ended: one time, that of the last row, whichever rank the signal came to first."""
     files("failed", reason="interrupted")(folder)
     summary = json.loads((folder / "out/summary.json").read_text())
-    times = re.findall(r"the motion stopped at t = (\S+) of", summary["reason"])
+    times = re.findall(r"the simulation stopped at t = (\S+) of", summary["reason"])
     assert len(times) == 1, f"{summary['reason']!r} has {len(times)} times"
     assert math.isclose(float(times[0]), summary["integration"]["reached"], rel_tol=1e-5), summary["reason"]
 

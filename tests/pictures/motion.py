@@ -63,7 +63,7 @@ def planar(folder):
         out = folder / f"crank-{formulation}"
         floe(FLOE, folder, "run", "crank.yaml", "--formulation", formulation, "-o", out)
         said = floe(FLOE, folder, "motion", out, "--frames", "0")
-        assert "101 instants from t = 0 to 0.01 s, 9 nodes and 7 cells of crank, rod" in said, said
+        assert "101 instants from t = 0 to 0.01 s, 9 nodes and 7 elements of crank, rod" in said, said
         check_probe(out, out / "motion.xdmf", "rod", "end", 6)
         _, found = check_probe(out, out / "motion.xdmf", "rod", "middle", 3)
         crank, rod = found[-1]["crank"]["positions"], found[-1]["rod"]["positions"]
@@ -91,7 +91,7 @@ def enlarged(folder):
             assert np.abs(b[body]["positions"] - a[body]["positions"] - 4 * u).max() < 1e-12
     assert np.abs(one[-1]["rod"]["deformation"]).max() > 1e-5 and not one[-1]["crank"]["deformation"].any()
     taken = floe(FLOE, folder, "motion", out, "-o", "one.xdmf", code=2)
-    assert taken == "floe: motion 'one.xdmf': exists; name another, or replace it with --force\n", taken
+    assert taken == "floe: motion 'one.xdmf': exists; use another name, or replace it with --force\n", taken
     floe(FLOE, folder, "motion", out, "-o", "one.xdmf", "--force", "--frames", "3")
     assert len(frames(folder / "one.xdmf")[0]) == 3
 

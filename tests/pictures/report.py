@@ -117,10 +117,10 @@ def of_other_folders(folder):
 def faults(folder):
     (folder / "mine.html").write_text("<html>mine</html>")
     told = floe(FLOE, folder, "report", "crank", "-o", "mine.html", code=2)
-    assert told == "floe: report: mine.html: exists and is no report of floe's; name another with --out\n", told
+    assert told == "floe: report: mine.html: exists and is not a report written by floe; use another name with --out\n", told
     assert (folder / "mine.html").read_text() == "<html>mine</html>"
     told = floe(FLOE, folder, "report", "nothing", code=2)
-    assert told == "floe: report: nothing: is not a folder; expected one that a command of floe left\n", told
+    assert told == "floe: report: nothing: is not a folder; expected the results of a floe command\n", told
 
 
 DRIVER = """<script>

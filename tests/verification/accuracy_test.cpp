@@ -213,7 +213,7 @@ probes: {tip: {at: rod.end}}
               "attachment: all, columns: [mode 1, attachment arm#1-2.moment, attachment arm.fx]");
   CHECK_THROWS_WITH(
       app::run(scene::parse_scene(few, "scene"), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet()),
-      Catch::Contains("body arm has no column \"attachment arm.fx\"") && !Catch::Contains("#3"));
+      Catch::Contains("body arm has no basis vector \"attachment arm.fx\"") && !Catch::Contains("#3"));
   few.replace(few.find("mode 1, "), 8, "");  // the third piece has none of them
   few.replace(few.find(", attachment arm.fx"), 19, "");
   const app::RunResult stiff =

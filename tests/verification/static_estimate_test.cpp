@@ -127,5 +127,5 @@ TEST_CASE("static estimate: without time budget of the last equilibrium only; no
 TEST_CASE("static estimate: none for full-order models") {
   const scene::Scene scene = scene::parse_scene(bent_plate("1", "{modes: 2}"), "scene");
   const assembly::Model model = assembly::build(scene, Formulation::nlffr, PETSC_COMM_WORLD, true);
-  CHECK(assess::estimate_error_at_rest(model, {}, 1).none == "it belongs to reduced models (vm, vm+md)");
+  CHECK(assess::estimate_error_at_rest(model, {}, 1).none == "it applies to reduced models only (vm, vm+md)");
 }

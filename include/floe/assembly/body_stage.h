@@ -22,7 +22,7 @@ int count_of_modes(const PlannedBody& body);
 /// How the body is held when it vibrates in its modes. Collective.
 fem::Holding holding_of_modes(const PlannedBody& body);
 
-/// Factors, modes and static columns. @param modes  how many, or as_the_body_has. Collective.
+/// Factors, modes and attachment modes. @param modes  how many, or as_the_body_has. Collective.
 void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report);
 
 /// (Re)makes the generators, with the lowest `modes` modes. Collective.
@@ -36,7 +36,7 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generato
 std::string whole_name(const Body& body);
 
 /// Leaves the stage those generators and pairs that reduction.columns names and that there are. A body's pieces differ
-/// in their static columns: each takes what it has.
+/// in their attachment modes: each takes what it has.
 /// @return  the labels of all that there are
 std::vector<std::string> keep_named(const PlannedBody& body, Stage& stage);
 

@@ -3,7 +3,7 @@
 
 namespace floe::assembly {
 
-/// field = V eta; zero where V has no columns. Collective.
+/// field = V eta; zero where V has no basis vectors. Collective.
 inline void combine(const reduction::Basis& basis, const Eigen::VectorXd& eta, Vec field) {
   if (basis.columns == 0)
     petsc::check(VecSet(field, 0));

@@ -32,7 +32,7 @@ std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int
 std::vector<std::string> damping_warnings(const Plan& plan);
 
 /// Mass-proportional damping of a full-order body, with its unknowns added where it needs some; none: it has none.
-/// @param held  dofs that are zero at full order. Collective.
+/// @param held  dofs that are zero with the full-order model. Collective.
 std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int body, const fem::Conditions& held,
                                                          dynamics::Coordinates& coordinates);
 

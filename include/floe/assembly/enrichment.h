@@ -3,23 +3,23 @@
 
 namespace floe::assembly {
 
-/// A load that is left over in a deformation V eta.
-struct LeftOver {
+/// A residual load in a deformation V eta.
+struct ResidualLoad {
   petsc::VecHandle load;
   Eigen::VectorXd eta;
 };
 
-/// What the loads do to a body, x = K_T(V eta)^-1 P' f: K_T is that of the greatest deformation, of up to `tangents`
+/// What the loads do to a body, x = K_T(V eta)^-1 P' f: K_T is that of the maximum deformation, of up to `tangents`
 /// unlike ones where they differ much, and of rest; each load meets the one that its own deformation is nearest to.
-/// Where K_T has no factor, that of rest, and a note says so. Collective. A factorisation for each tangent.
+/// Where K_T has no factor, that of rest, and a note reports it. Collective. A factorisation for each tangent.
 ///
 /// K at rest alone would lock: what bends a wide thin shell further stretches it, unless the same column holds the way
 /// out, and that depends on how far it is bent.
-reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced, const std::vector<LeftOver>& loads,
-                             int tangents, std::vector<std::string>& notes);
+reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
+                             const std::vector<ResidualLoad>& loads, int tangents, std::vector<std::string>& notes);
 
 /// Columns that carry most of the fields u: at most `most`, by proper orthogonal decomposition in the norm of M. Those
-/// below 1e-4 of the greatest are left out. Collective.
+/// below 1e-4 of the maximum are left out. Collective.
 reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most);
 
 /// The body on [V W]: its first coordinates are those that it has. Rayleigh damping acts on all, modal damping on the

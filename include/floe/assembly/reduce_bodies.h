@@ -26,12 +26,12 @@ Model assemble(const Plan& plan, Formulation formulation, const std::vector<Redu
 using InteractionRun = std::function<std::vector<Eigen::MatrixXd>(const std::vector<ReducedBody>&)>;
 
 /// Offline stage of every body. Collective.
-/// @param warnings      receives what the user should know of the choice of columns
+/// @param warnings      receives what the user should know of the choice of basis vectors
 /// @param keep_statics  with the factor of each body; `plan` must stay where it is
 std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation, const InteractionRun& linear_run,
                                        std::vector<std::string>& warnings, bool keep_statics = false);
 
-/// Modes, static columns and derivatives of a body, before they become a basis; in the frame, modes M-normalised.
+/// Modes, attachment modes and derivatives of a body, before they become a basis; in the frame, modes M-normalised.
 struct BodyFields {
   reduction::Columns columns;
   std::vector<reduction::ColumnOrigin> origins;
@@ -49,7 +49,7 @@ std::vector<BodyReport> modes_of_bodies(const Plan& plan);
 /// @throws InputError  vm: a derivative stands before a mode. Rank-local; the same everywhere.
 ReducedBody from_file(const PlannedBody& body, Formulation formulation);
 
-/// Writes a body on its columns into a file, with its basis at every node. @param body  of `plan`. Collective.
+/// Writes a body on its basis vectors into a file, with its basis at every node. @param body  of `plan`. Collective.
 void write_body(const Plan& plan, const PlannedBody& body, const ReducedBody& reduced,
                 const std::filesystem::path& path, bool overwrite);
 

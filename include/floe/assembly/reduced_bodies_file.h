@@ -13,7 +13,7 @@ namespace floe::assembly {
 /// interaction under equal generalised forces, |eta_i eta_j| = 1 / (omega_i omega_j)^2 of two modes: no motion is known
 /// here.
 /// @param body       its name; empty: the only body of the scene
-/// @param warnings   receives what the user should know of the choice of columns and of the mesh
+/// @param warnings   receives what the user should know of the choice of basis vectors and of the mesh
 /// @return what was written, but for the shapes
 /// @throws InputError  no such body, a rigid one, several bodies and no name. Collective.
 output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& body, MPI_Comm comm,

@@ -7,13 +7,13 @@
 
 namespace floe::assess {
 
-/// A column that the bodies of a scene may have. The pieces of a split body (frames: N) have it together.
+/// A basis vector that the bodies of a scene may have. The pieces of a split body (frames: N) have it together.
 struct PoolColumn {
   std::string body, label;  ///< `beam`, `derivative 1,2`
   bool response = false;    ///< of the error estimate: the grammar of scenes has no words for it
 };
 
-/// A model on some columns of a pool. A body without any is rigid.
+/// A model on some basis vectors of a pool. A body without any is rigid.
 struct Selection {
   std::vector<char> taken;  ///< of each column of the pool
   bool linear = false;      ///< elastic forces by the linear stiffness alone
@@ -27,9 +27,9 @@ struct Participation {
   double share;
 };
 
-/// Candidate columns of every body with a mesh, made once, and models of the scene on any of them.
+/// Candidate basis vectors of every body with a mesh, made once, and models of the scene on any of them.
 ///
-/// Modes (as many as the scene says, or the default), static columns at all joints and loads, derivatives of the
+/// Modes (as many as the scene says, or the default), attachment modes at all joints and loads, derivatives of the
 /// generators that take part most in the linear motion, and the responses that estimates add. Bodies from files and
 /// rigid ones are as the scene has them.
 class Pool {
@@ -41,14 +41,14 @@ class Pool {
   Selection whole() const;
   /// @param keep_offline  for an estimate of its error. The model does not outlive the pool.
   Model model(const Selection& selection, bool keep_offline = false) const;
-  /// The columns W that an estimate of a model of this pool found, in all bodies. @return how many there are
+  /// The basis vectors W that an estimate of a model of this pool found, in all bodies. @return how many there are
   int add_responses(const Estimate& estimate);
   /// All columns that the motion of model(whole()) needs, the most important first: at each place the one that adds
   /// most to what the ones before it carry (orthogonal matching pursuit, in the norm of K). Columns within the span of
   /// those before are not among them.
   std::vector<Participation> participation(const Model& whole, const std::vector<solve::State>& states) const;
   /// The scene with `columns` (and `rigid`, `elastic_force`) in its bodies and the steps of a motion, as text of a
-  /// scene file; with responses among the columns, without words for these.
+  /// scene file; with responses among the basis vectors, without words for these.
   std::string text(const Selection& selection, const Motion& motion) const;
   bool has_responses(const Selection& selection) const;
   /// That text into a file. Bodies with responses are written beside it, NAME-BODY.h5, and read from there.

@@ -39,10 +39,10 @@ struct Estimate {
   double deformation = 0;
   std::vector<double> t;                    ///< instants [s]
   std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, full order less reduced
-  std::vector<double> relative;  ///< of each: error of the deformations, of the greatest root mean square so far
+  std::vector<double> relative;  ///< of each: error of the deformations, of the maximum root mean square so far
   int samples = 0;               ///< full-order residuals
   int columns = 0;               ///< that the bodies got for the estimate
-  double unbalanced = 0;         ///< greatest |V'r| of what |V'f| is: round-off, or something is missing in r
+  double unbalanced = 0;         ///< maximum |V'r| of what |V'f| is: round-off, or something is missing in r
   double seconds = 0, allowed = 0;
   std::vector<std::string> notes;                                    ///< what was left out, and why
   std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none
@@ -62,20 +62,20 @@ inline double estimate_seconds(double run) { return std::max(1.0, 0.1 * run); }
 ///
 /// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
 ///
-/// Made below 20000 elements: the terms of full order stand in memory while it is made.
+/// Made below 20000 elements: the terms of the full-order model stand in memory while it is made.
 ///
 /// @param model    reduced, with its offline stage kept (build)
-/// @param seconds  that it may take, about; it thins its samples, columns and instants and says so
+/// @param seconds  that it may take, about; it thins its samples, basis vectors and instants and reports it
 /// Collective on the communicator of the offline stage.
 Estimate estimate_error(const Model& model, const KeptMotion& motion, double seconds);
 
 /// The same of equilibria: from some of the lifted states Newton's method goes towards the equilibrium of full order,
 ///
-///   (dF/dU) x = -F(t, U, 0, 0),   U += x     F of the whole scene at full order, KSP prefix estimate_
+///   (dF/dU) x = -F(t, U, 0, 0),   U += x     F of the whole scene with the full-order model, KSP prefix estimate_
 ///
 /// and what it adds is the error. A first step is the response of the full tangent to the residual; it stops where the
 /// next step would be short, or when its time is over. Errors are relative to what it arrives at, here; `samples` are
-/// residuals, there are no columns. Of the last equilibrium there is a step at least; others as time allows.
+/// residuals, there are no basis vectors. Of the last equilibrium there is a step at least; others as time allows.
 ///
 /// @param model   reduced, with its offline stage kept (build); factors of K are not needed
 /// @param states  in ascending order of t, at rest

@@ -12,14 +12,14 @@ using namespace scene;
 /// `tip` of the columns `tip.x`, `tip.y`.
 std::string probe_of(const ProbeColumn& column);
 
-/// What relative errors of probes refer to: their sizes s_p (root mean squares or greatest values, of each probe as a
+/// What relative errors of probes refer to: their sizes s_p (root mean squares or maximum values, of each probe as a
 /// vector in the order of the columns), but of those that hardly move beside what moves most, as where symmetry holds
 /// them, at least
 ///
 ///   S_p max(1e-7 min(1, max_q s_q / S_q), 1e-10),   S = extent of the scene [m], 1 rad (ProbeColumn::scale):
 ///
 /// what is below is round-off, or of no account. For velocities S = extent / duration (they do not count as q), or 1e-7
-/// of the greatest of them where that is more.
+/// of the maximum of them where that is more.
 /// @param duration  of the motion [s]; 0: a second
 std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, const std::vector<double>& sizes,
                                     double duration);

@@ -20,12 +20,12 @@ struct OutOfRange {
 ///   slope       of a body's line or surface in its frame, against von Karman's moderate rotations: the error of its
 ///   tip
 ///               over its length, limit 1 %; of beams from slopes and moments along the line, all frames of a split
-///               body together (rotation_error in src/scene/moderate_rotations.h); of shells, at the greatest slope s,
+///               body together (rotation_error in src/scene/moderate_rotations.h); of shells, at the maximum slope s,
 ///               about 0.1 s^3 in a tangent frame and 0.03 s^4 in another one: the middle of what moments (0.04, 0.008)
 ///               and forces (0.27, 0.14) of beams have
-///   mesh        how far shells bend within single cells, of how far they are bent (fem::sags) where the slope is
-///   greatest;
-///               limit 5 %, a wave of ten cells
+///   mesh        how far shells bend within single elements, of how far they are bent (fem::sags) where the slope is
+///   maximum;
+///               limit 5 %, a wave of ten elements
 ///   shortening  s^2/2, which a linear elastic force neglects (lffr); limit 1 %
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or
 ///               no derivatives): its stiffness falls by (Omega/omega)^2; limit 0.2
@@ -49,7 +49,7 @@ std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, con
 /// likewise.
 std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vector<solve::State>& states, MPI_Comm comm);
 
-/// Whether the full order of the same mesh errs in it, too: slope, mesh, in-plane, coupling.
+/// Whether the full-order model of the same mesh errs in it, too: slope, mesh, in-plane, coupling.
 bool also_of_full_order(const OutOfRange& one);
 
 }  // namespace floe::assess

@@ -17,7 +17,7 @@ struct Clamp {
   double offset = 0;
   TimeFunction angle;  ///< empty: fixed
 };
-/// C = (n.(p_2 - p_1) - offset_n, angle_2 - angle_1 - offset) (2 rows); n turns with the first place: n = normal at
+/// C = (n.(p_2 - p_1) - offset_n, angle_2 - angle_1 - offset) (2 rows); n rotates with the first place: n = normal at
 /// angle_1 = 0.
 struct Prismatic {
   Eigen::Vector2d normal{0, 1};

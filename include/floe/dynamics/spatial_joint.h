@@ -33,7 +33,7 @@ using SpatialRow = std::variant<Coincide, Along, Product, Separation>;
 ///
 /// Multipliers of Coincide, Along and Separation are forces, those of Product moments: where the constraint is met,
 /// Q_21, Q_32, Q_13 of fixed places go with moments about z, x, y; Q_31 and Q_32 with moments about -y and x of the
-/// second place. Products also vanish at turns by 180 degrees: SpatialJoint::standing tells.
+/// second place. Products also vanish at rotations by 180 degrees: SpatialJoint::standing tells.
 struct SpatialConstraint {
   std::vector<SpatialRow> rows;
   TimeFunction angle = {};  ///< of E, of any size; empty: 0
@@ -47,7 +47,7 @@ struct SpatialConstraint {
   static SpatialConstraint planar();       ///< in the plane normal to z: D1_z; Q_31, Q_32
   /// @throws InputError  length <= 0: places that are to coincide are held by a spherical joint
   static SpatialConstraint distance(double length);
-  /// D2 = D1 turned by angle(t) about z: as fixed, with E(t).
+  /// D2 = D1 rotated by angle(t) about z: as fixed, with E(t).
   static SpatialConstraint driven_revolute(TimeFunction angle);
   /// As prismatic, with D1_z.(p_2 - p_1) = position(t) as its last row.
   static SpatialConstraint driven_prismatic(TimeFunction position);

@@ -31,7 +31,7 @@ class SpatialSpring final : public Term {
   /// Counts turns: from now on phi is the twist nearest to the present one; before the first call, nearest to `angle`.
   ///
   /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
-  /// a step, between evaluations. Within a step phi may change by less than half a turn.
+  /// a step, between evaluations. Within a step phi may change by less than 180 deg.
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override { carried.push_back(nearest_); }
   void load(std::span<const double> carried) override { nearest_ = carried.front(); }
@@ -39,7 +39,7 @@ class SpatialSpring final : public Term {
  private:
   mutable SpatialPair pair_;
   SpatialSpringProperties properties_;
-  double nearest_;  // the twist is the one within half a turn of this
+  double nearest_;  // the twist is the one within 180 deg of this
 };
 
 /// Six springs and dampers in the axes of the first place.

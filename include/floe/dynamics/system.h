@@ -39,7 +39,7 @@ class System {
 
   /// F(t, U, V, A). Collective.
   void residual(double t, Vec U, Vec V, Vec A, ConstraintLevel level, Vec F) const;
-  /// Greatest |C(q, t)| of all constraint rows, or of a rate of them: only the terms that constrain are evaluated.
+  /// Maximum |C(q, t)| of all constraint rows, or of a rate of them: only the terms that constrain are evaluated.
   /// Collective.
   double constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const;
   /// A joint whose constraints are not met as they are meant to be (Term::standing), by name; empty: there is none.
@@ -101,7 +101,7 @@ class System {
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;
   Attitudes attitudes_;
-  /// Frames whose unknowns this rank owns, by global indices, and what turns with them.
+  /// Frames whose unknowns this rank owns, by global indices, and what rotates with them.
   struct Frame {
     PetscInt x;
     const Attitude* attitude;  // null in the plane, where x is the angle

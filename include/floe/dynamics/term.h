@@ -27,7 +27,7 @@ struct Weights {
   double q = 1, v = 0, a = 0;
 };
 
-/// How the constraints of a term stand, when their rows vanish: as they are meant to; half a turn away, where rows of
+/// How the constraints of a term stand, when their rows vanish: as they are meant to; 180 deg away, where rows of
 /// axes vanish, too; or open: what was left out, because other joints held it, they hold no longer.
 enum class Standing { met, half_turn, open };
 
@@ -42,7 +42,7 @@ struct Energy {
   }
 };
 
-/// Unknowns that are the parts of a vector in world axes, and the frame that the vector turns with: the local indices
+/// Unknowns that are the parts of a vector in world axes, and the frame that the vector rotates with: the local indices
 /// of the first of three (in the plane two), and of the frame's x (its angle).
 struct Corotated {
   int vector, frame;
@@ -67,7 +67,7 @@ class Term {
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
-  /// Appends which of its multipliers turn with a frame: forces between places (System::turn).
+  /// Appends which of its multipliers rotate with a frame: forces between places (System::turn).
   virtual void add_corotated(std::vector<Corotated>&) const {}
   /// What the term carries from step to step beside the system's unknowns (begin_step, latches), as numbers: `save`
   /// appends them, `load` takes as many back, in the same order.

@@ -14,7 +14,7 @@ namespace floe::fem {
 /// @param arms  x_i - x_1 of the element's nodes
 void take_rigid_motion(Eigen::Ref<Eigen::MatrixXd> q, const Eigen::Matrix3Xd& arms);
 
-/// x_i - x_1 of a cell's nodes.
+/// x_i - x_1 of an element's nodes.
 Eigen::Matrix3Xd arms(const Mesh& mesh, const Mesh::Cell& cell);
 
 /// K as the sum of its elements, never assembled: element by element the rigid motion is taken off first.
@@ -30,7 +30,7 @@ class ElementStiffness {
   void multiply(Vec q, Vec f) const;
   /// U = 1/2 q'K q, a sum over elements. Collective.
   double strain_energy(Vec q) const;
-  /// sums += K X of this rank's cells. Rank-local.
+  /// sums += K X of this rank's elements. Rank-local.
   void add_forces(const FieldRows& X, FieldRows& sums) const;
   /// X'K X, the same on all ranks. Collective.
   Eigen::MatrixXd gram(const FieldRows& X) const;
@@ -39,7 +39,7 @@ class ElementStiffness {
   const Structure& structure() const { return structure_; }
 
  private:
-  /// K_e T q_e of every line (or point) cell, handed to `sink` with T q_e.
+  /// K_e T q_e of every line (or point) element, handed to `sink` with T q_e.
   template <class Sink>
   void each_line(const FieldRows& X, Sink&& sink) const;
   /// Rows R of every piece of a shell, K_e = sum R'R, handed to `sink` with R T q_e by rows.

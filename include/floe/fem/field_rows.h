@@ -72,13 +72,13 @@ struct Slopes {
 };
 Slopes slopes(const Structure& structure, const FieldRows& fields);  ///< of all ranks
 
-/// How far each field bends shells within single cells, of how far it moves them:
+/// How far each field bends shells within single elements, of how far it moves them:
 ///
-///   s / (s + max |u|),   s = max |n.((theta_i - theta_j) x d)| / 8  over the edges i j of cells,  d = x_j - x_i
+///   s / (s + max |u|),   s = max |n.((theta_i - theta_j) x d)| / 8  over the edges i j of elements,  d = x_j - x_i
 ///
 /// s is what the cubic of an edge sags below its chord, u the displacement of nodes; zero where nothing moves. A wave
 /// of m cells has s / max |u| = pi^2 / (2 m^2). The sag of one edge does not bend its neighbours with it (DKT's slopes
-/// across an edge are linear), so where cells sag freely, as those that are wider than their plate is long, they are
+/// across an edge are linear), so where elements sag freely, as those that are wider than their plate is long, they are
 /// far too soft. Collective.
 Eigen::VectorXd sags(const Structure& structure, const FieldRows& fields);
 

@@ -25,11 +25,11 @@ using mesh::CellKind;
 /// and copies of the foreign nodes that those cells touch. Local node numbers count owned nodes first, then `foreign`.
 ///
 /// Nodes may follow others rigidly: they have a place and no motion of their own, and the cells that touch them act on
-/// the dofs of those that they follow. Nodes of a hinge line follow its leader but for their turn about the line, phi:
+/// the dofs of those that they follow. Nodes of a line hinge follow its leader but for their turn about the line, phi:
 ///
 ///   u = u_leader + theta_leader x arm,   theta = (1 - e e') theta_leader + e phi;
 ///
-/// phi is the one dof of theirs that is left, the rotation `spin_slot`; cells that touch them act on it and on the
+/// phi is the one dof of theirs that is left, the rotation `spin_slot`; elements that touch them act on it and on the
 /// leader.
 struct Mesh {
   /// An element: what it is, where it is, and which nodes move it.
@@ -40,12 +40,12 @@ struct Mesh {
     /// Local nodes that move them: the same, or those that they follow; then leaders of those that turn by themselves.
     std::array<int, 8> moved{};
     int moving = 0;                           ///< how many
-    std::array<int, 4> line{-1, -1, -1, -1};  ///< of each corner on a hinge line: where in `moved` its leader is
+    std::array<int, 4> line{-1, -1, -1, -1};  ///< of each corner on a line hinge: where in `moved` its leader is
     Cell() = default;
     Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moving(mesh::node_count(k)) {
       std::copy(c.begin(), c.end(), moved.begin());
     }
-    /// Local nodes whose dofs the cell acts on.
+    /// Local nodes whose dofs the element acts on.
     std::span<const int> nodes() const { return {moved.data(), static_cast<std::size_t>(moving)}; }
     std::span<const int> corners() const { return {corner.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
     bool follows() const { return spins() || !std::equal(corners().begin(), corners().end(), moved.begin()); }
@@ -65,7 +65,7 @@ struct Mesh {
   std::vector<Eigen::Vector3d> positions;  ///< of local nodes
   std::vector<Cell> cells;
   std::vector<Follower> followers;  ///< among the owned nodes, ascending
-  /// A local node on a hinge line that it does not lead.
+  /// A local node on a line hinge that it does not lead.
   struct Spin {
     int node;
     Eigen::Vector3d axis;  ///< e
@@ -90,14 +90,14 @@ struct Mesh {
 /// on the number of ranks. Every rank makes its own share only.
 Mesh mesh_of(MPI_Comm comm, const Segments& segments);
 
-/// A mesh from a file, its nodes moved to the ranks named and numbered there in their original order; cells go with
+/// A mesh from a file, its nodes moved to the ranks named and numbered there in their original order; elements go with
 /// their first node.
 /// @param ranks      of each node of this rank's share (mesh::partition); a follower goes with the one it follows
 /// @param followers  by numbers of `raw`, ascending, the same on all ranks (mesh::followers)
 /// Collective.
 Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers = {});
 
-/// The axis about which a local node turns by itself; null: none.
+/// The axis about which a local node rotates by itself; null: none.
 const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local);
 /// The rotation among three that stands for phi: the one whose axis is nearest to e.
 int spin_slot(const Eigen::Vector3d& axis);
@@ -116,7 +116,7 @@ void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Ma
 
 /// A node that was looked for by a point.
 struct NearestNode {
-  PetscInt node;  ///< global; of equally near ones the first by original number, followers last
+  PetscInt node;  ///< global; of equally near ones the first by original number, dependent nodes last
   double distance;
   Eigen::Vector3d position;
 };
@@ -124,7 +124,7 @@ struct NearestNode {
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
 /// The middle of the nodes, where the mesh's own origin is farther from it than ten times the mesh is long; else that
-/// origin. About a far one a body that turns would also travel: its stiffness against turning would stand beside the
+/// origin. About a far one a body that rotates would also travel: its stiffness against turning would stand beside the
 /// arm squared times that of springs that hold it in place, and be round-off of it. Collective.
 Eigen::Vector3d near_origin(const Mesh& mesh);
 

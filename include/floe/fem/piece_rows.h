@@ -39,11 +39,11 @@ struct RotaryRows {
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> turn;
 };
 
-/// A cell or, of a quadrilateral, one of its triangles: what products of many columns are made of.
+/// An element or, of a quadrilateral, one of its triangles: what products of many columns are made of.
 struct PieceRows {
-  std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of hinge lines
+  std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of line hinges
   int nodes = 0;
-  /// Nodes that turn by themselves about a hinge line: their rotation is axis (slot . dofs), nothing else of them
+  /// Nodes that rotate by themselves about a line hinge: their rotation is axis (slot . dofs), nothing else of them
   /// counts.
   struct Spin {
     int at;  ///< among the piece's

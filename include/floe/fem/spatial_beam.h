@@ -5,7 +5,7 @@
 
 namespace floe::fem {
 
-/// Where a spatial beam element lies: its nodes in body axes, apart from each other, and a vector that turns its
+/// Where a spatial beam element lies: its nodes in body axes, apart from each other, and a vector that rotates its
 /// section.
 ///
 /// Element axes: x from the first node to the second, y in the plane of x and `orientation` (on its side), z = x cross
@@ -33,7 +33,7 @@ struct SpatialBeamStrain {
 ///   eps = u_C' + 1/2 (v_C'^2 + w_C'^2) [+ 1/2 (Ip/A) rx'^2, wagner]           Ip/A = (EIy + EIz)/EA
 ///   2 U = int EA eps^2 + EIz v_S''^2 + EIy w_S''^2 + 2 EIyz v_S'' w_S'' + GJ rx'^2
 ///   displacement of (y, z):  u_C - (y - y_C) v_S' - (z - z_C) w_S',   v_S - (z - z_S) rx,   w_S + (y - y_S) rx
-/// With shear sections turn by v_S' - gamma_y and w_S' - gamma_z, and 2 U has + int GAy gamma_y^2 + GAz gamma_z^2.
+/// With shear sections rotate by v_S' - gamma_y and w_S' - gamma_z, and 2 U has + int GAy gamma_y^2 + GAz gamma_z^2.
 /// The slopes in eps are those of the line of centroids, v_C = v_S - (z_C - z_S) rx and w_C = w_S + (y_C - y_S) rx, so
 /// that an offset stays inside the square. `averaged` takes the mean of eps over the element (no membrane locking).
 /// Not in the model: warping, and strains of second order that vary over the section (of these,

@@ -28,7 +28,7 @@ class Exchange {
   petsc::VecHandle local_;
 };
 
-/// A spatial beam's section, and a vector in body axes that turns it (BeamPlace).
+/// A spatial beam's section, and a vector in body axes that rotates it (BeamPlace).
 struct SpatialBeam {
   SpatialBeamSection section;
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ using Section = std::variant<BeamSection, SpatialBeam, ShellSection, PointMass>;
 /// The same section in the axes of a frame, v -> R'v.
 Section turned(const Section& section, const Eigen::Matrix3d& rotation);
 
-/// Which nodes share cells with which, by global numbers, for the rows of this rank: the pattern of K and M.
+/// Which nodes share elements with which, by global numbers, for the rows of this rank: the pattern of K and M.
 struct NodeGraph;
 
 /// What is made once, when it is first asked for: the mass matrix without conditions, the plane of a flat body.
@@ -68,7 +68,7 @@ struct Structure {
   std::shared_ptr<const NodeGraph> graph;
   std::shared_ptr<Kept> kept;
 
-  /// Dofs by the mesh's dimension. @throws InputError  a section that its cell cannot have. Collective.
+  /// Dofs by the mesh's dimension. @throws InputError  a section that its element cannot have. Collective.
   Structure(Mesh mesh, std::vector<Section> sections, MembraneStrain strain);
 
   int dimension() const { return mesh.dimension; }
@@ -77,7 +77,7 @@ struct Structure {
   Eigen::Index local_dofs() const { return dofs_per_node * static_cast<Eigen::Index>(mesh.positions.size()); }
   /// Rigid motions that the body has: 3 in the plane, 6 in space.
   int rigid_motion_count() const { return dimension() == 2 ? 3 : 6; }
-  /// Local dof numbers of a cell.
+  /// Local dof numbers of an element.
   std::vector<int> cell_dofs(const Mesh::Cell& cell) const;
   PetscInt global_dof(int local) const {
     return dofs_per_node * mesh.global_node(local / dofs_per_node) + local % dofs_per_node;
@@ -87,13 +87,13 @@ struct Structure {
     return dofs_per_node * mesh.original_node(local / dofs_per_node) + local % dofs_per_node;
   }
   ElementMaps maps(const Mesh::Cell& cell) const;
-  /// k K + m M of the cell, without its maps where the element has a shorter way.
+  /// k K + m M of the element, without its maps where the element has a shorter way.
   Eigen::MatrixXd matrix(const Mesh::Cell& cell, double k, double m) const;
-  /// Samples of the cell with unit density per length (lines) or area (surfaces); none of points.
+  /// Samples of the element with unit density per length (lines) or area (surfaces); none of points.
   std::vector<body::MassPoint> line(const Mesh::Cell& cell) const;
 };
 
-/// Dofs of the cell's corners from those of the nodes that it acts on, q_corners = T q_nodes.
+/// Dofs of the element's corners from those of the nodes that it acts on, q_corners = T q_nodes.
 Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell);
 
 /// Displacement and rotation of an owned node, of a follower as its leader moves it; zero entries of followers in a

@@ -3,14 +3,14 @@
 
 namespace floe::fem {
 
-/// Dofs (displacement, right-handed rotation) of a point at `arm` from a master node, both of one rigid piece, small
+/// Dofs (displacement, right-handed rotation) of a point at `arm` from a master node, both of one rigid region, small
 /// rotations:
 ///   u_p = u + theta x arm,  theta_p = theta;   q_p = T q
 /// Forces go the other way with T'. Planar: (u, v, rotation).
 Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& arm);
 Eigen::Matrix3d rigid_arm(const Eigen::Vector2d& arm);  ///< in the plane
 
-/// The same on a hinge line along the axis e, but for the point's own turn about it: theta_p = (1 - e e') theta.
+/// The same on a line hinge along the axis e, but for the point's own turn about it: theta_p = (1 - e e') theta.
 Eigen::Matrix<double, 6, 6> line_arm(const Eigen::Vector3d& arm, const Eigen::Vector3d& axis);
 
 /// Both nodes' arms on the diagonal: T of an element of two nodes.

@@ -12,7 +12,7 @@ struct Break {
   std::array<double, 3> left{}, right{};
 };
 
-/// All of an interval, and how large f, f' and f'' are: the greatest finite values at the samples.
+/// All of an interval, and how large f, f' and f'' are: the maximum finite values at the samples.
 struct Breaks {
   std::vector<Break> at;  ///< ascending
   std::array<double, 3> size{};

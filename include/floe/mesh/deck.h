@@ -19,7 +19,7 @@ struct Material {
   double density = 0;  // 0 where the deck gives none
 };
 
-/// *ORIENTATION, SYSTEM=RECTANGULAR: x through a, b in the x-y plane; then turned by `angle` degrees about local
+/// *ORIENTATION, SYSTEM=RECTANGULAR: x through a, b in the x-y plane; then rotated by `angle` degrees about local
 /// `axis`.
 struct Orientation {
   std::string name;

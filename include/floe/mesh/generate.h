@@ -8,7 +8,7 @@ namespace floe::mesh {
 // Meshes without a file. Every rank makes its own share only, without communication; what a node or a cell is follows
 // from its number, which does not depend on the number of ranks. Arguments are the same on all ranks. Labels are the
 // numbers, from 1. All throw InputError, the same on every rank, for arguments that make no mesh (counts below 1,
-// lengths of 0, parallel edges, NaN) and for more nodes or cells than PetscInt counts.
+// lengths of 0, parallel edges, NaN) and for more nodes or elements than PetscInt counts.
 
 /// Straight lines between points in space; several may meet in a point.
 struct Polyline {
@@ -31,10 +31,10 @@ enum class Diagonals { left, right, alternating, crossed };
 /// A parallelogram x = origin + s a + t b, 0 <= s, t <= 1; normals along a x b.
 struct Plate {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(), a, b;
-  PetscInt na = 0, nb = 0;  ///< cells of the grid along a and b
+  PetscInt na = 0, nb = 0;  ///< elements of the grid along a and b
   ShellCells cells = ShellCells::triangles;
   Diagonals diagonals = Diagonals::right;  ///< of triangles
-  double grading_a = 1, grading_b = 1;     ///< length of the last cell over that of the first; geometric between
+  double grading_a = 1, grading_b = 1;     ///< length of the last element over that of the first; geometric between
 };
 
 /// Nodes row by row along a. Part "plate". Places: left (s = 0), right (s = 1), bottom (t = 0), top (t = 1), corners
@@ -51,7 +51,7 @@ struct NamedPlate {
 ///
 /// Corners within 1e-9 of the longest edge are one, edges between the same corners too. Parts: the names. Places:
 /// those of plate(), as "name.left". Plates that meet elsewhere than at their edges are not joined.
-/// @throws InputError  edges in common with other numbers of cells or another grading, a corner inside the edge of
+/// @throws InputError  edges in common with other numbers of elements or another grading, a corner inside the edge of
 ///   another plate, a plate twice: both names are told
 RawMesh folded_plates(MPI_Comm comm, const std::vector<NamedPlate>& plates);
 
@@ -99,7 +99,7 @@ struct Seam {
 
 /// Both meshes in one: a node of the second in a seam becomes the nearest one of the first in it within `tolerance`.
 ///
-/// Nodes and cells of the first come first; labels are anew the numbers from 1. Parts and places of equal names are
+/// Nodes and elements of the first come first; labels are anew the numbers from 1. Parts and places of equal names are
 /// united. Positions meet in a hashed grid spread over the ranks: no rank holds a whole seam.
 /// @throws InputError  names that are unknown, a seam that joins nothing, two nodes that would become one
 /// Collective.

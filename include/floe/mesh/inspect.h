@@ -3,7 +3,7 @@
 
 namespace floe::mesh {
 
-/// Nodes that cells join, directly or through other nodes.
+/// Nodes that elements join, directly or through other nodes.
 struct Component {
   PetscInt nodes;
   long long label;  // of its first node
@@ -21,10 +21,10 @@ struct Inspection {
 /// Looks for what makes a mesh useless or suspicious.
 ///
 /// Faults: coordinates that are no numbers, a node twice in a cell, cells without length or area (area <= 1e-12 of the
-/// longest edge squared), quadrilaterals that are folded (a corner turns the other way), cells of the same nodes.
+/// longest edge squared), quadrilaterals that are folded (not convex), elements of the same nodes.
 /// Notices: several components, neighbouring shells of opposite orientation. Cells and nodes are named by their numbers
 /// in the file.
-/// @param connections  pairs of nodes that something else than a cell joins (rigid links), of this rank
+/// @param connections  pairs of nodes that something else than an element joins (rigid links), of this rank
 /// Collective.
 Inspection inspect(const RawMesh& mesh, const std::vector<std::array<PetscInt, 2>>& connections = {});
 

@@ -14,7 +14,7 @@ class LabelDirectory {
   /// Collective.
   LabelDirectory(MPI_Comm comm, const std::vector<long long>& labels);
 
-  /// Index of each label; -1 where there is none, the least index where there are several. Collective.
+  /// Index of each label; -1 where there is none, the minimum index where there are several. Collective.
   std::vector<PetscInt> find(const std::vector<long long>& labels) const;
 
   /// Positions in this rank's `labels` of those that an earlier index bears too. Collective.

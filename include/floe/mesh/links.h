@@ -8,7 +8,7 @@
 namespace floe::mesh {
 
 /// A node that moves rigidly with another one: u = u_leader + theta_leader x arm, theta = theta_leader; or, where it
-/// has an axis e, as a node of a hinge line: theta = theta_leader but for the turn about e, which is its own.
+/// has an axis e, as a node of a line hinge: theta = theta_leader but for the turn about e, which is its own.
 struct Follower {
   PetscInt node, leader;            ///< numbers of the RawMesh
   std::array<double, 3> axis = {};  ///< unit vector; zero: none

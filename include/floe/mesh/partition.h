@@ -3,9 +3,9 @@
 
 namespace floe::mesh {
 
-/// The rank that each node of this rank's share should move to: equal numbers of nodes, few cells between ranks.
+/// The rank that each node of this rank's share should move to: equal numbers of nodes, few elements between ranks.
 ///
-/// The graph joins nodes that share a cell. Options have the prefix -mesh_: -mesh_mat_partitioning_type metis (the
+/// The graph joins nodes that share an element. Options have the prefix -mesh_: -mesh_mat_partitioning_type metis (the
 /// default), ptscotch, current, ...
 /// @throws InputError  an option that cannot be taken
 /// @throws RunError  the partitioner failed

@@ -13,7 +13,7 @@ namespace floe::mesh {
 /// Rank-local.
 std::vector<Follower> with_pieces(const std::vector<Follower>& links, const std::vector<std::vector<PetscInt>>& pieces);
 
-/// A straight hinge line: its nodes move as those of a rigid line, and each rotates about it by itself.
+/// A straight line hinge: its nodes move as those of a rigid line, and each rotates about it by itself.
 struct HingeLine {
   std::vector<PetscInt> nodes;
   std::array<double, 3> axis{};  ///< along the line, unit vector
@@ -22,7 +22,7 @@ struct HingeLine {
   std::string holder = {};       ///< what the joint connects the line to: a body, or the ground
 };
 
-/// Followers with hinge lines besides. A line is led by the piece or link that it has a node in common with, else by
+/// Followers with line hinges besides. A line is led by the piece or link that it has a node in common with, else by
 /// the node that it shares with the line of another holder, else by its first one among `preferred`, else by the node
 /// in the middle of its numbers. Lines with two nodes in common, and parallel ones of one holder that meet, are one.
 ///

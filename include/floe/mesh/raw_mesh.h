@@ -10,10 +10,10 @@ namespace floe::mesh {
 
 enum class CellKind : signed char { point = -1, line, triangle, quadrilateral };
 
-/// Nodes of a cell: 1 to 4.
+/// Nodes of an element: 1 to 4.
 constexpr int node_count(CellKind kind) { return static_cast<int>(kind) + 2; }
 
-/// A straight-sided cell: its nodes in the order of the file, and the part that it belongs to.
+/// A straight-sided element: its nodes in the order of the file, and the part that it belongs to.
 struct Cell {
   CellKind kind;
   std::array<PetscInt, 4> nodes;  // global; -1 where unused
@@ -23,7 +23,7 @@ struct Cell {
 /// A mesh as a file holds it: no elements, no unknowns.
 ///
 /// Each rank holds a contiguous share of the nodes and of the cells, in the order of the file; nodes are numbered from
-/// 0 to node_count - 1. Every node is used by a cell, or by something else that the file says about it.
+/// 0 to node_count - 1. Every node is used by an element, or by something else that the file says about it.
 struct RawMesh {
   MPI_Comm comm = MPI_COMM_NULL;
   PetscInt node_count = 0, cell_count = 0, first_node = 0, first_cell = 0;
@@ -33,7 +33,7 @@ struct RawMesh {
   std::vector<std::string> places;                 // names of node sets, same on all ranks
   std::vector<std::vector<PetscInt>> place_nodes;  // of each place: nodes that this rank found (the union is the set)
   std::vector<long long> node_labels;              // of the share's nodes: their numbers in the file
-  std::vector<long long> cell_labels;              // of the share's cells
+  std::vector<long long> cell_labels;              // of the share's elements
   std::string source;                              // the file, for messages
 };
 

@@ -29,11 +29,11 @@ struct MotionWritten {
 ///
 ///   x = R + A (X + a u)     a: amplify;  u = basis eta, or the dofs of the node (result_file.h, docs/runs.md)
 ///
-/// and at each node the vector `deformation`, A u in world axes [m], not enlarged; `part` of each cell.
+/// and at each node the vector `deformation`, A u in world axes [m], not enlarged; `part` of each element.
 /// HDF5: NAME/cells (XDMF's mixed topology), NAME/part, NAME/frame_I/positions and deformation (n x 3), I from 1.
 ///
 /// @throws InputError  no results there, or none that say where nodes are; a name that is taken: one line on every rank
-/// @throws RunError    path and reason: nothing is left over. Collective; each rank makes its share of all nodes.
+/// @throws RunError    path and reason: nothing is left. Collective; each rank makes its share of all nodes.
 MotionWritten write_motion(MPI_Comm comm, const MotionRequest& request);
 
 }  // namespace floe::output

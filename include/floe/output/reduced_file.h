@@ -21,8 +21,8 @@ struct ReducedColumn {
   double omega = 0;     ///< modes [rad/s]
   double new_part = 1;  ///< share of the scaled column that the columns before it lack
   bool kept = true;
-  double interaction = 0;    ///< derivatives chosen by count: modal interaction against the greatest
-  std::string dropped = {};  ///< static columns: why they were no candidates, `repeats tip.fx`
+  double interaction = 0;    ///< derivatives chosen by count: modal interaction relative to the maximum
+  std::string dropped = {};  ///< attachment modes: why they were no candidates, `repeats tip.fx`
 };
 
 /// A named place of the body; of a set of nodes, the mean. psi has one row in the plane, three in space.
@@ -108,7 +108,7 @@ void check_reduced_path(MPI_Comm comm, const std::filesystem::path& path, bool o
 ///     u = f["places/S"][place] @ q
 ///
 /// @throws InputError  `path` exists and not `overwrite`, or is no regular file
-/// @throws RunError    path and reason; a number that is not finite, sizes that do not fit. Nothing is left over, and
+/// @throws RunError    path and reason; a number that is not finite, sizes that do not fit. Nothing is left, and
 ///                     what was there is as it was
 /// Collective. With shapes one column more in memory than the caller has.
 void write_reduced_body(MPI_Comm comm, const std::filesystem::path& path, const ReducedBodyFile& file, bool overwrite,

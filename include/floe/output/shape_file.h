@@ -28,7 +28,7 @@ std::filesystem::path data_of(const std::filesystem::path& xdmf);
 void check_shapes_path(MPI_Comm comm, const std::filesystem::path& xdmf, bool overwrite);
 
 /// Writes an XDMF file (small, by rank 0) over an HDF5 file (by all ranks together), for ParaView: one uniform grid a
-/// body; of each field two vectors at the nodes, `NAME` and `NAME, rotation`; `part` of each cell.
+/// body; of each field two vectors at the nodes, `NAME` and `NAME, rotation`; `part` of each element.
 ///
 /// In HDF5: NAME/positions (n x 3), NAME/cells (XDMF's mixed topology: kind, count where the kind has none, nodes),
 /// NAME/part, and NAME/field I/displacement and rotation (n x 3). Nodes and cells stand in original order: the files do

@@ -6,7 +6,7 @@ namespace floe::plan {
 
 /// A body's mesh as files hold it: this rank's nodes and cells in original numbers, positions in the frame, no columns.
 output::ReducedShapes mesh_copy(const PlannedBody& body);
-/// The same with its followers; null: a body from a file has its mesh there.
+/// The same with its dependent nodes; null: a body from a file has its mesh there.
 std::shared_ptr<const BodyMesh> body_mesh(const PlannedBody& body);
 
 }  // namespace floe::plan

@@ -12,11 +12,11 @@ namespace floe::plan {
 ///   u'_t(x) = A(theta')' w - (c + theta'_t J (x + u'))    f'u'_t = 0 for the rates (c, theta'_t), linear
 ///   R = P + A(alpha) R',  theta = alpha + theta';    rates likewise, R'_t = A(theta') c
 ///
-/// Nodal rotations are slopes in the frame; where cells meet at an angle, their mean. Rigid bodies do not deform.
+/// Nodal rotations are slopes in the frame; where elements meet at an angle, their mean. Rigid bodies do not deform.
 /// @param body  all but what is set here  @throws InputError  no pose meets the conditions. Collective.
 void start_body(PlannedBody& body);
 
-/// Angles of the sections from the undeformed body in its frame, and their rates: what corotational beams turn by.
+/// Angles of the sections from the undeformed body in its frame, and their rates: what corotational beams rotate by.
 ///
 /// With t the tangent of the deformed axis and e the undeformed one, both in the frame: atan2(e x t, e.t), t x t_t /
 /// t.t

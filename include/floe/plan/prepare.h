@@ -31,7 +31,7 @@ struct Anchor {
   /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
   /// is the first of them.
   std::vector<Lever> levers = {};
-  bool line = false;                               ///< in space: a hinge line (fem::Mesh), led by `node`
+  bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
@@ -64,7 +64,7 @@ struct PlannedBody {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< in space: R. at the start, world
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();            ///< in space: angular velocity at the start, frame axes
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
-  /// and the ground clamps the body, followers.
+  /// and the ground clamps the body, dependent nodes.
   fem::Conditions clamp = {};
   int host = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
   int host_joint = -1;  ///< the joint that makes it so

@@ -10,11 +10,11 @@ struct SpatialMesh {
   std::vector<std::string> parts;                       ///< names
   std::vector<std::string> notices;
 };
-/// @param scene  its joints make rigid pieces of the places that they hold (holds_a_piece)
+/// @param scene  its joints make rigid regions of the places that they hold (holds_a_piece)
 /// @throws InputError  the same on all ranks. Collective.
 SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm);
 
-/// Whether the joint makes one rigid piece of a place of many nodes (`edges`), and does not clamp it to the ground,
+/// Whether the joint makes one rigid region of a place of many nodes (`edges`), and does not clamp it to the ground,
 /// where every node is held.
 bool holds_a_piece(const Joint& joint);
 

@@ -14,7 +14,7 @@ namespace floe::plan {
 ///   R = P + Q R',  A = Q B;  R_t = v + W x Q R' + Q B c,  A'W + b the frame's spin
 ///
 /// Nodal rotations are slopes of the deformed surface or line in the frame, and half the curl in a shell's plane; the
-/// sections of beams go with their line without a twist. Where cells meet at an angle they are the mean.
+/// sections of beams go with their line without a twist. Where elements meet at an angle they are the mean.
 /// @param body  all but what is set here  @throws InputError  no pose meets the conditions. Collective.
 void start_spatial_body(PlannedBody& body);
 

@@ -5,18 +5,18 @@
 
 namespace floe::reduction {
 
-/// What a column of the basis came from, and whether it stayed.
+/// What a vector of the basis came from, and whether it stayed.
 struct ColumnOrigin {
   enum class Kind { mode, derivative, attachment } kind;
   std::string label;    ///< `mode 3`, `derivative 1,2`, `attachment root.moment`
   double omega = 0;     ///< modes [rad/s]
-  double new_part = 1;  ///< share of the scaled column that the columns before it lack
+  double new_part = 1;  ///< share of the scaled basis vector that the basis vectors before it lack
   bool kept = true;
-  double interaction = 0;    ///< derivatives chosen by count: modal interaction against the greatest
-  std::string dropped = {};  ///< static columns that are not even candidates: why, `repeats tip.fx`
+  double interaction = 0;    ///< derivatives chosen by count: modal interaction relative to the maximum
+  std::string dropped = {};  ///< attachment modes that are not even candidates: why, `repeats tip.fx`
 };
 
-/// V = [phi theta ...], M-orthonormal: V' M V = 1. k columns.
+/// V = [phi theta ...], M-orthonormal: V' M V = 1. k basis vectors.
 struct Basis {
   petsc::BvHandle V;
   int columns = 0;

@@ -13,7 +13,7 @@ Pairs all_pairs(int m);
 /// Static modal derivatives theta_ij = d phi_i / d eta_j, inertia neglected.
 ///
 /// Solves K theta_ij = -(dK/deta_j) phi_i for the given pairs, all right-hand sides at once. The fields phi may be
-/// modes or static columns. theta_ij = theta_ji.
+/// modes or attachment modes. theta_ij = theta_ji.
 /// @param fields  phi, in the floating frame
 /// @return        theta, one for each pair, in the floating frame
 /// Collective. No factorisation of its own, one block solve. Source: Idelsohn & Cardona 1985.
@@ -24,7 +24,7 @@ Columns static_derivatives(const fem::Structure& structure, const Statics& stati
 ///
 ///   (K - omega_i^2 M) theta_ij = -(dK/deta_j - domega_i^2/deta_j M) phi_i,   phi_i' M theta_ij = 0
 ///
-/// Singular in the direction of phi_i: solved by Nelson's method (the dof where phi_i is greatest is held, and the part
+/// Singular in the direction of phi_i: solved by Nelson's method (the dof where phi_i is maximum is fixed, and the part
 /// along phi_i added by the orthogonality). Not symmetric: a pair (i, j) with i != j gives theta_ij and theta_ji.
 /// @return  for each pair theta_ij, then for i != j theta_ji; `which` receives (i, j) of each
 /// Collective. One factorisation for each distinct i; where round-off spoils it (Statics::refines), it preconditions

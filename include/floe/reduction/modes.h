@@ -20,7 +20,7 @@ struct Modes {
 /// MUMPS; Lanczos with blocks of eight vectors, -modes_eps_type block-lanczos, or Krylov-Schur where the body is small
 /// or its factor so spoilt by round-off that solves iterate). At shift 0 under the conditions of `statics`, the solver
 /// of `statics` serves with its factor and its options -derivatives_...; any option -modes_st_... gives the EPS a
-/// solver of its own. The sign of each mode makes the first translation above half the greatest one positive. Where
+/// solver of its own. The sign of each mode makes the first translation above half the maximum one positive. Where
 /// frequencies repeat, all modes of one are found (lowest_pairs counts them), and combined by a rule of which neither
 /// ranks nor the EPS know (the first, say, moves along y where the second stands still); then those beyond the count
 /// are left out. Modes of a flat body move in its plane or out of it (fem::separate).

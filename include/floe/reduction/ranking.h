@@ -11,7 +11,7 @@ struct Ranked {
   double weight;          ///< of its new part, against the first
 };
 
-/// Takes the `count` candidates that add most, greatest first: the next one has the greatest
+/// Takes the `count` candidates that add most, largest first: the next one has the maximum
 ///
 ///   factor_c |x_c|_M,   x_c = candidate c without its part along `given` and along those taken before
 ///

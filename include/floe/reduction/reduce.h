@@ -6,7 +6,7 @@
 
 namespace floe::reduction {
 
-/// A static column asked for: the response to a unit load, or to a displacement of dofs that are held.
+/// An attachment mode asked for: the response to a unit load, or to a displacement of dofs that are held.
 struct Attachment {
   std::string label;       ///< `root.moment`
   petsc::VecHandle load;   ///< null: a displacement
@@ -21,15 +21,15 @@ struct DerivativeChoice {
   bool full = false;
 };
 
-/// The columns that derivatives are taken of: modes and attachment columns, independent of one another.
+/// The basis vectors that derivatives are taken of: modes and attachment modes, independent of one another.
 struct Generators {
   Modes modes;
   Columns fields;                     ///< in the floating frame, M-normalised; modes first
   std::vector<ColumnOrigin> origins;  ///< of every field
-  std::vector<ColumnOrigin> dropped;  ///< attachment columns that vanish or repeat others
+  std::vector<ColumnOrigin> dropped;  ///< attachment modes that vanish or repeat others
 };
 
-/// Modes and static columns for the attachments, without what repeats. Collective.
+/// Modes and attachment modes for the attachments, without what repeats. Collective.
 Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
                       const std::vector<Attachment>& attachments, double tolerance);
 
@@ -37,14 +37,14 @@ Generators generators(const fem::Structure& structure, const Statics& statics, M
 Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                       const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance);
 
-/// Derivative columns with their origins.
+/// Derivative basis vectors with their origins.
 struct DerivativeColumns {
   Columns columns;
   std::vector<ColumnOrigin> origins;
 };
 
 /// theta of the pairs (of fields). Full derivatives exist for pairs of modes; with attachment columns they are static.
-/// Pairs of fields without slope (axial modes of a straight body) have none: their columns are zero.
+/// Pairs of fields without slope (axial modes of a straight body) have none: their basis vectors are zero.
 /// Collective.
 DerivativeColumns derivative_columns(const fem::Structure& structure, const fem::ReferenceFrame& frame,
                                      const fem::Holding& holding, const Statics& statics, const Generators& generators,

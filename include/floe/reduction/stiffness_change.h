@@ -10,7 +10,7 @@ using Operator = std::function<void(Vec x, Vec y)>;
 
 /// What an additional stiffness A changes of the stiffness D of a body.
 struct StiffnessChange {
-  /// With mu the stationary values of phi'A phi / phi'D phi, of which the least and the greatest count if they are
+  /// With mu the stationary values of phi'A phi / phi'D phi, of which the minimum and the maximum count if they are
   /// below and above 0:
   ///
   ///   (1 + mu_min) (1 + mu_max) - 1
@@ -24,7 +24,7 @@ struct StiffnessChange {
 };
 
 /// By Lanczos' method on K^-1 A in the inner product of K, from a load that depends on the mesh alone: to 0.1 % of the
-/// greatest value or at most 24 solves with K, then Rayleigh-Ritz in that space with D = K + `more`.
+/// maximum value or at most 24 solves with K, then Rayleigh-Ritz in that space with D = K + `more`.
 ///
 /// @throws RunError  not converged: a solve. Collective.
 StiffnessChange stiffness_change(const fem::Structure& structure, const Statics& statics, const Operator& A,

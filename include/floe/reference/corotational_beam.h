@@ -11,7 +11,7 @@ namespace floe::reference {
 ///
 /// Coordinates q = (u1, v1, theta1, u2, v2, theta2): displacements [m] and rotations [rad, unwrapped] of the two nodes
 /// from the undeformed configuration, world axes. The chord from node 1 to node 2 has length l, direction e, normal n
-/// and has turned by beta; the local rotations are a_i = theta_i - beta, beta taken next to (theta1 + theta2)/2 by
+/// and has rotated by beta; the local rotations are a_i = theta_i - beta, beta taken next to (theta1 + theta2)/2 by
 /// whole turns. With xi = x/l0 and the deflection w = phi_1 a_1 + phi_2 a_2 from the chord, by clamped cubics,
 ///     r(x) = (1 - xi) r1 + xi r2 + n w,    rotation of the section = beta + w'
 ///     T = 1/2 int rhoA |dr/dt|^2 + rhoI (dbeta/dt + dw'/dt)^2 dx

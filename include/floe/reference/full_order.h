@@ -37,13 +37,13 @@ enum class ElasticForce { von_karman, linear };
 /// @param frame        local index of (R_x, R_y, theta)
 /// @param multipliers  local index of three multipliers (mean_axis only)
 /// @param viscosity    beta of Kelvin-Voigt damping on the strain rates [s]
-/// Rank-local: each rank gets the terms of its own cells.
+/// Rank-local: each rank gets the terms of its own elements.
 std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structure& structure,
                                                               const fem::ReferenceFrame& reference,
                                                               const NodeCoordinates& nodes, int frame, int multipliers,
                                                               ElasticForce force, double viscosity = 0);
 
-/// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or [m] of line.
+/// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or [m] of line.
 ///
 /// @param held  dofs that the frame holds: a force on them acts on the frame alone
 enum class Density { mass, line };
@@ -54,7 +54,7 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
 dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
                              const Eigen::Vector3d& x);
 
-/// Line density on the cells of a corotational body (world axes): each half cell's load goes to its node. [m]
+/// Line density on the elements of a corotational body (world axes): each half element's load goes to its node. [m]
 std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes);
 
 /// r = A q with A fixed: a linear equation among coordinates, in terms of dynamics::Term. Weight 1 at every level.

@@ -23,7 +23,7 @@ struct MassDamping {
 /// Whether f'q is zero for every q that is zero at `held`: s needs no unknowns. Collective.
 bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& joints, const fem::Conditions& held);
 
-/// Each rank gets the terms of its own cells and nodes; the last one what couples s alone. Collective.
+/// Each rank gets the terms of its own elements and nodes; the last one what couples s alone. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> mass_damping_terms(const fem::Structure& structure,
                                                                 const MassDamping& damping,
                                                                 const NodeCoordinates& nodes);

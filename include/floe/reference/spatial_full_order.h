@@ -8,7 +8,7 @@ namespace floe::reference {
 /// A shell's rotations about its normal carry no mass, and a motion of full order needs some: they get as much as those
 /// about the other axes have, half the trace of a node's rotary inertia. Frequencies change by the order of
 /// (thickness/length)^2.
-/// @param mass  of the cell; returned with what it lacks
+/// @param mass  of the element; returned with what it lacks
 Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell,
                                       Eigen::MatrixXd mass);
 
@@ -33,12 +33,12 @@ struct SpatialFrame {
 ///
 /// @param held       dofs that the frame holds, and those of nodes that follow others
 /// @param viscosity  beta of Kelvin-Voigt damping on the strain rates [s]
-/// Each rank gets the terms of its own cells. Collective.
+/// Each rank gets the terms of its own elements. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
     const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
     const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity = 0);
 
-/// A uniform force density on every cell (of this rank), as a marker each: [kg] of mass, or of line and area.
+/// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or of line and area.
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
                                                              const fem::Conditions& held, const NodeCoordinates& nodes,
                                                              const SpatialFrame& frame, Density density);

@@ -10,7 +10,7 @@ Eigen::Vector3d in_mesh(const output::ReducedBodyFile& file, const Eigen::Vector
 /// @throws InputError  there is none, with the nearest; or coordinates, and a file without shapes
 const output::ReducedPlace& named_place(const Body& body, const Place& place);
 
-/// A length of the body: the greatest distance of its places, at least twice its radius of gyration. [m]
+/// A length of the body: the maximum distance of its places, at least twice its radius of gyration. [m]
 double extent_of(const output::ReducedBodyFile& file);
 
 }  // namespace floe::scene

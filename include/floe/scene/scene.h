@@ -108,7 +108,7 @@ struct ReductionSpec {
   ModesSpec modes;
   DerivativesSpec derivatives;
   enum class Attachment { none, joints, loads, all } attachment = Attachment::joints;
-  std::vector<Place> interface;  ///< Craig-Bampton: held by the modes, with a static column for each dof
+  std::vector<Place> interface;  ///< Craig-Bampton: held by the modes, with an attachment mode for each dof
   /// Only these, of all columns that there are and their derivatives: `mode 1`, `derivative 1,2`; empty: as the rest
   /// says.
   std::vector<std::string> columns;
@@ -200,7 +200,7 @@ struct Joint {
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
-  /// How the joint holds a place of many nodes: as one rigid piece, as a hinge line (hinge_lines), or by their mean.
+  /// How the joint holds a place of many nodes: as one rigid region, as a line hinge (hinge_lines), or by their mean.
   enum class Edges { rigid, mean, line } edges = Edges::rigid;
   bool edges_given = false;
   Point second_axis{};                                      ///< universal: carried by the second place
@@ -224,7 +224,7 @@ struct Load {
   bool follower = true;                                ///< pressure: stays normal to the shells
   std::array<math::Formula, 3> force{0.0, 0.0, 0.0};   ///< of t [N], distributed [N/m], [N/m2]
   std::array<math::Formula, 3> moment{0.0, 0.0, 0.0};  ///< of t [N m]; in the plane about z
-  /// body: they follow the frame; place: they turn with the place (in space).
+  /// body: they follow the frame; place: they rotate with the place (in space).
   enum class Axes { world, body, place } axes = Axes::world;
   Where where;
   bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
@@ -246,7 +246,7 @@ struct Probe {
   std::string name;
   Place at;
   enum class Quantity { position, displacement, deflection, velocity, rotation } quantity = Quantity::displacement;
-  std::optional<Place> relative_to;  ///< measured from this place, in axes that turn with it
+  std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
   Where where;
 };
 
@@ -277,7 +277,7 @@ struct Scene {
                                                    0.0};  ///< of t [m/s2]: axes of the world go with the ground
   bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
-  std::optional<double> accuracy;  ///< greatest relative error of the probes: floe chooses the model
+  std::optional<double> accuracy;  ///< maximum relative error of the probes: floe chooses the model
   std::vector<Probe> probes;
   std::vector<Event> events;
 };

@@ -77,6 +77,10 @@ const SchemaSection& schema_section(const std::string& name);
 /// In words: `a number or a formula of the parameters`, `one of pinned, clamped, mean-axis`.
 /// @param dimension  of the scene: how many coordinates a point has
 std::string describe(const Key& key, int dimension = 2);
+/// The same for the scenes in which the key occurs: planar, spatial or both, where these differ.
+std::string described(const SchemaSection& section, const Key& key);
+/// The default as printed, with three components where they differ in spatial scenes; empty: required, or none.
+std::string default_text(const Key& key);
 
 /// The whole grammar as Markdown, a heading and a table for each section: what the manual shows. Sections have targets
 /// `scene-NAME`, and keys that hold a section link to it.

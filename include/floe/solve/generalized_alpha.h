@@ -11,7 +11,7 @@ inline constexpr const char* generalized_alpha = "generalized-alpha";
 /// F(t, U, V, A) = 0, U = (q, multipliers), by TSSetI2Function and TSSetI2Jacobian (both needed, as is TS2SetSolution).
 /// Order 2 in q, v and multipliers from the first step, after restarts and through changes of the step; constraints
 /// hold at the end of every step. Events, rollback, interpolation and TSADAPTBASIC work (TSSetTolerances: rtol alone
-/// counts, it is relative to the greatest distance from where the run began). Newton stops at -snes_rtol (1e-10) of the
+/// counts, it is relative to the maximum distance from where the run began). Newton stops at -snes_rtol (1e-10) of the
 /// step's increment, whatever the units. With a fixed step the first failed solve ends the motion
 /// (TS_DIVERGED_NONLINEAR_SOLVE, state kept); an adaptive one is cut up to -ts_max_reject times
 /// (TS_DIVERGED_STEP_REJECTED). Defaults: direct solver (preonly, lu), full Newton steps, no adaptivity. Call once
@@ -43,7 +43,7 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 /// the solution (at the step's end, after a rollback, interpolated) is relative to that base. `bracket` fills W with
 /// a x b in the rows of rotations and zero in all others: what such rates differ by from derivatives. Both or none.
 ///
-/// `turn`, if given, is for a Jacobian that is kept while bodies turn: it turns a vector y of rows or of unknowns as
+/// `turn`, if given, is for a Jacobian that is kept while bodies turn: it rotates a vector y of rows or of unknowns as
 /// they turned from where TSI2Jacobian was called last to U (or back), so that J(U) is about turn J turn_back. Newton's
 /// updates are made with that.
 struct TSGeneralizedAlphaRotations {

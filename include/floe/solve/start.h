@@ -8,8 +8,8 @@ using namespace dynamics;
 
 /// What is wrong where accelerations and multipliers are not determined.
 inline const std::string singular_start =
-    "the accelerations at the start cannot be found: constraints repeat or contradict one another (two joints that "
-    "hold the same motion), or a body has no mass";
+    "the initial accelerations are undetermined: redundant or contradictory constraints (two joints that "
+    "constrain the same motion), or a body has no mass";
 /// Whether a linear solve that returned `code` met a singular matrix: each solver has an error of its own for it.
 bool is_singular(PetscErrorCode code);
 
@@ -28,7 +28,7 @@ void consistent_start(const System& system, double t, Vec U, Vec V, Vec A);
 /// Collective. One factorisation.
 double consistent_velocities(const System& system, double t, Vec U, Vec V, Vec impulses = nullptr);
 
-/// |C(q, t)|, or of its rate, greatest over all rows. Collective.
+/// |C(q, t)|, or of its rate, maximum over all rows. Collective.
 double constraint_violation(const System& system, double t, Vec U, Vec V, ConstraintLevel level);
 
 /// Nothing holds the configuration in some direction: at the start of the search and after relaxation; or because the
@@ -38,13 +38,13 @@ class NothingHolds : public RunError {
   using RunError::RunError;
 };
 
-/// Round-off of the greatest forces leaves the equilibrium open: smaller steps of the loads find no more.
+/// Round-off of the maximum forces leaves the equilibrium open: smaller steps of the loads find no more.
 class LostInRoundOff : public RunError {
   using RunError::RunError;
 };
 
 /// Coordinates and multipliers with F(t, U, V, 0) = 0 at given velocities: a static equilibrium (V = 0) or the steady
-/// shape of a body that turns at constant speed.
+/// shape of a body that rotates at constant speed.
 ///
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
 /// will hold the configuration is not stressed yet, where a step turns by more than a right angle and where the search

@@ -14,9 +14,9 @@ struct RotationAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of unit length, world axes
 };
 
-/// A mechanism that turns as a whole at a constant speed W about an axis: in axes that turn with it nothing moves.
+/// A mechanism that rotates as a whole at a constant speed W about an axis: in axes that rotate with it nothing moves.
 ///
-/// With W the vector of the angular velocity and R from the axis, all seen at the instant at which the turning axes
+/// With W the vector of the angular velocity and R from the axis, all seen at the instant at which the rotating axes
 /// coincide with those of the world:
 ///
 ///   V(U): R. = W x R, omega = A'W, elastic rates 0;   A(U): R.. = W x (W x R), alpha = 0;   in the plane alike
@@ -38,7 +38,7 @@ struct RotatingSystem {
 /// Unknowns beyond which nothing below is tried: its matrices are dense.
 inline constexpr PetscInt largest_rotating_system = 1500;
 
-/// That the equations are the same for a scene that has turned about the axis: constraints stay met, allow the same
+/// That the equations are the same for a scene that has rotated about the axis: constraints stay met, allow the same
 /// motions, and forces and their stiffness turn along. Tried by turning U by a finite angle.
 ///
 /// @param U  a configuration that meets the constraints; as before afterwards
@@ -58,7 +58,7 @@ void check_turns(const RotatingSystem& rotating, Vec U);
 /// Collective, the same on every rank.
 PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump = nullptr);
 
-/// A small motion e^(growth t) cos(omega t) about the steady rotation, as seen in the turning axes.
+/// A small motion e^(growth t) cos(omega t) about the steady rotation, as seen in the rotating axes.
 struct Vibration {
   double omega = 0;   ///< [rad/s]
   double growth = 0;  ///< [1/s]; > 0: unstable, < 0: damped
@@ -70,7 +70,7 @@ struct Vibration {
 /// The `count` slowest vibrations u = Re y e^(st) about a steady state by |s|, and all found that grow; in the order of
 /// their frequencies.
 ///
-/// With u the change of U in the turning axes, x counted in body axes, and u' its rate,
+/// With u the change of U in the rotating axes, x counted in body axes, and u' its rate,
 ///
 ///   dV = V_U u + u',  dA = A_U u + H u' + u'',   V_U, A_U derivatives of V(U), A(U);  H: 2 W x in rows R, omega x in x
 ///   M = F_a,  C = F_v + F_a H,  K = F_q + F_v V_U + F_a A_U,   G u = 0

@@ -7,9 +7,9 @@ using namespace floe;
 
 TEST_CASE("an accuracy that is missed by little is told with the digits that show it") {
   CHECK(app::missed_words(0.01, 0.0103) ==
-        "an error of 1 % was asked for, and the best model found has an estimated error of 1.03 %");
+        "the best model found has an estimated error of 1.03 % (limit 1 %, the accuracy requested)");
   CHECK(app::missed_words(0.01, 0.05) ==
-        "an error of 1 % was asked for, and the best model found has an estimated error of 5 %");
+        "the best model found has an estimated error of 5 % (limit 1 %, the accuracy requested)");
 }
 
 TEST_CASE("an estimate is told in per cent, or why there is none, or that it is beyond all use") {
@@ -18,7 +18,7 @@ TEST_CASE("an estimate is told in per cent, or why there is none, or that it is 
   estimate.none.clear();
   estimate.deformation = 0.0123, estimate.seconds = 0.5, estimate.notes = {"sampled"};
   CHECK(app::estimate_words(estimate) ==
-        "estimated error 1.2 % (deformations, against the full order of the same mesh; 0.5 s)\n"
+        "estimated error 1.2 % (deformations, relative to the full-order model of the same mesh; 0.5 s)\n"
         "Note (estimate): sampled\n");
   estimate.deformation = std::numeric_limits<double>::infinity();
   CHECK_THAT(app::estimate_words(estimate), Catch::Contains("beyond 10000 %"));

@@ -78,7 +78,7 @@ TEST_CASE("trade-off: a table has a row for the reference, for its own error and
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
   }
   const std::string text = output::to_text(tradeoff_table({"tip", "end"}, reference, nullptr, rungs(), 2, false));
-  CHECK(text.find("fair <- choice") != std::string::npos);
+  CHECK(text.find("fair <- selected") != std::string::npos);
   CHECK(text.find("gone: diverged at t = 1 s") != std::string::npos);
 }
 
@@ -99,5 +99,5 @@ TEST_CASE("trade-off: the ladder varies one thing at a time and leaves rigid bod
     }
   }
   CHECK(families == std::set<std::string>{"scene", "linear", "rigid", "modes", "modes and derivatives",
-                                          "static columns", "step", "integrator", "accuracy"});
+                                          "attachment modes", "step", "integrator", "accuracy"});
 }

@@ -56,7 +56,7 @@ TEST_CASE("an interface that touches a joint to the ground is refused in space")
     INFO(place);
     const std::string text =
         complaint(plate(std::string("{modes: 2, interface: [") + place + "]}"), Formulation::vm_md);
-    CHECK_THAT(text, Contains("test.yaml:7") && Contains("has a node that joint root holds") && !Contains("\n"));
+    CHECK_THAT(text, Contains("test.yaml:7") && Contains("has a node fixed by joint root") && !Contains("\n"));
   }
   CHECK(complaint(plate("{modes: 2, interface: [right]}"), Formulation::vm_md).empty());
 }
@@ -85,11 +85,11 @@ bodies:
   }
   CHECK_THAT(complaint(beam("{modes: 6, interface: [end]}"), Formulation::vm_md), Contains("6 modes"));
   CHECK_THAT(complaint(beam("{interface: [end], derivatives: [[1, 5]]}"), Formulation::vm_md),
-             Contains("[1, 5] names mode 5"));
+             Contains("[1, 5] refers to mode 5"));
 }
 
 TEST_CASE("where an interface carries a joint's moment there is nothing to warn of") {
-  const std::string words = "cannot carry the moment of joint h";
+  const std::string words = "its modes have no moment at joint h";
   const std::string plain = "{modes: 3, attachment: none}";
   CHECK(notes_with(built(two_beams(plain, plain), Formulation::vm_md), words) == 2);
   const assembly::Model model =
@@ -100,7 +100,7 @@ TEST_CASE("where an interface carries a joint's moment there is nothing to warn 
 
 TEST_CASE("without derivatives a body in space is warned of that two joints hold, not one clamped edge") {
   const std::string reduction = "{modes: 2, derivatives: none}";
-  CHECK(notes_with(built(plate(reduction), Formulation::vm_md), "lengthwise") == 0);
+  CHECK(notes_with(built(plate(reduction), Formulation::vm_md), "prevent axial displacement") == 0);
   const std::string other = "  far: {type: fixed, between: [ground, p.right]}\n";
-  CHECK(notes_with(built(plate(reduction, other), Formulation::vm_md), "lengthwise") == 1);
+  CHECK(notes_with(built(plate(reduction, other), Formulation::vm_md), "prevent axial displacement") == 1);
 }

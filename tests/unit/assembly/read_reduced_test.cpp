@@ -59,31 +59,33 @@ TEST_CASE("keys beside a reduced body are refused, each where it stands") {
   const Faults found = files.faults(
       "bodies:\n  b:\n    reduced: beam.h5\n    rigid: false\n    frame: pinned\n    mesh: 1\n"
       "    section: {A: 1}\n    damping: {mass: 1}\n    reduction: {modes: 3}\n");
-  CHECK(found.at(0) == "s.yaml:4:12: bodies.b.rigid: does not apply beside reduced; expected it only with a mesh");
+  CHECK(found.at(0) ==
+        "s.yaml:4:12: bodies.b.rigid: does not apply together with reduced; expected this key only with a mesh");
   CHECK(found.size() == 6);
   CHECK(files.faults("bodies: {b: {reduced: beam.h5, initial: {angle: 1, deformation: [0, x]}}}\n") ==
         Faults{"s.yaml:1:65: bodies.b.initial.deformation: does not apply to a body from a file; expected it only with "
                "a mesh"});
   CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {angle: 1}}}\n") ==
-        Faults{"s.yaml:1:50: bodies.b.initial.angle: does not apply here; expected it only in a scene in the plane"});
+        Faults{"s.yaml:1:50: bodies.b.initial.angle: does not apply here; expected it only in a planar scene"});
   CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {rotation: [0, 0, 1]}}}\n").empty());
 }
 
 TEST_CASE("a file that is missing or of another kind is one fault at its key") {
   const Files files;
   CHECK(files.faults("bodies: {b: {reduced: bem.h5}}\nprobes: {p: {at: b.tip}}\n") ==
-        Faults{"s.yaml:1:23: bodies.b.reduced: there is no file \"bem.h5\"; expected one that `floe reduce` wrote, "
+        Faults{"s.yaml:1:23: bodies.b.reduced: there is no file \"bem.h5\"; expected a file written by `floe reduce`, "
                "relative to the folder of the scene"});
   CHECK(files.faults("bodies: {b: {reduced: ''}}\n") ==
-        Faults{"s.yaml:1:23: bodies.b.reduced: is empty; expected a file that `floe reduce` wrote"});
+        Faults{"s.yaml:1:23: bodies.b.reduced: is empty; expected a file written by `floe reduce`"});
   CHECK(files.faults("bodies: {b: {reduced: [1]}}\n").size() == 1);
   files.folder.write("text.h5", "no HDF5");
   const Faults found = files.faults("bodies: {b: {reduced: text.h5}}\n");
   CHECK(found.size() == 1);
-  CHECK(found.at(0).starts_with("s.yaml:1:23: bodies.b.reduced: reduced body 'text.h5': expected an HDF5 file, whole"));
+  CHECK(
+      found.at(0).starts_with("s.yaml:1:23: bodies.b.reduced: reduced body 'text.h5': expected a complete HDF5 file"));
   CHECK(files.faults("bodies: {a: {reduced: beam.h5}, b: {reduced: plate.h5}}\n") ==
-        Faults{"s.yaml:1:23: bodies.a.reduced: \"beam.h5\" holds a body in the plane, and the scene is in space; "
-               "expected bodies that are all in the plane, or all in space"});
+        Faults{"s.yaml:1:23: bodies.a.reduced: \"beam.h5\" contains a planar body, and the scene is spatial; "
+               "expected bodies that are all planar, or all spatial"});
 }
 
 TEST_CASE("places of a reduced body are those of its file, or nodes of its shapes") {
@@ -97,7 +99,7 @@ TEST_CASE("places of a reduced body are those of its file, or nodes of its shape
   CHECK(files.faults(held + "probes: {p: {at: {body: b, node: [1, 0.4, 0]}}}\n") ==
         Faults{"s.yaml:3:14: probes.p.at: no node of b at (1, 0.4, 0); the nearest node is at (1, 0.5, 0)"});
   CHECK(files.faults("bodies: {b: {reduced: beam.h5}}\njoints: {j: {type: revolute, between: [b.end, b.end]}}\n") ==
-        Faults{"s.yaml:2:10: joints.j: joins a place with itself; expected two different places"});
+        Faults{"s.yaml:2:10: joints.j: connects a place with itself; expected two different places"});
   CHECK(files
             .faults("bodies: {b: {reduced: beam.h5}}\njoints: {j: {type: revolute, between: [{body: ground, node: [1, "
                     "0]}, b.end]}}\n")
@@ -110,9 +112,9 @@ TEST_CASE("nodes by coordinates need the shapes in the file") {
   const std::string path = (files.folder.path / "beam.h5").string();
   output::write_reduced_body(PETSC_COMM_WORLD, path, output::read_reduced_body(PETSC_COMM_WORLD, path), true);
   CHECK(files.faults("bodies: {b: {reduced: beam.h5}}\nprobes: {p: {at: {body: b, node: [1, 0]}}, q: {at: b.end}}\n") ==
-        Faults{
-            "s.yaml:2:14: probes.p.at: names a node by coordinates, and \"beam.h5\" has no shapes to find it; expected "
-            "one of end, middle, start"});
+        Faults{"s.yaml:2:14: probes.p.at: refers to a node by coordinates, and \"beam.h5\" has no shapes with "
+               "coordinates; expected "
+               "one of end, middle, start"});
 }
 
 TEST_CASE("a reduced body in space floats, is clamped where it was held, and also where it moves") {
@@ -142,8 +144,7 @@ TEST_CASE("the vm of a file needs its modes before its derivatives") {
   output::write_reduced_body(PETSC_COMM_WORLD, path, file, true);
   const std::string text = "bodies: {b: {reduced: beam.h5}}\n" + motion;
   CHECK(files.faults(text).empty());
-  CHECK(files.faults(text, scene::Formulation::vm).at(0).find("a derivative stands before a mode") !=
-        std::string::npos);
+  CHECK(files.faults(text, scene::Formulation::vm).at(0).find("a derivative precedes a mode") != std::string::npos);
 }
 
 TEST_CASE("another body of the scene does not hold the one that is reduced") {

@@ -165,7 +165,7 @@ TEST_CASE("a bushing counts its angle beyond half a turn, and refuses a turn") {
   }
   s.q[5] = 5.5;
   CHECK(testing::rows_of(term, s)[5] == Approx(11));
-  CHECK_THROWS_WITH(term.begin_step({0, s.q, s.v, s.a}), Catch::Contains("bushing b is turned by 5.5 rad"));
+  CHECK_THROWS_WITH(term.begin_step({0, s.q, s.v, s.a}), Catch::Contains("bushing b is rotated by 5.5 rad"));
 }
 
 TEST_CASE("a bushing carries nothing at its rest") {

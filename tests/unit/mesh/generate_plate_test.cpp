@@ -99,7 +99,7 @@ TEST_CASE("arguments that make no plate are told together") {
         "plate: na = 0, expected at least 1\nplate: nb = -3, expected at least 1");
   CHECK(fault({{0, 0, 0}, {1, 0, 0}, {-2, 0, 0}, 1, 1}) == "plate: edges a and b are parallel");
   CHECK(fault({{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 1, 1}) == "plate: an edge has no length");
-  CHECK_THAT(fault({{0, nan, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1}), Contains("origin") && Contains("no numbers"));
+  CHECK_THAT(fault({{0, nan, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1}), Contains("origin") && Contains("not finite"));
   CHECK_THAT(fault({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, ShellCells::quadrilaterals, Diagonals::crossed}),
              Contains("crossed"));
   CHECK_THAT(fault({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1, ShellCells::triangles, Diagonals::left, 0, nan}),

@@ -102,9 +102,9 @@ TEST_CASE("maps that do not do what is said of them are refused on every rank") 
   CHECK(fault({2, 0, tube, true}) == "shell: nu = 2, expected at least 3\nshell: nv = 0, expected at least 1");
   CHECK(fault({4, 1, sphere, true, true, true}) == "shell: nv = 1, expected at least 2");
   CHECK(fault({4, 4, [](double u, double v) { return tube(0.9 * u, v); }, true}) ==
-        "shell: u = 0 and u = 1 are not one line");
-  CHECK(fault({4, 4, tube, true, true}) == "shell: v = 0 is no pole");
-  CHECK(fault({4, 4, tube, true, false, true}) == "shell: v = 1 is no pole");
+        "shell: u = 0 and u = 1 do not coincide");
+  CHECK(fault({4, 4, tube, true, true}) == "shell: v = 0 is not a pole");
+  CHECK(fault({4, 4, tube, true, false, true}) == "shell: v = 1 is not a pole");
   CHECK_THAT(fault({4, 4, [](double u, double v) { return Eigen::Vector3d(u, v, std::sqrt(0.9 - v)); }}),
-             Contains("no numbers"));
+             Contains("not finite"));
 }

@@ -30,7 +30,7 @@ TEST_CASE("files that Gmsh wrote, as text and binary, give the same mesh") {
     CHECK(testing::labels_at(raw, "root") == std::vector<long long>{1, 4, 13});  // x = 0
     CHECK(raw.places == std::vector<std::string>{"corner", "root", "stiffener", "skin"});
     REQUIRE(file.notices.size() == 1);
-    CHECK_THAT(file.notices[0], Contains("nodes that no cell uses are left out"));  // of the free end of "stiffener"
+    CHECK_THAT(file.notices[0], Contains("nodes that no element uses are ignored"));  // of the free end of "stiffener"
   }
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("nodes and elements that are wrong are refused with their lines") {
              Contains("bad.inp:9: expected an element number and 3 nodes, found '3, 1, 2'"));
   CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\n1, 77\n" + section),
              Contains("bad.inp:9: node set n names node 77"));
-  CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\nm\n" + section), Contains("holds 'm', which is no set"));
+  CHECK_THAT(said(nodes + elements + "*NSET, NSET=n\nm\n" + section), Contains("holds 'm', which is not a set"));
 }
 
 TEST_CASE("orientations turn about axis 1, 2 or 3") {
@@ -97,7 +97,7 @@ TEST_CASE("sections that do not fit the elements are refused") {
              Contains("bad.inp:15: a thickness must be greater than 0"));
   CHECK_THAT(
       said(nodes + elements + section + "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=BOX\n1, 1, .6, .6, .6, .6\n"),
-      Contains("bad.inp:15: the dimensions make no section"));
+      Contains("bad.inp:15: the dimensions are inconsistent"));
 }
 
 TEST_CASE("links that are not rigid in all directions are refused") {
@@ -122,7 +122,7 @@ TEST_CASE("a deck that ends early is refused, or lacks what follows") {
 TEST_CASE("a byte 0 in a name does no harm") {
   const std::string zero(1, '\0');
   CHECK_THAT(said(nodes + elements + section + "*NSET, NSET=n\na" + zero + "b\n"),
-             Contains("holds 'a', which is no set"));
+             Contains("holds 'a', which is not a set"));
 }
 
 TEST_CASE("at most twenty faults are told") {

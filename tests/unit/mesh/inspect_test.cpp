@@ -51,19 +51,19 @@ TEST_CASE("cells that are no cells are named") {
   const auto found = mesh::inspect(
       spread(corners, {triangle(0, 1, 2), triangle(0, 1, 4), line(4, 5), line(3, 3), triangle(2, 0, 1), folded}));
   CHECK(found.faults == std::vector<std::string>{"test: element 101 has no area", "test: element 102 has no length",
-                                                 "test: element 103 has a node twice",
+                                                 "test: element 103 has the same node twice",
                                                  "test: element 104 has the nodes of element 100",
                                                  "test: element 105 has no area"});
   const std::vector<Eigen::Vector3d> dart{{0, 0, 0}, {1, 1, 0}, {0, 4, 0}, {-1, 1, 0}, {0, 1.5, 0}};
   const auto concave = mesh::inspect(spread(dart, {{CellKind::quadrilateral, {1, 2, 3, 4}, 0}, triangle(0, 1, 4)}));
-  CHECK(concave.faults == std::vector<std::string>{"test: element 100 is folded: a corner turns the other way"});
+  CHECK(concave.faults == std::vector<std::string>{"test: element 100 is folded: not convex"});
 }
 
-TEST_CASE("coordinates that are no numbers are named") {
+TEST_CASE("coordinates that are not finite are named") {
   auto nodes = corners;
   nodes[1][2] = std::nan("");
   const auto found = mesh::inspect(spread(nodes, {triangle(0, 1, 2), triangle(0, 2, 3)}));
-  CHECK(found.faults == std::vector<std::string>{"test: node 101 has coordinates that are no numbers"});
+  CHECK(found.faults == std::vector<std::string>{"test: node 101 has coordinates that are not finite"});
 }
 
 TEST_CASE("pieces are counted, and joined by connections") {

@@ -98,6 +98,6 @@ TEST_CASE("what cannot be written is refused on every rank") {
   CHECK_THAT(fault(named), Contains("cannot be that of a physical group"));
   auto mixed = mesh::merged(mesh::plate(PETSC_COMM_WORLD, skew),
                             mesh::polyline(PETSC_COMM_WORLD, {{{5, 5, 5}, {6, 5, 5}}, {}, {2}, {"plate"}}), {}, 1e-6);
-  CHECK_THAT(fault(mixed), Contains("part 'plate' has cells of several dimensions"));
+  CHECK_THAT(fault(mixed), Contains("part 'plate' has elements of several dimensions"));
   CHECK_THROWS_AS(mesh::write_gmsh("/no/such/folder/a.msh", mesh::plate(PETSC_COMM_WORLD, skew)), RunError);
 }

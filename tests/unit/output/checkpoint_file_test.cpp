@@ -81,6 +81,6 @@ TEST_CASE("what is no whole checkpoint is refused") {
   }
   SECTION("something else") {
     change(path, 0, 'x');
-    CHECK_THROWS_WITH(read(), Catch::Contains("is no checkpoint"));
+    CHECK_THROWS_WITH(read(), Catch::Contains("is not a checkpoint"));
   }
 }

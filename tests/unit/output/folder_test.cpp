@@ -92,7 +92,8 @@ TEST_CASE("a file that is called like a result and is none of floe's is not repl
     for (const auto& [name, text] : files) put(scratch, scratch / name, text);
     const std::string& last = files.back().first;
     INFO(last);
-    CHECK_THROWS_WITH(prepare_folder(PETSC_COMM_WORLD, scratch, true), Contains(last + " in it is no result of floe"));
+    CHECK_THROWS_WITH(prepare_folder(PETSC_COMM_WORLD, scratch, true),
+                      Contains(last + " in it is not a result of floe"));
     CHECK(text_of(scratch / last) == files.back().second);
     meet();
   }

@@ -158,7 +158,7 @@ TEST_CASE("a motion replaces nothing unasked, and tells what it cannot read") {
   MotionRequest request{scratch / "run", scratch / "m.xdmf", 1, 2, false};
   write_motion(PETSC_COMM_WORLD, request);
   meet();
-  CHECK_THROWS_WITH(write_motion(PETSC_COMM_WORLD, request), Contains("exists; name another"));
+  CHECK_THROWS_WITH(write_motion(PETSC_COMM_WORLD, request), Contains("exists; use another name"));
   request.overwrite = true;
   CHECK(write_motion(PETSC_COMM_WORLD, request).t.size() == 2);
   request.frames = 0;

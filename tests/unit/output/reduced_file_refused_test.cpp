@@ -96,7 +96,7 @@ const std::vector<std::pair<Change, std::string>>& changes() {
          set_first(f, "elasticity/pairs", Integers{0, 0, 0, 0});
        },
        "(0, 0) before (0, 0)"},
-      {[](hid_t f) { set_first(f, "columns/kept", Integers{0}); }, "'columns/kept': expected 5 columns kept, found 4"},
+      {[](hid_t f) { set_first(f, "columns/kept", Integers{0}); }, "'columns/kept': expected 5 candidate vectors kept, found 4"},
       {[](hid_t f) { set_first(f, "body/dimension", Integers{4}); }, "'body/dimension': expected a number from 2 to 3"},
       {[](hid_t f) { set_first(f, "frame/axes", Doubles{1}); }, "'frame/axes': expected a rotation"},
       {[](hid_t f) { set_first(f, "inertia/m", Doubles{-1}); }, "'inertia/m': expected a positive mass, found -1"},
@@ -152,9 +152,9 @@ TEST_CASE("files of another kind are refused") {
   const fs::path folder = scratch;
   check_refused(folder, "is not a file");
   put(scratch, scratch / "text", "bodies: {}\n");
-  check_refused(scratch / "text", "expected an HDF5 file, whole");
+  check_refused(scratch / "text", "expected a complete HDF5 file");
   put(scratch, scratch / "empty", "");
-  check_refused(scratch / "empty", "expected an HDF5 file, whole");
+  check_refused(scratch / "empty", "expected a complete HDF5 file");
   ResultFile result(PETSC_COMM_WORLD, scratch / "result.h5");
   result.write_array("q", {1}, std::vector<double>{1});
   result.publish();
@@ -167,8 +167,8 @@ TEST_CASE("a reduced body that was cut off anywhere is refused") {
   const std::string whole = text_of(scratch / "whole.h5");
   for (std::size_t size = 1; size < whole.size(); size += whole.size() / 37) {
     put(scratch, scratch / "cut.h5", whole.substr(0, size));
-    check_refused(scratch / "cut.h5", "expected an HDF5 file, whole");
+    check_refused(scratch / "cut.h5", "expected a complete HDF5 file");
   }
   put(scratch, scratch / "cut.h5", whole.substr(0, whole.size() - 1));
-  check_refused(scratch / "cut.h5", "expected an HDF5 file, whole");
+  check_refused(scratch / "cut.h5", "expected a complete HDF5 file");
 }

@@ -125,17 +125,17 @@ TEST_CASE("shapes that do not fit or find no room leave what was there") {
       [&](auto& s) {
         if (scratch.rank() == 0) s.nodes[0] = nodes;
       },
-      "without place");
+      "without position");
   refused(
       [&](auto& s) {
         if (scratch.rank() == 0) s.cells.pop_back();
       },
-      "10 cells, the body has 11");
+      "10 elements, the body has 11");
   refused(
       [&](auto& s) {
         if (scratch.rank() == 0) s.cells[0].nodes[0] = 12;
       },
-      "a node that the body lacks");
+      "a node that the body does not have");
   refused(
       [&](auto& s) {
         if (scratch.rank() == 0) s.cells[0].part = 3;
@@ -143,7 +143,7 @@ TEST_CASE("shapes that do not fit or find no room leave what was there") {
       "part without name");
   refused([&](auto& s) { s.dofs_per_node = 6; }, "36 dofs are not 6");
   refused([&](auto& s) { s.column = [](int, std::span<double> v) { std::fill(v.begin(), v.end(), NAN); }; },
-          "column 0 is not finite");
+          "basis vector 0 is not finite");
   refused(
       [&](auto& s) {
         s.column = [](int j, auto) {

@@ -72,12 +72,13 @@ TEST_CASE("shapes replace nothing unasked, and a fault leaves what was there") {
     std::ofstream(scratch / "other.xdmf") << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"/>\n";
   meet();
   CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, scratch / "other.xdmf", true),
-                    Catch::Contains("holds no shapes of floe's"));
+                    Catch::Contains("contains no shapes written by floe"));
   meet();
   if (scratch.rank() == 0) std::filesystem::remove(scratch / "other.xdmf");
   write_shapes(PETSC_COMM_WORLD, path, {dealt()});
   meet();
-  CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, path, false), Catch::Contains("m.xdmf': exists; name another"));
+  CHECK_THROWS_WITH(check_shapes_path(PETSC_COMM_WORLD, path, false),
+                    Catch::Contains("m.xdmf': exists; use another name"));
   CHECK_NOTHROW(check_shapes_path(PETSC_COMM_WORLD, path, true));
   const std::string xdmf = text_of(path), data = text_of(scratch / "m.h5");
   ShapeGrid bad = dealt();

@@ -150,8 +150,8 @@ TEST_CASE("formulations of full order name the body that has no mesh") {
   const Pair scenes(plate, "plate", meshed_plate);
   for (const Formulation formulation : {Formulation::nlffr, Formulation::cfr})
     CHECK_THROWS_WITH(history_of(scenes.from_file, formulation),
-                      Catch::Contains("bodies.plate.reduced: has no mesh, which formulation " +
-                                      scene::name_of(formulation) + " needs; expected vm+md, vm or lffr"));
+                      Catch::Contains("bodies.plate.reduced: has no mesh, but formulation " +
+                                      scene::name_of(formulation) + " needs one; expected vm+md, vm or lffr"));
 }
 
 TEST_CASE("frequencies of a body from a file are those of its mesh, and derivatives beside it are chosen by count") {

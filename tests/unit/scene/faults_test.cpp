@@ -107,7 +107,7 @@ TEST_CASE("numbers whose products are none in double precision are refused") {
   };
   for (const char* EI : {"1e-310", "1e-200", "1e200", "10^(-200)"})
     CHECK(told(EI).find("bodies.b.section.EI: is ") != std::string::npos);
-  CHECK(told("1e200").find("is 1e+200, whose products leave the range of double precision; expected 0 or a size from "
+  CHECK(told("1e200").find("is 1e+200, whose products exceed the range of double precision; expected 0 or a size from "
                            "1e-120 to 1e+120") != std::string::npos);
   CHECK(told("1e-119") == "");
 }

@@ -26,9 +26,10 @@ const std::string number = "a number or a formula of the parameters";
 }  // namespace
 
 TEST_CASE("a section is of shells or of beams") {
-  const Faults expected{section +
-                        ": is neither of shells nor of beams, or both; expected thickness or plies (shells), or shape "
-                        "or A (beams)"};
+  const Faults expected{
+      section +
+      ": is a section neither of shells nor of beams, or of both; expected thickness or plies (shells), or shape "
+      "or A (beams)"};
   CHECK(of_shell("thickness: 0.01, shape: circle, radius: 1") == expected);
   CHECK(of_shell("thickness: 0.01, A: 1") == expected);
   CHECK(of_shell("thickness: 0.01, plies: [[1, 0]]") == expected);
@@ -92,9 +93,9 @@ TEST_CASE("beams name their measures and an orientation") {
         Faults{"s.yaml:4:22: bodies.b.section.shape: is \"rectagle\"; expected one of rectangle, circle, tube, box, i; "
                "did you mean \"rectangle\"?"});
   CHECK(of_beam("shape: circle, radius: 0.1") ==
-        Faults{section + ": has no orientation; expected a vector that turns the section of beams"});
+        Faults{section + ": has no orientation; expected a vector that orients the section of beams"});
   CHECK(of_beam("shape: circle, radius: 0.1, orientation: [0, 1, 0], centroid: [1]") ==
-        Faults{"s.yaml:4:77: bodies.b.section.centroid: has not two numbers; expected [y, z]"});
+        Faults{"s.yaml:4:77: bodies.b.section.centroid: does not have two numbers; expected [y, z]"});
   CHECK(
       of_beam("shape: tube, radius: 0.01, wall: 0.02, orientation: [0, 1, 0]").at(0).starts_with(section + ": tube: "));
 }
@@ -144,9 +145,9 @@ TEST_CASE("frames in space: what pinned needs") {
     return faults_of(one_body(testing::plate, testing::thickness + testing::metal + "    frame: " + frame + "\n"));
   };
   CHECK(faults("{type: pinned, from: left, to: right}") ==
-        Faults{"s.yaml:6:5: bodies.b.frame: a pinned frame goes through two nodes; expected places of one node each"});
+        Faults{"s.yaml:6:5: bodies.b.frame: a pinned frame is defined by two nodes; expected places of one node each"});
   CHECK(faults("{type: pinned, from: p1, to: p1}") ==
-        Faults{"s.yaml:6:5: bodies.b.frame: from and to are one node; expected two"});
+        Faults{"s.yaml:6:5: bodies.b.frame: from and to are the same node; expected two different nodes"});
   CHECK(faults("pinned").at(0).starts_with("s.yaml:6:12: bodies.b.frame.from: b has no place \"start\""));
   for (const char* good : {"mean-axis", "{type: pinned, from: p1, to: p3}", "{type: clamped, at: left}"})
     CHECK(faults(good).empty());
@@ -190,8 +191,9 @@ TEST_CASE("mesh files: missing, of another kind, in pieces") {
                "*ELEMENT, TYPE=S3, ELSET=a\n1, 1, 2, 3\n*ELEMENT, TYPE=S4, ELSET=a\n2, 4, 5, 6, 7\n"
                "*MATERIAL, NAME=m\n*ELASTIC\n1, 0.3\n*DENSITY\n1\n*SHELL SECTION, ELSET=a, MATERIAL=m\n0.1\n");
   CHECK(faults("pieces.inp") ==
-        Faults{mesh + ": the mesh falls into 2 pieces (4 nodes about node 4, 3 nodes about node 1), so that 6 rigid "
-                      "motions are free; expected one connected mesh (join them by common nodes)"});
+        Faults{mesh +
+               ": the mesh has 2 unconnected parts (4 nodes about node 4, 3 nodes about node 1), so that 6 rigid "
+               "motions are free; expected one connected mesh (join them by common nodes)"});
 }
 
 TEST_CASE("keys of the plane in space, and of space in the plane") {
@@ -204,7 +206,7 @@ TEST_CASE("keys of the plane in space, and of space in the plane") {
   CHECK(plane.back() ==
         "s.yaml:4:15: bodies.b.section.thickness: unknown key; expected one of A, I, EA, EI, rhoA, rhoI, GA");
   CHECK(faults_of(one_body(flat, "    section: {EA: 1, EI: 1, rhoA: 1}\n    parts: {a: {}}\n")) ==
-        Faults{"s.yaml:5:5: bodies.b.parts: does not apply here; expected it only in a scene in space"});
+        Faults{"s.yaml:5:5: bodies.b.parts: does not apply here; expected this key only in spatial scenes"});
   CHECK(faults_of(one_body(testing::line, testing::tube + testing::metal + "    frame: {type: clamped, at: [0, 0]}\n"))
             .at(0)
             .starts_with("s.yaml:6:32: bodies.b.frame.at: has length 2"));
@@ -215,7 +217,7 @@ TEST_CASE("what bodies and joints in space do not know is refused, not left asid
     return faults_of(one_body(testing::plate, testing::thickness + testing::metal + "    " + key + "\n"));
   };
   CHECK(with("rotary_inertia: false") ==
-        Faults{"s.yaml:6:21: bodies.b.rotary_inertia: does not apply here; expected it only in a scene in the plane"});
+        Faults{"s.yaml:6:21: bodies.b.rotary_inertia: does not apply here; expected it only in a planar scene"});
   CHECK(with("frames: 2").size() == 1);
   CHECK(with("initial: {angle: 1}").size() == 1);
   CHECK(with("initial: {rotation: [0, 0, 1], angular_velocity: [1, 2, 3]}").empty());
@@ -234,7 +236,8 @@ TEST_CASE("what bodies and joints in space do not know is refused, not left asid
   CHECK(joint("type: revolute, between: [ground, b.left]").empty());
   CHECK(joint("type: revolute, between: [ground, b.p1], axis: [1, 0, 0]").empty());
   CHECK(joint("type: revolute, between: [ground, b.p1]") ==
-        Faults{"s.yaml:7:10: joints.j.axis: is missing, and the joint's places are no edges whose line could be it; "
+        Faults{"s.yaml:7:10: joints.j.axis: is missing, and the joint's places are not straight edges, which would "
+               "define it; "
                "expected three numbers [x, y, z]"});
 }
 
@@ -243,7 +246,7 @@ TEST_CASE("joints that are known in space only are refused in the plane") {
       faults_of("bodies:\n  b:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}\n    section: {EA: 1, EI: 1, "
                 "rhoA: 1}\njoints: {j: {type: spherical, between: [ground, b.start]}}\n") ==
       Faults{"s.yaml:5:20: joints.j.type: is spherical; expected fixed, revolute, prismatic, driven or spring in a "
-             "scene in the plane"});
+             "planar scene"});
 }
 
 TEST_CASE("the ground's point and a body's are compared in all three coordinates") {

@@ -103,6 +103,6 @@ TEST_CASE("equilibrium of a hinge in space under a moment about it: nothing hold
       INFO("arm " << length << ", moment " << moment);
       const Held body(length * Vector3d(0.6, 0.8, 0), moment, {});
       CHECK_THROWS_AS(body.rest(), solve::NothingHolds);
-      CHECK_THROWS_WITH(body.rest(), Catch::Contains("nothing holds the configuration in some direction (body bar)"));
+      CHECK_THROWS_WITH(body.rest(), Catch::Contains("singular tangent stiffness (body bar)"));
     }
 }

@@ -1,10 +1,10 @@
-#include "happen.h"
+#include "apply_event.h"
 
 #include "floe/solve/start.h"
 
 namespace floe::solve {
 
-EventReport happen(const System& system, const Event& event, double t, Vec U, Vec V) {
+EventReport apply_event(const System& system, const Event& event, double t, Vec U, Vec V) {
   EventReport report{event.name, event.what, t};
   if (!event.latch) return report;
   const double before = system.energy(t, U, V).kinetic;

@@ -1,4 +1,4 @@
-#include "everywhere.h"
+#include "gather_to_all.h"
 
 #include <algorithm>
 #include <numeric>
@@ -9,7 +9,7 @@ namespace floe::solve {
 
 using petsc::check;
 
-Eigen::MatrixXd everywhere(const System& system, Mat J) {
+Eigen::MatrixXd gather_to_all(const System& system, Mat J) {
   const PetscInt n = system.coordinates().global_size();
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(n, n);
   rows.setZero();
@@ -22,7 +22,7 @@ Eigen::MatrixXd everywhere(const System& system, Mat J) {
   return rows;
 }
 
-Eigen::VectorXd everywhere(const System& system, Vec x) {
+Eigen::VectorXd gather_to_all(const System& system, Vec x) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(system.coordinates().global_size());
   {
     petsc::Values mine(x);

@@ -5,10 +5,10 @@
 namespace floe::solve {
 using namespace dynamics;
 
-/// Has an event happen at the state (t, U, V): its latch changes, and velocities go to the nearest ones that fit. The
+/// Applies an event at the state (t, U, V): its latch changes, and velocities go to the nearest ones that fit. The
 /// next step must start anew (TSRestartStep).
 /// @throws RunError  the rows that close contradict or repeat others. Collective.
-EventReport happen(const System& system, const Event& event, double t, Vec U, Vec V);
+EventReport apply_event(const System& system, const Event& event, double t, Vec U, Vec V);
 
 /// Takes velocities before a kink to those after it. The next step must start anew, at kink.after.
 /// @throws RunError  the drives contradict one another. Collective.
