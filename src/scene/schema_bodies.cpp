@@ -24,6 +24,11 @@ const SchemaSection body_section{
         choice("strain", "averaged",
                "membrane strain in an element: averaged over it (free of locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
+        choice("strains", "",
+               "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
+               "second_order (all of them: bending with torsion); in the plane and for shells von_karman alone; absent: "
+               "von_karman",
+               {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "whether sections resist turning by rhoI"}),
         {"rigid", Type::flag, "", "false",
          "undeformable: EA and EI may be absent; frame, reduction, damping and deformation count nothing"},

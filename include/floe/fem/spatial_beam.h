@@ -2,6 +2,7 @@
 #include "floe/fem/beam_section_3d.h"
 #include "floe/fem/element.h"
 #include "floe/fem/planar_beam.h"
+#include "floe/fem/strains.h"
 
 namespace floe::fem {
 
@@ -22,6 +23,7 @@ Eigen::Matrix3d element_axes(const BeamPlace& place);
 struct SpatialBeamStrain {
   MembraneStrain membrane = MembraneStrain::averaged;
   bool wagner = false;
+  Strains strains = Strains::von_karman;
 };
 
 /// Spatial beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is given: u and twist
