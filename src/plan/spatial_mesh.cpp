@@ -161,10 +161,8 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
 }
 
 /// What the body says of the strains of all its elements.
-/// @throws InputError  second_order, which neither beams nor shells have
+/// @throws InputError  second_order, which shells do not have
 void take_strains(const Body& body, std::vector<fem::Section>& sections) {
-  if (body.strains == fem::Strains::second_order)
-    throw InputError(body.where.text() + ".strains: is second_order; expected von_karman");
   const auto membrane =
       body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
   for (fem::Section& section : sections) {
@@ -172,7 +170,11 @@ void take_strains(const Body& body, std::vector<fem::Section>& sections) {
       beam->strain.membrane = membrane;
       if (body.strains) beam->strain.strains = *body.strains;
     }
-    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) shell->strains = *body.strains;
+    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) {
+      if (*body.strains == fem::Strains::second_order)
+        throw InputError(body.where.text() + ".strains: is second_order for shells; expected von_karman");
+      shell->strains = *body.strains;
+    }
   }
 }
 

@@ -41,6 +41,12 @@ struct SpatialBeamStrain {
 /// Not in the model: warping, and strains of second order that vary over the section (of these,
 /// wagner keeps the mean: its rx'^4 term has Ip^2/A where the section has int r^4 dA >= Ip^2/A).
 ///
+/// With Strains::second_order, averaged alone, all terms of second order are in the strains (theory.md) and
+/// `bending` is zero; phi = rx, at the nodes v' = rz + 1/2 rx ry and w' = -ry + 1/2 rx rz, and C and S move by
+/// r x a + 1/2 r x (r x a):
+///   eps = u_C' + 1/2 (v_C'^2 + w_C'^2),   tau = phi' + 1/2 (w' v'' - v' w''),
+///   kappa_z = v'' + phi w'',   kappa_y = -w'' + phi v''
+///
 /// Mass points stand at four Gauss stations, in each at +-sqrt(n s/rhoA) along the n = 2 principal axes of the section
 /// (n = 1, or one point, where second moments s vanish): total, first and second moments and consistent mass are exact.
 /// They rotate with the section about its centroid to second order (body::RotatingMass), by (rx, -w_S' + gamma_z, v_S'
