@@ -268,7 +268,7 @@ void SpatialAssembly::add_still_cells(int b) {
   double stiffest = 1e-300;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
     const fem::ElementMaps maps = structure.maps(cell);
-    stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
+    stiffest = std::max(stiffest, reference::stiffest(maps));
     const reference::FreeDofs free = reference::free_dofs(structure, held(b), cell, *slots_[b].nodes);
     if (free.coordinates.empty()) continue;
     body::Elasticity elasticity = fem::elasticity(maps, free.V);

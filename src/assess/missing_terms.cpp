@@ -146,7 +146,7 @@ std::string words(const BodyReport& body, const Found& found, double spin) {
   if (found.what == "coupling")
     return fmt::format(
         "body {}: second-order coupling of bending and torsion changes the stiffness {} by {} (limit 5 %), and "
-        "is not represented within one frame: too {}; take several frames (frames: N)",
+        "is not in von Karman's strains: too {}; take strains: second_order, or several frames (frames: N)",
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "

@@ -78,7 +78,9 @@ void see_deformation(const Model& model, std::size_t b, const State& state, Seen
   if (full || !model.offline) return;
   const body::Elasticity& elasticity = model.offline->reduced[b].body.elasticity;
   const VectorXd eta = state.q.segment(first, count);
-  const double bending = 0.5 * eta.dot(elasticity.bending * eta), membrane = body::energy(elasticity, eta) - bending;
+  // where strains of second order include bending, the membrane's energy is what they have beyond the linear ones
+  const Eigen::MatrixXd K = elasticity.bending.isZero(0) ? elasticity.linear_stiffness() : elasticity.bending;
+  const double bending = 0.5 * eta.dot(K * eta), membrane = body::energy(elasticity, eta) - bending;
   if (membrane > seen.membrane) seen.membrane = membrane, seen.bending = bending;
 }
 

@@ -134,10 +134,16 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
       of_kind<ShellSection>(structure, [&](const Mesh::Cell& cell, const ShellSection& section, const MatrixXd& T) {
         return in_plane(structure, cell, section, of_corners(cell, T));
       });
-  missing.coupling =
-      of_kind<SpatialBeam>(structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) {
-        return coupling(structure, cell, beam, of_corners(cell, T));
-      });
+  const auto lacks_coupling = [](const SpatialBeam& beam) { return beam.strain.strains == Strains::von_karman; };
+  if (std::any_of(structure.sections.begin(), structure.sections.end(), [&](const Section& section) {
+        const auto* beam = std::get_if<SpatialBeam>(&section);
+        return beam && lacks_coupling(*beam);
+      }))
+    missing.coupling =
+        of_kind<SpatialBeam>(structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) {
+          const VectorXd own = of_corners(cell, T);
+          return lacks_coupling(beam) ? coupling(structure, cell, beam, own) : MatrixXd::Zero(own.size(), own.size());
+        });
   return missing;
 }
 

@@ -72,8 +72,10 @@ ElementMaps spatial_beam(const BeamPlace& place, const SpatialBeamSection& secti
   const BeamFrame frame = beam_frame(place, section);
   const FixedSpatialBeam beam = fixed_spatial_beam(place, section, strain.wagner);
   ElementMaps maps;
-  maps.bending = beam.bending;
-  if (strain.membrane == MembraneStrain::averaged) {
+  maps.bending = strain.strains == Strains::second_order ? Matrix12::Zero().eval() : beam.bending;
+  if (strain.strains == Strains::second_order) {
+    maps.membrane = second_order_strains(frame, section, strain.wagner);
+  } else if (strain.membrane == MembraneStrain::averaged) {
     maps.membrane.push_back(whole_element(beam, section.EA, frame.length, strain.wagner));
   } else {
     for (const BeamStation& g : beam_gauss5)  // slopes to the fourth have degree 8

@@ -71,6 +71,10 @@ struct SectionMotion {
 };
 SectionMotion section_motion(double s, const BeamFrame& frame);
 
+/// Strains of second order (spatial_beam), bending and torsion among them: points (eps, tau), the mean curvatures
+/// (kappa_z, -kappa_y) of the element, and their odd parts.
+std::vector<StrainPoint> second_order_strains(const BeamFrame& frame, const SpatialBeamSection& section, bool wagner);
+
 /// Rows on own dofs -> rows on body dofs.
 template <int rows>
 Eigen::Matrix<double, rows, 12> to_body(const Eigen::Matrix<double, rows, 12>& own, const BeamFrame& frame) {

@@ -160,6 +160,24 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
   return sections;
 }
 
+/// What the body says of the strains of all its elements.
+/// @throws InputError  second_order, which shells do not have
+void take_strains(const Body& body, std::vector<fem::Section>& sections) {
+  const auto membrane =
+      body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
+  for (fem::Section& section : sections) {
+    if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) {
+      beam->strain.membrane = membrane;
+      if (body.strains) beam->strain.strains = *body.strains;
+    }
+    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) {
+      if (*body.strains == fem::Strains::second_order)
+        throw InputError(body.where.text() + ".strains: is second_order for shells; expected von_karman");
+      shell->strains = *body.strains;
+    }
+  }
+}
+
 /// Union over the ranks, ascending. Collective.
 std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine) {
   int size = 1;
@@ -216,6 +234,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
   refuse_faults(body, inspection);
   std::vector<fem::Section> sections = sections_of(body, source);
+  take_strains(body, sections);
   int size = 1;
   MPI_Comm_size(comm, &size);
   const std::vector<int> ranks =
@@ -223,8 +242,6 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
   for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
   const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
-  for (fem::Section& section : sections)
-    if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) beam->strain.membrane = strain;
   try {
     SpatialMesh found{
         fem::Structure(std::move(mesh), std::move(sections), strain), std::move(places), source.mesh.parts, {}};

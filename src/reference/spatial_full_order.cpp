@@ -42,6 +42,10 @@ FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& held,
   return free;
 }
 
+double stiffest(const fem::ElementMaps& maps) {
+  return (maps.bending.isZero(0) ? maps.stiffness() : maps.bending).diagonal().maxCoeff();
+}
+
 namespace {
 
 /// Of one element on its free dofs, with mass for all of them: what the drilling dofs lack is shared by M_xx, M_yy,
@@ -86,7 +90,7 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
   double stiffest = 0;
   for (const auto& cell : structure.mesh.cells) {
     const fem::ElementMaps maps = structure.maps(cell);
-    stiffest = std::max(stiffest, maps.bending.diagonal().maxCoeff());
+    stiffest = std::max(stiffest, reference::stiffest(maps));
     const FreeDofs free = free_dofs(structure, held, cell, nodes);
     body::Elasticity elasticity = fem::elasticity(maps, free.V);
     if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);

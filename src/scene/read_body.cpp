@@ -47,6 +47,21 @@ DampingSpec read_damping(Document& document, Reading& body) {
   return damping;
 }
 
+std::optional<fem::Strains> read_strains(Document& document, Reading& body) {
+  using fem::Strains;
+  if (!body.given("strains")) return {};
+  const std::size_t before = document.fault_count();
+  const auto strains = body.choice<Strains>(
+      "strains", {{"von_karman", Strains::von_karman}, {"second_order", Strains::second_order}});
+  if (document.fault_count() != before) return {};
+  if (strains == Strains::second_order && body.given("strain") && body.choice("strain") == "pointwise")
+    document.fault(body.where("strain"), "is pointwise with strains of second order", "averaged");
+  if (strains == Strains::second_order && document.dimension == 2)
+    document.fault(body.where("strains"), "is second_order in the plane",
+                   "von_karman, or a scene in space (points of three coordinates)");
+  return strains;
+}
+
 // The default count of modes fits every mesh; what the file asks for is taken at its word.
 void fit_default_modes(Body& body) {
   if (body.reduction.modes.given || body.mesh.points.empty() || body.frames < 1) return;
@@ -93,6 +108,7 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   else
     body.section = read_section(document, reading, body.rigid);
   body.strain = reading.choice<Strain>("strain", {{"averaged", Strain::averaged}, {"pointwise", Strain::pointwise}});
+  body.strains = read_strains(document, reading);
   body.rotary_inertia = reading.flag("rotary_inertia");
   body.frame = read_frame(document, reading, name);
   body.frames = reading.integer("frames");

@@ -26,6 +26,11 @@ const SchemaSection body_section{
         choice("strain", "averaged",
                "membrane strain of an element: averaged over its length (no membrane locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
+        choice("strains", "",
+               "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
+               "second_order (all of them: bending with torsion); in the plane and for shells von_karman alone; absent: "
+               "von_karman",
+               {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
         {"rigid", Type::flag, "", "false",
          "rigid body: EA and EI may be absent; frame, reduction, damping and deformation have no effect"},

@@ -63,10 +63,12 @@ inline mesh::RawMesh mixed_mesh(MPI_Comm comm) {
   return raw;
 }
 
-/// Sections of the mixed mesh: a soft shell, a layered one with coupling, an unsymmetric beam, a mass with an offset.
+/// Sections of the mixed mesh: a soft shell, a layered one with coupling, an unsymmetric beam with
+/// strains of second order, a mass with an offset.
 inline std::vector<fem::Section> mixed_sections() {
   const fem::ShellMaterial ply{900, 300, 0.25, 150, 2};
   fem::SpatialBeam beam{{400, 3, 5, 1, 2, 3, 0.02, 0.03, 0.005, {0.02, -0.01}, {0.01, 0.03}}, {1, 0, 0}, {}};
+  beam.strain.strains = fem::Strains::second_order;
   return {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}}),
           fem::shell_section({{ply, 0.06, 0}, {ply, 0.04, 0.9}}, 0.02, {0, 1, 0}), beam,
           fem::PointMass{0.7, Eigen::Vector3d(0.03, 0.04, 0.05).asDiagonal(), {0.1, 0, 0.2}}};

@@ -2,6 +2,7 @@
 #include "floe/fem/beam_section_3d.h"
 #include "floe/fem/element.h"
 #include "floe/fem/planar_beam.h"
+#include "floe/fem/strains.h"
 
 namespace floe::fem {
 
@@ -22,6 +23,7 @@ Eigen::Matrix3d element_axes(const BeamPlace& place);
 struct SpatialBeamStrain {
   MembraneStrain membrane = MembraneStrain::averaged;
   bool wagner = false;
+  Strains strains = Strains::von_karman;
 };
 
 /// Spatial beam element with von Karman strain, Euler-Bernoulli's, or Timoshenko's where GA is given: u and twist
@@ -38,6 +40,12 @@ struct SpatialBeamStrain {
 /// that an offset stays inside the square. `averaged` takes the mean of eps over the element (no membrane locking).
 /// Not in the model: warping, and strains of second order that vary over the section (of these,
 /// wagner keeps the mean: its rx'^4 term has Ip^2/A where the section has int r^4 dA >= Ip^2/A).
+///
+/// With Strains::second_order, averaged alone, all terms of second order are in the strains (theory.md) and
+/// `bending` is zero; phi = rx, at the nodes v' = rz + 1/2 rx ry and w' = -ry + 1/2 rx rz, and C and S move by
+/// r x a + 1/2 r x (r x a):
+///   eps = u_C' + 1/2 (v_C'^2 + w_C'^2),   tau = phi' + 1/2 (w' v'' - v' w''),
+///   kappa_z = v'' + phi w'',   kappa_y = -w'' + phi v''
 ///
 /// Mass points stand at four Gauss stations, in each at +-sqrt(n s/rhoA) along the n = 2 principal axes of the section
 /// (n = 1, or one point, where second moments s vanish): total, first and second moments and consistent mass are exact.

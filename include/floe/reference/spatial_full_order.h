@@ -12,6 +12,10 @@ namespace floe::reference {
 Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell,
                                       Eigen::MatrixXd mass);
 
+/// The greatest diagonal entry of an element's bending stiffness, of all its stiffness where strains include bending: a
+/// scale for equations that hold dofs.
+double stiffest(const fem::ElementMaps& maps);
+
 /// The dofs of a cell that are free: a selection matrix of their columns (cell dofs x free), and their numbers among
 /// the system's local coordinates.
 struct FreeDofs {

@@ -155,6 +155,7 @@ struct Body {
   Section section;              ///< in the plane
   std::vector<PartSpec> parts;  ///< in space
   Strain strain = Strain::averaged;
+  std::optional<fem::Strains> strains;  ///< absent: as its elements have them by default
   bool rotary_inertia = true;
   bool rigid = false;
   FrameSpec frame;

@@ -33,6 +33,21 @@ TEST_CASE("a plate is read with its defaults; the scene is in space") {
   CHECK_FALSE(body.frame.given);
 }
 
+TEST_CASE("strains are those that the body names; without a name they are left to its elements") {
+  using fem::Strains;
+  const std::string beams = testing::tube + testing::metal;
+  CHECK_FALSE(body_of(one_body(testing::line, beams)).strains);
+  CHECK(body_of(one_body(testing::line, beams + "    strains: von_karman\n")).strains == Strains::von_karman);
+  CHECK(body_of(one_body(testing::line, beams + "    strains: second_order\n")).strains == Strains::second_order);
+  CHECK(testing::faults_of(one_body(testing::line, beams + "    strains: linear\n")) ==
+        std::vector<std::string>{
+            "s.yaml:6:14: bodies.b.strains: is \"linear\"; expected one of von_karman, second_order"});
+  CHECK(testing::faults_of(one_body("line: {from: [0, 0], to: [2, 0], elements: 4}",
+                                    "    section: {EA: 1, EI: 1, rhoA: 1}\n    strains: second_order\n")) ==
+        std::vector<std::string>{"s.yaml:5:14: bodies.b.strains: is second_order in the plane; expected von_karman, or "
+                                 "a scene in space (points of three coordinates)"});
+}
+
 TEST_CASE("a mesh file stands relative to the folder of the scene, with a factor of 1 where none is given") {
   const auto file = [](const std::string& keys) {
     return *scene::parse_scene(one_body("file: {" + keys + "}", testing::thickness + testing::metal), "cases/a/s.yaml")

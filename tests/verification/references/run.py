@@ -15,6 +15,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
 import exact_beam
+import lateral_buckling
 import plate
 import rotating
 import shear_beam
@@ -26,6 +27,7 @@ TESTS = {
     plate: ("static_plate_test", "pressure_test"),
     exact_beam: ("cantilever_test", "flexible_pendulum_test", "moment_arm_test", "slider_crank_test"),
     von_karman: ("cantilever_test", "spin_up_test"),
+    lateral_buckling: ("../unit/fem/spatial_beam_second_order_test",),
     shear_beam: ("flying_spaghetti_test",),
 }
 
