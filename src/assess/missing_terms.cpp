@@ -150,10 +150,8 @@ std::string words(const BodyReport& body, const Found& found, double spin) {
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "
-      "(limit 5 %), and are not part of von Karman's strains: too {}; {}",
-      body.name, of, number, too,
-      spin > 0 ? "model it by beams in space, whose strains include them, or reduce the rotation speed"
-               : "model it by beams in space (several frames), or reduce the loads");
+      "(limit 5 %), and are not part of von Karman's strains: too {}; use strains: second_order",
+      body.name, of, number, too);
 }
 
 }  // namespace

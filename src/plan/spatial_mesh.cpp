@@ -160,8 +160,7 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
   return sections;
 }
 
-/// What the body says of the strains of all its elements.
-/// @throws InputError  second_order, which shells do not have
+/// Strains of all elements of the body, as the scene gives them.
 void take_strains(const Body& body, std::vector<fem::Section>& sections) {
   const auto membrane =
       body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
@@ -170,11 +169,7 @@ void take_strains(const Body& body, std::vector<fem::Section>& sections) {
       beam->strain.membrane = membrane;
       if (body.strains) beam->strain.strains = *body.strains;
     }
-    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) {
-      if (*body.strains == fem::Strains::second_order)
-        throw InputError(body.where.text() + ".strains: is second_order for shells; expected von_karman");
-      shell->strains = *body.strains;
-    }
+    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) shell->strains = *body.strains;
   }
 }
 

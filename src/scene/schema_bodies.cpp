@@ -28,8 +28,8 @@ const SchemaSection body_section{
                {"averaged", "pointwise"}),
         choice("strains", "",
                "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
-               "second_order (all of them: bending with torsion); in the plane and for shells von_karman alone; absent: "
-               "von_karman",
+               "second_order (beams: coupling of bending and torsion; shells: Green-Lagrange, in-plane gradients too, and "
+               "second-order rotation of rigid regions); planar scenes have von_karman only; absent: von_karman",
                {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
         {"rigid", Type::flag, "", "false",
