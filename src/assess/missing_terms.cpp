@@ -140,7 +140,7 @@ Found found_at(const BodyReport& body, const reduction::Statics& statics, const 
   return {main_of(causes, {change.shapes.begin(), change.shapes.end()}), change.relative};
 }
 
-std::string words(const BodyReport& body, const Found& found, double spin) {
+std::string words(const BodyReport& body, const Found& found) {
   const std::string of = found.own ? "for its own deformation" : "of one of its shapes";
   const std::string number = math::percent(std::abs(found.change)), too = found.change > 0 ? "soft" : "stiff";
   if (found.what == "coupling")
@@ -162,7 +162,6 @@ void judge_missing(const Model& model, std::size_t b, const std::vector<const St
   if (body.rigid || body.dimension == 2 || !body.structure || !model.offline || states.empty()) return;
   if (model.formulation == Formulation::lffr || model.formulation == Formulation::cfr) return;
   Found worst;
-  double spin = 0;
   try {
     std::shared_ptr<const reduction::Statics> statics = model.offline->reduced[b].statics;
     fem::Holding holding;
@@ -173,14 +172,14 @@ void judge_missing(const Model& model, std::size_t b, const std::vector<const St
     }
     for (const State* state : most_loaded(body, *statics, states))
       if (const Found found = found_at(body, *statics, *state); std::abs(found.change) > std::abs(worst.change))
-        worst = found, spin = spin_of(body, *state).norm();
+        worst = found;
   } catch (const RunError& error) {  // of a solve with K, on all ranks
     out.push_back({"unchecked", body.name, 0, most_change,
                    fmt::format("body {}: second-order strains were not checked: {}", body.name, error.what())});
     return;
   }
   if (!(std::abs(worst.change) > most_change)) return;
-  out.push_back({worst.what, body.name, std::abs(worst.change), most_change, words(body, worst, spin)});
+  out.push_back({worst.what, body.name, std::abs(worst.change), most_change, words(body, worst)});
 }
 
 }  // namespace floe::assess

@@ -44,8 +44,7 @@ double product(ConstraintLevel level, const Moving& a, const Moving& b) {
 
 double distance(const Vector3d& d) {
   const double length = d.norm();
-  if (!(length > 0))
-    throw RunError("the two places of a distance joint coincide, so that its direction is undefined");
+  if (!(length > 0)) throw RunError("the two places of a distance joint coincide, so that its direction is undefined");
   return length;
 }
 

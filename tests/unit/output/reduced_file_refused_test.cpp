@@ -96,7 +96,8 @@ const std::vector<std::pair<Change, std::string>>& changes() {
          set_first(f, "elasticity/pairs", Integers{0, 0, 0, 0});
        },
        "(0, 0) before (0, 0)"},
-      {[](hid_t f) { set_first(f, "columns/kept", Integers{0}); }, "'columns/kept': expected 5 candidate vectors kept, found 4"},
+      {[](hid_t f) { set_first(f, "columns/kept", Integers{0}); },
+       "'columns/kept': expected 5 candidate vectors kept, found 4"},
       {[](hid_t f) { set_first(f, "body/dimension", Integers{4}); }, "'body/dimension': expected a number from 2 to 3"},
       {[](hid_t f) { set_first(f, "frame/axes", Doubles{1}); }, "'frame/axes': expected a rotation"},
       {[](hid_t f) { set_first(f, "inertia/m", Doubles{-1}); }, "'inertia/m': expected a positive mass, found -1"},

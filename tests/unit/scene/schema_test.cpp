@@ -24,6 +24,8 @@ TEST_CASE("the printed reference has every key with unit, default and range") {
   }
   CHECK(reference.find("0 <= value < 1; default 0.8") != std::string::npos);
   CHECK(reference.find("only for type prismatic") != std::string::npos);
+  CHECK(reference.find("two numbers [x, y]; in spatial scenes three numbers [x, y, z]") != std::string::npos);
+  CHECK(reference.find("default 0; in spatial scenes [0, 0, 0]") != std::string::npos);
 }
 
 TEST_CASE("the Markdown reference has a heading for each section and a row for each key, of five columns") {
