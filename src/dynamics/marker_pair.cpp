@@ -1,6 +1,6 @@
 #include "floe/dynamics/marker_pair.h"
 
-#include "local_indices.h"
+#include "floe/dynamics/local_indices.h"
 
 namespace floe::dynamics {
 

@@ -1,0 +1,93 @@
+#pragma once
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "floe/dynamics/spatial_marker.h"
+#include "floe/dynamics/system.h"
+#include "floe/fem/structure.h"
+#include "floe/reference/full_order.h"
+
+namespace floe::reference {
+
+/// Where a body stands at the start: R and A of its floating frame, their rates, and its deformation in it.
+struct CorotationalStart {
+  Eigen::Vector3d place;
+  Eigen::Matrix3d attitude;
+  Eigen::Vector3d rate = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();  ///< spin in frame axes
+  Vec deformation = nullptr, deformation_rate = nullptr;                           ///< fields of the structure, or null
+};
+
+/// A body of beams and shells in space without a floating frame (formulation cfr): every node is a rigid frame of its
+/// own, position R in world axes and attitude A with A the frame axes' rotation of the whole body when it moves
+/// rigidly, and every element a CorotationalElement between places of these frames; a quadrilateral is its four
+/// triangles at half weight. Nodes that follow others are places of the frames of these, with their arms turned by
+/// finite rotations; nodes of a hinge line are joined to the frame of the line's leader by hinges, and nodes of rigid
+/// pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
+///
+/// Mass is carried rigidly by the nodes: of a beam half its mass by each, at the Gauss points of two-point quadrature,
+/// with the rotary inertia of the section; of a triangle a third by each corner, half-way from the corner to the
+/// centroid. So the kinetic energy is one of rigid bodies, exact for rigid motions of the undeformed body, of order 2
+/// in the element's length for others; linear and angular momentum of the nodes are those of the body, and nothing but
+/// the loads changes them.
+class CorotationalBody {
+ public:
+  /// @param visited  global nodes that the last rank must see (NodeCoordinates)
+  /// @param pieces   global nodes that follow none, disjoint; the same on all ranks
+  /// Collective (in order with other blocks).
+  CorotationalBody(dynamics::Coordinates& coordinates, const fem::Structure& structure, std::vector<PetscInt> visited,
+                   const std::vector<std::vector<PetscInt>>& pieces, const CorotationalStart& start);
+
+  const NodeCoordinates& nodes() const { return *nodes_; }
+  /// Whether this rank sees the frame of the node.
+  bool has_frame(PetscInt node) const { return attitude_.contains(node); }
+  /// The place of a node with a frame that this rank sees; body axes.
+  dynamics::SpatialMarker place(PetscInt node) const;
+  /// The places of a cell's corners.
+  std::vector<dynamics::SpatialMarker> places(const fem::Mesh::Cell& cell) const;
+  /// Index of the piece of a node; -1: none.
+  int piece_of(PetscInt node) const;
+  /// A point of a rigid piece, body axes. On the last rank.
+  dynamics::SpatialMarker place_on_piece(int piece, const Eigen::Vector3d& x) const;
+
+  /// Elements, masses, hinges of lines, and the rows of dofs that stand for nothing. Each rank gets those of its own
+  /// cells and nodes. Collective.
+  /// @param viscosity  beta of Kelvin-Voigt damping [s]
+  std::vector<std::unique_ptr<dynamics::Term>> terms(double viscosity) const;
+  /// Force densities per mass, or per line and area, as a marker for each frame (SpatialMarker::mass).
+  std::vector<dynamics::SpatialMarker> density(Density density) const;
+  /// Of the frames that this rank sees.
+  void add_attitudes(dynamics::Attitudes& attitudes) const;
+  /// The start of this rank's own frames. @param global  Coordinates::global(), numbered
+  void set_start(const std::vector<PetscInt>& global, Vec U, Vec V) const;
+
+ private:
+  struct Moving {
+    Eigen::Vector3d R, rate, spin;
+  };
+  /// A node that another one's frame holds: but for turns about an axis, or wholly (axis zero).
+  struct Link {
+    PetscInt node, leader;
+    Eigen::Vector3d arm, axis;
+    int rows() const { return axis.isZero(0) ? 6 : 5; }
+  };
+  using Inertias = std::map<int, std::pair<dynamics::SpatialMarker, body::Inertia>>;
+  Inertias carried(Density density) const;
+  void add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
+  void add_links(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
+  void add_idle(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
+  void find_links(const std::vector<std::vector<PetscInt>>& pieces);
+  void start(const CorotationalStart& start);
+
+  const fem::Structure& structure_;
+  std::unique_ptr<NodeCoordinates> nodes_;
+  std::vector<Link> links_;                                           // of all ranks
+  int link_multipliers_ = 0;                                          // local index of the first
+  std::vector<std::pair<PetscInt, Eigen::Vector3d>> leader_;          // of each piece, and where it is
+  std::map<PetscInt, int> piece_;                                     // of nodes
+  std::map<PetscInt, std::shared_ptr<dynamics::Attitude>> attitude_;  // of the nodes seen that have a frame
+  std::map<PetscInt, Moving> start_;                                  // of owned ones
+  bool owner_;
+};
+
+}  // namespace floe::reference

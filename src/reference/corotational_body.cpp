@@ -1,0 +1,328 @@
+#include "floe/reference/corotational_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "corotational_mass.h"
+#include "floe/dynamics/spatial_body.h"
+#include "floe/dynamics/spatial_joint.h"
+#include "floe/fem/element.h"
+#include "floe/fem/shell.h"
+#include "floe/math/rotation.h"
+#include "floe/petsc/values.h"
+#include "floe/reference/corotational_element.h"
+
+namespace floe::reference {
+
+using dynamics::SpatialMarker;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using petsc::check;
+
+namespace {
+
+bool is_last(MPI_Comm comm) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  return rank == size - 1;
+}
+
+/// Numbers of all ranks, in their order, on every rank. Collective.
+std::vector<double> of_all_ranks(MPI_Comm comm, const std::vector<double>& mine) {
+  int ranks = 1, count = static_cast<int>(mine.size());
+  MPI_Comm_size(comm, &ranks);
+  std::vector<int> counts(ranks), first(ranks + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  for (int rank = 0; rank < ranks; ++rank) first[rank + 1] = first[rank] + counts[rank];
+  std::vector<double> all(first[ranks]);
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE, comm);
+  return all;
+}
+
+/// Six numbers of each node, of all ranks; empty where there is no field. Collective.
+Eigen::VectorXd whole(Vec field) {
+  if (!field) return {};
+  VecScatter scatter = nullptr;
+  petsc::VecHandle all;
+  check(VecScatterCreateToAll(field, &scatter, all.out()));
+  check(VecScatterBegin(scatter, field, all, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterEnd(scatter, field, all, INSERT_VALUES, SCATTER_FORWARD));
+  check(VecScatterDestroy(&scatter));
+  petsc::Values values(all);
+  return Eigen::Map<const Eigen::VectorXd>(values.begin(), values.end - values.first);
+}
+
+Eigen::Matrix<double, 6, 1> of_node(const Eigen::VectorXd& field, PetscInt node) {
+  if (field.size() == 0) return Eigen::Matrix<double, 6, 1>::Zero();
+  return field.segment<6>(6 * node);
+}
+
+Matrix3d axes_about(const Vector3d& z) {
+  Matrix3d W;
+  W.col(2) = z.normalized();
+  W.col(0) = W.col(2).unitOrthogonal();
+  W.col(1) = W.col(2).cross(W.col(0));
+  return W;
+}
+
+bool follows(const fem::Mesh& mesh, int local) {
+  return std::any_of(mesh.followers.begin(), mesh.followers.end(), [&](const auto& f) { return f.node == local; }) &&
+         !fem::spin_axis(mesh, local);
+}
+
+}  // namespace
+
+CorotationalBody::CorotationalBody(dynamics::Coordinates& coordinates, const fem::Structure& structure,
+                                   std::vector<PetscInt> visited, const std::vector<std::vector<PetscInt>>& pieces,
+                                   const CorotationalStart& at)
+    : structure_(structure), owner_(is_last(structure.mesh.comm)) {
+  const fem::Mesh& mesh = structure.mesh;
+  find_links(pieces);
+  int rows = 0;
+  for (const Link& link : links_) visited.insert(visited.end(), {link.node, link.leader}), rows += link.rows();
+  nodes_ = std::make_unique<NodeCoordinates>(coordinates, mesh, visited, 6);
+  link_multipliers_ = coordinates.add_shared(rows, true);
+  std::set<PetscInt> moving;
+  for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
+    if (!follows(mesh, static_cast<int>(i))) moving.insert(mesh.first_node + i);
+  for (const fem::Mesh::Cell& cell : mesh.cells)
+    for (int node : cell.nodes()) moving.insert(mesh.global_node(node));
+  if (owner_) moving.insert(visited.begin(), visited.end());
+  for (PetscInt node : moving) attitude_[node] = std::make_shared<dynamics::Attitude>();
+  start(at);
+}
+
+/// Hinge lines, then pieces. Collective.
+void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& pieces) {
+  const fem::Mesh& mesh = structure_.mesh;
+  const auto integer = [](double number) { return static_cast<PetscInt>(std::lround(number)); };
+  std::vector<double> mine;
+  for (const fem::Mesh::Follower& f : mesh.followers)
+    if (const Vector3d* axis = fem::spin_axis(mesh, f.node)) {
+      const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader];
+      mine.insert(mine.end(), {double(mesh.global_node(f.node)), double(mesh.global_node(f.leader)), arm.x(), arm.y(),
+                               arm.z(), axis->x(), axis->y(), axis->z()});
+    }
+  const std::vector<double> hinges = of_all_ranks(mesh.comm, mine);
+  for (std::size_t i = 0; i < hinges.size(); i += 8)
+    links_.push_back({integer(hinges[i]), integer(hinges[i + 1]), Vector3d(hinges[i + 2], hinges[i + 3], hinges[i + 4]),
+                      Vector3d(hinges[i + 5], hinges[i + 6], hinges[i + 7])});
+  mine.clear();
+  for (const auto& piece : pieces)
+    for (PetscInt node : piece)
+      if (const PetscInt local = node - mesh.first_node; local >= 0 && local < mesh.owned_nodes) {
+        const Vector3d& X = mesh.positions[local];
+        mine.insert(mine.end(), {double(node), X.x(), X.y(), X.z()});
+      }
+  const std::vector<double> places = of_all_ranks(mesh.comm, mine);
+  std::map<PetscInt, Vector3d> X;
+  for (std::size_t i = 0; i < places.size(); i += 4)
+    X[integer(places[i])] = {places[i + 1], places[i + 2], places[i + 3]};
+  for (const auto& piece : pieces) {
+    const PetscInt leader = piece.front();
+    for (PetscInt node : piece) {
+      piece_[node] = static_cast<int>(leader_.size());
+      if (node != leader) links_.push_back({node, leader, X.at(node) - X.at(leader), Vector3d::Zero()});
+    }
+    leader_.emplace_back(leader, X.at(leader));
+  }
+}
+
+void CorotationalBody::start(const CorotationalStart& at) {
+  const fem::Mesh& mesh = structure_.mesh;
+  const Eigen::VectorXd shape = whole(at.deformation), rates = whole(at.deformation_rate);
+  const auto turned = [&](const Vector3d& theta) {
+    return (Eigen::Quaterniond(at.attitude) * math::quaternion(theta)).normalized();
+  };
+  const auto moving = [&](const Vector3d& x, const Vector3d& xd, const Vector3d& theta, const Vector3d& thetad) {
+    const Vector3d spin = math::rotation(theta).transpose() * at.spin + math::rotation_tangent(theta) * thetad;
+    return Moving{at.place + at.attitude * x, at.rate + at.attitude * (at.spin.cross(x) + xd), spin};
+  };
+  for (auto& [node, attitude] : attitude_) {
+    attitude->base = turned(of_node(shape, node).tail<3>());
+    const PetscInt local = node - mesh.first_node;
+    if (local < 0 || local >= mesh.owned_nodes) continue;
+    const auto u = of_node(shape, node), ud = of_node(rates, node);
+    start_[node] = moving(mesh.positions[local] + u.head<3>(), ud.head<3>(), u.tail<3>(), ud.tail<3>());
+  }
+  for (const Link& hinge : links_) {  // fields have of nodes of hinge lines their own turn only
+    const auto found = attitude_.find(hinge.node);
+    if (found == attitude_.end() || hinge.axis.isZero(0)) continue;
+    const auto u = of_node(shape, hinge.leader), ud = of_node(rates, hinge.leader);
+    const int slot = 3 + fem::spin_slot(hinge.axis);
+    const Vector3d theta = u.tail<3>(), e = hinge.axis, own = e * (of_node(shape, hinge.node)[slot] - e.dot(theta)),
+                   ownd = e * (of_node(rates, hinge.node)[slot] - e.dot(ud.tail<3>())),
+                   arm = math::rotation(theta) * hinge.arm;
+    found->second->base = (turned(theta) * math::quaternion(own)).normalized();
+    if (!start_.contains(hinge.node)) continue;
+    const PetscInt local = hinge.node - mesh.first_node;
+    const Vector3d X = mesh.positions[local] - hinge.arm;
+    const Vector3d w = math::rotation_tangent(theta) * ud.tail<3>();
+    Moving& m = start_[hinge.node];
+    m = moving(X + u.head<3>() + arm, ud.head<3>() + math::rotation(theta) * w.cross(hinge.arm), theta, ud.tail<3>());
+    m.spin = math::rotation(own).transpose() * m.spin + ownd;
+  }
+}
+
+int CorotationalBody::piece_of(PetscInt node) const {
+  const auto found = piece_.find(node);
+  return found == piece_.end() ? -1 : found->second;
+}
+
+SpatialMarker CorotationalBody::place_on_piece(int piece, const Vector3d& x) const {
+  const auto& [leader, X] = leader_[piece];
+  SpatialMarker at = place(leader);
+  at.x0 = x - X;
+  return at;
+}
+
+SpatialMarker CorotationalBody::place(PetscInt node) const {
+  SpatialMarker at;
+  const int first = nodes_->of_node(node);
+  for (int i = 0; i < 6; ++i) at.coordinates.push_back(first + i);
+  at.attitude = attitude_.at(node);
+  return at;
+}
+
+std::vector<SpatialMarker> CorotationalBody::places(const fem::Mesh::Cell& cell) const {
+  const fem::Mesh& mesh = structure_.mesh;
+  std::vector<SpatialMarker> all;
+  for (std::size_t i = 0; i < cell.corners().size(); ++i) {
+    const int mover = cell.moved[i], corner = cell.corner[i];
+    SpatialMarker at = place(mesh.global_node(mover));
+    at.x0 += mesh.positions[corner] - mesh.positions[mover];
+    all.push_back(std::move(at));
+  }
+  return all;
+}
+
+namespace {
+
+bool one_frame(const std::vector<SpatialMarker>& places) {
+  return std::all_of(places.begin(), places.end(),
+                     [&](const SpatialMarker& at) { return at.coordinates[0] == places.front().coordinates[0]; });
+}
+
+}  // namespace
+
+void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const {
+  const fem::Mesh& mesh = structure_.mesh;
+  const auto add = [&](std::vector<SpatialMarker> places, const std::vector<Vector3d>& X, const fem::ElementMaps& maps,
+                       double share) {
+    if (one_frame(places)) return;
+    Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(X.size()));
+    for (std::size_t i = 0; i < X.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = X[i];
+    const Eigen::Index dofs = 6 * x.cols();
+    // A triangle keeps its corners in its plane: its slopes are zero, and it is linear in its own axes.
+    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(dofs, dofs);
+    body::Elasticity elasticity = fem::elasticity(maps, all);
+    if (X.size() == 3) elasticity = body::linearised(elasticity);
+    elasticity.bending *= share, elasticity.F *= std::sqrt(share);
+    terms.push_back(std::make_unique<CorotationalElement>(std::move(places), x, std::move(elasticity), viscosity));
+  };
+  for (const fem::Mesh::Cell& cell : mesh.cells) {
+    if (cell.kind == fem::CellKind::point) continue;
+    const std::vector<SpatialMarker> places = this->places(cell);
+    std::vector<Vector3d> X;
+    for (int corner : cell.corners()) X.push_back(mesh.positions[corner]);
+    if (cell.kind != fem::CellKind::quadrilateral) {
+      add(places, X, structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.corner)), 1);
+      continue;
+    }
+    const auto& section = std::get<fem::ShellSection>(structure_.sections[cell.part]);
+    for (const auto& [a, b, c] : fem::quadrilateral_triangles)
+      add({places[a], places[b], places[c]}, {X[a], X[b], X[c]}, fem::shell_triangle({X[a], X[b], X[c]}, section), 0.5);
+  }
+}
+
+CorotationalBody::Inertias CorotationalBody::carried(Density density) const {
+  Inertias all;
+  for (const fem::Mesh::Cell& cell : structure_.mesh.cells) {
+    const std::vector<SpatialMarker> places = this->places(cell);
+    for (const CarriedMass& mass : carried_mass(structure_, cell, density)) {
+      const SpatialMarker& at = places[mass.corner];
+      auto [found, fresh] = all.try_emplace(at.coordinates[0], at, body::Inertia(3, 0));
+      body::Inertia& sum = found->second.second;
+      const Vector3d arm = at.x0 + mass.arm;
+      sum.m += mass.mass;
+      sum.s0 += mass.mass * arm;
+      sum.C0 += mass.mass * arm * arm.transpose() + mass.spread;
+    }
+  }
+  return all;
+}
+
+std::vector<SpatialMarker> CorotationalBody::density(Density density) const {
+  std::vector<SpatialMarker> markers;
+  for (const auto& [first, one] : carried(density)) {
+    SpatialMarker marker = one.first;
+    marker.mass = one.second.m;
+    marker.x0 = one.second.s0;
+    if (marker.mass != 0) markers.push_back(std::move(marker));
+  }
+  return markers;
+}
+
+void CorotationalBody::add_links(std::vector<std::unique_ptr<dynamics::Term>>& terms) const {
+  if (!owner_) return;
+  int multiplier = link_multipliers_;
+  for (const Link& link : links_) {
+    const bool hinge = !link.axis.isZero(0);
+    SpatialMarker leader = place(link.leader), node = place(link.node);
+    leader.x0 += link.arm;
+    if (hinge) leader.D0 = node.D0 = axes_about(link.axis);
+    terms.push_back(std::make_unique<dynamics::SpatialJoint>(
+        std::move(leader), std::move(node),
+        hinge ? dynamics::SpatialConstraint::revolute() : dynamics::SpatialConstraint::fixed(), multiplier));
+    multiplier += link.rows();
+  }
+}
+
+/// Dofs of nodes that follow others stay zero.
+void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& terms) const {
+  const fem::Mesh& mesh = structure_.mesh;
+  double stiffest = 0;
+  for (const fem::Mesh::Cell& cell : mesh.cells)
+    if (cell.kind != fem::CellKind::point)
+      stiffest = std::max(
+          stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 1, 0).diagonal().maxCoeff());
+  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
+  for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
+    if (start_.contains(mesh.first_node + i)) continue;
+    for (int d = 0; d < 6; ++d)
+      terms.push_back(
+          std::make_unique<HeldDof>(nodes_->of_local_node(static_cast<int>(i)) + d, stiffest > 0 ? stiffest : 1));
+  }
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> CorotationalBody::terms(double viscosity) const {
+  std::vector<std::unique_ptr<dynamics::Term>> all;
+  add_elements(viscosity, all);
+  const body::Elasticity rigid{Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0), {}};
+  for (const auto& [first, one] : carried(Density::mass))
+    if (one.second.m != 0)
+      all.push_back(std::make_unique<dynamics::SpatialBody>(one.first.coordinates, one.first.attitude,
+                                                            body::spatial(one.second), rigid));
+  add_links(all);
+  add_idle(all);
+  return all;
+}
+
+void CorotationalBody::add_attitudes(dynamics::Attitudes& attitudes) const {
+  for (const auto& [node, attitude] : attitude_) attitudes.emplace_back(nodes_->of_node(node) + 3, attitude);
+}
+
+void CorotationalBody::set_start(const std::vector<PetscInt>& global, Vec U, Vec V) const {
+  const auto set = [&](int first, const Moving& m) {
+    for (int i = 0; i < 3; ++i) {
+      check(VecSetValue(U, global[first + i], m.R[i], INSERT_VALUES));
+      check(VecSetValue(V, global[first + i], m.rate[i], INSERT_VALUES));
+      check(VecSetValue(V, global[first + 3 + i], m.spin[i], INSERT_VALUES));
+    }
+  };
+  for (const auto& [node, m] : start_) set(nodes_->of_node(node), m);
+}
+
+}  // namespace floe::reference
