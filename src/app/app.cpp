@@ -174,8 +174,8 @@ int main(int argc, char** argv) {
   compare_command
       ->add_option(
           "--formulations", choices.formulations,
-          "which, separated by commas (modal damping: vm,vm+md; bodies from files: lffr,vm,vm+md; in space and with "
-          "shear without cfr)")
+          "which, separated by commas (modal damping: vm,vm+md; bodies from files: lffr,vm,vm+md; in space cfr is "
+          "left to be named, in the plane with shear it is not known)")
       ->delimiter(',')
       ->capture_default_str();
   compare_command->add_flag("--no-reference-error", choices.no_reference_error,

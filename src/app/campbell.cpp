@@ -74,6 +74,8 @@ scene::Model prepared(const scene::Scene& scene, scene::Formulation formulation,
 dynamics::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
   dynamics::RotatingSystem rotating{*diagram.model.system, {}, diagram.axis, {}};
   for (const scene::BodyReport& body : diagram.model.bodies) {
+    const bool of_nodes = diagram.model.formulation == scene::Formulation::cfr && body.first_dof >= 0;
+    if (of_nodes) continue;  // every node is a frame among the system's attitudes
     if (body.first_coordinate < 0)
       throw InputError(
           fmt::format("{}: body {} is clamped to the ground, and cannot turn; expected a joint of type "
@@ -174,8 +176,12 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
 CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm,
                          const CampbellRequest& request, std::exception_ptr& fault) {
   const std::vector<double> speeds = parse_speeds(request.speeds);
-  if (formulation == scene::Formulation::cfr)
-    throw InputError("--formulation: cfr has no frames that turn; expected nlffr, lffr, vm or vm+md");
+  if (formulation == scene::Formulation::cfr && given.dimension == 2)
+    throw InputError("--formulation: cfr has no frames that turn in the plane; expected nlffr, lffr, vm or vm+md");
+  if (int ranks = 1; formulation == scene::Formulation::cfr && (MPI_Comm_size(comm, &ranks), ranks > 1))
+    throw InputError(
+        "--formulation: cfr, whose nodes are spread over the ranks, is known on one rank only; expected "
+        "one rank, or nlffr, lffr, vm or vm+md");
   const scene::Joint* hub = hub_of(given);
   CampbellDiagram diagram;
   diagram.axis.direction = direction_of(given, request, hub);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 #include "floe/scene/body_mesh.h"
 
@@ -73,12 +74,39 @@ void write_nodes(output::ResultFile& file, const std::string& group, const scene
   }
   file.write_of_nodes(
       group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
-      {"", std::string("first column of motion/U of the displacements and rotations, in ") +
-               (in_world ? "world axes" : "the axes of the floating frame") +
-               ", that move the node; its place from where they act, which is not zero where it follows another one"});
+      {"",
+       (in_world && body.dimension == 3
+            ? "first column of motion/U of the place and of the rotation vector from the undeformed body, in world axes"
+            : std::string("first column of motion/U of the displacements and rotations, in ") +
+                  (in_world ? "world axes" : "the axes of the floating frame")) +
+           ", that move the node; its place from where they act, which is not zero where it follows another one"});
+}
+
+/// Whether local unknown x is a turn of one of the body's own nodes.
+bool turns_node(const scene::BodyReport& body, int x) {
+  const int at = x - body.first_dof;
+  return body.dimension == 3 && body.first_dof >= 0 && at >= 0 && at < 6 * static_cast<int>(body.positions.size() / 3);
 }
 
 }  // namespace
+
+petsc::VecHandle shown_state(const scene::Model& model, Vec U) {
+  if (model.formulation != scene::Formulation::cfr || model.system->attitudes().empty()) return {};
+  petsc::VecHandle shown;
+  Eigen::VectorXd q;
+  model.system->gather(U, q);
+  check(VecDuplicate(U, shown.out()));
+  check(VecCopy(U, shown));
+  petsc::Values values(shown);
+  for (const auto& [x, attitude] : model.system->attitudes())
+    for (const scene::BodyReport& body : model.bodies) {
+      if (!turns_node(body, x)) continue;
+      const Eigen::Matrix3d turn = attitude->axes(q.segment<3>(x)) * body.axes.transpose();
+      const Eigen::Vector3d vector = math::rotation_vector(Eigen::Quaterniond(turn).normalized());
+      for (int i = 0; i < 3; ++i) values[model.system->coordinates().global()[x + i]] = vector[i];
+    }
+  return shown;
+}
 
 void write_bodies(output::ResultFile& file, const scene::Model& model) {
   const double dimension[1] = {model.bodies.empty() ? 0. : model.bodies.front().dimension};

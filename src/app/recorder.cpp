@@ -273,7 +273,8 @@ void Recorder::store_state(Vec U, Vec V) {
     else
       file_->append_distributed(name, values.first, part);
   };
-  append("motion/U", U);
+  const petsc::VecHandle shown = shown_state(model_, U);
+  append("motion/U", shown.get() ? shown.get() : U);
   append("motion/V", V);
 }
 

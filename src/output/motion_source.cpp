@@ -104,9 +104,9 @@ void MotionSource::read_body(const std::string& name, int& frames_in_space) {
   const auto frame = read_whole<double>(file_, group + "/frame_at_start", {4, 3});
   const Eigen::Matrix<double, 3, 4> parts = columns3(frame);
   body.place = parts.col(0), body.axes = parts.rightCols<3>();
-  body.dofs_in_world = in_world_;
   body.width = dimension_ == 3 ? 6 : 3;
   read_nodes(body, group);
+  body.dofs_in_world = in_world_ && !body.columns.empty();
   bodies_.push_back(std::move(body));
 }
 
@@ -179,7 +179,13 @@ Eigen::Matrix3Xd displacements(const MovingBody& body, const MotionRow& row) {
   for (Eigen::Index i = 0; i < std::ssize(body.columns); ++i) {
     const double* dofs = row.U.data() + body.columns[i];
     const Eigen::Vector3d arm = body.arms.col(i);
-    if (body.width == 6)
+    if (body.width == 6 && body.dofs_in_world) {
+      const Eigen::Vector3d turn(dofs[3], dofs[4], dofs[5]), arm_there = body.axes * arm;
+      const Eigen::Matrix3d Q = turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
+                                                : Eigen::Matrix3d::Identity();
+      u.col(i) =
+          Eigen::Vector3d(dofs[0], dofs[1], dofs[2]) + Q * arm_there - body.place - body.axes * body.positions.col(i);
+    } else if (body.width == 6)
       u.col(i) = Eigen::Vector3d(dofs[0], dofs[1], dofs[2]) + Eigen::Vector3d(dofs[3], dofs[4], dofs[5]).cross(arm);
     else
       u.col(i) << dofs[0] - dofs[2] * arm.y(), dofs[1] + dofs[2] * arm.x(), 0;

@@ -25,7 +25,8 @@ struct MovingBody {
   std::int64_t attitude = -1;             ///< column of motion/attitude
   Eigen::Vector3d place;                  ///< of the frame at the start
   Eigen::Matrix3d axes;                   ///< likewise
-  bool dofs_in_world = false;             ///< of cfr: u = A'(dofs)
+  /// Of cfr: displacement and angle in world axes; in space the node's place and its rotation vector there.
+  bool dofs_in_world = false;
 };
 
 /// What a run kept of an instant.

@@ -89,7 +89,10 @@ class Body:
             k = min(len(self.basis), len(U) - self.elastic)  # of a body from a file, modes alone: the first ones
             u = np.tensordot(U[self.elastic:self.elastic + k], self.basis[:k], 1)
         if self.dofs is not None:
-            if self.dimension == 3:
+            if self.dimension == 3 and self.in_world:  # places and rotation vectors
+                arms = rotated(U[self.dofs[:, None] + np.arange(3, 6)], self.arms @ self.axes.T)
+                u = U[self.dofs[:, None] + np.arange(3)] + arms - self.place - self.mesh.positions @ self.axes.T
+            elif self.dimension == 3:
                 u = U[self.dofs[:, None] + np.arange(3)] + np.cross(U[self.dofs[:, None] + np.arange(3, 6)], self.arms)
             else:
                 turn = U[self.dofs + 2]
@@ -98,6 +101,14 @@ class Body:
             if self.in_world:
                 u = u @ self.axes
         return u
+
+
+def rotated(turns, vectors):
+    """Each vector turned by its rotation vector."""
+    angle = np.linalg.norm(turns, axis=1, keepdims=True)
+    n = turns / np.where(angle > 0, angle, 1)
+    along = np.sum(n * vectors, axis=1, keepdims=True) * n
+    return along + np.cos(angle) * (vectors - along) + np.sin(angle) * np.cross(n, vectors)
 
 
 def turned(q):

@@ -89,12 +89,13 @@ SpaceAssembly::SpaceAssembly(const Prepared& prepared, Formulation formulation, 
       coordinates_(comm_of(prepared, formulation)),
       slots_(prepared.bodies.size()),
       latches_(latches_of(prepared.scene)) {
-  for (std::size_t b = 0; b < slots_.size(); ++b) slots_[b].still = has_fixed_frame(prepared, owner_of_frame(b));
+  for (std::size_t b = 0; b < slots_.size(); ++b)
+    slots_[b].still = !corotated(static_cast<int>(b)) && has_fixed_frame(prepared, owner_of_frame(b));
 }
 
 int SpaceAssembly::owner_of_frame(std::size_t body) const {
   const int host = prepared_.bodies[body].host;
-  return host >= 0 ? host : static_cast<int>(body);
+  return host >= 0 && !corotated(static_cast<int>(body)) ? host : static_cast<int>(body);
 }
 
 bool SpaceAssembly::compact(int body) const {
@@ -102,9 +103,11 @@ bool SpaceAssembly::compact(int body) const {
   return is_reduced(formulation_) || spec.rigid || spec.reduced;
 }
 
+bool SpaceAssembly::corotated(int body) const { return formulation_ == Formulation::cfr && !compact(body); }
+
 bool SpaceAssembly::stands(int j) const {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
-    if (prepared_.bodies[b].host_joint == j) return true;
+    if (prepared_.bodies[b].host_joint == j && !corotated(static_cast<int>(b))) return true;
     if (slots_[b].still && clamp_of(prepared_, static_cast<int>(b)) == j) return true;
   }
   const Joint& joint = prepared_.scene.joints[j];
@@ -119,13 +122,14 @@ const fem::Conditions& SpaceAssembly::held(int b) const {
 
 void SpaceAssembly::refuse() const {
   std::vector<std::string> faults;
-  if (formulation_ == Formulation::cfr)
-    faults.push_back(prepared_.scene.file + ": formulation cfr is known for planar beams only");
+  refuse_corotated(faults);
   for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
     const Joint& joint = prepared_.scene.joints[j];
     if (is_reduced(formulation_) || !prepared_.joint_held[j]) continue;
     const PreparedPlace& place = *held_place(prepared_, j);
-    if (compact(place.body) || place.nodes.size() < 2 || place.line || slots_[place.body].still) continue;
+    if (compact(place.body) || corotated(place.body) || place.nodes.size() < 2 || place.line ||
+        slots_[place.body].still)
+      continue;
     const fem::Conditions& held = prepared_.bodies[place.body].clamp;
     if (std::all_of(place.nodes.begin(), place.nodes.end(),
                     [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
@@ -182,6 +186,10 @@ void SpaceAssembly::add_coordinates() {
     const PreparedBody& body = prepared_.bodies[b];
     Slot& slot = slots_[b];
     const int index = static_cast<int>(b);
+    if (corotated(index)) {
+      add_corotated(index);
+      continue;
+    }
     add_frame(owner_of_frame(b));
     slot.frame = slots_[owner_of_frame(b)].frame, slot.attitude = slots_[owner_of_frame(b)].attitude;
     coordinates_.belongs_to("body " + body.spec.name);
@@ -234,6 +242,10 @@ void SpaceAssembly::add_body(int b) {
       terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
                                                             reduced.body.elasticity));
     std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
+    return;
+  }
+  if (slot.corotated) {
+    for (auto& term : slot.corotated->terms(body.spec.damping.stiffness)) terms_.push_back(std::move(term));
     return;
   }
   if (slot.damping)
@@ -304,13 +316,17 @@ void SpaceAssembly::set_start(Model& model) {
   model.V = layout.create_vector();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PreparedBody& body = prepared_.bodies[b];
+    if (slots_[b].corotated) {
+      slots_[b].corotated->set_start(coordinates_.global(), model.U, model.V);
+      continue;
+    }
     set_deformation(static_cast<int>(b), body.deformation, model.U);
     set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
     if (slots_[b].damping) set_rigid_part(*slots_[b].damping, body, coordinates_, owner_, model.U, model.V);
   }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PreparedBody& body = prepared_.bodies[b];
-    if (slots_[b].still || body.host >= 0) continue;
+    if (slots_[b].still || slots_[b].corotated || body.host >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       const PetscInt row = coordinates_.global()[slots_[b].frame + i],
                      turn = coordinates_.global()[slots_[b].frame + 3 + i];
@@ -349,6 +365,10 @@ Model SpaceAssembly::model() {
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
     report.frame = name_of(prepared_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();
+    if (slots_[b].corotated) {
+      report.first_dof = slots_[b].corotated->nodes().first();
+      report.frame = "of every element";
+    }
     report.attitude = slots_[b].attitude;
     report.mesh = body_mesh(body);
     report.place = prepared_.bodies[owner_of_frame(index)].place;
@@ -364,7 +384,9 @@ Model SpaceAssembly::model() {
   add_probes(model);
   dynamics::Attitudes attitudes;
   for (std::size_t b = 0; b < slots_.size(); ++b)
-    if (slots_[b].attitude && prepared_.bodies[b].host < 0)
+    if (slots_[b].corotated)
+      slots_[b].corotated->add_attitudes(attitudes);
+    else if (slots_[b].attitude && prepared_.bodies[b].host < 0)
       attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
   for (std::size_t j = 0; j < multipliers_.size(); ++j) {
     std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(prepared_.scene.joints[j].kind));

@@ -3,6 +3,7 @@
 
 #include "build_reduce.h"
 #include "floe/dynamics/spatial_joint.h"
+#include "floe/reference/corotational_body.h"
 #include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"
 
@@ -18,7 +19,7 @@ class SpaceAssembly {
   /// @param reduced  one for each body: full for reduced formulations; rigid bodies and those from files else
   SpaceAssembly(const Prepared& prepared, Formulation formulation, const std::vector<ReducedBody>& reduced);
   /// @throws InputError  joints whose places are apart, that contradict one another, or that a full-order formulation
-  /// does not know; formulation cfr. Collective.
+  /// does not know. Collective.
   Model model();
 
  private:
@@ -30,6 +31,7 @@ class SpaceAssembly {
     int multipliers = -1;                                // of the mean axes
     std::optional<reference::MassDamping> damping = {};  // at full order
     std::unique_ptr<reference::NodeCoordinates> nodes;
+    std::unique_ptr<reference::CorotationalBody> corotated;  // formulation cfr: no frame, no nodes of the above
   };
   /// A joint with rows, or a spring, ready to become a term.
   struct PlacedJoint {
@@ -38,13 +40,20 @@ class SpaceAssembly {
   };
 
   void refuse() const;
-  bool compact(int body) const;  // described by a ReducedBody
-  bool stands(int joint) const;  // the ground holds a body that stands still there: nothing is left to do
+  bool compact(int body) const;    // described by a ReducedBody
+  bool corotated(int body) const;  // a CorotationalBody
+  bool stands(int joint) const;    // the ground holds a body that stands still there: nothing is left to do
   const fem::Conditions& held(int body) const;
   int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
   reference::SpatialFrame frame_of(int body) const;
+
+  void refuse_corotated(std::vector<std::string>& faults) const;
+  std::vector<std::vector<PetscInt>> clamped_edges(int body) const;
+  void add_corotated(int body);
+  void add_corotated_force(const Load& load, const PreparedPlace& place);
+  void add_corotated_pressure(const Load& load, int body, const fem::Mesh::Cell& cell);
 
   void add_frame(int body);
   void add_coordinates();
@@ -64,6 +73,8 @@ class SpaceAssembly {
   void set_start(Model& model);
 
   dynamics::SpatialMarker marker(const PreparedPlace& place);
+  /// Places whose sum the mean of the place's nodes is, and the share of each in a moment. On the last rank.
+  std::vector<std::pair<dynamics::SpatialMarker, double>> corotated_parts(const PreparedPlace& place) const;
   dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;
   /// Where a marker is at the start.
   dynamics::SpatialPose start_of(const dynamics::SpatialMarker& marker) const;

@@ -28,6 +28,8 @@ SpatialMarker SpaceAssembly::marker(const PreparedPlace& place) {
   if (place.ground()) return SpatialMarker::ground(place.x);
   const PreparedBody& body = prepared_.bodies[place.body];
   const Slot& slot = slots_[place.body];
+  if (slot.corotated)
+    return owner_ ? corotated_parts(place).front().first : SpatialMarker::ground(Eigen::Vector3d::Zero());
   SpatialMarker at;
   at.attitude = slot.attitude;
   at.origin = body.place;
@@ -109,7 +111,9 @@ void SpaceAssembly::add_density(int b, Density density, const std::function<Eige
     return;
   }
   std::vector<SpatialMarker> markers;
-  if (!compact(b))
+  if (slots_[b].corotated)
+    markers = slots_[b].corotated->density(density);
+  else if (!compact(b))
     markers = reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density);
   else if (owner_)
     markers.push_back(density_marker(b, density == Density::mass ? reduced_[b].body.inertia : reduced_[b].body.line));
@@ -152,6 +156,10 @@ void SpaceAssembly::add_loads() {
     }
     if (load.kind == Load::Kind::distributed) {
       add_density(place.body, Density::line, value, of_body, false);
+      continue;
+    }
+    if (slots_[place.body].corotated) {
+      add_corotated_force(load, place);
       continue;
     }
     SpatialMarker at = marker(place);

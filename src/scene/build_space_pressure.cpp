@@ -60,6 +60,10 @@ void SpaceAssembly::add_pressure(const Load& load, int b) {
   }
   for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
     if (!chosen(cell)) continue;
+    if (slots_[b].corotated) {
+      add_corotated_pressure(load, b, cell);
+      continue;
+    }
     const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
     std::vector<int> coordinates;
     for (int i = 0; i < 6 && !slots_[b].still; ++i) coordinates.push_back(slots_[b].frame + i);

@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "build_space.h"
+#include "floe/dynamics/spatial_force.h"
+#include "floe/fem/shell.h"
+#include "floe/reference/facet_pressure.h"
+#include "prepare_spatial_joints.h"
+
+namespace floe::scene {
+
+using dynamics::SpatialForce;
+using dynamics::SpatialMarker;
+using dynamics::Wrench;
+using Eigen::Vector3d;
+
+using Pieces = std::vector<std::vector<PetscInt>>;
+
+namespace {
+
+bool leads(const Lever& lever) { return lever.share != 0; }
+
+/// a of a lever's arm, which maps theta to theta x a.
+Vector3d arm_of(const Lever& lever) { return {-lever.arm(2, 1), -lever.arm(0, 2), -lever.arm(1, 0)}; }
+
+bool in(const std::vector<PetscInt>& piece, const PreparedPlace& place) {
+  return std::all_of(place.levers.begin(), place.levers.end(), [&](const Lever& lever) {
+    return !leads(lever) || std::binary_search(piece.begin(), piece.end(), lever.node);
+  });
+}
+
+/// Whether the place is the mean of nodes that move by themselves.
+bool is_mean(const PreparedPlace& place, const Pieces& pieces) {
+  return place.nodes.size() > 1 && !place.line && std::count_if(place.levers.begin(), place.levers.end(), leads) > 1 &&
+         std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return in(piece, place); });
+}
+
+}  // namespace
+
+/// Edges that joints clamp to what does not deform; those with nodes in common are one piece.
+std::vector<std::vector<PetscInt>> SpaceAssembly::clamped_edges(int b) const {
+  Pieces pieces;
+  for (std::size_t j = 0; j < prepared_.joints.size(); ++j) {
+    const PreparedPlace* place = held_place(prepared_, j);
+    const Joint& joint = prepared_.scene.joints[j];
+    if (!place || place->body != b || !prepared_.joint_held[j] || !clamps(joint)) continue;
+    if (is_unlocked(prepared_.scene, joint.name)) continue;  // its edge deforms when it is free
+    if (place->nodes.size() < 2 || std::count_if(place->levers.begin(), place->levers.end(), leads) < 2) continue;
+    std::vector<PetscInt> piece;
+    for (const Lever& lever : place->levers)
+      if (leads(lever)) piece.push_back(lever.node);
+    std::sort(piece.begin(), piece.end());
+    for (std::size_t p = 0; p < pieces.size();) {
+      std::vector<PetscInt> both;
+      std::set_union(piece.begin(), piece.end(), pieces[p].begin(), pieces[p].end(), std::back_inserter(both));
+      if (both.size() == piece.size() + pieces[p].size()) {
+        ++p;
+        continue;
+      }
+      piece = std::move(both);
+      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+void SpaceAssembly::refuse_corotated(std::vector<std::string>& faults) const {
+  if (formulation_ != Formulation::cfr) return;
+  std::vector<Pieces> pieces;
+  for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const int index = static_cast<int>(b);
+    pieces.push_back(corotated(index) ? clamped_edges(index) : Pieces{});
+    const Body& spec = prepared_.bodies[b].spec;
+    if (corotated(index) && spec.damping.mass != 0)
+      faults.push_back(spec.damping.where.text() +
+                       ".mass: formulation cfr has no mass-proportional damping in space (the deformation that it acts "
+                       "on is seen from a floating frame); expected damping.stiffness, or another formulation");
+  }
+  const auto mean = [&](const PreparedPlace& place) {
+    return place.body >= 0 && corotated(place.body) && is_mean(place, pieces[place.body]);
+  };
+  for (std::size_t j = 0; j < prepared_.joints.size(); ++j)
+    for (const PreparedPlace& place : prepared_.joints[j])
+      if (mean(place))
+        faults.push_back(fmt::format(
+            "{}: holds the mean of {} nodes of body {}, which formulation cfr does not know; expected edges: rigid or "
+            "line, or a place of one node",
+            prepared_.scene.joints[j].where.text(), place.nodes.size(), prepared_.bodies[place.body].spec.name));
+  for (std::size_t l = 0; l < prepared_.loads.size(); ++l) {
+    const Load& load = prepared_.scene.loads[l];
+    const PreparedPlace& place = prepared_.loads[l];
+    if (place.body < 0 || !corotated(place.body)) continue;
+    if (load.axes == Load::Axes::body && load.kind != Load::Kind::pressure)
+      faults.push_back(load.where.text() +
+                       ": axes: body turn with the floating frame, which formulation cfr does not "
+                       "have; expected axes: world or place");
+    if (load.axes == Load::Axes::place && mean(place))
+      faults.push_back(load.where.text() +
+                       ": axes: place of several nodes, which formulation cfr does not know; expected axes: world, or "
+                       "a place of one node");
+  }
+  for (std::size_t p = 0; p < prepared_.probes.size(); ++p) {
+    const Probe& probe = prepared_.scene.probes[p];
+    const auto& [place, other] = prepared_.probes[p];
+    if (place.body >= 0 && corotated(place.body) && probe.quantity == Probe::Quantity::deflection)
+      faults.push_back(
+          probe.where.text() +
+          ": deflection is from the floating frame, which formulation cfr does not have in space; expected "
+          "displacement, with relative_to a place that stands for the frame");
+    for (const PreparedPlace* at : {&place, &other})
+      if (mean(*at))
+        faults.push_back(
+            probe.where.text() +
+            ": looks at the mean of several nodes, which formulation cfr does not know; expected places of "
+            "one node");
+  }
+}
+
+void SpaceAssembly::add_corotated(int b) {
+  const PreparedBody& body = prepared_.bodies[b];
+  coordinates_.belongs_to("body " + body.spec.name);
+  slots_[b].corotated = std::make_unique<reference::CorotationalBody>(
+      coordinates_, body.structure, visited(b), clamped_edges(b),
+      reference::CorotationalStart{body.place, body.attitude, body.rate, body.spin, body.deformation,
+                                   body.deformation_rate});
+}
+
+std::vector<std::pair<SpatialMarker, double>> SpaceAssembly::corotated_parts(const PreparedPlace& place) const {
+  const reference::CorotationalBody& body = *slots_[place.body].corotated;
+  if (place.nodes.size() == 1 && body.has_frame(place.nodes.front())) return {{body.place(place.nodes.front()), 1.}};
+  std::vector<std::pair<SpatialMarker, double>> parts;
+  int piece = -1;
+  bool one = place.nodes.size() > 1;
+  for (const Lever& lever : place.levers) {
+    if (!leads(lever)) continue;
+    const int other = body.piece_of(lever.node);
+    one = one && other >= 0 && (parts.empty() || other == piece);
+    piece = other;
+    SpatialMarker at = body.place(lever.node);
+    at.mass = lever.share;
+    at.x0 = lever.share * at.x0 + arm_of(lever);
+    parts.emplace_back(std::move(at), lever.share);
+  }
+  if (one) return {{body.place_on_piece(piece, place.x), 1.}};
+  return parts;
+}
+
+void SpaceAssembly::add_corotated_force(const Load& load, const PreparedPlace& place) {
+  if (!owner_) return;
+  const bool turns = load.kind == Load::Kind::moment;
+  for (auto& [at, share] : corotated_parts(place)) {
+    at.D0 = prepared_.bodies[place.body].axes.transpose();  // axes of a place are those of the mesh
+    terms_.push_back(std::make_unique<SpatialForce>(
+        std::move(at),
+        [f = turns ? load.moment : load.force, factor = turns ? share : 1., first = turns ? 3 : 0](double t) {
+          Wrench w = Wrench::Zero();
+          w.segment<3>(first) = factor * Vector3d(f[0](t), f[1](t), f[2](t));
+          return w;
+        },
+        load.axes == Load::Axes::place ? SpatialForce::Axes::place : SpatialForce::Axes::world));
+  }
+}
+
+void SpaceAssembly::add_corotated_pressure(const Load& load, int b, const fem::Mesh::Cell& cell) {
+  const PreparedBody& body = prepared_.bodies[b];
+  const std::vector<SpatialMarker> places = slots_[b].corotated->places(cell);
+  const auto X = [&](int corner) { return body.structure.mesh.positions[cell.corner[corner]]; };
+  const auto add = [&](const std::array<int, 3>& at, double share) {
+    const Vector3d area = 0.5 * (body.attitude * (X(at[1]) - X(at[0])).cross(X(at[2]) - X(at[0])));
+    terms_.push_back(std::make_unique<reference::FacetPressure>(
+        std::vector<SpatialMarker>{places[at[0]], places[at[1]], places[at[2]]},
+        [p = load.pressure](double t) { return p(t); }, share, load.follower ? nullptr : &area));
+  };
+  if (cell.kind == fem::CellKind::triangle) return add({0, 1, 2}, 1);
+  for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
+}
+
+}  // namespace floe::scene

@@ -1,0 +1,146 @@
+#include <catch2/catch.hpp>
+
+#include "floe/dynamics/branch.h"
+#include "floe/error.h"
+#include "floe/reference/facet_pressure.h"
+#include "scene_motion.h"
+#include "spatial_terms.h"
+
+using namespace floe;
+using namespace floe::test;
+using floe::testing::Random;
+using floe::testing::State;
+
+namespace {
+
+/// The equilibrium at t = 1 as `floe static` finds it.
+History follow(const std::string& text, int steps) {
+  History history = history_of(text, Formulation::cfr);
+  for (int i = 1; i <= steps; ++i)
+    dynamics::follow_equilibrium(*history.model.system, double(i - 1) / steps, double(i) / steps, 1e-3, history.model.U,
+                                 history.model.V, [](const dynamics::BranchJump&, Vec, Vec) {});
+  store(history, 1, history.model.U, history.model.V);
+  return history;
+}
+
+std::vector<dynamics::SpatialMarker> corners(Random& random) {
+  std::vector<dynamics::SpatialMarker> all;
+  for (int i = 0; i < 3; ++i) {
+    all.push_back(floe::testing::spatial_marker(random, 6 * i, floe::testing::attitude(random), 0));
+    all.back().coordinates.resize(6);
+  }
+  return all;
+}
+
+/// Two plates that meet at an edge, one of beams at their corner; joints and loads of many kinds.
+const char* const mechanism = R"yaml(
+gravity: [0, 0, -3]
+bodies:
+  hub: {rigid: true, mesh: {line: {from: [-1, 0, 0], to: [0, 0, 0], elements: 1}}, section: {A: 0.1, Iy: 1e-3, Iz: 1e-3, J: 1e-3, orientation: [0, 1, 0]}, material: {E: 1e6, nu: 0.3, rho: 100}}
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [4, 3], cells: triangles}}
+    section: {thickness: 0.02}
+    material: {E: 1e8, nu: 0.3, rho: 1000}
+    damping: {stiffness: 1e-3}
+  rod:
+    mesh: {line: {from: [1, 0, 0], to: [1.5, 0, 0.2], elements: 4}}
+    section: {shape: circle, radius: 0.01, orientation: [0, 1, 0]}
+    material: {E: 1e9, nu: 0.3, rho: 1000}
+joints:
+  axle: {type: revolute, axis: [0, 1, 0], between: [ground, hub.start]}
+  weld: {type: fixed, between: [hub.end, {body: plate, node: [0, 0, 0]}]}
+  ball: {type: spherical, between: [plate.p2, rod.start]}
+  spring: {type: spring, between: [ground, rod.end], stiffness: 20, viscosity: 1}
+loads:
+  tip: {type: moment, at: plate.p3, moment: ["3*t", 0, 0], axes: place}
+  air: {type: pressure, body: plate, pressure: "200*t"}
+motion: {end: 0.1, step: 2e-3}
+probes: {tip: {at: rod.end}, corner: {at: plate.p3}}
+)yaml";
+
+}  // namespace
+
+TEST_CASE("pressure on a facet: the tangent is the difference of the residual; follower and dead",
+          "[corotational-space]") {
+  Random random(931);
+  const Eigen::Vector3d dead = random.vector(3);
+  for (const Eigen::Vector3d* area : {static_cast<const Eigen::Vector3d*>(nullptr), &dead}) {
+    const reference::FacetPressure pressure(
+        corners(random), [](double t) { return 2 + t; }, 0.5, area);
+    CHECK(floe::testing::tangent_error(pressure, State(random, 18)) < 1e-8);
+  }
+}
+
+TEST_CASE("cfr in space: an end moment rolls beams and shells to circles on any number of ranks",
+          "[corotational-space]") {
+  const std::string scene =
+      fill(R"yaml(
+bodies:
+  b:
+    mesh: {$mesh}
+    section: {$section}
+    material: {E: $E, nu: 0, rho: 1}
+joints: {clamp: {type: fixed, between: [ground, b.$start]}}
+loads: {m: {type: moment, at: b.$end, moment: [0, "-2*pi*t", 0]}}
+probes: {tip: {at: {body: b, node: [1, 0, 0]}}}
+)yaml",
+           GENERATE(Words{{"mesh", "line: {from: [0, 0, 0], to: [1, 0, 0], elements: 6}"},
+                          {"section", "A: 1e4, Iy: 1, Iz: 1, J: 1, orientation: [0, 1, 0]"},
+                          {"E", "1"},
+                          {"start", "start"},
+                          {"end", "end"}},
+                    Words{{"mesh", "plate: {along: [1, 0, 0], across: [0, 0.1, 0], elements: [12, 1]}"},
+                          {"section", "thickness: 0.01"},
+                          {"E", "1.2e8"},
+                          {"start", "left"},
+                          {"end", "right"}}));
+  const History at = follow(scene, 4);
+  CHECK(at["tip.x"].back() == Approx(-1).margin(1e-3));
+  CHECK(at["tip.z"].back() == Approx(0).margin(1e-3));
+}
+
+TEST_CASE("cfr in space: a mechanism of shells, beams and a rigid body moves alike on any number of ranks",
+          "[corotational-space]") {
+  const History at = move(mechanism, Formulation::cfr);
+  const scene::Scene scene = scene::parse_scene(mechanism, "scene");
+  scene::Model alone = scene::build(scene, Formulation::cfr, PETSC_COMM_SELF);
+  dynamics::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
+  std::vector<double> last;
+  dynamics::simulate(*alone.system, how, alone.U, alone.V,
+                     [&](const dynamics::Instant& now) { last = scene::probe_values(alone, now.t, now.U, now.V); });
+  const auto columns = scene::probe_columns(at.model);
+  double greatest = 0;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    CHECK(at[columns[c].name].back() == Approx(last[c]).margin(1e-8));
+    greatest = std::max(greatest, std::abs(last[c]));
+  }
+  CHECK(greatest > 1e-3);
+}
+
+TEST_CASE("cfr in space: what it does not know is refused", "[corotational-space]") {
+  const auto refused = [](const std::string& body, const std::string& rest) {
+    const std::string text = fill(R"yaml(
+bodies:
+  b:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [2, 2]}}
+    section: {thickness: 0.02}
+    material: {E: 1e8, nu: 0.3, rho: 1000}
+    $body
+$rest
+)yaml",
+                                  {{"body", body}, {"rest", rest}});
+    try {
+      scene::build(scene::parse_scene(text, "scene"), Formulation::cfr, PETSC_COMM_WORLD);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  using Catch::Matchers::Contains;
+  CHECK(refused("", "").empty());
+  CHECK_THAT(refused("damping: {mass: 1}", ""), Contains("no mass-proportional damping"));
+  CHECK_THAT(refused("", "joints: {j: {type: fixed, edges: mean, between: [b.left, b.right]}}"),
+             Contains("mean of 3 nodes"));
+  CHECK_THAT(refused("", "loads: {f: {type: force, at: b.p1, force: [1, 0, 0], axes: body}}"), Contains("axes: body"));
+  CHECK_THAT(refused("", "probes: {d: {at: b.p1, quantity: deflection}}"), Contains("deflection"));
+}
