@@ -130,13 +130,37 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
   return T;
 }
 
+std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell) {
+  std::vector<RigidArm> arms;
+  const auto corners = cell.corners(), nodes = cell.nodes();
+  for (std::size_t i = 0; i < corners.size() && mesh.dimension == 3; ++i) {
+    const std::size_t by = cell.line[i] >= 0 ? static_cast<std::size_t>(cell.line[i]) : i;
+    const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[by]];
+    if (!arm.isZero(0)) arms.push_back({static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(6 * by + 3), arm});
+  }
+  return arms;
+}
+
+namespace {
+
+/// K_b of a shell becomes strain points, which can have terms of second order.
+void square_bending(const Corners& at, const ShellSection& section, ElementMaps& maps) {
+  maps.bending.setZero();
+  for (StrainPoint& point : at.three() ? shell_triangle_bending_points(at.triangle(), section)
+                                       : shell_quadrilateral_bending_points(at.quadrilateral(), section))
+    maps.membrane.push_back(std::move(point));
+}
+
+}  // namespace
+
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
-  ElementMaps own = std::visit(
-      [&](const auto& section) {
-        return maps_of({mesh, cell, strain}, section);
-      },
-      sections[cell.part]);
-  return cell.follows() ? transformed(own, following(mesh, cell)) : own;
+  const Corners at{mesh, cell, strain};
+  ElementMaps own = std::visit([&](const auto& section) { return maps_of(at, section); }, sections[cell.part]);
+  if (!cell.follows()) return own;
+  const auto* shell = std::get_if<ShellSection>(&sections[cell.part]);
+  if (!shell || shell->strains == Strains::von_karman) return transformed(own, following(mesh, cell));
+  square_bending(at, *shell, own);
+  return transformed(own, following(mesh, cell), rigid_arms(mesh, cell));
 }
 
 Eigen::MatrixXd Structure::matrix(const Mesh::Cell& cell, double k, double m) const {

@@ -90,13 +90,21 @@ body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
   std::vector<int> sloped;
   for (int a = 0; a < V.cols(); ++a) {
     bool slope = false;
-    for (const StrainPoint& g : maps.membrane) slope = slope || (g.G * V.col(a)).cwiseAbs().maxCoeff() > 0;
+    for (const StrainPoint& g : maps.membrane) slope = slope || !(g.G * V.col(a)).isZero(0);
     if (slope) sloped.push_back(a);
   }
   body::Elasticity e;
   e.bending = V.transpose() * maps.bending * V;
-  e.pairs = pairs_of(sloped);
-  e.F = strain_rows(maps, V, e.pairs);
+  const std::vector<std::pair<int, int>> all = pairs_of(sloped);
+  e.F = strain_rows(maps, V, all);
+  Eigen::Index columns = V.cols();
+  for (std::size_t p = 0; p < all.size(); ++p) {  // without those that strain nothing
+    const auto column = e.F.col(V.cols() + static_cast<Eigen::Index>(p));
+    if (column.isZero(0)) continue;
+    e.F.col(columns++) = column;
+    e.pairs.push_back(all[p]);
+  }
+  e.F.conservativeResize(Eigen::NoChange, columns);
   return e;
 }
 

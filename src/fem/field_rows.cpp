@@ -211,7 +211,8 @@ void add_transposed(const Structure& structure, const PieceRows& piece, const Sm
 
 Slopes slopes(const Structure& structure, const FieldRows& fields) {
   const DofRanges ranges = dof_ranges(structure, fields);
-  Slopes sums{Eigen::VectorXd::Zero(fields.cols()), 0};
+  Slopes sums{Eigen::VectorXd::Zero(fields.cols()), Eigen::VectorXd::Zero(fields.cols()), 0};
+  const bool flat = flat_body(structure);
   FieldRows values(24, fields.cols());
   std::vector<PieceRows> pieces;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
@@ -220,12 +221,14 @@ Slopes slopes(const Structure& structure, const FieldRows& fields) {
       for (const StrainRows& point : piece.strain) {
         const ColumnRange range = multiply(structure, piece, point.G, fields, ranges, values.data());
         sums.measure += point.weight;
-        for (Eigen::Index g = 0; g < point.G.rows(); ++g)
-          for (int j = range.begin; j < range.end; ++j) sums.squares[j] += point.weight * values(g, j) * values(g, j);
+        for (Eigen::Index g = 0; g < point.G.rows(); ++g) {
+          Eigen::VectorXd& sum = flat && point.G.rows() == 6 && g < 4 ? sums.in_plane : sums.across;
+          for (int j = range.begin; j < range.end; ++j) sum[j] += point.weight * values(g, j) * values(g, j);
+        }
       }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.squares.data(), static_cast<int>(sums.squares.size()), MPI_DOUBLE, MPI_SUM,
-                structure.mesh.comm);
+  for (Eigen::VectorXd* sum : {&sums.across, &sums.in_plane})
+    MPI_Allreduce(MPI_IN_PLACE, sum->data(), static_cast<int>(sum->size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
   MPI_Allreduce(MPI_IN_PLACE, &sums.measure, 1, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
   return sums;
 }

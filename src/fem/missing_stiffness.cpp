@@ -39,6 +39,7 @@ Vector3d membrane_force(const ShellStrain& at, const VectorXd& q) {
 
 MatrixXd in_plane(const Structure& structure, const Mesh::Cell& cell, const ShellSection& section, const VectorXd& q) {
   MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  if (section.strains == Strains::second_order) return A;
   each_triangle(structure, cell, [&](double share, const std::array<int, 18>& dofs, const TriangleNodes& nodes) {
     const shell::Geometry g = shell::geometry(nodes, section.axis);
     const ShellStrain at = shell_triangle_strain(nodes, section);

@@ -106,12 +106,15 @@ void strain(const shell::Geometry& g, const shell::Deformations& d, const ShellS
   rows.weight = share * g.area;
   const Eigen::Matrix3d half = std::sqrt(rows.weight) * root3(section.A);
   rows.L = half.lazyProduct(d.rows.middleRows<3>(3 * shell::mean_strain));
-  rows.G.resize(2, 18);
+  const int gradients = shell::gradient_rows(section);
+  rows.G.resize(gradients, 18);
   rows.G.setZero();
-  for (int i = 0; i < 3; ++i) rows.G.middleCols<3>(6 * i) = g.gradient[i] * g.axes.col(2).transpose();
-  rows.terms = {{0, 0, {half(0, 0), half(1, 0), half(2, 0)}},
-                {0, 1, {half(0, 2), half(1, 2), half(2, 2)}},
-                {1, 1, {half(0, 1), half(1, 1), half(2, 1)}}};
+  shell::set_gradients(g, section, rows.G);
+  for (int x = 0; x < gradients; x += 2) {
+    rows.terms.push_back({x, x, {half(0, 0), half(1, 0), half(2, 0)}});
+    rows.terms.push_back({x, x + 1, {half(0, 2), half(1, 2), half(2, 2)}});
+    rows.terms.push_back({x + 1, x + 1, {half(0, 1), half(1, 1), half(2, 1)}});
+  }
 }
 
 void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const ShellSection& section, double share,
@@ -173,10 +176,36 @@ int place_of(int node, PieceRows& piece) {
   return piece.nodes - 1;
 }
 
+/// Adds the second-order motion of corner `at`, 1/2 theta x (theta x arm), to the strains: before its rows are those of
+/// the node that it follows. @param led  the node with theta among the piece's
+void rotate_arm(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) {
+  if (arm.isZero(0)) return;
+  for (StrainRows& point : piece.strain) {
+    const Eigen::Index first = point.G.rows(), strains = point.L.rows();
+    std::array<Eigen::Matrix3d, 3> P;
+    bool any = false;
+    for (Eigen::Index s = 0; s < strains; ++s) {
+      P[s] = second_order_arm(point.L.row(s).segment<3>(6 * at).transpose(), arm);
+      any = any || !P[s].isZero(0);
+    }
+    if (!any) continue;
+    point.G.conservativeResize(first + 3, Eigen::NoChange);
+    point.G.bottomRows(3).setZero();
+    point.G.block<3, 3>(first, 6 * led + 3).setIdentity();
+    for (int p = 0; p < 3; ++p)
+      for (int q = p; q < 3; ++q) {
+        StrainRows::Term term{static_cast<int>(first) + p, static_cast<int>(first) + q, {}};
+        for (Eigen::Index s = 0; s < strains; ++s) term.C[s] = P[s](p, q);
+        point.terms.push_back(term);
+      }
+  }
+}
+
 /// Corner `at` of the piece as a node on a hinge line.
-void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, PieceRows& piece) {
+void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, bool second_order, PieceRows& piece) {
   piece.spins.push_back(spin);
   const int led = place_of(leader, piece);
+  if (second_order) rotate_arm(arm, spin.at, led, piece);
   const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
   each_rows(piece, [&](auto& rows) {
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
@@ -187,15 +216,31 @@ void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, Pi
   });
 }
 
+bool rotates_to_second_order(const Structure& structure, const Mesh::Cell& cell) {
+  const auto* shell = std::get_if<ShellSection>(&structure.sections[cell.part]);
+  return shell && shell->strains == Strains::second_order && cell.follows();
+}
+
+/// Bending as strains, which can have terms of second order.
+void square_bending(PieceRows& piece) {
+  for (Eigen::Index first = 0; first < piece.bending.rows(); first += 3)
+    piece.strain.push_back({piece.bending.middleRows(first, 3), SmallRows(0, piece.bending.cols()), 0, {}});
+  piece.bending.resize(0, 0);
+}
+
 /// The piece on the dofs of the nodes that move its corners.
 /// @param of  its corners among the cell's
 void follow(const Structure& structure, const Mesh::Cell& cell, const std::array<int, 3>& of, PieceRows& piece) {
   const FlatBody* flat = flat_body(structure);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
+  const bool second_order = rotates_to_second_order(structure, cell);
+  if (second_order) square_bending(piece);
   for (int i = 0; i < 3; ++i) {
     const int moved = cell.moved[of[i]];
     if (moved == piece.node[i]) continue;
-    const Eigen::Matrix<double, 6, 6> T = rigid_arm(Eigen::Vector3d(at[piece.node[i]] - at[moved]));
+    const Eigen::Vector3d arm = at[piece.node[i]] - at[moved];
+    if (second_order) rotate_arm(arm, i, i, piece);
+    const Eigen::Matrix<double, 6, 6> T = rigid_arm(arm);
     each_rows(piece, [&](auto& rows) {
       rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();
     });
@@ -204,7 +249,7 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
   for (int i = 0; i < 3; ++i) {
     if (cell.line[of[i]] < 0) continue;
     const int node = cell.corner[of[i]], leader = cell.moved[cell.line[of[i]]];
-    spin_about(at[node] - at[leader], leader, spin_of(structure, node, i), piece);
+    spin_about(at[node] - at[leader], leader, spin_of(structure, node, i), second_order, piece);
   }
 }
 
@@ -214,6 +259,7 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
   pieces.resize(cell.kind == CellKind::quadrilateral ? 4 : 1);
   for (PieceRows& piece : pieces)
     piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.line.clear(), piece.spins.clear();
+  if (parts.strain && rotates_to_second_order(structure, cell)) parts.bending = true;
   const auto& c = cell.corner;
   if (cell.kind == CellKind::triangle) {
     triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);

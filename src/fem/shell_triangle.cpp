@@ -62,8 +62,8 @@ ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection
   point.weight = g.area;
   point.D = section.A;
   point.L = shell::deformations(g, section).rows.middleRows<3>(3 * shell::mean_strain);
-  point.G.setZero();
-  for (int i = 0; i < 3; ++i) point.G.middleCols<3>(6 * i).noalias() = g.gradient[i] * g.axes.col(2).transpose();
+  point.G.setZero(shell::gradient_rows(section), 18);
+  shell::set_gradients(g, section, point.G);
   return point;
 }
 
@@ -82,15 +82,25 @@ Matrix18 shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& sec
   return M;
 }
 
+std::vector<StrainPoint> shell_triangle_bending_points(const TriangleNodes& nodes, const ShellSection& section) {
+  const shell::Geometry g = shell::geometry(nodes, section.axis);
+  const shell::Deformations d = shell::deformations(g, section);
+  const Eigen::MatrixXd none(0, 0);
+  std::vector<StrainPoint> points;
+  for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
+    points.push_back({g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
+  return points;
+}
+
 ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& section) {
   const ShellStrain strain = shell_triangle_strain(nodes, section);
   ElementMaps maps;
   maps.bending = shell_triangle_bending(nodes, section);
-  Eigen::Matrix2d xx, yy, xy;
-  xx << 1, 0, 0, 0;
-  yy << 0, 0, 0, 1;
-  xy << 0, 1, 1, 0;
-  maps.membrane.push_back({strain.weight, strain.D, strain.L, strain.G, {xx, yy, xy}});
+  const Eigen::Index gradients = strain.G.rows();
+  std::vector<Eigen::MatrixXd> P(3, Eigen::MatrixXd::Zero(gradients, gradients));
+  for (Eigen::Index x = 0; x < gradients; x += 2)
+    P[0](x, x) = 1, P[1](x + 1, x + 1) = 1, P[2](x, x + 1) = P[2](x + 1, x) = 1;
+  maps.membrane.push_back({strain.weight, strain.D, strain.L, strain.G, P});
 
   const shell::Geometry g = shell::geometry(nodes, section.axis);
   const Eigen::Vector3d centroid = (nodes[0] + nodes[1] + nodes[2]) / 3;

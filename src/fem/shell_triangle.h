@@ -33,6 +33,21 @@ struct Deformations {
 
 Deformations deformations(const Geometry& geometry, const ShellSection& section);
 
+/// Rows of ShellStrain::G: c_x, c_y of each component c.
+inline int gradient_rows(const ShellSection& section) { return section.strains == Strains::second_order ? 6 : 2; }
+
+/// Adds the gradients of the plane through the displaced nodes to rows of zeros, gradient_rows x 18.
+template <class Rows>
+void set_gradients(const Geometry& geometry, const ShellSection& section, Rows& G) {
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d& gradient = geometry.gradient[i];
+    if (section.strains == Strains::von_karman)
+      G.template middleCols<3>(6 * i).noalias() = gradient * geometry.axes.col(2).transpose();
+    else
+      for (int c = 0; c < 3; ++c) G(2 * c, 6 * i + c) = gradient.x(), G(2 * c + 1, 6 * i + c) = gradient.y();
+  }
+}
+
 /// Adds the coefficients of the normal's rotation, beta = (rotation_y, -rotation_x), of a corner to a row.
 template <class Row>
 void add_beta(Row&& row, int corner, const Eigen::Vector2d& coefficients) {

@@ -1,5 +1,7 @@
 #include "floe/fem/transform.h"
 
+#include <map>
+
 #include "floe/error.h"
 
 namespace floe::fem {
@@ -36,13 +38,41 @@ Eigen::MatrixXd rigid_arms(const Eigen::Vector3d& first, const Eigen::Vector3d& 
   return T;
 }
 
-ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T) {
+Eigen::Matrix3d second_order_arm(const Eigen::Vector3d& l, const Eigen::Vector3d& arm) {
+  const Eigen::Matrix3d product = l * arm.transpose();
+  return (product + product.transpose()) / 2 - l.dot(arm) * Eigen::Matrix3d::Identity();
+}
+
+namespace {
+
+/// Adds the arms' terms to a point, whose L is on the dofs of the element and whose G on those of the result.
+void add_arms(const std::vector<RigidArm>& arms, StrainPoint& point) {
+  std::map<Eigen::Index, std::vector<const RigidArm*>> by_rotation;
+  for (const RigidArm& arm : arms) by_rotation[arm.rotation].push_back(&arm);
+  for (const auto& [rotation, moved] : by_rotation) {
+    const Eigen::Index before = point.G.rows();
+    point.G.conservativeResize(before + 3, Eigen::NoChange);
+    point.G.bottomRows<3>().setZero();
+    point.G.block<3, 3>(before, rotation).setIdentity();
+    for (Eigen::Index s = 0; s < point.L.rows(); ++s) {
+      Eigen::MatrixXd& P = point.P[static_cast<std::size_t>(s)];
+      P.conservativeResizeLike(Eigen::MatrixXd::Zero(before + 3, before + 3));
+      for (const RigidArm* arm : moved)
+        P.bottomRightCorner<3, 3>() += second_order_arm(point.L.row(s).segment<3>(arm->point), arm->arm);
+    }
+  }
+}
+
+}  // namespace
+
+ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const std::vector<RigidArm>& arms) {
   expect_rows(T, maps.bending.rows());
   ElementMaps result = maps;
   result.bending = T.transpose() * maps.bending * T;
   for (StrainPoint& g : result.membrane) {
-    g.L = (g.L * T).eval();
     g.G = (g.G * T).eval();
+    add_arms(arms, g);
+    g.L = (g.L * T).eval();
   }
   result.mass = transformed(maps.mass, T);
   return result;

@@ -78,11 +78,12 @@ Eigen::VectorXd mean_squares(const fem::Structure& structure, const fem::FieldRo
 std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fields) {
   const fem::FieldRows rows = fem::gather(structure, fields);
   const fem::Slopes slopes = fem::slopes(structure, rows);
+  const Eigen::VectorXd squares = slopes.squares();
   const Eigen::VectorXd displacements = mean_squares(structure, rows);
   const double length = fem::extent(structure);
   std::vector<bool> sloped;
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
-    sloped.push_back(slopes.squares[j] * length * length > 1e-18 * displacements[j] * slopes.measure);
+    sloped.push_back(squares[j] * length * length > 1e-18 * displacements[j] * slopes.measure);
   return sloped;
 }
 

@@ -64,24 +64,27 @@ inline mesh::RawMesh mixed_mesh(MPI_Comm comm) {
 }
 
 /// Sections of the mixed mesh: a soft shell, a layered one with coupling, an unsymmetric beam, a mass with an offset.
-inline std::vector<fem::Section> mixed_sections() {
+/// @param strains  of the shells
+inline std::vector<fem::Section> mixed_sections(fem::Strains strains = fem::Strains::von_karman) {
   const fem::ShellMaterial ply{900, 300, 0.25, 150, 2};
   fem::SpatialBeam beam{{400, 3, 5, 1, 2, 3, 0.02, 0.03, 0.005, {0.02, -0.01}, {0.01, 0.03}}, {1, 0, 0}, {}};
-  return {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}}),
-          fem::shell_section({{ply, 0.06, 0}, {ply, 0.04, 0.9}}, 0.02, {0, 1, 0}), beam,
-          fem::PointMass{0.7, Eigen::Vector3d(0.03, 0.04, 0.05).asDiagonal(), {0.1, 0, 0.2}}};
+  fem::ShellSection floor = fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}}),
+                    ramp = fem::shell_section({{ply, 0.06, 0}, {ply, 0.04, 0.9}}, 0.02, {0, 1, 0});
+  floor.strains = ramp.strains = strains;
+  return {floor, ramp, beam, fem::PointMass{0.7, Eigen::Vector3d(0.03, 0.04, 0.05).asDiagonal(), {0.1, 0, 0.2}}};
 }
 
-inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread) {
-  return structure_of(mixed_mesh(comm), mixed_sections(), spread);
+inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman) {
+  return structure_of(mixed_mesh(comm), mixed_sections(strains), spread);
 }
 
 /// Nodes of the mixed mesh that follow others rigidly: two of the shells', and the one where the mast stands.
 inline std::vector<mesh::Follower> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
 
-inline fem::Structure linked_structure(MPI_Comm comm, Spread spread) {
+inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman) {
   const mesh::RawMesh raw = mixed_mesh(comm);
-  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(), fem::MembraneStrain::averaged};
+  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(strains),
+          fem::MembraneStrain::averaged};
 }
 
 /// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the
@@ -100,9 +103,10 @@ inline std::vector<mesh::Follower> mixed_lines(bool links) {
                            {on([](const auto& x) { return std::hypot(x[0] + x[1] / 1.5 - 1, x[2]) < 1e-9; }),
                             {-2 / length, 3 / length, 0}}});
 }
-inline fem::Structure hinged_structure(MPI_Comm comm, Spread spread, bool links) {
+inline fem::Structure hinged_structure(MPI_Comm comm, Spread spread, bool links,
+                                       fem::Strains strains = fem::Strains::von_karman) {
   const mesh::RawMesh raw = mixed_mesh(comm);
-  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links)), mixed_sections(),
+  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links)), mixed_sections(strains),
           fem::MembraneStrain::averaged};
 }
 

@@ -65,10 +65,12 @@ void add_multiple(double c, const double* in, double* out, int n);
 petsc::MatHandle derivative_loads(const Structure& structure, const FieldRows& fields,
                                   const std::vector<std::array<int, 2>>& pairs);
 
-/// Integrals of squared slopes over the body, one for each field, and the body's length or area. Collective.
+/// Integrals of the squares of the strains' gradients G q over the body, for each field, and the body's length or area.
+/// Collective.
 struct Slopes {
-  Eigen::VectorXd squares;
+  Eigen::VectorXd across, in_plane;  ///< in_plane: those of displacements in the plane of a flat body
   double measure = 0;
+  Eigen::VectorXd squares() const { return across + in_plane; }
 };
 Slopes slopes(const Structure& structure, const FieldRows& fields);  ///< of all ranks
 

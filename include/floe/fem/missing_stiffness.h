@@ -7,9 +7,8 @@ namespace floe::fem {
 /// state: S(phi) = 1/2 phi' A phi of a small further deformation phi, by cause. Null: no element has it. MATSBAIJ, no
 /// conditions.
 ///
-///   in_plane   shells, von Karman against Green-Lagrange: membrane forces N on the squares of the gradients of (u, v)
-///   in
-///              the plane of each element
+///   in_plane   shells with von Karman's strains, against Green-Lagrange: membrane forces N on the squares of the
+///              gradients of (u, v) in the plane of each element; zero where the section has strains of second order
 ///                S = 1/2 int N_xx (u_x^2 + v_x^2) + N_yy (u_y^2 + v_y^2) + 2 N_xy (u_x u_y + v_x v_y)
 ///   coupling   spatial beams: curvatures and twist rate of the section as it is rotated, with phi its twist,
 ///                kappa_z = v'' + phi w'',   -kappa_y = w'' - phi v'',   tau = phi' + 1/2 (w' v'' - v' w''),

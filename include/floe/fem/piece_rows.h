@@ -13,9 +13,10 @@ using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 ///
 ///   e_r(a, b) = sum_p C_r,pp a_p b_p + sum_(p<q) C_r,pq (a_p b_q + a_q b_p),   a_p = (G a)_p
 struct StrainRows {
-  SmallRows L;    ///< s x dofs
-  SmallRows G;    ///< g x dofs
-  double weight;  ///< that the rows of L hold the root of [m], [m2]
+  SmallRows L;  ///< s x dofs
+  SmallRows G;  ///< g x dofs
+  double
+      weight;  ///< that the rows of L hold the root of [m], [m2]; 0: not of a membrane, the body's measure is without
   /// A product of two slopes in the strain: C of slopes p and q.
   struct Term {
     int p, q;  ///< p <= q
@@ -44,7 +45,8 @@ struct PieceRows {
     Eigen::Vector3d axis, slot;
   };
   std::vector<Spin> spins;
-  SmallRows bending;  ///< U_b = 1/2 |bending q|^2
+  SmallRows
+      bending;  ///< U_b = 1/2 |bending q|^2; none where rigid regions rotate to second order: they are strains then
   std::vector<StrainRows> strain;
   std::vector<MassRows> mass;
   std::vector<MassRows> line;  ///< Structure::line

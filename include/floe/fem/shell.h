@@ -12,12 +12,15 @@ namespace floe::fem {
 using TriangleNodes = std::array<Eigen::Vector3d, 3>;       ///< positions in body axes [m]
 using QuadrilateralNodes = std::array<Eigen::Vector3d, 4>;  ///< around the element, convex; may be warped
 
-/// StrainPoint of a triangle in fixed size: eps = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y), (w_x, w_y) = G q.
+/// StrainPoint of a triangle in fixed size, eps = L q + 1/2 sum_c (c_x^2, c_y^2, 2 c_x c_y), with the rows c_x, c_y of
+/// G q for each component c of the displacement that the strain has: w, normal to the element (von Karman), or all
+/// three in body axes (Green-Lagrange: the sum does not depend on axes, and each row has three entries whichever way
+/// the element lies).
 struct ShellStrain {
   double weight;      ///< area [m2]
   Eigen::Matrix3d D;  ///< A of the section [N/m]
   Eigen::Matrix<double, 3, 18> L;
-  Eigen::Matrix<double, 2, 18> G;
+  Eigen::Matrix<double, Eigen::Dynamic, 18, 0, 6, 18> G;
 };
 
 /// A sample of an element's surface at its nodes' plane: what pressures act on. Force f per area: sum area N' f.
@@ -28,17 +31,22 @@ struct SurfacePoint {
   Eigen::Vector3d normal;  ///< unit
 };
 
-/// Thin triangle: DKT bending, OPT membrane with drilling rotations, von Karman strain.
+/// Thin triangle: DKT bending, OPT membrane with drilling rotations, von Karman or Green-Lagrange membrane strain
+/// (ShellSection::strains).
 ///
 ///   U(q) = 1/2 a [ e' A e + mean of kappa' D* kappa ] + 3/8 beta_0 theta' K_theta theta,
 ///   e = L q + 1/2 (w_x^2, w_y^2, 2 w_x w_y),   L q = mean membrane strain + C mean curvature,   C = A^-1 B
+///   second_order:  e = L q + 1/2 (|u_x|^2, |u_y|^2, 2 u_x.u_y),  u = (u, v, w)
 ///
 /// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
 /// (lumping with alpha = 3/2); theta are the drilling rotations less the rotation of that triangle. e is one point and
 /// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
-/// follows a developable surface, so nothing locks. The membrane force is taken as constant over the element: coupling
-/// B acts on the mean curvature, and the rest of the curvature bends with D*. Exact for states of constant strain and
-/// curvature with any A, B, D; a sum of squares whenever [A B; B D] is positive definite.
+/// follows a developable surface, so nothing locks. With all gradients of that plane a rigid rotation by any angle,
+/// with rotations of nodes about its axis, has no membrane strain; what is left of its energy is that of sin a - a in
+/// bending and drilling, of order a^6, and with rotations about two axes of order a^4 of the bending stiffness. The
+/// membrane force is taken as constant over the element: coupling B acts on the mean curvature, and the rest of the
+/// curvature bends with D*. Exact for states of constant strain and curvature with any A, B, D; a sum of squares
+/// whenever [A B; B D] is positive definite.
 ///
 /// Mass points stand at the middles of the edges, above and below the centre of mass by the radius of inertia: there
 /// DKT's deflection (the edge's cubic) and rotations are known. Mass and its first and second moments are exact;
@@ -53,6 +61,8 @@ Eigen::Matrix<double, 18, 18> shell_triangle_stiffness(const TriangleNodes& node
 Eigen::Matrix<double, 18, 18> shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section);  ///< K_b
 Eigen::Matrix<double, 18, 18> shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& section);     ///< M
 ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section);  ///< L, G
+/// K_b as strain points without gradients: mean curvature, edge bending and drilling rotations.
+std::vector<StrainPoint> shell_triangle_bending_points(const TriangleNodes& nodes, const ShellSection& section);
 
 /// Quadrilateral: the triangles on either side of each diagonal, at half weight: the mean of two triangulated surfaces.
 /// Passes the patch tests of the triangle, flat or warped (a warped element is the mean of its two folded surfaces, and
@@ -60,6 +70,9 @@ ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection
 /// @throws InputError  as the triangle; it is not convex, or folds by a right angle or more
 ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section);
 std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes);  ///< twelve
+/// As shell_triangle_bending_points.
+std::vector<StrainPoint> shell_quadrilateral_bending_points(const QuadrilateralNodes& nodes,
+                                                            const ShellSection& section);
 /// K and M in fixed size, as for the triangle.
 Eigen::Matrix<double, 24, 24> shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes,
                                                             const ShellSection& section);

@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "floe/fem/strains.h"
+
 namespace floe::fem {
 
 /// Orthotropic plane-stress material: moduli [Pa], density [kg/m3]; axis 1 is the one that a ply's angle turns.
@@ -38,6 +40,7 @@ struct ShellSection {
   double mass_centre;        ///< its height above the plane of the nodes [m]
   double mass_radius;        ///< radius of inertia about that centre [m]
   Eigen::Vector3d axis;      ///< projected on an element it is the axis of angle 0; zero: isotropic, any axis
+  Strains strains = Strains::von_karman;
 
   Eigen::Matrix3d B() const { return A * coupling; }                                   ///< [N]
   Eigen::Matrix3d D() const { return bending + coupling.transpose() * A * coupling; }  ///< [N m]

@@ -156,6 +156,54 @@ TEST_CASE("shell triangle: a tilted plane has the von Karman strain of its slope
   CHECK((strain.L * q).norm() < 1e-14);
 }
 
+TEST_CASE("shell triangle: strains of second order are Green-Lagrange's of the plane through the displaced nodes") {
+  fem::ShellSection section = testing::skew_laminate();
+  section.strains = fem::Strains::second_order;
+  section.axis = turn * section.axis;
+  const fem::TriangleNodes nodes = turned(flat);
+  const fem::ShellStrain strain = fem::shell_triangle_strain(nodes, section);
+  const fem::StrainPoint point = fem::shell_triangle(nodes, section).membrane[0];
+  const Vector3d x = (turn * Vector3d(1, 0.2, 0)).normalized(), y = (turn * Vector3d::UnitZ()).cross(x);
+  const Matrix3d H = 0.3 * testing::Random(4).matrix(3, 3);  // u = H x, with the rotations that go along
+  VectorXd q(18);
+  const Matrix3d skew = (H - H.transpose()) / 2;
+  for (int i = 0; i < 3; ++i) q.segment<6>(6 * i) << H * nodes[i], skew(2, 1), skew(0, 2), skew(1, 0);
+  const Matrix3d E = (H + H.transpose() + H.transpose() * H) / 2;
+  const VectorXd gradients = strain.G * q, found = strain.L * q + point.bilinear(gradients, gradients) / 2,
+                 linear = strain.L * q;
+  const Matrix3d S = (H + H.transpose()) / 2;
+  // the linear part has the curvature's coupling, too, of which this state has some: compare what is quadratic
+  const Vector3d expected(x.dot((E - S) * x), y.dot((E - S) * y), 2 * x.dot((E - S) * y));
+  CHECK((found - linear - expected).norm() < 1e-14);
+}
+
+// Rotation by a about the normal: cos a - 1 is strain to von Karman, E ~ a^4. To second order what is left is a - sin a
+// in drilling, E ~ a^6; about two axes in turn slopes differ from rotations by theta_x theta_y / 2 in bending, E ~ a^4,
+// but of the bending stiffness, (t/L)^2 of the membrane's.
+TEST_CASE("shell triangle: what a rigid rotation costs") {
+  const auto cost = [&](fem::Strains strains, const Vector3d& axis, double a) {
+    fem::ShellSection section = testing::aluminium(0.01);
+    section.strains = strains;
+    const fem::ElementMaps maps = fem::shell_triangle(flat, section);
+    const Matrix3d R = Eigen::AngleAxisd(a, axis.normalized()).toRotationMatrix();
+    VectorXd q(18);
+    for (int i = 0; i < 3; ++i) q.segment<6>(6 * i) << (R - Matrix3d::Identity()) * flat[i], a * axis.normalized();
+    return body::energy(fem::elasticity(maps, MatrixXd::Identity(18, 18)), q) / 70e9 / 0.01;
+  };
+  const auto order = [&](fem::Strains strains, const Vector3d& axis, double a = 0.1) {
+    return std::log2(cost(strains, axis, 2 * a) / cost(strains, axis, a));
+  };
+  const Vector3d z(0, 0, 1), tilted(0, 1, 1);
+  CHECK(order(fem::Strains::von_karman, z) == Approx(4).margin(0.05));
+  CHECK(order(fem::Strains::second_order, z) == Approx(6).margin(0.05));
+  CHECK(order(fem::Strains::second_order, Vector3d(1, 0.3, 0)) == Approx(6).margin(0.05));
+  CHECK(order(fem::Strains::second_order, tilted) == Approx(6).margin(0.2));
+  CHECK(order(fem::Strains::second_order, tilted, 1e-4) == Approx(4).margin(0.1));
+  CHECK(cost(fem::Strains::von_karman, tilted, 0.1) > 1e-6);
+  CHECK(cost(fem::Strains::second_order, tilted, 0.1) < 1e-3 * cost(fem::Strains::von_karman, tilted, 0.1));
+  CHECK(cost(fem::Strains::second_order, z, 0.1) < 1e-3 * cost(fem::Strains::von_karman, z, 0.1));
+}
+
 TEST_CASE("shell triangle: samples of the surface give area, centre and the work of a linear pressure") {
   double area = 0, work = 0;
   Vector3d force = Vector3d::Zero();

@@ -4,6 +4,7 @@
 
 #include "differences.h"
 #include "floe/error.h"
+#include "floe/fem/shell.h"
 #include "floe/fem/spatial_beam.h"
 #include "random.h"
 
@@ -54,4 +55,31 @@ TEST_CASE("an element on other dofs has the same energy, mass and derivative") {
   CHECK(relative_error(b.h[0][2], a.h[0][2]) < 1e-13);
   CHECK(relative_error(b.M[0][1], a.M[0][1]) < 1e-13);
   CHECK_THROWS_AS(fem::transformed(maps, MatrixXd::Identity(6, 6)), InputError);
+}
+
+TEST_CASE("an element of a rigid region is not strained by a rotation, to second order") {
+  const Vector3d nodes[] = {{0.2, -0.1, 0}, {1.3, 0.2, 0.1}, {0.5, 0.9, 0}}, leader(-0.4, 0.7, 1.1);
+  fem::ShellSection section = fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.1, 0}});
+  section.strains = fem::Strains::second_order;
+  fem::ElementMaps maps = fem::shell_triangle({nodes[0], nodes[1], nodes[2]}, section);
+  maps.bending.setZero();
+  for (const auto& point : fem::shell_triangle_bending_points({nodes[0], nodes[1], nodes[2]}, section))
+    maps.membrane.push_back(point);
+  MatrixXd T(18, 6);
+  std::vector<fem::RigidArm> arms;
+  for (int i = 0; i < 3; ++i) {
+    T.middleRows<6>(6 * i) = fem::rigid_arm(Vector3d(nodes[i] - leader));
+    arms.push_back({6 * i, 3, nodes[i] - leader});
+  }
+  const VectorXd q = Random(54).vector(6);
+  const auto membrane = [&](const fem::ElementMaps& of) {  // strains of the membrane, and drilling
+    double square = 0;
+    for (const std::size_t point : {0, 3}) {
+      const fem::StrainPoint& g = of.membrane[point];
+      square += (g.L * q + g.bilinear(g.G * q, g.G * q) / 2).squaredNorm();
+    }
+    return std::sqrt(square);
+  };
+  CHECK(membrane(fem::transformed(maps, T, arms)) < 1e-14);
+  CHECK(membrane(fem::transformed(maps, T)) > 0.1);
 }

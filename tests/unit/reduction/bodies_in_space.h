@@ -31,10 +31,13 @@ struct SpatiallyHeld {
 };
 
 /// A plate of 1 x 0.7 x 0.02 of triangles or quadrilaterals; original nodes row by row along x.
-inline fem::Structure small_plate(MPI_Comm comm, mesh::ShellCells cells, Spread spread) {
+inline fem::Structure small_plate(MPI_Comm comm, mesh::ShellCells cells, Spread spread,
+                                  fem::Strains strains = fem::Strains::von_karman) {
   mesh::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 4, 3};
   plate.cells = cells;
-  return structure_of(mesh::plate(comm, plate), {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})}, spread);
+  fem::ShellSection section = fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}});
+  section.strains = strains;
+  return structure_of(mesh::plate(comm, plate), {section}, spread);
 }
 
 /// The corners of a plate's edge x = 0.
@@ -50,12 +53,16 @@ inline fem::Structure small_frame(MPI_Comm comm, Spread spread) {
   return structure_of(mesh::polyline(comm, lines), {beam}, spread);
 }
 
-/// Small bodies of every kind of cell.
-enum class What { triangles, quadrilaterals, beams, mixed };
+/// Small bodies of every kind of cell; flat and mixed ones whose shells have strains of second order, the latter with
+/// nodes that follow others.
+enum class What { triangles, quadrilaterals, beams, mixed, second_order, linked_second_order };
 
 inline fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
   if (what == What::mixed) return mixed_structure(comm, spread);
   if (what == What::beams) return small_frame(comm, spread);
+  if (what == What::second_order)
+    return small_plate(comm, mesh::ShellCells::quadrilaterals, spread, fem::Strains::second_order);
+  if (what == What::linked_second_order) return linked_structure(comm, spread, fem::Strains::second_order);
   return small_plate(comm, what == What::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals,
                      spread);
 }

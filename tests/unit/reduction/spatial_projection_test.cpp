@@ -36,7 +36,8 @@ VectorXd force_of(const body::Elasticity& e, const VectorXd& eta) {
 }  // namespace
 
 TEST_CASE("reduced energy and force of bodies in space equal the projected full ones") {
-  const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed);
+  const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed, What::second_order,
+                             What::linked_second_order);
   const Reduced r(what, PETSC_COMM_WORLD, Spread::shuffled, 3);
   CHECK(r.basis.columns > 3);
   const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
@@ -124,5 +125,28 @@ TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place 
     CHECK(place.x == Eigen::VectorXd(raw.positions[original]));
     CHECK(place.S == V.middleRows(6 * original, 3));
     CHECK(place.psi == V.middleRows(6 * original + 3, 3));
+  }
+}
+
+TEST_CASE("strains of second order: a flat body leaves out the products of bending and in-plane columns") {
+  const Reduced r(What::second_order, PETSC_COMM_WORLD, Spread::shuffled, 4);
+  const std::size_t k = static_cast<std::size_t>(r.basis.columns);
+  CHECK(r.body.elasticity.pairs.size() < k * (k + 1) / 2);
+  CHECK(r.body.elasticity.pairs.size() > 4 * 5 / 2);  // those of the modes, and of the columns in the plane
+}
+
+TEST_CASE("strains of second order: loads of derivatives are those of the elements, one by one") {
+  const What what = GENERATE(What::second_order, What::linked_second_order);
+  const SpatiallyHeld held(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
+  const fem::Structure& s = held.structure;
+  std::vector<petsc::VecHandle> fields;
+  for (unsigned seed : {1u, 2u, 3u})
+    fields.push_back(testing::field_of_originals(s, testing::Random(seed).vector(s.dofs())));
+  const std::vector<std::array<int, 2>> pairs{{0, 0}, {0, 2}, {1, 2}};
+  const auto found = fem::stiffness_derivatives(s, fields, pairs);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const VectorXd expected =
+        testing::in_original_order(s, fem::stiffness_derivative(s, fields[pairs[p][0]], fields[pairs[p][1]]));
+    CHECK(testing::relative_error(testing::in_original_order(s, found[p]), expected) < 1e-10);
   }
 }
