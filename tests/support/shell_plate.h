@@ -136,11 +136,15 @@ inline void add_tension(const fem::ElementMaps& maps, const Eigen::VectorXd& q, 
   }
 }
 
-/// Equilibrium of the von Karman energy with `load`, by Newton in `stages` of equal growth.
-inline Eigen::VectorXd equilibrium(const Plate& p, const fem::ShellSection& section, const Eigen::VectorXd& load,
-                                   int stages) {
+inline std::vector<fem::ElementMaps> all_maps(const Plate& p, const fem::ShellSection& section) {
   std::vector<fem::ElementMaps> maps;
   for (const auto& c : p.cells) maps.push_back(maps_of(p, c, section));
+  return maps;
+}
+
+/// Equilibrium of the energy with `load`, by Newton in `stages` of equal growth. @param maps  of the cells
+inline Eigen::VectorXd equilibrium(const Plate& p, const std::vector<fem::ElementMaps>& maps,
+                                   const Eigen::VectorXd& load, int stages) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(p.dofs());
   for (int stage = 1; stage <= stages; ++stage)
     for (int round = 0; round < 40; ++round) {
@@ -159,6 +163,11 @@ inline Eigen::VectorXd equilibrium(const Plate& p, const fem::ShellSection& sect
       if (step.norm() < 1e-9 * q.norm()) break;
     }
   return q;
+}
+
+inline Eigen::VectorXd equilibrium(const Plate& p, const fem::ShellSection& section, const Eigen::VectorXd& load,
+                                   int stages) {
+  return equilibrium(p, all_maps(p, section), load, stages);
 }
 
 /// The lowest angular frequencies, by subspace iteration [rad/s].
