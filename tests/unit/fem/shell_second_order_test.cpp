@@ -152,8 +152,8 @@ TEST_CASE("second order: a square tube of ten sides bends as CalculiX has it, by
 }
 
 // The loss or gain of deflection against the linear response; the true tube stays linear in its twist to second order.
-// Of first order the end is 16 % too stiff against bending and 25 % against twist; of second order -1.1 % and +3.6 % are
-// left, of the strains e(T q, R(q, q)) of third order, which are dropped.
+// Of first order the end is 16 % too stiff against bending and 25 % against twist; of second order -1.1 % (against a
+// cap that is not quite rigid) and +3.6 % are left. Strains e(T q, R(q, q)) of third order are dropped.
 TEST_CASE("second order: a tube with a rigid end, bent by a fifth of its length and twisted by 0.2 rad") {
   VectorXd force = VectorXd::Zero(6), moment = VectorXd::Zero(6);
   force[2] = tip_force(10, 0.2), moment[3] = 0.2 * 7e10 / 2.6 * 0.05 / 10;
