@@ -160,7 +160,7 @@ def numbers_of_the_files(folder):
 def faults(folder):
     """One line, exit code 2, nothing written."""
     for words, phrase in (
-            (["nothing"], "plot: nothing: is not there"),
+            (["nothing"], "plot: nothing: does not exist"),
             (["crank", "--kind", "energies"], "--kind energies: expected of probes, energy,"),
             (["crank", "--kind", "campbell"], "crank can be drawn as probes, energy, deformed, animation, shapes"),
             (["crank", "-o", "one.png"], "--out one.png: names one picture for several"),

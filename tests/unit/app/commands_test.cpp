@@ -196,7 +196,7 @@ TEST_CASE("modes: a hinged beam at (n pi / L)^2 sqrt(EI / rhoA); files that are 
 TEST_CASE("check: counts of elements, dofs, coordinates, multipliers and steps") {
   const std::string joints = "joints:\n  root: {type: revolute, between: [ground, beam.start]}\n";
   const std::string still = printed([&] { app::check(parsed(beam(joints)), PETSC_COMM_WORLD); });
-  CHECK_THAT(still, Contains("30 coordinates and 2 multipliers at full order") && Contains("no motion") &&
+  CHECK_THAT(still, Contains("30 coordinates and 2 multipliers of the full-order model") && Contains("no motion") &&
                         Contains("1 joints, 0 loads, 0 probes") && Contains("all 6 static derivatives"));
   const auto said = [&](const std::string& motion) {
     return printed([&] { app::check(parsed(beam(joints + motion)), PETSC_COMM_WORLD); });

@@ -16,5 +16,5 @@ TEST_CASE("a warning of a sweep names the first member and counts the others") {
   SweepWarning warning{"too far", {7}, {{"F", 0.1}, {"loads.tip.force[2]", -20}}};
   CHECK(words_of(warning) == "too far (member 7: F = 0.1, loads.tip.force[2] = -20)");
   warning.members = {7, 9, 12};
-  CHECK(words_of(warning) == "too far (member 7: F = 0.1, loads.tip.force[2] = -20; likewise 2 more)");
+  CHECK(words_of(warning) == "too far (member 7: F = 0.1, loads.tip.force[2] = -20; 2 more likewise)");
 }

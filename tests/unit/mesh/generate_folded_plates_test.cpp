@@ -78,7 +78,7 @@ TEST_CASE("one plate alone and plates with one corner in common") {
 TEST_CASE("plates that do not fit are named") {
   const Plate web{{0, 0, 0}, {4, 0, 0}, {0, 0, 1}, 6, 2}, flange{{0, 0, 1}, {4, 0, 0}, {0, 1, 0}, 5, 3};
   CHECK(fault({{"web", web}, {"flange", flange}}) ==
-        "folded plates: web and flange have an edge in common, with 6 and 5 cells along it");
+        "folded plates: web and flange have an edge in common, with 6 and 5 elements along it");
   Plate graded = flange;
   graded.na = 6;
   graded.grading_a = 2;

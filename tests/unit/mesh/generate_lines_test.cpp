@@ -95,7 +95,7 @@ TEST_CASE("bad lattices are refused") {
     return testing::fault_of([&] { mesh::lattice(PETSC_COMM_WORLD, lattice); });
   };
   CHECK(fault({1, 0, 1, {1, 1, -1}}) ==
-        "lattice: ny = 0, expected at least 1\nlattice: cell size along z = -1, expected a number above 0");
+        "lattice: ny = 0, expected at least 1\nlattice: unit cell size along z = -1, expected a number above 0");
   CHECK_THAT(fault({1, 1, 1, {1, std::nan(""), 1}}), Contains("along y = nan"));
   if (sizeof(PetscInt) == 4) CHECK_THAT(fault({1000, 1000, 1000, {1, 1, 1}}), Contains("petsc64"));
 }

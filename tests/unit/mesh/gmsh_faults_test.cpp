@@ -25,7 +25,7 @@ std::string with(std::string text, const std::string& old, const std::string& fr
 TEST_CASE("files that are no mesh are refused") {
   CHECK_THAT(testing::fault_of([] { mesh::read_gmsh(PETSC_COMM_WORLD, "no/such.msh"); }),
              Contains("no/such.msh: cannot be opened: No such file"));
-  CHECK_THAT(testing::fault_of([] { mesh::read_gmsh(PETSC_COMM_WORLD, "tests"); }), Contains("tests: is no file"));
+  CHECK_THAT(testing::fault_of([] { mesh::read_gmsh(PETSC_COMM_WORLD, "tests"); }), Contains("tests: is not a file"));
   CHECK(said("") == "bad.msh: is empty");
   std::string garbage;
   for (int i = 0; i < 4096; ++i) garbage += static_cast<char>((i * 2654435761u) >> 13);

@@ -35,7 +35,7 @@ TEST_CASE("keywords, parameters and types that are not read are told, all of the
                                 "*ELEMNT, TYPE=S3\n3, 1, 2, 4\n*NSET, NST=a\n1\n*ELEMENT, TYPE=S8R\n"
                                 "9, 1, 2, 3, 4, 1, 2, 3, 4\n*PLASTIC\n1, 0\n*STEP\n*END\n");
   CHECK_THAT(text, Contains("bad.inp:14: keyword '*ELEMNT' is not read, did you mean *ELEMENT?"));
-  CHECK_THAT(text, Contains("bad.inp:16: parameter 'NST' of *NSET is not known, did you mean NSET?"));
+  CHECK_THAT(text, Contains("bad.inp:16: parameter 'NST' of *NSET is unknown, did you mean NSET?"));
   CHECK_THAT(text, Contains("bad.inp:18: elements of type 'S8R' are not read (B31, B33, MASS, S3,"));
   CHECK_THAT(text, Contains("bad.inp:20: keyword '*PLASTIC' is not read"));
   CHECK_THAT(text, Contains("bad.inp:22: *STEP has no *END STEP"));
@@ -129,5 +129,5 @@ TEST_CASE("at most twenty faults are told") {
   std::string text = nodes + elements + section;
   for (int i = 0; i < 50; ++i) text += "*NONSENSE\n";
   CHECK_THAT(said(text),
-             Contains("bad.inp:33: keyword") && !Contains("bad.inp:34:") && Contains("the first 20 are told"));
+             Contains("bad.inp:33: keyword") && !Contains("bad.inp:34:") && Contains("the first 20 are listed"));
 }

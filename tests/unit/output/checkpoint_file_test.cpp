@@ -60,7 +60,7 @@ TEST_CASE("what is no whole checkpoint is refused") {
   const Scratch scratch;
   const auto path = scratch / "checkpoint.h5";
   const auto read = [&] { return output::read_checkpoint(PETSC_COMM_WORLD, path); };
-  CHECK_THROWS_WITH(read(), Catch::Contains("is not there"));
+  CHECK_THROWS_WITH(read(), Catch::Contains("does not exist"));
   output::write_checkpoint(PETSC_COMM_WORLD, path, sample());
   std::uintmax_t size = std::filesystem::file_size(path);
   MPI_Barrier(PETSC_COMM_WORLD);

@@ -96,7 +96,7 @@ TEST_CASE("compare.py tells bad input in one line and exits with 2") {
   std::ofstream(folder / "compare.json") << "{";
   refuses("not JSON");
   std::ofstream(folder / "compare.json") << "{}";
-  refuses("lacks 'runs'");
+  refuses("has no 'runs'");
   describe(folder, "cfr", "tip.y");
   refuses("cfr/probes.csv: No such file");
   sample(folder, "cfr", 0, 50);

@@ -109,7 +109,7 @@ TEST_CASE("an orientation along the line or zero turns no section") {
 
 TEST_CASE("sections fit the cells of the mesh") {
   const Faults expected{
-      "s.yaml:2:3: bodies.b: the cell at (0, 0, 0) has a section of another kind: lines are beams, triangles and "
+      "s.yaml:2:3: bodies.b: the element at (0, 0, 0) has a section of another kind: lines are beams, triangles and "
       "quadrilaterals shells"};
   CHECK(faults_of(one_body(testing::line, testing::thickness + testing::metal)) == expected);
   CHECK(faults_of(one_body(testing::plate, testing::tube + testing::metal)) == expected);
@@ -217,7 +217,7 @@ TEST_CASE("what bodies and joints in space do not know is refused, not left asid
     return faults_of(one_body(testing::plate, testing::thickness + testing::metal + "    " + key + "\n"));
   };
   CHECK(with("rotary_inertia: false") ==
-        Faults{"s.yaml:6:21: bodies.b.rotary_inertia: does not apply here; expected it only in a planar scene"});
+        Faults{"s.yaml:6:21: bodies.b.rotary_inertia: does not apply here; expected this key only in planar scenes"});
   CHECK(with("frames: 2").size() == 1);
   CHECK(with("initial: {angle: 1}").size() == 1);
   CHECK(with("initial: {rotation: [0, 0, 1], angular_velocity: [1, 2, 3]}").empty());

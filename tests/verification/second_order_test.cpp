@@ -1,0 +1,86 @@
+#include <catch2/catch.hpp>
+
+#include "floe/solve/start.h"
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+using scene::Formulation;
+
+namespace {
+
+/// A square tube of shells, side 1, 10 sides long and t = 0.05, as a deck: n elements along it, m on each side.
+void write_tube(const std::string& path, int n, int m) {
+  const int ring = 4 * m;
+  std::string text = "*NODE\n";
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j < ring; ++j) {
+      const double s = double(j % m) / m;
+      const double y[] = {s - 0.5, 0.5, 0.5 - s, -0.5}, z[] = {-0.5, s - 0.5, 0.5, 0.5 - s};
+      text += fmt::format("{}, {}, {}, {}\n", i * ring + j + 1, 10.0 * i / n, y[j / m], z[j / m]);
+    }
+  text += "*ELEMENT, TYPE=S4, ELSET=ALL\n";
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < ring; ++j) {
+      const int a = i * ring + j + 1, b = i * ring + (j + 1) % ring + 1;
+      text += fmt::format("{}, {}, {}, {}, {}\n", a, a, a + ring, b + ring, b);
+    }
+  for (const auto& [name, first] : {std::pair("ROOT", 0), std::pair("TIP", n * ring)}) {
+    text += fmt::format("*NSET, NSET={}\n", name);
+    for (int j = 1; j <= ring; ++j) text += fmt::format("{}\n", first + j);
+  }
+  text += "*MATERIAL, NAME=M\n*ELASTIC\n7e10, 0.3\n*DENSITY\n2700\n*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.05\n";
+  write_text(path, text);
+}
+
+/// The last probe values of equilibria in steps of the load.
+std::vector<double> loaded(const std::string& text, Formulation formulation, int steps, const std::string& name) {
+  const assembly::Model model = assembly::build(scene::parse_scene(text, name), formulation, PETSC_COMM_WORLD);
+  for (int i = 1; i <= steps; ++i) solve::equilibrium(*model.system, double(i) / steps, model.U, model.V);
+  return assembly::probe_values(model, 1, model.U, model.V);
+}
+
+}  // namespace
+
+// w/L of CalculiX 2.20 (S8R, 40 elements along the tube, NLGEOM) for the force that bends its line by 4 and 10 % of L
+// by beam theory, P = 3 EI d/L^2.
+TEST_CASE("second order: a square tube of shells bends as in CalculiX with large displacements") {
+  Scratch scratch;
+  write_tube((scratch.path / "tube.inp").string(), 40, 4);
+  const auto tip = [&](double deflection) {
+    const double EI = 7e10 * 0.05 * 2 / 3, L = 10;
+    return loaded(fill(R"yaml(
+bodies: {tube: {mesh: {file: {path: tube.inp}}, strains: second_order}}
+joints: {root: {type: fixed, between: [ground, tube.ROOT]}}
+loads: {tip: {type: force, at: tube.TIP, force: [0, 0, "$P*t"]}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: tube.TIP}}
+)yaml",
+                       {{"P", number(3 * EI * deflection / (L * L))}}),
+                  Formulation::nlffr, 4, (scratch.path / "scene.yaml").string())[2] /
+           L;
+  };
+  CHECK(tip(0.04) == Approx(0.041562).epsilon(5e-3));
+  CHECK(tip(0.1) == Approx(0.103957).epsilon(5e-3));
+}
+
+// A narrow cantilever at 0.9 of its lateral buckling load 4.0126 sqrt(EI GJ) / L^2 with a small lateral force. The
+// deflection is amplified about four times; corotational beams are the geometrically exact reference.
+TEST_CASE("second order: a narrow cantilever near its lateral buckling load, in one frame, as corotational beams") {
+  const std::string text = fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 32}}
+    section: {A: 1e-4, Iy: 1e-11, Iz: 1e-7, J: 4e-11, orientation: [0, 1, 0]}
+    material: {E: 7e10, G: 2.6e10, rho: 2700}
+    strains: second_order
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "$P*t", "1e-4*t"]}}
+motion: {end: 1, step: 1e-2}
+probes: {tip: {at: beam.end}}
+)yaml",
+                                {{"P", number(0.9 * 4.0126 * std::sqrt(7e10 * 1e-11 * 2.6e10 * 4e-11))}});
+  const double exact = loaded(text, Formulation::cfr, 9, "scene")[2];
+  CHECK(exact > 3.5 * 1e-4 / (3 * 7e10 * 1e-11));
+  CHECK(loaded(text, Formulation::nlffr, 9, "scene")[2] == Approx(exact).epsilon(2e-3));
+}
