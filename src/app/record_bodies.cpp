@@ -76,7 +76,8 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
       group + "/nodes_of_motion", body.nodes, 4, mesh.shapes, rows,
       {"",
        (in_world && body.dimension == 3
-            ? "first column of motion/U of the position and of the rotation vector from the undeformed body, in world axes"
+            ? "first column of motion/U of the position and of the rotation vector from the undeformed body, in world "
+              "axes"
             : std::string("first column of motion/U of the displacements and rotations, in ") +
                   (in_world ? "world axes" : "the axes of the floating frame")) +
            ", of which the node's displacement depends; offset of the node from the node that has them, not zero for a "

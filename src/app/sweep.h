@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "floe/output/folder.h"
 #include "floe/assembly/reduce_once.h"
+#include "floe/output/folder.h"
 #include "floe/scene/variation.h"
 
 namespace floe::app {

@@ -76,7 +76,8 @@ std::vector<StrainPoint> second_order_strains(const BeamFrame& f, const SpatialB
   const ShearRows D = -6 / (l * l) * antisymmetric(l);
   Row12 mean_v = Row12::Zero(), mean_w = Row12::Zero();
   mean_v[5] = mean_w[10] = -1 / l, mean_v[11] = mean_w[4] = 1 / l;
-  Strain mean_z = of_own(mean_v, f), mean_y = of_own(mean_w, f), odd_z = of_own(D.row(0), f), odd_y = of_own(D.row(1), f);
+  Strain mean_z = of_own(mean_v, f), mean_y = of_own(mean_w, f), odd_z = of_own(D.row(0), f),
+         odd_y = of_own(D.row(1), f);
   const Row8 phi = field(twist(0.5)), half = field(twist(1)) - phi;  // twist = phi + (2 s - 1) half
   const auto add = [&](double sign, const Row8& mean, const Row8& odd, Strain& to_mean, Strain& to_odd) {
     to_mean.P += sign * (product(phi, mean) + product(half, odd) / 3);
@@ -88,7 +89,8 @@ std::vector<StrainPoint> second_order_strains(const BeamFrame& f, const SpatialB
   const Eigen::Matrix2d stretch_and_twist = Eigen::Vector2d(section.EA, section.GJ).asDiagonal();
   Eigen::Matrix2d EI;
   EI << section.EIz, section.EIyz, section.EIyz, section.EIy;
-  const Eigen::Matrix2d odd = section.shears() ? Eigen::Matrix2d(l * l * l / 36 * antisymmetric_stiffness(section, l)) : EI / 3;
+  const Eigen::Matrix2d odd =
+      section.shears() ? Eigen::Matrix2d(l * l * l / 36 * antisymmetric_stiffness(section, l)) : EI / 3;
   return {point_of(eps, tau, stretch_and_twist, f), point_of(mean_z, mean_y, EI, f), point_of(odd_z, odd_y, odd, f)};
 }
 

@@ -51,8 +51,8 @@ std::optional<fem::Strains> read_strains(Document& document, Reading& body) {
   using fem::Strains;
   if (!body.given("strains")) return {};
   const std::size_t before = document.fault_count();
-  const auto strains = body.choice<Strains>(
-      "strains", {{"von_karman", Strains::von_karman}, {"second_order", Strains::second_order}});
+  const auto strains =
+      body.choice<Strains>("strains", {{"von_karman", Strains::von_karman}, {"second_order", Strains::second_order}});
   if (document.fault_count() != before) return {};
   if (strains == Strains::second_order && body.given("strain") && body.choice("strain") == "pointwise")
     document.fault(body.where("strain"), "is pointwise with strains of second order", "averaged");

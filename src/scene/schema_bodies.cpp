@@ -26,11 +26,12 @@ const SchemaSection body_section{
         choice("strain", "averaged",
                "membrane strain of an element: averaged over its length (no membrane locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
-        choice("strains", "",
-               "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
-               "second_order (beams: coupling of bending and torsion; shells: Green-Lagrange, in-plane gradients too, and "
-               "second-order rotation of rigid regions); planar scenes have von_karman only; absent: von_karman",
-               {"von_karman", "second_order"}),
+        choice(
+            "strains", "",
+            "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
+            "second_order (beams: coupling of bending and torsion; shells: Green-Lagrange, in-plane gradients too, and "
+            "second-order rotation of rigid regions); planar scenes have von_karman only; absent: von_karman",
+            {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
         {"rigid", Type::flag, "", "false",
          "rigid body: EA and EI may be absent; frame, reduction, damping and deformation have no effect"},

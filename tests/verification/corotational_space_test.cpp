@@ -13,7 +13,7 @@ History follow(const std::string& text, int steps) {
   History history = history_of(text, Formulation::cfr);
   for (int i = 1; i <= steps; ++i)
     solve::follow_equilibrium(*history.model.system, double(i - 1) / steps, double(i) / steps, 1e-3, history.model.U,
-                                 history.model.V, [](const solve::BranchJump&, Vec, Vec) {});
+                              history.model.V, [](const solve::BranchJump&, Vec, Vec) {});
   store(history, 1, history.model.U, history.model.V);
   return history;
 }

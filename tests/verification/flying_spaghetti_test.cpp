@@ -38,7 +38,8 @@ Eigen::VectorXd ends(const History& at) {
 }  // namespace
 
 // Independent converged computation: geometrically exact shear-flexible elements, linear with one point, extrapolated
-// from 32 and 64 of them and from steps of 0.02 and 0.01 s, certain to .001; the extrapolation of the frames adds .0005.
+// from 32 and 64 of them and from steps of 0.02 and 0.01 s, certain to .001; the extrapolation of the frames adds
+// .0005.
 TEST_CASE("spaghetti in the plane: the ends of the flying beam with shear, in 4, 8 and 16 frames") {
   Eigen::VectorXd table(8);
   table << 3.5781, 0.0539, 3.8383, 8.5401, 18.5849, 7.9246, 12.0207, 0.3973;

@@ -9,7 +9,8 @@ namespace floe::fem {
 ///   in_plane   shells with von Karman's strains, against Green-Lagrange: membrane forces N on the squares of the
 ///              gradients of (u, v) in the plane of each element; zero where the section has strains of second order
 ///                S = 1/2 int N_xx (u_x^2 + v_x^2) + N_yy (u_y^2 + v_y^2) + 2 N_xy (u_x u_y + v_x v_y)
-///   coupling   spatial beams with Strains::von_karman: curvatures and twist rate of the section as it is rotated, with phi its twist,
+///   coupling   spatial beams with Strains::von_karman: curvatures and twist rate of the section as it is rotated, with
+///   phi its twist,
 ///                kappa_z = v'' + phi w'',   -kappa_y = w'' - phi v'',   tau = phi' + 1/2 (w' v'' - v' w''),
 ///              v' = theta_z + 1/2 phi theta_y and w' = -theta_y + 1/2 phi theta_z at the nodes; S is half the second
 ///              variation of 1/2 int EI kappa^2 + GJ tau^2 less that of the linear curvatures, moments being those of

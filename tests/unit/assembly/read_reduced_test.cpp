@@ -63,7 +63,8 @@ TEST_CASE("keys beside a reduced body are refused, each where it stands") {
         "s.yaml:4:12: bodies.b.rigid: does not apply together with reduced; expected this key only with a mesh");
   CHECK(found.size() == 6);
   CHECK(files.faults("bodies: {b: {reduced: beam.h5, initial: {angle: 1, deformation: [0, x]}}}\n") ==
-        Faults{"s.yaml:1:65: bodies.b.initial.deformation: does not apply to a body from a file; expected this key only with "
+        Faults{"s.yaml:1:65: bodies.b.initial.deformation: does not apply to a body from a file; expected this key "
+               "only with "
                "a mesh"});
   CHECK(files.faults("bodies: {b: {reduced: plate.h5, initial: {angle: 1}}}\n") ==
         Faults{"s.yaml:1:50: bodies.b.initial.angle: does not apply here; expected this key only in planar scenes"});

@@ -69,8 +69,8 @@ double critical(const testing::BeamChain& chain, const Load& load) {
 TEST_CASE("strains of second order have the linear stiffness of von Karman's, and in one plane their energy") {
   const bool eccentric = GENERATE(false, true), shears = GENERATE(false, true);
   const fem::SpatialBeamSection s = section(eccentric, shears);
-  CHECK(relative_error(fem::spatial_beam(oblique, s, second_order).stiffness(), fem::spatial_beam(oblique, s).stiffness()) <
-        1e-13);
+  CHECK(relative_error(fem::spatial_beam(oblique, s, second_order).stiffness(),
+                       fem::spatial_beam(oblique, s).stiffness()) < 1e-13);
   fem::SpatialBeamSection symmetric = section(false, shears);
   symmetric.EIyz = 0;
   const fem::BeamPlace along{{0, 0, 0}, {0.8, 0, 0}, {0, 1, 0}};
@@ -91,7 +91,8 @@ TEST_CASE("a rigid rotation by a costs strains of second order an energy of orde
 }
 
 TEST_CASE("a kinked line of two members, turned anyhow, costs an energy of order a^6") {
-  const fem::BeamPlace first{{0, 0, 0}, {0.7, 0.1, 0}, {0, 1, 0.2}}, second{{0.7, 0.1, 0}, {0.9, 0.6, 0.4}, {1, 0, 0.3}};
+  const fem::BeamPlace first{{0, 0, 0}, {0.7, 0.1, 0}, {0, 1, 0.2}},
+      second{{0.7, 0.1, 0}, {0.9, 0.6, 0.4}, {1, 0, 0.3}};
   const fem::SpatialBeamSection s = section(true, false);
   const fem::ElementMaps a = fem::spatial_beam(first, s, second_order), b = fem::spatial_beam(second, s, second_order);
   const auto whole = [&](double turn, const Vector3d& t) {  // the node between has one rotation vector
@@ -137,7 +138,8 @@ TEST_CASE("lateral buckling of a narrow beam within 0.3 % from 16 elements: Mich
   CHECK(critical(held, moments) == Approx(before).epsilon(0.003));
 }
 
-// At 0.9 of the load with 0.005 of it sideways, a geometrically exact rod (lateral_buckling.py); 0.0067 without coupling.
+// At 0.9 of the load with 0.005 of it sideways, a geometrically exact rod (lateral_buckling.py); 0.0067 without
+// coupling.
 TEST_CASE("a narrow cantilever near its lateral buckling load deflects as the geometrically exact rod") {
   const fem::SpatialBeamSection s{1e6, 1, 1e3, 0, 1, 0, 0, 0, 0};
   const testing::BeamChain chain = testing::beam_chain(32, 1, s, testing::clamped_root, second_order);

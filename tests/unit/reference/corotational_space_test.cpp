@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
-#include "floe/solve/branch.h"
 #include "floe/error.h"
 #include "floe/reference/facet_pressure.h"
+#include "floe/solve/branch.h"
 #include "scene_motion.h"
 #include "spatial_terms.h"
 
@@ -18,7 +18,7 @@ History follow(const std::string& text, int steps) {
   History history = history_of(text, Formulation::cfr);
   for (int i = 1; i <= steps; ++i)
     solve::follow_equilibrium(*history.model.system, double(i - 1) / steps, double(i) / steps, 1e-3, history.model.U,
-                                 history.model.V, [](const solve::BranchJump&, Vec, Vec) {});
+                              history.model.V, [](const solve::BranchJump&, Vec, Vec) {});
   store(history, 1, history.model.U, history.model.V);
   return history;
 }
@@ -107,7 +107,7 @@ TEST_CASE("cfr in space: a mechanism of shells, beams and a rigid body moves ali
   solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   std::vector<double> last;
   solve::simulate(*alone.system, how, alone.U, alone.V,
-                     [&](const solve::Instant& now) { last = assembly::probe_values(alone, now.t, now.U, now.V); });
+                  [&](const solve::Instant& now) { last = assembly::probe_values(alone, now.t, now.U, now.V); });
   const auto columns = assembly::probe_columns(at.model);
   double greatest = 0;
   for (std::size_t c = 0; c < columns.size(); ++c) {
