@@ -25,7 +25,7 @@ def prepare(folder):
     (folder / "cut.h5").write_bytes((folder / "body.h5").read_bytes()[:3000])
     with h5py.File(folder / "other.h5", "w") as file:
         file["a"] = 1
-    changed(folder, "later.h5", lambda file: file.attrs.modify("version", 2))
+    changed(folder, "later.h5", lambda file: file.attrs.modify("version", 3))
     changed(folder, "partial.h5", lambda file: file.attrs.modify("complete", 0))
     changed(folder, "lacking.h5", lambda file: file.__delitem__("elasticity/F"))
 
@@ -49,7 +49,7 @@ CASES = [  # words, what the line says
     (["body.h5", "-o", "body"], "ends in .npz"),
     (["body.h5", "-o", "body.x", "--format", "nastran"], "npz"),
     (["body.h5"], "--out"),
-    (["absent.h5", "-o", "a.npz"], "absent.h5: is not there"),
+    (["absent.h5", "-o", "a.npz"], "absent.h5: does not exist"),
     (["folder.xml", "-o", "a.npz"], "found a folder"),
     (["text.h5", "-o", "a.npz"], "text.h5: expected a file written by floe reduce"),
     (["cut.h5", "-o", "a.npz"], "cut.h5: expected a file written by floe reduce"),

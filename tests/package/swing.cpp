@@ -1,8 +1,8 @@
 // How long the first swing of a flexible pendulum takes, for several lengths: floe as a library.
-#include <floe/dynamics/generalized_alpha.h>
-#include <floe/dynamics/simulation.h>
+#include <floe/assembly/model.h>
 #include <floe/petsc/error.h>
-#include <floe/scene/model.h>
+#include <floe/solve/generalized_alpha.h>
+#include <floe/solve/simulation.h>
 #include <slepc.h>
 
 #include <cstdio>
