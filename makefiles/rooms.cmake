@@ -1,7 +1,7 @@
 # Each room (= folder = namespace = target): what it is for, and the rooms that it may use. tests/rooms.cmake checks the
 # includes against this list, and writes the table of docs/architecture.md from it.
 floe_room(petsc "handles, errors across ranks, factorisations, log stages")
-floe_room(math "formulas of the input, rotations, quadrature" )
+floe_room(math "formulas of the input, rotations, quadrature")
 floe_room(body "one body in its floating frame: inertia constants, elastic energy as a sum of squares, damping" math)
 floe_room(mesh "mesh files, generated meshes, partition over ranks" petsc math)
 floe_room(fem "elements, assembly, reference conditions" mesh body petsc math)
