@@ -93,7 +93,7 @@ bool turns_node(const assembly::BodyReport& body, int x) {
 }  // namespace
 
 petsc::VecHandle shown_state(const assembly::Model& model, Vec U) {
-  if (model.formulation != scene::Formulation::cfr || model.system->attitudes().empty()) return {};
+  if (model.formulation != scene::Formulation::cfr || !model.system->has_attitudes()) return {};
   petsc::VecHandle shown;
   Eigen::VectorXd q;
   model.system->gather(U, q);

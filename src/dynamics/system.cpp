@@ -22,6 +22,9 @@ System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms
   const int mine = identity_;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_LAND, comm());
   identity_ = all;
+  const int turns = !attitudes_.empty();
+  MPI_Allreduce(&turns, &all, 1, MPI_INT, MPI_LOR, comm());
+  has_attitudes_ = all;
   int ranks = 1;
   MPI_Comm_size(comm(), &ranks);
   whole_ = ranks == 1;

@@ -13,7 +13,7 @@ void set_owned(const Coordinates& coordinates, petsc::Values& owned, int i, doub
 }  // namespace
 
 void System::rebase(Vec U) const {
-  if (attitudes_.empty()) return;
+  if (!has_attitudes_) return;
   gather(U, local_.q);
   petsc::Values owned(U);
   for (const auto& [first, attitude] : attitudes_) {

@@ -5,7 +5,7 @@
 namespace floe::solve {
 
 AtBase::AtBase(const System& system, Vec U) : system_(system), U_(U) {
-  if (system.attitudes().empty()) return;
+  if (!system.has_attitudes()) return;
   {
     petsc::Values values(U);
     for (const auto& [first, attitude] : system.attitudes()) {

@@ -189,7 +189,7 @@ void refuse_other_types(TS ts, const System& system, const std::string& prefix) 
         fmt::format("option -{}ts_type {}: integrates first-order systems, and the equations of motion are of second "
                     "order; expected {} or {}",
                     prefix, type, generalized_alpha, TSALPHA2));
-  if (!system.attitudes().empty() && type != std::string(generalized_alpha))
+  if (system.has_attitudes() && type != std::string(generalized_alpha))
     throw InputError(fmt::format("option -{}ts_type {}: adds spatial rotations like vectors; expected {}", prefix, type,
                                  generalized_alpha));
 }
@@ -208,7 +208,7 @@ void set_up(TS ts, const System& system, const Integration& how, Context& contex
   const petsc::IsHandle multipliers = system.multipliers();
   check(TSGeneralizedAlphaSetMultipliers(ts, multipliers));
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
-  const bool attitudes = !system.attitudes().empty();
+  const bool attitudes = system.has_attitudes();
   const TSGeneralizedAlphaRotations rotations{attitudes ? rebase : nullptr, attitudes ? bracket : nullptr, &context,
                                               turn};
   check(TSGeneralizedAlphaSetRotations(ts, &rotations));

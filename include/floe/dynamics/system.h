@@ -23,7 +23,8 @@ using Attitudes = std::vector<std::pair<int, std::shared_ptr<Attitude>>>;
 class System {
  public:
   /// @param terms      on a parallel communicator each rank brings its own; together they are the system
-  /// @param attitudes  shared unknowns (Coordinates): the same on all ranks, where each holds a copy of every base
+  /// @param attitudes  those among this rank's local coordinates; ranks that share one hold a copy of its base each
+  /// Collective.
   System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms, Attitudes attitudes = {});
 
   const Coordinates& coordinates() const { return coordinates_; }
@@ -57,6 +58,8 @@ class System {
   Energy energy(double t, Vec U, Vec V) const;
 
   const Attitudes& attitudes() const { return attitudes_; }
+  /// Whether any rank has attitudes: the same answer on all of them.
+  bool has_attitudes() const { return has_attitudes_; }
   /// Every base takes over the rotation of U, whose three unknowns become zero: the same configuration, at which every
   /// term begins a step (Term::begin_step). Without attitudes nothing happens. Collective.
   void rebase(Vec U) const;
@@ -101,6 +104,7 @@ class System {
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;
   Attitudes attitudes_;
+  bool has_attitudes_ = false;
   /// Frames whose unknowns this rank owns, by global indices, and what rotates with them.
   struct Frame {
     PetscInt x;
