@@ -95,7 +95,7 @@ std::string frame_words(const scene::Body& body) {
 
 struct Size {
   std::int64_t elements, dofs;
-  std::string frame;
+  std::string frame, strains = "von_karman";
   std::vector<std::string> notices = {};  ///< of its mesh
 };
 
@@ -106,7 +106,7 @@ std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split,
     for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
   else
     for (const assembly::BodyReport& body : assembly::body_sizes(scene, comm))
-      sizes.push_back({body.elements, body.dofs, body.frame, body.notices});
+      sizes.push_back({body.elements, body.dofs, body.frame, body.strains, body.notices});
   return sizes;
 }
 
@@ -209,10 +209,11 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
   if (wanted || elements < greatest_built) model = assembly::build(scene, formulation, comm);
   if (!petsc::first_rank(comm)) return;
   output::Table table;
-  table.columns = {{"body", ""}, {"elements", ""}, {"dofs", ""}, {"frame", ""}, {"reduction (vm+md)", ""}};
+  table.columns = {{"body", ""},  {"elements", ""}, {"dofs", ""},
+                   {"frame", ""}, {"strains", ""},  {"reduction (vm+md)", ""}};
   for (std::size_t b = 0; b < sizes.size(); ++b)
-    table.rows.push_back(
-        {split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, basis_words(split.bodies[b])});
+    table.rows.push_back({split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, sizes[b].strains,
+                          basis_words(split.bodies[b])});
   fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
   if (model)

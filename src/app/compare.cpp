@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <optional>
 
 #include "compare_table.h"
 #include "drawing.h"
 #include "floe/output/provenance.h"
 #include "floe/output/table.h"
+#include "floe/petsc/rank.h"
 #include "interruption.h"
 #include "refined.h"
 
@@ -53,7 +55,36 @@ std::vector<output::ResultFolder> folders_of(const output::ResultFolder& folder,
   return subs;
 }
 
+bool any_of(const scene::Scene& scene, const std::function<bool(const scene::Body&)>& is) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), is);
+}
+
+std::vector<std::string> names_for(const scene::Scene& scene, MPI_Comm comm) {
+  if (any_of(scene, [](const scene::Body& body) { return !body.damping.modal.empty(); })) {
+    if (petsc::first_rank(comm)) fmt::print("Note: modal damping needs vibration modes; vm and vm+md are compared\n");
+    return {"vm", "vm+md"};
+  }
+  if (any_of(scene, [](const scene::Body& body) { return body.reduced.has_value(); })) return {"lffr", "vm", "vm+md"};
+  std::vector<std::string> names = {"nlffr", "lffr", "vm", "vm+md"};
+  const bool shears = any_of(scene, [](const scene::Body& body) { return !body.rigid && body.section.GA.has_value(); });
+  if (scene.dimension == 2 && !shears) names.insert(names.begin(), "cfr");
+  return names;
+}
+
 }  // namespace
+
+std::vector<Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names,
+                                                 MPI_Comm comm) {
+  if (names.empty()) names = names_for(scene, comm);
+  std::vector<Formulation> formulations;
+  for (const std::string& name : names) {
+    const Formulation one = scene::formulation_of(name);
+    if (std::find(formulations.begin(), formulations.end(), one) != formulations.end())
+      throw InputError(fmt::format("--formulations: \"{}\" is given twice", name));
+    formulations.push_back(one);
+  }
+  return formulations;
+}
 
 void compare(const scene::Scene& as_written, const std::vector<Formulation>& formulations, MPI_Comm comm,
              const std::string& path, bool overwrite, bool reference_error) {

@@ -6,6 +6,13 @@
 
 namespace floe::app {
 
+/// The formulations of these names, each once; without any those that the scene can have: with modal damping, with
+/// bodies from files, in space, and with shear in the plane fewer than cfr, nlffr, lffr, vm, vm+md. Prints a note where
+/// modal damping leaves only reduced ones.
+/// @throws InputError  a name is unknown, or given twice
+std::vector<scene::Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names,
+                                                        MPI_Comm comm);
+
 /// Runs a scene in several formulations and writes a folder each, one table (compare.csv, compare.md, compare.json) and
 /// one picture (compare.png). Errors are relative L2 over the horizon against cfr and against nlffr, where these are
 /// among them; the first of them is also run with mesh and step halved, to show its own error. The terminal shows

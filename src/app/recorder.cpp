@@ -35,6 +35,7 @@ ordered_json body_json(const assembly::BodyReport& body) {
   j["elements"] = body.elements;
   j["dofs"] = body.dofs;
   j["rigid"] = body.rigid;
+  if (!body.strains.empty()) j["strains"] = body.strains;
   if (!body.file.empty()) j["reduced_file"] = body.file;
   if (!body.basis && body.file.empty()) return j;
   j["reduced_coordinates"] = body.columns;

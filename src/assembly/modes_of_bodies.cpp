@@ -19,6 +19,7 @@ std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
     } else {
       const fem::Mesh& mesh = body.structure.mesh;
       report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = mesh.cell_count;
+      if (!body.spec.rigid) report.strains = body.strains;
     }
     report.name = body.spec.name, report.rigid = body.spec.rigid;
     report.notices = body.notices;

@@ -363,6 +363,7 @@ Model SpatialAssembly::model() {
     if (!body.spec.reduced)
       report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
     report.dimension = 3;
+    if (!body.spec.rigid && !body.spec.reduced) report.strains = body.strains;
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
     report.frame = name_of(plan_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();

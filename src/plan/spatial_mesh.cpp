@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "deck_sections.h"
+#include "floe/fem/default_strains.h"
 #include "floe/math/nearest.h"
 #include "floe/math/rotation.h"
 #include "floe/mesh/exchange.h"
@@ -160,17 +161,25 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
   return sections;
 }
 
-/// Strains of all elements of the body, as the scene gives them.
-void take_strains(const Body& body, std::vector<fem::Section>& sections) {
-  const auto membrane =
-      body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
+/// Gives all elements the strains that the scene asks for, or by default those that their geometry calls for.
+/// @return which, and of a default the number that decides. Collective.
+std::string take_strains(const Body& body, const fem::Mesh& mesh, std::vector<fem::Section>& sections) {
+  const bool averaged = body.strain == Strain::averaged;
+  fem::Strains strains = body.strains.value_or(fem::Strains::von_karman);
+  std::string text = strains == fem::Strains::second_order ? "second_order" : "von_karman";
+  if (!body.strains && averaged && !body.rigid) {
+    const fem::StrainsChoice choice = fem::default_strains(mesh, sections);
+    strains = choice.strains();
+    text = choice.text();
+  }
   for (fem::Section& section : sections) {
     if (auto* beam = std::get_if<fem::SpatialBeam>(&section)) {
-      beam->strain.membrane = membrane;
-      if (body.strains) beam->strain.strains = *body.strains;
+      beam->strain.membrane = averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
+      beam->strain.strains = strains;
     }
-    if (auto* shell = std::get_if<fem::ShellSection>(&section); shell && body.strains) shell->strains = *body.strains;
+    if (auto* shell = std::get_if<fem::ShellSection>(&section)) shell->strains = strains;
   }
+  return text;
 }
 
 /// Union over the ranks, ascending. Collective.
@@ -229,17 +238,20 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
   refuse_faults(body, inspection);
   std::vector<fem::Section> sections = sections_of(body, source);
-  take_strains(body, sections);
   int size = 1;
   MPI_Comm_size(comm, &size);
   const std::vector<int> ranks =
       size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
   fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
   for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
+  const std::string strains = take_strains(body, mesh, sections);
   const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;
   try {
-    SpatialMesh found{
-        fem::Structure(std::move(mesh), std::move(sections), strain), std::move(places), source.mesh.parts, {}};
+    SpatialMesh found{fem::Structure(std::move(mesh), std::move(sections), strain),
+                      std::move(places),
+                      source.mesh.parts,
+                      {},
+                      strains};
     found.notices = std::move(source.notices);
     add_middle(body, found);
     found.notices.insert(found.notices.end(), inspection.notices.begin(), inspection.notices.end());

@@ -30,7 +30,9 @@ const SchemaSection body_section{
             "strains", "",
             "terms of second order in the strains: von_karman (squares of slopes in the membrane strain) or "
             "second_order (beams: coupling of bending and torsion; shells: Green-Lagrange, in-plane gradients too, and "
-            "second-order rotation of rigid regions); planar scenes have von_karman only; absent: von_karman",
+            "second-order rotation of rigid regions); planar scenes have von_karman only; absent: von_karman in the "
+            "plane, with strain: pointwise, and for flat, wide shells in space (floe check prints the numbers), else "
+            "second_order",
             {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
         {"rigid", Type::flag, "", "false",

@@ -109,6 +109,34 @@ TEST_CASE("validity: slopes in space are reported as in the plane") {
     }
 }
 
+TEST_CASE("validity: slopes of a strip of shells under a force at its end") {
+  const std::string strip = R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.1, 0], elements: [16, 1]}}
+    section: {thickness: 0.01}
+    material: {E: 1.2e8, nu: 0, rho: 1}
+    strains: $strains
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {load: {type: force, at: strip.right, force: [0, 0, "$s*t"]}}
+probes: {tip: {at: strip.right}}
+)yaml";
+  const std::map<double, Eigen::Vector2d> exact = {{1, {-.056433236283, .30172077380}},
+                                                   {2, {-.16064172083, .49345748040}}};
+  for (const std::string strains : {"von_karman", "second_order"})
+    for (const auto& [size, at] : exact) {
+      const app::RunResult result =
+          at_rest(fill(strip, {{"strains", strains}, {"s", number(size)}}), Formulation::nlffr);
+      const std::vector<double>& tip = result.series.values.back();
+      const double error = (Eigen::Vector2d(tip.at(0), tip.at(2)) - at).norm();
+      double said = 0;
+      for (const assess::OutOfRange& one : result.out_of_range)
+        if (one.what == "slope") said = one.value;
+      INFO(strains << " " << size << ": error " << error);
+      CHECK((said > 0.5 * error && said < 2 * error));
+    }
+}
+
 // Default frames in space against the elastica; a clamped frame errs by 20.3 % of the length.
 TEST_CASE("frames in space by default: a cantilever as in the plane") {
   std::string text = scene_of({"force", "FRAME", 2, 1}, true);

@@ -31,6 +31,7 @@ struct BodyReport {
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
   std::string frame = {};                 ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
+  std::string strains = {};               ///< of a flexible body with a mesh: which, and of a default why
   std::vector<std::string> notices = {};  ///< of its mesh: what was left out, what may be meant
   int dimension = 2;
   int columns = 0;

@@ -59,6 +59,7 @@ struct PlannedBody {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
   std::vector<std::string> parts = {};                       ///< in space: names
   std::vector<std::string> notices = {};                     ///< in space: of the mesh
+  std::string strains = {};                                  ///< in space: which, and of a default why
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();    ///< in space: axes of the frame at the start, world
   Eigen::Vector3d place = Eigen::Vector3d::Zero();           ///< in space: its origin, R, at the start
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();            ///< in space: R. at the start, world

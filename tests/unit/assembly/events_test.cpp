@@ -177,7 +177,7 @@ TEST_CASE("adaptive steps meet events, too") {
 
 TEST_CASE("order 2 in positions, velocities and multipliers goes on across events") {
   const std::string space = GENERATE("", "space");
-  const History a = falling(1e-3, space), b = falling(5e-4, space), c = falling(2.5e-4, space);
+  const History a = falling(5e-4, space), b = falling(2.5e-4, space), c = falling(1.25e-4, space);
   REQUIRE(a.events.size() == 3);
   const Eigen::VectorXd first = end_of(a) - end_of(b), second = end_of(b) - end_of(c);
   CHECK(std::log2(first.head<2>().norm() / second.head<2>().norm()) == Approx(2).margin(0.25));
