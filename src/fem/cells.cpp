@@ -141,25 +141,12 @@ std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell) {
   return arms;
 }
 
-namespace {
-
-/// K_b of a shell becomes strain points, which can have terms of second order.
-void square_bending(const Corners& at, const ShellSection& section, ElementMaps& maps) {
-  maps.bending.setZero();
-  for (StrainPoint& point : at.three() ? shell_triangle_bending_points(at.triangle(), section)
-                                       : shell_quadrilateral_bending_points(at.quadrilateral(), section))
-    maps.membrane.push_back(std::move(point));
-}
-
-}  // namespace
-
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
   const Corners at{mesh, cell, strain};
   ElementMaps own = std::visit([&](const auto& section) { return maps_of(at, section); }, sections[cell.part]);
   if (!cell.follows()) return own;
   const auto* shell = std::get_if<ShellSection>(&sections[cell.part]);
   if (!shell || shell->strains == Strains::von_karman) return transformed(own, following(mesh, cell));
-  square_bending(at, *shell, own);
   return transformed(own, following(mesh, cell), rigid_arms(mesh, cell));
 }
 

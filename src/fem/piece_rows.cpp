@@ -101,6 +101,34 @@ void bend(const shell::Geometry& g, const shell::Deformations& d, double share, 
   }
 }
 
+/// Bending as strains, which can have terms of second order.
+void square_bending(PieceRows& piece) {
+  for (Eigen::Index first = 0; first < piece.bending.rows(); first += 3)
+    piece.strain.push_back({piece.bending.middleRows(first, 3), SmallRows(0, piece.bending.cols()), 0, {}});
+  piece.bending.resize(0, 0);
+}
+
+/// Adds what rotation vectors of the corners turn the normal by at second order.
+void add_turns(const shell::Geometry& g, StrainRows& rows) {
+  const int first = static_cast<int>(rows.G.rows());
+  std::array<StrainRows::Term, 6> terms;
+  bool any = false;
+  for (int i = 0; i < 3; ++i) {
+    StrainRows::Term x{first + 3 * i, first + 3 * i + 2, {}}, y{first + 3 * i + 1, first + 3 * i + 2, {}};
+    for (Eigen::Index s = 0; s < rows.L.rows(); ++s) {
+      const Eigen::Vector2d c = shell::second_order_turn(g, rows.L.row(s), i);
+      x.C[static_cast<std::size_t>(s)] = c.x(), y.C[static_cast<std::size_t>(s)] = c.y();
+      any = any || !c.isZero(0);
+    }
+    terms[2 * i] = x, terms[2 * i + 1] = y;
+  }
+  if (!any) return;
+  rows.terms.insert(rows.terms.end(), terms.begin(), terms.end());
+  rows.G.conservativeResize(first + 9, Eigen::NoChange);
+  rows.G.bottomRows(9).setZero();
+  for (int i = 0; i < 3; ++i) rows.G.block<3, 3>(first + 3 * i, 6 * i + 3) = g.axes.transpose();
+}
+
 void strain(const shell::Geometry& g, const shell::Deformations& d, const ShellSection& section, double share,
             std::vector<StrainRows>& out) {
   out.emplace_back();
@@ -148,6 +176,10 @@ void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes,
     const shell::Deformations d = shell::deformations(g, section);
     if (parts.bending) bend(g, d, share, piece.bending);
     if (parts.strain) strain(g, d, section, share, piece.strain);
+    if (section.strains == Strains::second_order && parts.strain) {
+      square_bending(piece);
+      for (StrainRows& rows : piece.strain) add_turns(g, rows);
+    }
   }
   if (parts.mass || parts.line)
     samples(g, (at[nodes[0]] + at[nodes[1]] + at[nodes[2]]) / 3, section, share, parts, piece);
@@ -218,16 +250,9 @@ void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, bo
   });
 }
 
-bool rotates_to_second_order(const Structure& structure, const Mesh::Cell& cell) {
+bool is_second_order(const Structure& structure, const Mesh::Cell& cell) {
   const auto* shell = std::get_if<ShellSection>(&structure.sections[cell.part]);
-  return shell && shell->strains == Strains::second_order && cell.follows();
-}
-
-/// Bending as strains, which can have terms of second order.
-void square_bending(PieceRows& piece) {
-  for (Eigen::Index first = 0; first < piece.bending.rows(); first += 3)
-    piece.strain.push_back({piece.bending.middleRows(first, 3), SmallRows(0, piece.bending.cols()), 0, {}});
-  piece.bending.resize(0, 0);
+  return shell && shell->strains == Strains::second_order;
 }
 
 /// The piece on the dofs of the nodes that move its corners.
@@ -235,8 +260,7 @@ void square_bending(PieceRows& piece) {
 void follow(const Structure& structure, const Mesh::Cell& cell, const std::array<int, 3>& of, PieceRows& piece) {
   const FlatBody* flat = flat_body(structure);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
-  const bool second_order = rotates_to_second_order(structure, cell);
-  if (second_order) square_bending(piece);
+  const bool second_order = is_second_order(structure, cell);
   for (int i = 0; i < 3; ++i) {
     const int moved = cell.moved[of[i]];
     if (moved == piece.node[i]) continue;
@@ -262,7 +286,7 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
   for (PieceRows& piece : pieces)
     piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.rotary.clear(), piece.line.clear(),
         piece.spins.clear();
-  if (parts.strain && rotates_to_second_order(structure, cell)) parts.bending = true;
+  if (parts.strain && is_second_order(structure, cell)) parts.bending = true;
   const auto& c = cell.corner;
   if (cell.kind == CellKind::triangle) {
     triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);

@@ -64,16 +64,6 @@ ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSect
   return maps;
 }
 
-std::vector<StrainPoint> shell_quadrilateral_bending_points(const QuadrilateralNodes& nodes,
-                                                            const ShellSection& section) {
-  const auto parts = triangles(nodes);
-  std::vector<StrainPoint> points;
-  for (int k = 0; k < 4; ++k)
-    for (const StrainPoint& p : shell_triangle_bending_points(parts[k], section))
-      points.push_back({p.weight / 2, p.D, widened(p.L, k), widened(p.G, k), p.P});
-  return points;
-}
-
 std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes) {
   const auto parts = triangles(nodes);
   std::vector<SurfacePoint> points;

@@ -82,27 +82,52 @@ Matrix18 shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& sec
   return M;
 }
 
-std::vector<StrainPoint> shell_triangle_bending_points(const TriangleNodes& nodes, const ShellSection& section) {
-  const shell::Geometry g = shell::geometry(nodes, section.axis);
-  const shell::Deformations d = shell::deformations(g, section);
-  const Eigen::MatrixXd none(0, 0);
-  std::vector<StrainPoint> points;
-  for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
-    points.push_back({g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
-  return points;
+namespace {
+
+/// Adds to a strain what rotation vectors of the corners turn the normal by at second order (shell::second_order_turn).
+void add_turns(const shell::Geometry& g, StrainPoint& point) {
+  const Eigen::Index before = point.G.rows();
+  std::vector<Eigen::MatrixXd> P = point.P;
+  bool any = false;
+  for (std::size_t s = 0; s < P.size(); ++s) {
+    P[s].conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, before + 9));
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector2d c = shell::second_order_turn(g, point.L.row(static_cast<Eigen::Index>(s)), i);
+      const Eigen::Index x = before + 3 * i, y = x + 1, n = x + 2;
+      P[s](x, n) = P[s](n, x) = c.x(), P[s](y, n) = P[s](n, y) = c.y();
+      any = any || !c.isZero(0);
+    }
+  }
+  if (!any) return;
+  point.P = std::move(P);
+  point.G.conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, 18));
+  for (int i = 0; i < 3; ++i) point.G.block<3, 3>(before + 3 * i, 6 * i + 3) = g.axes.transpose();
 }
 
+}  // namespace
+
 ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& section) {
+  const bool second_order = section.strains == Strains::second_order;
+  const shell::Geometry g = shell::geometry(nodes, section.axis);
   const ShellStrain strain = shell_triangle_strain(nodes, section);
   ElementMaps maps;
-  maps.bending = shell_triangle_bending(nodes, section);
   const Eigen::Index gradients = strain.G.rows();
   std::vector<Eigen::MatrixXd> P(3, Eigen::MatrixXd::Zero(gradients, gradients));
   for (Eigen::Index x = 0; x < gradients; x += 2)
     P[0](x, x) = 1, P[1](x + 1, x + 1) = 1, P[2](x, x + 1) = P[2](x + 1, x) = 1;
   maps.membrane.push_back({strain.weight, strain.D, strain.L, strain.G, P});
+  if (second_order) {
+    const shell::Deformations d = shell::deformations(g, section);
+    maps.bending = Eigen::MatrixXd::Zero(18, 18);
+    const Eigen::MatrixXd none(0, 0);
+    for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
+      maps.membrane.push_back(
+          {g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
+    for (StrainPoint& point : maps.membrane) add_turns(g, point);
+  } else {
+    maps.bending = shell_triangle_bending(nodes, section);
+  }
 
-  const shell::Geometry g = shell::geometry(nodes, section.axis);
   const Eigen::Vector3d centroid = (nodes[0] + nodes[1] + nodes[2]) / 3;
   const double r = section.mass_radius;
   const std::vector<double> heights = r > 0 ? std::vector<double>{-r, r} : std::vector<double>{0};

@@ -48,6 +48,16 @@ void set_gradients(const Geometry& geometry, const ShellSection& section, Rows& 
   }
 }
 
+/// Rotation vectors theta of the corners turn the normal n by exp(theta): the slopes of the surface are those of
+/// theta + 1/2 (theta.n) theta x n, to second order. What a row, linear in these, gets of corner i besides:
+/// (c_x theta_x + c_y theta_y) theta_n in the element's axes.
+/// @param row  on the dofs in body axes
+template <class Row>
+Eigen::Vector2d second_order_turn(const Geometry& geometry, const Row& row, int i) {
+  const Eigen::Vector3d own = geometry.axes.transpose() * row.template segment<3>(6 * i + 3).transpose();
+  return {-own.y() / 2, own.x() / 2};
+}
+
 /// Adds the coefficients of the normal's rotation, beta = (rotation_y, -rotation_x), of a corner to a row.
 template <class Row>
 void add_beta(Row&& row, int corner, const Eigen::Vector2d& coefficients) {

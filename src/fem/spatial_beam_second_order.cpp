@@ -72,19 +72,20 @@ std::vector<StrainPoint> second_order_strains(const BeamFrame& f, const SpatialB
     tau.P += g.weight / 2 * (product(w, field(curvature_y(g.at, f))) - product(v, field(curvature_z(g.at, f))));
   }
 
-  // mean and odd part, v'' = mean + (2 s - 1) odd, of the cubics without shear
-  const ShearRows D = -6 / (l * l) * antisymmetric(l);
+  // mean and odd part, v'' = mean + (2 s - 1) odd, of the cubics without shear, which its own odd strain takes: shear
+  // is condensed in that one's stiffness; `bent` is what curves the line with shear
+  const ShearRows D = -6 / (l * l) * antisymmetric(l), bent = D + 6 / l * f.shear;
   Row12 mean_v = Row12::Zero(), mean_w = Row12::Zero();
   mean_v[5] = mean_w[10] = -1 / l, mean_v[11] = mean_w[4] = 1 / l;
   Strain mean_z = of_own(mean_v, f), mean_y = of_own(mean_w, f), odd_z = of_own(D.row(0), f),
          odd_y = of_own(D.row(1), f);
   const Row8 phi = field(twist(0.5)), half = field(twist(1)) - phi;  // twist = phi + (2 s - 1) half
-  const auto add = [&](double sign, const Row8& mean, const Row8& odd, Strain& to_mean, Strain& to_odd) {
-    to_mean.P += sign * (product(phi, mean) + product(half, odd) / 3);
-    to_odd.P += sign * (product(phi, odd) + product(half, mean));
+  const auto add = [&](double sign, const Row8& mean, int other, Strain& to_mean, Strain& to_odd) {
+    to_mean.P += sign * (product(phi, mean) + product(half, field(bent.row(other))) / 3);
+    to_odd.P += sign * (product(phi, field(D.row(other))) + product(half, mean));
   };
-  add(1, field(mean_w), field(D.row(1)), mean_z, odd_z);
-  add(-1, field(mean_v), field(D.row(0)), mean_y, odd_y);
+  add(1, field(mean_w), 1, mean_z, odd_z);
+  add(-1, field(mean_v), 0, mean_y, odd_y);
 
   const Eigen::Matrix2d stretch_and_twist = Eigen::Vector2d(section.EA, section.GJ).asDiagonal();
   Eigen::Matrix2d EI;

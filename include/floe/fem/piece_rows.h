@@ -52,7 +52,7 @@ struct PieceRows {
   };
   std::vector<Spin> spins;
   SmallRows
-      bending;  ///< U_b = 1/2 |bending q|^2; none where rigid regions rotate to second order: they are strains then
+      bending;  ///< U_b = 1/2 |bending q|^2; none with strains of second order: they are strains then
   std::vector<StrainRows> strain;
   std::vector<MassRows> mass;
   std::vector<RotaryRows> rotary;  ///< made with mass

@@ -41,9 +41,11 @@ struct SurfacePoint {
 /// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
 /// (lumping with alpha = 3/2); theta are the drilling rotations less the rotation of that triangle. e is one point and
 /// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
-/// follows a developable surface, so nothing locks. With all gradients of that plane a rigid rotation by any angle,
-/// with rotations of nodes about its axis, has no membrane strain; what is left of its energy is that of sin a - a in
-/// bending and drilling, of order a^6, and with rotations about two axes of order a^4 of the bending stiffness. The
+/// follows a developable surface, so nothing locks. With all gradients of that plane a rigid rotation by any angle has
+/// no membrane strain. With strains of second order rotations of nodes are rotation vectors, as those of beams, joints
+/// and rigid regions: they turn the normal n by exp(theta), so that the slopes in the bending rows are those of
+/// theta + 1/2 (theta.n) theta x n, bending is a strain, too, and K_b = 0. What is left of a rigid rotation's energy is
+/// of order a^6 in bending and drilling. Von Karman's have slopes instead of rotation vectors, K_b q linear. The
 /// membrane force is taken as constant over the element: coupling B acts on the mean curvature, and the rest of the
 /// curvature bends with D*. Exact for states of constant strain and curvature with any A, B, D; a sum of squares
 /// whenever [A B; B D] is positive definite.
@@ -61,8 +63,6 @@ Eigen::Matrix<double, 18, 18> shell_triangle_stiffness(const TriangleNodes& node
 Eigen::Matrix<double, 18, 18> shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section);  ///< K_b
 Eigen::Matrix<double, 18, 18> shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& section);     ///< M
 ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section);  ///< L, G
-/// K_b as strain points without gradients: mean curvature, edge bending and drilling rotations.
-std::vector<StrainPoint> shell_triangle_bending_points(const TriangleNodes& nodes, const ShellSection& section);
 
 /// Quadrilateral: the triangles on either side of each diagonal, at half weight: the mean of two triangulated surfaces.
 /// Passes the patch tests of the triangle, flat or warped (a warped element is the mean of its two folded surfaces, and
@@ -70,9 +70,6 @@ std::vector<StrainPoint> shell_triangle_bending_points(const TriangleNodes& node
 /// @throws InputError  as the triangle; it is not convex, or folds by a right angle or more
 ElementMaps shell_quadrilateral(const QuadrilateralNodes& nodes, const ShellSection& section);
 std::vector<SurfacePoint> shell_quadrilateral_surface(const QuadrilateralNodes& nodes);  ///< twelve
-/// As shell_triangle_bending_points.
-std::vector<StrainPoint> shell_quadrilateral_bending_points(const QuadrilateralNodes& nodes,
-                                                            const ShellSection& section);
 /// K and M in fixed size, as for the triangle.
 Eigen::Matrix<double, 24, 24> shell_quadrilateral_stiffness(const QuadrilateralNodes& nodes,
                                                             const ShellSection& section);
