@@ -165,14 +165,17 @@ motion: {end: 0.3, step: 2e-3}
 probes: {tip: {at: plate.p3}}
 )yaml",
                     {Formulation::vm, Formulation::vm_md});
-  check_effectivity("hub", R"yaml(
+  for (const auto& [strains, speed] : {std::pair<std::string, std::string>{"von_karman", "9"}, {"second_order", "3"}})
+    check_effectivity("hub, " + strains,
+                      fill(R"yaml(
 gravity: [0, 0, -9.81]
-parameters: {Om: 9, Ts: 0.6}
+parameters: {Om: $speed, Ts: 0.6}
 bodies:
   l:
     mesh: {polyline: {points: [[0, 0, 0], [1, 0, 0], [1.1, 0.2, 0.5]], elements: [6, 4]}}
     section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0.3]}
     material: {E: 1.5e9, nu: 0.3, rho: 1000}
+    strains: $strains
     frame: {type: clamped, at: start}
     reduction: {modes: {count: 3, alone: 6}, derivatives: all}
 joints:
@@ -181,5 +184,6 @@ joints:
 motion: {end: 0.8, step: 4e-3}
 probes: {tip: {at: l.end, quantity: deflection}}
 )yaml",
-                    {Formulation::vm, Formulation::vm_md});
+                           {{"strains", strains}, {"speed", speed}}),
+                      {Formulation::vm, Formulation::vm_md});
 }

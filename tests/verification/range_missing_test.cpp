@@ -86,6 +86,7 @@ std::string tube(int sides, double deflection) {
 bodies:
   tube:
     mesh: {file: {path: tube.inp}}
+    strains: von_karman
 joints: {root: {type: fixed, between: [ground, tube.ROOT]}}
 loads: {tip: {type: force, at: tube.TIP, force: [0, 0, "$P*t"]}}
 motion: {end: 1, step: 1e-2}
@@ -106,6 +107,7 @@ bodies:
     mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 16}}
     section: {A: 1e-4, Iy: 1e-11, Iz: 1e-7, J: 4e-11, orientation: [0, 1, 0]}
     material: {E: 7e10, G: 2.6e10, rho: 2700}
+    strains: von_karman
     $frames
 joints: {root: {type: fixed, between: [ground, beam.start]}}
 loads: {tip: {type: force, at: beam.end, force: [0, "$P*t", 0]}}
@@ -121,6 +123,7 @@ bodies:
   blade:
     mesh: $mesh
     $section
+    strains: von_karman
     reduction: {modes: 8, derivatives: all}
 joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, blade.$root]}}
 )yaml",
