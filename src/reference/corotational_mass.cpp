@@ -44,14 +44,16 @@ struct Carry {
     const Vector3d normal = (at(corners[1]) - at(corners[0])).cross(at(corners[2]) - at(corners[0])),
                    z = normal.normalized(), C = (at(corners[0]) + at(corners[1]) + at(corners[2])) / 3;
     const double third = share * normal.norm() / 6;
+    Matrix3d spread = Matrix3d::Zero();
+    for (int corner : corners) spread += 11. / 432 * (at(corner) - C) * (at(corner) - C).transpose();
     for (int corner : corners) {
-      const Vector3d arm = (C - at(corner)) / 2;
+      const Vector3d arm = 7. / 12 * (C - at(corner));
       if (density == Density::line) {
         all.push_back({corner, third, arm, none});
         continue;
       }
       const double mass = section.mass * third, r = section.mass_radius;
-      all.push_back({corner, mass, arm + section.mass_centre * z, mass * r * r * z * z.transpose()});
+      all.push_back({corner, mass, arm + section.mass_centre * z, mass * (spread + r * r * z * z.transpose())});
     }
   }
   std::vector<CarriedMass> operator()(const fem::PointMass& point) const {

@@ -14,8 +14,10 @@ struct CarriedMass {
   Eigen::Matrix3d spread;  ///< int rho y y' about that centre
 };
 
-/// Mass, first and second moments of a cell (of a unit density on its line or area), by quadrature with one point near
-/// each corner, exact for second moments: two Gauss points of a line, (2/3, 1/6, 1/6) of a triangle; sections in full.
+/// Mass, first and second moments of a cell (of a unit density on its line or area), exact to second moments, by one
+/// part near each corner: two Gauss points of a line; of a triangle the third at (11/18, 7/36, 7/36), the centroid of
+/// what is nearest to the corner, and 11/144 of the second moments in equal shares (a corner of one triangle alone
+/// would have no inertia about that point). Sections in full.
 std::vector<CarriedMass> carried_mass(const fem::Structure& structure, const fem::Mesh::Cell& cell, Density density);
 
 }  // namespace floe::reference

@@ -26,10 +26,10 @@ struct CorotationalStart {
 /// pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
 ///
 /// Mass is carried rigidly by the nodes: of a beam half its mass by each, at the Gauss points of two-point quadrature,
-/// with the rotary inertia of the section; of a triangle a third by each corner, half-way from the corner to the
-/// centroid. So the kinetic energy is one of rigid bodies, exact for rigid motions of the undeformed body, of order 2
-/// in the element's length for others; linear and angular momentum of the nodes are those of the body, and nothing but
-/// the loads changes them.
+/// with the rotary inertia of the section; of a triangle a third by each corner, with a third of
+/// its remaining second moments. So the kinetic energy is one of rigid bodies, exact for rigid motions of the
+/// undeformed body, of order 2 in the element's length for others; linear and angular momentum of the nodes are those
+/// of the body, and nothing but the loads changes them.
 class CorotationalBody {
  public:
   /// @param visited  global nodes that the last rank must see (NodeCoordinates)
