@@ -14,6 +14,7 @@
 #include <set>
 
 #include "choose.h"
+#include "error_budget.h"
 #include "estimate_words.h"
 #include "floe/assembly/check_modes.h"
 #include "floe/assembly/reduced_bodies_file.h"
@@ -274,13 +275,6 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   fmt::print("constraint violation at most {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());
-  const bool estimated = result.estimate.none.empty();
-  const ordered_json step = s.contains("estimate") ? s["estimate"].value("step", ordered_json()) : ordered_json();
-  const bool knows_step = step.is_object() && step.contains("deformation");
-  const auto per_cent_of = [](const ordered_json& errors, const std::string& column) -> output::Cell {
-    const double error = 100 * errors["probes"][column.substr(0, column.rfind('.'))].get<double>();
-    return std::isfinite(error) ? output::Cell(error) : output::Cell("> 10000");
-  };
   constexpr std::size_t shown = 20;  // a body that rests on a stop bounces many times
   std::size_t number = 0;
   for (const auto& event : s["events"]) {
@@ -305,21 +299,9 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
     for (const auto& row : result.series.values) least = std::min(least, row[c]), greatest = std::max(greatest, row[c]);
     table.rows.push_back({result.series.columns[c].name, result.series.values.back()[c], least, greatest,
                           result.series.columns[c].unit});
-    if (!estimated) continue;
-    const output::Cell reduction = per_cent_of(s["estimate"], result.series.columns[c].name);
-    if (!knows_step) {
-      table.rows.back().push_back(reduction);
-      continue;
-    }
-    const output::Cell of_step = per_cent_of(step, result.series.columns[c].name);
-    const double *one = std::get_if<double>(&reduction), *other = std::get_if<double>(&of_step);
-    table.rows.back().insert(table.rows.back().end(), {reduction, of_step});
-    table.rows.back().push_back(one && other ? output::Cell(*one + *other) : output::Cell("> 10000"));
   }
-  if (estimated && knows_step) table.columns.insert(table.columns.end(), {{"reduction", "%", 2}, {"step", "%", 2}});
-  if (estimated) table.columns.push_back({"estimated error", "%", 2});
   if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
-  if (plan.estimate) fmt::print("{}{}", estimate_words(result.estimate), step_words(step, result.end));
+  if (plan.estimate) fmt::print("{}{}", budget_words(s["estimate"], result.end), estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

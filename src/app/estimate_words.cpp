@@ -28,15 +28,4 @@ std::string missed_words(double asked, double supported) {
                      math::percent(asked, digits), math::percent(supported, digits));
 }
 
-std::string step_words(const nlohmann::ordered_json& step, double end) {
-  if (!step.is_object()) return "";
-  if (step.contains("none"))
-    return fmt::format("No estimate of the time-step error: {}\n", step["none"].get<std::string>());
-  const double error = step["deformation"], until = step["until"];
-  const std::string part = until < 0.99 * end ? fmt::format(", to t = {:.3g} s to save time", until) : "";
-  return fmt::format("time-step error {} (deformations, relative to the simulation with {}{}; {:.2g} s)\n",
-                     std::isfinite(error) ? math::percent(error) : "above 10000 %", step["by"].get<std::string>(), part,
-                     step["seconds"].get<double>());
-}
-
 }  // namespace floe::app

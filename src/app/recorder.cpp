@@ -420,7 +420,7 @@ void Recorder::finish(const solve::IntegrationReport& report, const std::string&
   if (fault) std::rethrow_exception(fault);
 }
 
-void Recorder::conclude(const ordered_json& step) {
+void Recorder::conclude(const ordered_json& budget) {
   ordered_json& j = result_.summary;
   j.erase("assessment");
   j["warnings"] = result_.warnings;
@@ -428,7 +428,7 @@ void Recorder::conclude(const ordered_json& step) {
     j["out_of_range"].push_back(
         {{"what", one.what}, {"of", one.of}, {"value", one.value}, {"limit", one.limit}, {"text", one.text}});
   if (scene::is_reduced(model_.formulation)) j["estimate"] = estimate_json(result_.estimate, model_);
-  if (!step.is_null()) j["estimate"]["step"] = step;
+  if (!budget.is_null()) j["estimate"].update(budget);
   if (!folder_) return;
   output::write_summary(comm_, *folder_, j);
   if (!has_estimate() && j.dump(2) == written_) return;

@@ -29,9 +29,9 @@ class Recorder {
   /// Collective.
   void finish(const solve::IntegrationReport& report, const std::string& stopped, bool assesses);
   /// Adds what was found about the finished run: the estimate of its error, where it leaves the model's range, and
-  /// warnings. The results stand, whatever happens here. @param step  for the summary's estimate; null: none.
+  /// warnings. The results stand, whatever happens here. @param budget  joins the summary's estimate; null: none.
   /// Collective.
-  void conclude(const nlohmann::ordered_json& step = {});
+  void conclude(const nlohmann::ordered_json& budget = {});
   /// Says in summary.json why there is no more to add, where the other ranks cannot be reached. Rank-local.
   void conclude_alone(const std::string& why) noexcept;
   /// A warning where the total energy has grown by what no load and no drive has brought; empty: it has not.

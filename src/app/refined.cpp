@@ -1,14 +1,12 @@
 #include "refined.h"
 
+#include "floe/assess/budget.h"
+
 namespace floe::app {
 
 scene::Scene refined(const scene::Scene& scene) {
   scene::Scene fine = scene;
-  for (scene::Body& body : fine.bodies) {
-    for (int& elements : body.mesh.elements) elements *= 2;
-    if (body.mesh.plate)
-      for (int& elements : body.mesh.plate->elements) elements *= 2;
-  }
+  assess::scale_meshes(fine, 2);
   fine.motion.step /= 2;
   if (!fine.motion.output) fine.motion.every *= 2;
   if (fine.motion.tolerance) *fine.motion.tolerance /= 4;

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
-#include "floe/assess/step_error.h"
+#include "error_budget.h"
 #include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "floe/petsc/together.h"
@@ -81,33 +82,6 @@ void check_range(const scene::Scene& scene, const assembly::Model& model, const 
   if (plan.from) result.warnings.push_back("the model's validity was checked only after the restart");
 }
 
-/// What the step does, for the summary, by the motion with another step; warns where it does much. Collective.
-ordered_json step_error(const assembly::Model& model, const assess::MotionStart& start, const assess::KeptMotion& kept,
-                        const solve::Integration& how, double took, MPI_Comm comm, RunResult& result) {
-  constexpr double limit = 0.01;
-  double times[2] = {took, assess::estimate_seconds(result.offline_seconds + result.motion_seconds)};
-  MPI_Bcast(times, 2, MPI_DOUBLE, 0, comm);
-  assess::StepError error;
-  const std::string why = petsc::failed_together(
-      comm, [&] { error = assess::estimate_step_error(model, start, kept, how, times[0], times[1]); });
-  if (!why.empty()) error.none = "with another step: " + why;
-  if (!error.none.empty()) return {{"none", error.none}};
-  ordered_json j{{"deformation", error.deformation}};
-  std::size_t worst = 0;
-  for (std::size_t p = 0; p < error.probes.size(); ++p) {
-    j["probes"][model.probes[p].name] = error.probes[p];
-    if (error.probes[p] > error.probes[worst]) worst = p;
-  }
-  j["by"] = error.halved ? "half the step" : "twice the step";
-  j["until"] = error.until;
-  j["seconds"] = error.seconds;
-  if (!error.probes.empty() && error.probes[worst] > limit)
-    result.warnings.push_back(fmt::format("motion.step {:.3g} s: its error in probe {} is {} (limit {}); take {:.2g} s",
-                                          how.step, model.probes[worst].name, math::percent(error.probes[worst]),
-                                          math::percent(limit), how.step * std::sqrt(limit / error.probes[worst])));
-  return j;
-}
-
 }  // namespace
 
 std::string label_of(const assembly::Model& model) {
@@ -131,11 +105,14 @@ std::string label_of(const assembly::Model& model) {
 RunResult run(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
               const std::optional<output::ResultFolder>& folder, const RunPlan& plan) {
   const double begin = MPI_Wtime();
+  const std::clock_t clock = std::clock();
   assembly::Model model = [&] {
     const output::Waiting waiting(comm, offline_words(scene, formulation));
     return assembly::build(scene, formulation, comm, plan.estimate || plan.check_range);
   }();
-  return move(scene, model, MPI_Wtime() - begin, comm, folder, plan);
+  RunPlan moving = plan;
+  moving.offline_processor = static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC;
+  return move(scene, model, MPI_Wtime() - begin, comm, folder, moving);
 }
 
 RunResult move(const scene::Scene& scene, assembly::Model& model, double offline_seconds, MPI_Comm comm,
@@ -232,7 +209,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   if (!fault && later) std::rethrow_exception(later);  // else the first fault is the one to tell
   if (fault) std::rethrow_exception(fault);
   if (!assesses) return result;
-  ordered_json of_step;
+  ordered_json budget;
   try {
     if (plan.check_range) check_range(scene, model, kept, comm, plan, result);
     if (estimates) {
@@ -241,13 +218,16 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
           model, kept,
           plan.estimate_seconds.value_or(
               assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
-      if (start) of_step = step_error(model, *start, kept, how, report.processor_seconds, comm, result);
+      if (start)
+        budget = error_budget({scene, model, *start, how, report.steps, report.processor_seconds,
+                               plan.offline_processor.value_or(offline_seconds), comm},
+                              kept, result);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());
     throw;
   }
-  recorder.conclude(of_step);
+  recorder.conclude(budget);
   return result;
 }
 

@@ -37,15 +37,16 @@ struct RunResult {
 /// What keeps a run from being lost, and where it begins and ends.
 struct RunPlan {
   CheckpointEvery checkpoints;
-  std::optional<output::Checkpoint> from = {};  ///< of the run in the folder, which is taken up again
-  std::optional<double> until = {};             ///< [s]; else the scene's motion.end
-  bool quiet = false;                           ///< shows no progress
-  bool estimate = false;                        ///< of the error, of reduced formulations (assess::estimate_error)
-  std::optional<double> estimate_seconds = {};  ///< that it may take; else a tenth of all the rest
-  bool check_range = true;                      ///< assess::out_of_range
-  bool measured = false;                        ///< against full order: warns only of what full order errs in, too
-  nlohmann::ordered_json choice = {};           ///< how the model was chosen, for the summary
-  bool keep_states = false;                     ///< RunResult::states
+  std::optional<output::Checkpoint> from = {};   ///< of the run in the folder, which is taken up again
+  std::optional<double> until = {};              ///< [s]; else the scene's motion.end
+  bool quiet = false;                            ///< shows no progress
+  bool estimate = false;                         ///< of the error, of reduced formulations (assess::estimate_error)
+  std::optional<double> estimate_seconds = {};   ///< that it may take; else a tenth of all the rest
+  bool check_range = true;                       ///< assess::out_of_range
+  bool measured = false;                         ///< against full order: warns only of what full order errs in, too
+  nlohmann::ordered_json choice = {};            ///< how the model was chosen, for the summary
+  bool keep_states = false;                      ///< RunResult::states
+  std::optional<double> offline_processor = {};  ///< processor time of building the model [s]; else as it took
 };
 
 /// Builds, moves and writes one scene in one formulation.

@@ -14,14 +14,14 @@ namespace {
 /// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
 constexpr PetscInt most_elements = 20000;
 
+}  // namespace
+
 PetscInt elements_of(const Offline& offline) {
   PetscInt count = 0;
   for (const PlannedBody& body : offline.plan.bodies)
     if (has_structure(body)) count += body.structure.mesh.cell_count;
   return count;
 }
-
-}  // namespace
 
 std::string without_estimate(const Offline& offline) {
   if (std::none_of(offline.plan.bodies.begin(), offline.plan.bodies.end(), has_structure))

@@ -33,6 +33,9 @@ class Allowance {
 
 inline bool has_structure(const PlannedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
 
+/// Of all bodies with a mesh.
+PetscInt elements_of(const Offline& offline);
+
 /// Why there can be no estimate for bodies like these; empty: there can.
 std::string without_estimate(const Offline& offline);
 

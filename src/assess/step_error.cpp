@@ -7,6 +7,7 @@
 #include "estimate_parts.h"
 #include "floe/assess/probe_errors.h"
 #include "floe/solve/generalized_alpha.h"
+#include "probe_history.h"
 
 namespace floe::assess {
 
@@ -25,63 +26,63 @@ VectorXd elastic(const Model& model, const VectorXd& q) {
   return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
+std::vector<double> times_of(const std::vector<State>& states) {
+  std::vector<double> times;
+  for (const State& state : states) times.push_back(state.t);
+  return times;
+}
+
 /// Compares a motion with kept states of another one, at their times.
 class Comparison {
  public:
   Comparison(const Model& model, const KeptMotion& motion, double step)
-      : model_(model),
-        states_(motion.states()),
-        tolerance_(1e-6 * step),
-        probes_(probe_columns(model)),
-        U_(model.system->create_vector()),
-        V_(model.system->create_vector()),
-        A_(model.system->create_vector()) {
+      : model_(model), states_(motion.states()), at_(model, times_of(states_), step), probes_(probe_columns(model)) {
+    const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
+                           A = model.system->create_vector();
     for (const State& state : states_) {
-      solve::set_state(*model.system, state, U_, V_, A_);
-      values_.push_back(probe_values(model, state.t, U_, V_));
+      solve::set_state(*model.system, state, U, V, A);
+      values_.push_back(probe_values(model, state.t, U, V));
     }
   }
 
   void observe(const solve::Instant& instant) {
-    for (; next_ < states_.size() && states_[next_].t < instant.t + tolerance_; ++next_) {
-      const double t = states_[next_].t;
-      if (t > instant.t - tolerance_) {
-        add(t, instant.U, instant.V);
-      } else if (instant.between) {
-        (*instant.between)(t, U_, V_);
-        add(t, U_, V_);
-      }
-    }
+    at_.observe(instant, [&](std::size_t i, double t, Vec U, Vec V) { add(i, t, U, V); });
   }
 
-  int count() const { return count_; }
+  std::size_t count() const { return t_.size(); }
   std::vector<double> probes(double duration) const { return probes_.relative(duration); }
   double deformation() const {
-    const double nothing = model_.offline ? count_ * round_off_of(*model_.offline) : 0;
+    const double nothing = model_.offline ? static_cast<double>(count()) * round_off_of(*model_.offline) : 0;
     return std::max(error_, size_) > nothing ? std::sqrt(error_ / size_) : 0;
+  }
+  /// Instants, and the differences of the probes, other less kept, times `weight`.
+  void give(double weight, StepError& error) {
+    error.t = std::move(t_), error.errors = std::move(gaps_);
+    for (std::vector<double>& row : error.errors)
+      for (double& one : row) one *= weight;
   }
 
  private:
-  void add(double t, Vec U, Vec V) {
-    const std::vector<double>& mine = values_[next_];
+  void add(std::size_t i, double t, Vec U, Vec V) {
+    const std::vector<double>& mine = values_[i];
     std::vector<double> gap = probe_values(model_, t, U, V);
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= mine[i];
+    for (std::size_t c = 0; c < gap.size(); ++c) gap[c] -= mine[c];
     probes_.add(gap, mine);
     VectorXd q;
     model_.system->gather(U, q);
-    error_ += (elastic(model_, q) - elastic(model_, states_[next_].q)).squaredNorm();
-    size_ += elastic(model_, states_[next_].q).squaredNorm();
-    ++count_;
+    error_ += (elastic(model_, q) - elastic(model_, states_[i].q)).squaredNorm();
+    size_ += elastic(model_, states_[i].q).squaredNorm();
+    t_.push_back(states_[i].t);
+    gaps_.push_back(std::move(gap));
   }
 
   const Model& model_;
   const std::vector<State>& states_;
-  double tolerance_;
+  AtTimes at_;
   ProbeErrors probes_;
-  petsc::VecHandle U_, V_, A_;
   std::vector<std::vector<double>> values_;
-  std::size_t next_ = 0;
-  int count_ = 0;
+  std::vector<double> t_;
+  std::vector<std::vector<double>> gaps_;
   double error_ = 0, size_ = 0;
 };
 
@@ -123,6 +124,7 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
   const double share = error.halved ? power / (power - 1) : 1 / (power - 1);
   for (const double e : comparison.probes(error.until)) error.probes.push_back(known(share * e));
   error.deformation = known(share * comparison.deformation());
+  comparison.give(error.halved ? share : -share, error);
   error.seconds = MPI_Wtime() - begin;
   return error;
 }

@@ -162,17 +162,36 @@ def model(summary):
     return text
 
 
+def budget(estimate):
+    """The parts of the error of the answer, and the total."""
+    total = estimate.get("total", {}).get("probes")
+    if not total:
+        return ""
+    parts = {"reduction": estimate, **{name: estimate.get(name) or {} for name in ("model", "mesh", "step")}}
+
+    def cell(part, probe):
+        if probe not in (part.get("probes") or {}):
+            return "-"
+        value = part["probes"][probe]
+        return 100 * value if value is not None else BEYOND
+    rows = [[probe, *(cell(part, probe) for part in parts.values()), cell(estimate["total"], probe)] for probe in total]
+    missing = "".join(f"<p>No estimate of the {name} error: {escaped(part['none'])}.</p>"
+                      for name, part in parts.items() if "none" in part)
+    return ("<p>Error of the answer: reduction, model (strains and frames), mesh, step, and their total [%].</p>"
+            + table(["probe", *parts, "total"], rows) + missing)
+
+
 def errors(summary, run):
     estimate = summary.get("estimate")
     if not estimate:
         return ""
     if "none" in estimate:
-        return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>"
+        return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>" + budget(estimate)
     rows = [[name, 100 * value if value is not None else BEYOND] for name, value in (estimate.get("probes") or {}).items()]
     return ("<p>Estimated without integrating the full-order model: error of this model relative to the full-order model of the same mesh, root "
             f"mean square over the simulated time. Deformations: {per_cent(estimate['deformation'])}; "
             f"{estimate['full_order_residuals']} full-order residuals, {estimate['columns']} further basis vectors.</p>"
-            + (table(["probe", "estimated error [%]"], rows) if rows else ""))
+            + (table(["probe", "estimated error [%]"], rows) if rows else "") + budget(estimate))
 
 
 def probes(run):

@@ -1,0 +1,20 @@
+#pragma once
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "floe/assess/budget.h"
+#include "run.h"
+
+namespace floe::app {
+
+/// The parts of the error of a finished reduced motion beside that of the reduction, and the total, for the summary's
+/// `estimate`: step, model, mesh, total; each with the relative errors of the probes, or why there is none. Adds
+/// warnings to the result where a part is large. Collective; a fault within a part only leaves that part out.
+nlohmann::ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
+                                    RunResult& result);
+
+/// The table: probe, reduction, model, mesh, step, total; then where each part comes from, or why there is none.
+/// @param estimate  of the summary; @param end  of the motion [s]
+std::string budget_words(const nlohmann::ordered_json& estimate, double end);
+
+}  // namespace floe::app

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "error_part.h"
+#include "estimate_parts.h"
+#include "floe/error.h"
+
+namespace floe::assess {
+
+namespace {
+
+constexpr double power = 4;          // 2^2: errors of order 2 in the elements' length
+constexpr double least_share = 0.2;  // of the motion
+
+std::string why_none(const Scene& scene) {
+  if (!meshed_bodies(scene, false).empty()) return "";
+  const std::vector<std::string> imported = meshed_bodies(scene, true);
+  if (imported.empty()) return "no body has a mesh";
+  return fmt::format("floe does not refine imported meshes (body {}); compare with a finer mesh",
+                     fmt::join(imported, ", "));
+}
+
+/// How many times as many elements the refined bodies have.
+double growth(const Scene& scene) {
+  const bool plates = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                  [](const Body& body) { return body.mesh.plate.has_value(); });
+  return plates ? 4 : 2;
+}
+
+void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double allowed,
+              ErrorPart& part) {
+  const double offline = time.of_first(motion.offline), took = std::max(1e-6, time.of_first(motion.seconds));
+  Scene other = motion.scene;
+  bool finer = growth(other) * offline <= allowed;
+  if (!finer && !scale_meshes(other, 0.5)) {
+    part.none = fmt::format("the reduction of the refined mesh would take about {:.2g} s (limit {:.2g} s)",
+                            growth(other) * offline, allowed);
+    return;
+  }
+  if (finer) scale_meshes(other, 2);
+  const Model model = build(other, motion.model.formulation, comm_of_others(motion));
+  int step = 1;
+  const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
+  if (!motion.how.tolerance)
+    while (needs() > time.left() && step < 4) step *= 2;
+  double end = motion.how.end;
+  if (const double share = time.left() / needs(); share < 1) end *= std::max(share, least_share);
+  solve::Integration how = motion.how;
+  how.step *= step, how.end = end;
+  part.by = finer ? "elements half as long" : "elements twice as long";
+  if (step > 1) part.by += fmt::format(", steps {} times as long", step);
+  const ProbeHistory history = probe_history(other, model, how, own.t);
+  if (!history.stopped.empty()) {
+    const std::string why = part.by + ": " + first_line(history.stopped);
+    if (history.reached < least_share * motion.how.end) {
+      part.none = why;
+      return;
+    }
+    part.notes.push_back(why);
+  }
+  set_errors(own, {probe_columns(model), history.values},
+             step == 1 ? Simulated{own.columns, own.values} : again(motion, own, step, history.reached),
+             finer ? power / (power - 1) : -1 / (power - 1), {}, part);
+  if (part.t.empty()) part.none = "there are no results at the instants stored";
+}
+
+}  // namespace
+
+ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& own, double allowed) {
+  ErrorPart part;
+  part.none = why_none(motion.scene);
+  if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
+  if (!part.none.empty()) return part;
+  if (const std::vector<std::string> imported = meshed_bodies(motion.scene, true); !imported.empty())
+    part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));
+  const Allowance time(motion.comm, allowed);
+  try {
+    estimate(motion, own, time, allowed, part);
+  } catch (const InputError& fault) {  // on all ranks
+    part.none = first_line(fault.what());
+  }
+  part.seconds = time.spent();
+  return part;
+}
+
+}  // namespace floe::assess

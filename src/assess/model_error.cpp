@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "error_part.h"
+#include "estimate_parts.h"
+#include "floe/error.h"
+
+namespace floe::assess {
+
+namespace {
+
+constexpr double least_share = 0.2;  // of the motion
+constexpr PetscInt slow_steps = 5;   // at the start, which take longer
+constexpr PetscInt decided = 50;     // steps show how long one takes
+
+/// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
+struct Thinning {
+  double mesh = 1;
+  int step = 1;
+};
+
+std::string words(const Thinning& one) {
+  if (one.mesh == 1) return "same mesh";
+  return one.mesh < 1 ? "elements half as long" : fmt::format("elements {:g} times as long", one.mesh);
+}
+
+/// Deflections in space are from the floating frame, which corotational bodies there do not have.
+Scene comparable(Scene scene, std::vector<std::string>& notes) {
+  if (scene.dimension == 2) return scene;
+  std::erase_if(scene.probes, [&](const Probe& probe) {
+    if (probe.quantity != Probe::Quantity::deflection) return false;
+    notes.push_back(fmt::format(
+        "probe {}: formulation cfr has no floating frame in space to measure a deflection from; measure a displacement "
+        "relative to a place",
+        probe.name));
+    return true;
+  });
+  return scene;
+}
+
+class ModelError {
+ public:
+  ModelError(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction, const ErrorPart& mesh,
+             double allowed, ErrorPart& part)
+      : motion_(motion),
+        own_(own),
+        reduction_(reduction),
+        mesh_(mesh),
+        part_(part),
+        time_(motion.comm, allowed),
+        allowed_(allowed),
+        took_(time_.of_first(motion.seconds)),
+        scene_(comparable(motion.scene, part.notes)) {}
+
+  void estimate() {
+    if (scene_.probes.empty()) {
+      part_.none = "no probe can be compared with formulation cfr";
+      return;
+    }
+    Thinning used;
+    std::optional<Exact> exact = simulated(used, motion_.how.end, true);
+    if (!exact) {
+      const std::optional<Thinning> thinning = affordable();
+      if (!thinning) return;
+      used = *thinning;
+      exact = simulated(used, until_, false);
+    }
+    part_.by = "formulation cfr, " + words(used);
+    if (used.mesh == 1) extrapolate(used, *exact);
+    if (used.step > 1) part_.by += fmt::format(", steps {} times as long", used.step);
+    set_errors(own_, exact->probes, own_motion(used, exact->reached), 1, others(), part_);
+    if (part_.t.empty()) part_.none = "formulation cfr has no results at the instants stored";
+  }
+
+  double spent() const { return time_.spent(); }
+
+ private:
+  /// Of corotational elements.
+  struct Exact {
+    Simulated probes;
+    double reached = 0;
+  };
+
+  /// None: given up because the whole would take too long.
+  std::optional<Exact> simulated(Thinning thinning, double end, bool gives_up) {
+    Scene scene = scene_;
+    if (thinning.mesh != 1) scale_meshes(scene, 1 / thinning.mesh);
+    const Model model = build(scene, Formulation::cfr, comm_of_others(motion_));
+    solve::Integration how = motion_.how;
+    how.step *= thinning.step, how.end = end;
+    const double left = time_.left(), steps = static_cast<double>(motion_.steps);
+    double begin = 0;
+    const auto enough = [&](const solve::Instant& instant) {
+      if (!gives_up || instant.step > decided) return false;
+      const double spent = time_.spent();
+      if (instant.step <= slow_steps) begin = spent;
+      if (instant.step <= slow_steps && spent < left) return false;
+      each_ = instant.step <= slow_steps ? spent / static_cast<double>(std::max<PetscInt>(1, instant.step))
+                                         : (spent - begin) / static_cast<double>(instant.step - slow_steps);
+      return (instant.step >= decided || spent > 0.2 * left) && each_ * steps > left;
+    };
+    ProbeHistory history = probe_history(scene, model, how, own_.t, enough);
+    if (history.enough) return std::nullopt;
+    if (!history.stopped.empty()) {
+      const std::string why = "formulation cfr: " + first_line(history.stopped);
+      if (history.reached < least_share * motion_.how.end) throw RunError(why);
+      part_.notes.push_back(why);
+    }
+    return Exact{{probe_columns(model), std::move(history.values)}, history.reached};
+  }
+
+  /// Richardson's extrapolation to elements of no length, with those half as long, or of plates twice as long, where
+  /// the time allows.
+  void extrapolate(Thinning used, Exact& exact) {
+    for (const double mesh : {0.5, 2.0}) {
+      const Thinning other{mesh, used.step};
+      if (part_.apart || (mesh > 1 && !plates())) continue;
+      if (!mesh_.none.empty() || !can_scale(mesh) || time_.of_first(needs(other)) > time_.left()) continue;
+      try {
+        std::optional<Exact> second = simulated(other, exact.reached, false);
+        if (mesh > 1) std::swap(exact, *second);
+        add_third(second->probes.values, exact.probes.values);
+        exact = std::move(*second);
+      } catch (const std::runtime_error& fault) {  // on all ranks; the first one stands
+        part_.notes.push_back(words(other) + ": " + first_line(fault.what()));
+        return;
+      }
+      part_.apart = true;
+      part_.by += " and " + words(other);
+    }
+  }
+
+  /// fine += (fine - coarse) / 3.
+  static void add_third(std::vector<std::vector<double>>& fine, const std::vector<std::vector<double>>& coarse) {
+    fine.resize(std::min(fine.size(), coarse.size()));
+    for (std::size_t i = 0; i < fine.size(); ++i)
+      for (std::size_t c = 0; c < fine[i].size(); ++c) fine[i][c] += (fine[i][c] - coarse[i][c]) / 3;
+  }
+
+  /// What is not of the model in the difference: the error of the reduction, and that of the mesh.
+  std::vector<std::vector<double>> others() const {
+    std::vector<std::vector<double>> sum = reduction_.errors;
+    if (!part_.apart) return sum;
+    if (sum.empty()) sum.assign(own_.t.size(), std::vector<double>(own_.columns.size(), 0));
+    for (std::size_t i = 0; i < std::min(sum.size(), mesh_.errors.size()); ++i)
+      for (std::size_t c = 0; c < sum[i].size(); ++c) sum[i][c] += mesh_.errors[i][c];
+    return sum;
+  }
+
+  /// The motion itself with the same mesh and steps.
+  Simulated own_motion(Thinning thinning, double end) const {
+    if (thinning.mesh == 1 && thinning.step == 1) return {own_.columns, own_.values};
+    if (thinning.mesh == 1) return again(motion_, own_, thinning.step, end);
+    Scene scene = motion_.scene;
+    scale_meshes(scene, 1 / thinning.mesh);
+    const Model model = build(scene, motion_.model.formulation, comm_of_others(motion_));
+    solve::Integration how = motion_.how;
+    how.step *= thinning.step, how.end = end;
+    return {own_.columns, probe_history(scene, model, how, own_.t).values};
+  }
+
+  bool can_scale(double mesh) const {
+    Scene scaled = scene_;
+    return mesh == 1 || (meshed_bodies(scene_, true).empty() && scale_meshes(scaled, 1 / mesh));
+  }
+
+  bool plates() const {
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                       [](const Body& body) { return body.mesh.plate.has_value(); });
+  }
+
+  /// Processor time of both models [s].
+  double needs(Thinning thinning) const {
+    const double fewer = plates() ? thinning.mesh * thinning.mesh : thinning.mesh;
+    const double harder = thinning.step > 1 ? 1.5 : 1;  // long steps take more iterations
+    return harder * (each_ * static_cast<double>(motion_.steps) / fewer + took_) / thinning.step +
+           (thinning.mesh != 1 ? motion_.offline / fewer : 0);
+  }
+
+  /// The least thinning that the time allows, or the most with the first part of the motion.
+  std::optional<Thinning> affordable() {
+    std::vector<Thinning> all;
+    for (const int mesh : plates() ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
+      for (const int step : {1, 2, 4})
+        if (mesh * step > 1 && can_scale(mesh) && (step == 1 || !motion_.how.tolerance))
+          all.push_back({static_cast<double>(mesh), step});
+    until_ = motion_.how.end;
+    for (const Thinning& one : all)
+      if (time_.of_first(needs(one)) <= time_.left()) return one;
+    const Thinning last = all.empty() ? Thinning{} : all.back();
+    const double share = time_.left() / time_.of_first(needs(last));
+    until_ *= share;
+    if (share < least_share) {
+      part_.none = fmt::format("formulation cfr would take about {:.2g} s (limit {:.2g} s)",
+                               time_.of_first(each_ * static_cast<double>(motion_.steps)), allowed_);
+      return std::nullopt;
+    }
+    return last;
+  }
+
+  const FinishedMotion& motion_;
+  const ProbeSeries& own_;
+  const Estimate& reduction_;
+  const ErrorPart& mesh_;
+  ErrorPart& part_;
+  Allowance time_;
+  double allowed_, took_;
+  Scene scene_;
+  double each_ = 0;   // a step of formulation cfr [s]
+  double until_ = 0;  // [s]
+};
+
+}  // namespace
+
+ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
+                               const ErrorPart& mesh, double allowed) {
+  ErrorPart part;
+  part.apart = false;
+  part.none.clear();
+  if (meshed_bodies(motion.scene, false).empty() && meshed_bodies(motion.scene, true).empty())
+    part.none = "no body has a mesh";
+  else if (own.t.empty())
+    part.none = "the integrator provides no accelerations";
+  if (!part.none.empty()) return part;
+  ModelError error(motion, own, reduction, mesh, allowed, part);
+  try {
+    error.estimate();
+  } catch (const InputError& fault) {  // on all ranks
+    part.none = first_line(fault.what());
+  }
+  part.seconds = error.spent();
+  return part;
+}
+
+}  // namespace floe::assess

@@ -1,0 +1,166 @@
+#include <catch2/catch.hpp>
+
+#include "estimated.h"
+#include "floe/assess/budget.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+struct Budget {
+  History history;
+  assess::ErrorPart model, mesh;
+  assess::StepError step;
+  std::vector<double> total;
+};
+
+/// A reduced motion with all parts of its error, found in so much processor time each [s].
+Budget budget_of(const std::string& text, double allowed) {
+  const scene::Scene scene = scene::parse_scene(text, "scene");
+  Budget all{{assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}, {}, {}, {}};
+  const assembly::Model& model = all.history.model;
+  solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
+  const assess::MotionStart start = assess::start_of(model);
+  assess::KeptMotion kept(model);
+  all.history.report = solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) {
+    store(all.history, at.t, at.U, at.V);
+    kept.keep(at);
+  });
+  const assess::Estimate estimate = assess::estimate_error(model, kept, 100);
+  REQUIRE(estimate.none == "");
+  const assess::FinishedMotion motion{scene, model, start, how, all.history.report.steps, 0.1, 0.1, PETSC_COMM_WORLD};
+  const assess::ProbeSeries own = assess::probe_series(model, kept, estimate);
+  all.mesh = assess::estimate_mesh_error(motion, own, allowed);
+  all.model = assess::estimate_model_error(motion, own, estimate, all.mesh, allowed);
+  all.step = assess::estimate_step_error(model, start, kept, how, 0.1, allowed);
+  assess::ErrorPart reduction, step;
+  reduction.probes = estimate.probes, reduction.t = estimate.t, reduction.errors = estimate.errors;
+  step.probes = all.step.probes, step.t = all.step.t, step.errors = all.step.errors;
+  std::vector<const assess::ErrorPart*> parts = {&reduction, &step, &all.mesh};
+  if (all.model.none.empty()) parts.push_back(&all.model);
+  all.total = assess::total_error(own, parts);
+  return all;
+}
+
+/// Corotational elements, on every rank by itself: small systems on several ranks are slow.
+History exact_motion(const std::string& text) {
+  const scene::Scene scene = scene::parse_scene(text, "scene");
+  History history{assembly::build(scene, Formulation::cfr, PETSC_COMM_SELF), {}, {}, {}, {}};
+  const solve::Integration how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}};
+  history.report = solve::simulate(*history.model.system, how, history.model.U, history.model.V,
+                                   [&](const solve::Instant& at) { store(history, at.t, at.U, at.V); });
+  return history;
+}
+
+/// The total against corotational elements a quarter as long in a quarter of the step.
+void check_total(const std::string& text, const std::string& elements, const std::string& step,
+                 const std::string& fine_elements, const std::string& fine_step, double allowed = 100) {
+  const Budget budget = budget_of(fill(text, {{"elements", elements}, {"step", step}}), allowed);
+  const History exact = exact_motion(fill(text, {{"elements", fine_elements}, {"step", fine_step}}));
+  REQUIRE(budget.model.none == "");
+  REQUIRE(budget.mesh.none == "");
+  REQUIRE(budget.step.none == "");
+  CHECK(budget.model.apart == (allowed > 1));
+  REQUIRE(budget.total.size() == budget.history.model.probes.size());
+  for (std::size_t p = 0; p < budget.total.size(); ++p) {
+    const std::string& probe = budget.history.model.probes[p].name;
+    const double error = vector_error(budget.history, exact, probe), total = budget.total[p];
+    INFO(fmt::format("{}: error {:.4g}, total {:.4g} of model {:.3g}, mesh {:.3g}, step {:.3g} ({})", probe, error,
+                     total, budget.model.probes[p], budget.mesh.probes[p], budget.step.probes[p], budget.model.by));
+    CHECK(error > 1e-3);
+    CHECK(total > 0.3 * error);
+    CHECK(total < 3 * error);
+  }
+}
+
+const char* const cantilever = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [100, 0], elements: $elements}}
+    section: {A: 70, I: 585}
+    material: {E: 16000, rho: 0.0078}
+    frame: {type: pinned, from: start, to: end}
+    reduction: {modes: 4, derivatives: all}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "2500*sin(9.5*t)"]}}
+motion: {end: 1.5, step: $step}
+probes: {tip: {at: beam.end}, middle: {at: beam.middle, quantity: deflection}}
+)yaml";
+
+const char* const rod_in_space = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: $elements}}
+    section: {shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 1, 0]}
+    material: {E: 2e9, nu: 0.3, rho: 1200}
+    frame: pinned
+    reduction: {modes: 4, derivatives: all}
+joints: {root: {type: fixed, between: [ground, rod.start]}}
+loads: {tip: {type: force, at: rod.end, force: [0, "0.05*sin(5*t)", 0]}}
+motion: {end: 0.4, step: $step}
+probes: {tip: {at: rod.end}}
+)yaml";
+
+std::string plate(const std::string& quantity) {
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 2]}}
+    section: {thickness: 0.02}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 3}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads: {corner: {type: force, at: plate.p3, force: [0, 0, "600*sin(24*t)"]}}
+motion: {end: 0.1, step: 2e-3}
+probes: {tip: {at: plate.p3, quantity: $quantity}}
+)yaml",
+              {{"quantity", quantity}});
+}
+
+}  // namespace
+
+TEST_CASE("error budget: the total is that of the answer, in the plane and in space") {
+  check_total(cantilever, "8", "4e-3", "32", "1e-3");
+  check_total(rod_in_space, "8", "4e-3", "32", "1e-3");
+}
+
+TEST_CASE("error budget: what cannot be estimated says why") {
+  const Budget deflection = budget_of(plate("deflection"), 100);
+  CHECK(deflection.mesh.none == "");
+  CHECK(deflection.model.none == "no probe can be compared with formulation cfr");
+  REQUIRE(deflection.model.notes.size() == 1);
+  CHECK_THAT(deflection.model.notes[0], Catch::Contains("probe tip"));
+  const Budget late = budget_of(plate("displacement"), 1e-6);
+  CHECK_THAT(late.model.none, Catch::Contains("formulation cfr would take about"));
+}
+
+TEST_CASE("error budget: parts of a beginning are added by size") {
+  const assess::ProbeSeries own{{{"tip.x", "m", 1}}, {1, 2, 3, 4}, {{1.}, {1.}, {1.}, {1.}}};
+  assess::ErrorPart all, opposite, beginning;
+  all.t = opposite.t = own.t;
+  all.errors = {{.3}, {.3}, {.3}, {.3}}, opposite.errors = {{-.1}, {-.1}, {-.1}, {-.1}};
+  beginning.t = {1, 2}, beginning.errors = {{.1}, {.1}}, beginning.probes = {.1};
+  CHECK(assess::total_error(own, {&all, &opposite}).at(0) == Approx(.2));
+  CHECK(assess::total_error(own, {&all, &opposite, &beginning}).at(0) == Approx(.3));
+  opposite.probes = {.1};
+  CHECK(assess::total_error(own, {&all}, {&opposite}).at(0) == Approx(std::hypot(.3, .1)));
+}
+
+TEST_CASE("scaled meshes: generated ones, as whole numbers of elements") {
+  scene::Scene scene = scene::parse_scene(plate("displacement"), "scene");
+  CHECK(assess::scale_meshes(scene, 2));
+  CHECK(scene.bodies[0].mesh.plate->elements == std::array<int, 2>{8, 4});
+  CHECK(assess::scale_meshes(scene, 0.25));
+  CHECK_FALSE(assess::scale_meshes(scene, 0.5));
+}
+
+// A corner of a single triangle: with all its mass at one point, translations and drilling rotation had no mass.
+TEST_CASE("corotational shells: every node has mass in all directions") {
+  std::string fine = plate("displacement");
+  fine.replace(fine.find("[4, 2]"), 6, "[16, 8]");
+  fine.replace(fine.find("end: 0.1"), 8, "end: 0.01");
+  const History history = exact_motion(fine);
+  CHECK(history.report.steps == 5);
+}
