@@ -1,4 +1,4 @@
-#include "members.h"
+#include "floe/mesh/members.h"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 
 #include "floe/error.h"
 #include "floe/mesh/exchange.h"
+#include "floe/mesh/members.h"
 #include "gathered_file.h"
-#include "members.h"
 #include "text.h"
 
 namespace floe::mesh {

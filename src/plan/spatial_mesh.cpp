@@ -7,10 +7,10 @@
 
 #include "deck_sections.h"
 #include "floe/fem/default_strains.h"
+#include "floe/generate/generate.h"
 #include "floe/math/nearest.h"
 #include "floe/math/rotation.h"
 #include "floe/mesh/exchange.h"
-#include "floe/mesh/generate.h"
 #include "floe/mesh/gmsh.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
@@ -86,19 +86,19 @@ Source read_file(const Body& body, MPI_Comm comm) {
 Source generated(const Body& body, MPI_Comm comm) {
   if (body.mesh.plate) {
     const PlateSpec& spec = *body.mesh.plate;
-    mesh::Plate plate;
+    generate::Plate plate;
     plate.origin = vector(spec.origin);
     plate.a = vector(spec.along), plate.b = vector(spec.across);
     plate.na = spec.elements[0], plate.nb = spec.elements[1];
-    plate.cells =
-        spec.cells == PlateSpec::Cells::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals;
-    return {mesh::plate(comm, plate), {}, {}};
+    plate.cells = spec.cells == PlateSpec::Cells::triangles ? generate::ShellCells::triangles
+                                                            : generate::ShellCells::quadrilaterals;
+    return {generate::plate(comm, plate), {}, {}};
   }
-  mesh::Polyline line;
+  generate::Polyline line;
   for (const Point& p : body.mesh.points) line.points.push_back(vector(p));
   line.segments = body.mesh.segments;
   line.elements.assign(body.mesh.elements.begin(), body.mesh.elements.end());
-  return {mesh::polyline(comm, line), {}, {}};
+  return {generate::polyline(comm, line), {}, {}};
 }
 
 Source raw_mesh(const Body& body, MPI_Comm comm) {

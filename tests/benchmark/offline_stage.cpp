@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
 #include "floe/output/reduced_file.h"
 #include "floe/petsc/factorisation.h"
@@ -180,11 +180,11 @@ void run() {
   const PetscInt cells = option("-cells", 48);
   const int modes = static_cast<int>(option("-modes", 10));
   Report report;
-  mesh::Plate plate;
+  generate::Plate plate;
   plate.a = {2, 0, 0}, plate.b = {0, 1, 0};
   plate.na = cells, plate.nb = cells / 2;
   const fem::ShellSection section = fem::shell_section({{fem::isotropic(7e10, 0.3, 2700), 0.002}});
-  const mesh::RawMesh raw = report.time("mesh", [&] { return mesh::plate(PETSC_COMM_WORLD, plate); });
+  const mesh::RawMesh raw = report.time("mesh", [&] { return generate::plate(PETSC_COMM_WORLD, plate); });
   const std::vector<int> ranks = report.time("partition", [&] { return mesh::partition(raw); });
   fem::Structure structure = report.time(
       "structure", [&] { return fem::Structure(fem::mesh_of(raw, ranks), {section}, fem::MembraneStrain::averaged); });

@@ -1,7 +1,7 @@
 #pragma once
 #include <numeric>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
 #include "floe/mesh/pieces.h"
 #include "random.h"
@@ -52,13 +52,13 @@ inline void add_point(mesh::RawMesh& raw, PetscInt node) {
 /// Triangles on [0, 1] x [0, 1], quadrilaterals that go on from x = 1 upwards to (1.8, y, 0.6), a mast of beams from
 /// (1.8, 0, 0.6) to (1.8, -0.5, 1.4), and a point mass on its top. Collective.
 inline mesh::RawMesh mixed_mesh(MPI_Comm comm) {
-  mesh::Plate floor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, 2}, ramp{{1, 0, 0}, {0.8, 0, 0.6}, {0, 1, 0}, 2, 2};
-  ramp.cells = mesh::ShellCells::quadrilaterals;
+  generate::Plate floor{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 3, 2}, ramp{{1, 0, 0}, {0.8, 0, 0.6}, {0, 1, 0}, 2, 2};
+  ramp.cells = generate::ShellCells::quadrilaterals;
   const auto shells =
-      mesh::merged(mesh::prefixed(mesh::plate(comm, floor), "floor."), mesh::prefixed(mesh::plate(comm, ramp), "ramp."),
-                   {{"floor.right", "ramp.left"}}, 1e-9);
-  const auto mast = mesh::polyline(comm, {{{1.8, 0, 0.6}, {1.8, -0.5, 1.4}}, {}, {3}, {"mast"}});
-  mesh::RawMesh raw = mesh::merged(shells, mast, {{"ramp.p2", "start"}}, 1e-9);
+      generate::merged(generate::prefixed(generate::plate(comm, floor), "floor."),
+                       generate::prefixed(generate::plate(comm, ramp), "ramp."), {{"floor.right", "ramp.left"}}, 1e-9);
+  const auto mast = generate::polyline(comm, {{{1.8, 0, 0.6}, {1.8, -0.5, 1.4}}, {}, {3}, {"mast"}});
+  mesh::RawMesh raw = generate::merged(shells, mast, {{"ramp.p2", "start"}}, 1e-9);
   add_point(raw, raw.node_count - 1);
   return raw;
 }

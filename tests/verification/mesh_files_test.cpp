@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/write_gmsh.h"
 #include "spatial_scenes.h"
 
@@ -26,9 +26,9 @@ joints: {root: {type: fixed, between: [ground, plate.left]}}
 }
 
 mesh::RawMesh plate(bool triangles, double size) {
-  mesh::Plate plate{{0, 0, 0}, {2 * size, 0, 0}, {0, size, 0}, na, nb};
-  plate.cells = triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals;
-  return mesh::plate(PETSC_COMM_SELF, plate);
+  generate::Plate plate{{0, 0, 0}, {2 * size, 0, 0}, {0, size, 0}, na, nb};
+  plate.cells = triangles ? generate::ShellCells::triangles : generate::ShellCells::quadrilaterals;
+  return generate::plate(PETSC_COMM_SELF, plate);
 }
 
 /// The plate as a deck, with labels that have gaps and run backwards.
@@ -215,11 +215,11 @@ TEST_CASE("a part of the scene goes before the deck's section of the same name")
 // A fold passes the bending moment of one plate to the next and its drilling moment to the bending of the other.
 TEST_CASE("a folded plate converges, with triangles and with quadrilaterals, to the same frequencies") {
   const Scratch scratch;
-  const auto of = [&](mesh::ShellCells cells, int n) {
-    mesh::Plate floor{{0, 0, 0}, {1, 0, 0}, {0, 0.5, 0}, 2 * n, n}, wall{{1, 0, 0}, {0, 0, 0.7}, {0, 0.5, 0}, n, n};
+  const auto of = [&](generate::ShellCells cells, int n) {
+    generate::Plate floor{{0, 0, 0}, {1, 0, 0}, {0, 0.5, 0}, 2 * n, n}, wall{{1, 0, 0}, {0, 0, 0.7}, {0, 0.5, 0}, n, n};
     floor.cells = wall.cells = cells;
     mesh::write_gmsh((scratch.path / "fold.msh").string(),
-                     mesh::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}}));
+                     generate::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}}));
     return omega_of(R"yaml(
 bodies:
   fold:
@@ -232,7 +232,7 @@ joints: {root: {type: fixed, between: [ground, fold.floor.left]}}
 )yaml",
                     (scratch.path / "scene.yaml").string());
   };
-  using mesh::ShellCells;
+  using generate::ShellCells;
   std::vector<double> limit[2];
   for (const auto cells : {ShellCells::triangles, ShellCells::quadrilaterals}) {
     const auto coarse = of(cells, 4), middle = of(cells, 8), fine = of(cells, 16);

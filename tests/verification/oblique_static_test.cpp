@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/write_gmsh.h"
 #include "spatial_scenes.h"
 
@@ -104,10 +104,10 @@ TEST_CASE("an oblique folded plate is pulled in the plane of a panel: reduced as
   const int orientation = GENERATE(0, 1, 3);
   const Matrix3d R = turned_by(orientation);
   const Scratch scratch;
-  mesh::Plate floor{{0, 0, 0}, R * Vector3d(1, 0, 0), R * Vector3d(0, 1, 0), 6, 6},
+  generate::Plate floor{{0, 0, 0}, R * Vector3d(1, 0, 0), R * Vector3d(0, 1, 0), 6, 6},
       wall{R * Vector3d(1, 0, 0), R * Vector3d(0, 0, 1), R * Vector3d(0, 1, 0), 6, 6};
   mesh::write_gmsh((scratch.path / "fold.msh").string(),
-                   mesh::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}}));
+                   generate::folded_plates(PETSC_COMM_WORLD, {{"floor", floor}, {"wall", wall}}));
   const auto pulled = [&](double thickness, const Vector3d& force) {
     return fill(R"yaml(
 bodies:

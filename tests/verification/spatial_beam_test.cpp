@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/reduction/derivatives.h"
 #include "spatial_scenes.h"
 
@@ -91,7 +91,7 @@ TEST_CASE("modal derivatives of a hinged spatial beam in closed form") {
   constexpr int elements = 40;
   constexpr double length = 2;
   const fem::SpatialBeam section{{1e5, 1.7, 1, 0, 50, 1, 0, 0, 0, {0, 0}, {0, 0}}, {0, 1, 0}, {}};
-  const mesh::RawMesh raw = mesh::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {length, 0, 0}}, {}, {elements}, {}});
+  const mesh::RawMesh raw = generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {length, 0, 0}}, {}, {elements}, {}});
   const fem::Structure s(fem::mesh_of(raw, std::vector<int>(raw.positions.size(), 0)), {section},
                          fem::MembraneStrain::averaged);
   const fem::ReferenceFrame frame = fem::reference_frame(s, fem::ReferenceFrame::Kind::pinned, 0, elements);

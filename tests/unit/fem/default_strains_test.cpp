@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
 #include "floe/petsc/error.h"
 
@@ -16,9 +16,9 @@ constexpr double thickness = 0.01;
 /// A plate of 1 x `width`, oblique in space, with an arc of `height` across.
 fem::StrainsChoice choice_of(double width, double height) {
   const Vector3d along = Vector3d(3, 2, -1).normalized(), across = along.unitOrthogonal(), normal = along.cross(across);
-  mesh::Plate plate;
+  generate::Plate plate;
   plate.a = along, plate.b = width * across, plate.na = 8, plate.nb = 4;
-  mesh::RawMesh raw = mesh::plate(PETSC_COMM_WORLD, plate);
+  mesh::RawMesh raw = generate::plate(PETSC_COMM_WORLD, plate);
   for (Vector3d& x : raw.positions) {
     const double s = 2 * x.dot(across) / width - 1;
     x += height * (1 - s * s) * normal;

@@ -145,7 +145,7 @@ TEST_CASE("the nearest node does not depend on the partition: of equally near on
 }
 
 TEST_CASE("more ranks than nodes: ranks without a node take part") {
-  const mesh::RawMesh raw = mesh::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {0, 0, 2}}, {}, {1}, {}});
+  const mesh::RawMesh raw = generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {0, 0, 2}}, {}, {1}, {}});
   const fem::Mesh mesh = fem::mesh_of(raw, testing::ranks_of(raw, Spread::last));
   CHECK((mesh.node_count == 2 && mesh.cell_count == 1));
   CHECK(mesh.owned_nodes == (testing::this_rank() == testing::ranks() - 1 ? 2 : 0));

@@ -11,11 +11,11 @@ using testing::Spread;
 namespace {
 
 /// Of a plate whose nodes lie on w = c s^2 / 2, s along its side a, turned into the place of `axes`.
-double sag_of_cylinder(mesh::ShellCells cells, Spread spread, const Eigen::Matrix3d& axes, double c, int along,
+double sag_of_cylinder(generate::ShellCells cells, Spread spread, const Eigen::Matrix3d& axes, double c, int along,
                        int across) {
-  mesh::Plate plate{{1, 2, 3}, 2 * axes.col(0), 5 * axes.col(1), along, across};
+  generate::Plate plate{{1, 2, 3}, 2 * axes.col(0), 5 * axes.col(1), along, across};
   plate.cells = cells;
-  const fem::Structure s = testing::structure_of(mesh::plate(PETSC_COMM_WORLD, plate),
+  const fem::Structure s = testing::structure_of(generate::plate(PETSC_COMM_WORLD, plate),
                                                  {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}})}, spread);
   std::vector<petsc::VecHandle> fields;
   for (int i = 0; i < 2; ++i) fields.push_back(fem::field(s));
@@ -33,7 +33,7 @@ double sag_of_cylinder(mesh::ShellCells cells, Spread spread, const Eigen::Matri
 }  // namespace
 
 TEST_CASE("a shell sags within its cells by what the cubic of an edge does below its chord", "[fem]") {
-  const auto cells = GENERATE(mesh::ShellCells::triangles, mesh::ShellCells::quadrilaterals);
+  const auto cells = GENERATE(generate::ShellCells::triangles, generate::ShellCells::quadrilaterals);
   const auto spread = GENERATE(Spread::metis, Spread::last);
   const Eigen::Matrix3d axes = Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   for (const int along : {1, 4, 9}) {

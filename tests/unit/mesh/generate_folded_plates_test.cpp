@@ -2,10 +2,10 @@
 
 using namespace floe;
 using Catch::Matchers::Contains;
-using mesh::Diagonals;
-using mesh::NamedPlate;
-using mesh::Plate;
-using mesh::ShellCells;
+using generate::Diagonals;
+using generate::NamedPlate;
+using generate::Plate;
+using generate::ShellCells;
 
 namespace {
 
@@ -19,7 +19,7 @@ std::vector<NamedPlate> box(PetscInt nx, PetscInt ny, PetscInt nz, Diagonals dia
 }
 
 std::string fault(const std::vector<NamedPlate>& plates) {
-  return testing::fault_of([&] { mesh::folded_plates(PETSC_COMM_WORLD, plates); });
+  return testing::fault_of([&] { generate::folded_plates(PETSC_COMM_WORLD, plates); });
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ TEST_CASE("six plates make a closed box") {
   for (const auto diagonals : {Diagonals::right, Diagonals::alternating, Diagonals::crossed}) {
     for (const auto [nx, ny, nz] : {std::array<PetscInt, 3>{1, 1, 1}, {2, 3, 4}, {5, 1, 2}}) {
       const auto plates = box(nx, ny, nz, diagonals);
-      const auto make = [&](MPI_Comm comm) { return mesh::folded_plates(comm, plates); };
+      const auto make = [&](MPI_Comm comm) { return generate::folded_plates(comm, plates); };
       const auto all = testing::sound(make);
       const auto topology = testing::topology_of(all);
       CHECK(topology.euler == 2);  // of a sphere
@@ -52,7 +52,7 @@ TEST_CASE("three plates meet at an edge, graded the same way from either end") {
   web.grading_a = half.grading_a = 4;
   other.grading_a = 1 / 4.;
   const auto make = [&](MPI_Comm comm) {
-    return mesh::folded_plates(comm, {{"web", web}, {"half", half}, {"other", other}});
+    return generate::folded_plates(comm, {{"web", web}, {"half", half}, {"other", other}});
   };
   const auto all = testing::sound(make);
   CHECK(all.positions.size() == 7 * 7);  // a line of 7 nodes at the edge, 2 + 3 + 1 beside it
@@ -63,13 +63,13 @@ TEST_CASE("three plates meet at an edge, graded the same way from either end") {
 
 TEST_CASE("one plate alone and plates with one corner in common") {
   const Plate one{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 4, 3};
-  const auto alone = testing::sound([&](MPI_Comm comm) { return mesh::folded_plates(comm, {{"one", one}}); });
+  const auto alone = testing::sound([&](MPI_Comm comm) { return generate::folded_plates(comm, {{"one", one}}); });
   CHECK(alone.positions.size() == 20);
   CHECK(testing::topology_of(alone).boundary_edges == 14);
   Plate two = one;
   two.origin = {1, 1, 0};
   const auto both = testing::sound([&](MPI_Comm comm) {
-    return mesh::folded_plates(comm, {{"one", one}, {"two", two}});
+    return generate::folded_plates(comm, {{"one", one}, {"two", two}});
   });
   CHECK(both.positions.size() == 39);
   CHECK(both.places.at("one.p3") == both.places.at("two.p1"));

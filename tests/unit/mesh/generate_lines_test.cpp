@@ -2,13 +2,13 @@
 
 using namespace floe;
 using Catch::Matchers::Contains;
-using mesh::Lattice;
-using mesh::LatticeDiagonals;
+using generate::Lattice;
+using generate::LatticeDiagonals;
 
 TEST_CASE("a branching polyline has the lengths and places of its segments") {
-  const mesh::Polyline lines{
+  const generate::Polyline lines{
       {{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {3, 0, 2}}, {{0, 1}, {2, 1}, {1, 3}}, {3, 5, 1}, {"shaft", "arm", "shaft"}};
-  const auto make = [&](MPI_Comm comm) { return mesh::polyline(comm, lines); };
+  const auto make = [&](MPI_Comm comm) { return generate::polyline(comm, lines); };
   const auto all = testing::sound(make);
   CHECK(all.parts == std::vector<std::string>{"shaft", "arm"});
   CHECK(all.positions.size() == 10);  // a tree: one node more than lines
@@ -26,7 +26,7 @@ TEST_CASE("a branching polyline has the lengths and places of its segments") {
 
 TEST_CASE("a polyline without segments joins its points in turn") {
   const auto all = testing::sound([](MPI_Comm comm) {
-    return mesh::polyline(comm, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {}, {2, 3}, {}});
+    return generate::polyline(comm, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {}, {2, 3}, {}});
   });
   CHECK(all.parts == std::vector<std::string>{"line"});
   CHECK(all.positions.size() == 6);
@@ -34,8 +34,8 @@ TEST_CASE("a polyline without segments joins its points in turn") {
 }
 
 TEST_CASE("bad polylines are refused") {
-  const auto fault = [](const mesh::Polyline& lines) {
-    return testing::fault_of([&] { mesh::polyline(PETSC_COMM_WORLD, lines); });
+  const auto fault = [](const generate::Polyline& lines) {
+    return testing::fault_of([&] { generate::polyline(PETSC_COMM_WORLD, lines); });
   };
   const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}};
   CHECK(fault({}) == "polyline: there is no segment");
@@ -58,7 +58,7 @@ TEST_CASE("lattices have the beams of their boxes") {
   const double xy = 2 * nx * ny * (nz + 1), xz = 2 * nx * (ny + 1) * nz, yz = 2 * (nx + 1) * ny * nz;
   const double through = 4 * nx * ny * nz;
   for (const auto diagonals : {LatticeDiagonals::none, LatticeDiagonals::faces, LatticeDiagonals::all}) {
-    const auto make = [&](MPI_Comm comm) { return mesh::lattice(comm, Lattice{nx, ny, nz, {x, y, z}, diagonals}); };
+    const auto make = [&](MPI_Comm comm) { return generate::lattice(comm, Lattice{nx, ny, nz, {x, y, z}, diagonals}); };
     const auto all = testing::sound(make);
     const bool faces = diagonals != LatticeDiagonals::none, inside = diagonals == LatticeDiagonals::all;
     CHECK(all.positions.size() == 4 * 3 * 5);
@@ -73,7 +73,7 @@ TEST_CASE("lattices have the beams of their boxes") {
 }
 
 TEST_CASE("the places of a lattice are its faces and corners") {
-  const auto all = testing::sound([&](MPI_Comm comm) { return mesh::lattice(comm, {3, 2, 4, {1, 2, 3}}); });
+  const auto all = testing::sound([&](MPI_Comm comm) { return generate::lattice(comm, {3, 2, 4, {1, 2, 3}}); });
   const Eigen::Vector3d size(3, 4, 12);
   for (int axis = 0; axis < 3; ++axis) {
     const std::string name(1, "xyz"[axis]);
@@ -92,7 +92,7 @@ TEST_CASE("the places of a lattice are its faces and corners") {
 
 TEST_CASE("bad lattices are refused") {
   const auto fault = [](const Lattice& lattice) {
-    return testing::fault_of([&] { mesh::lattice(PETSC_COMM_WORLD, lattice); });
+    return testing::fault_of([&] { generate::lattice(PETSC_COMM_WORLD, lattice); });
   };
   CHECK(fault({1, 0, 1, {1, 1, -1}}) ==
         "lattice: ny = 0, expected at least 1\nlattice: unit cell size along z = -1, expected a number above 0");

@@ -6,13 +6,13 @@ using mesh::RawMesh;
 
 namespace {
 
-const mesh::Plate unit{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 8, 4};
+const generate::Plate unit{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, 8, 4};
 
 RawMesh frame(MPI_Comm comm, double shift, PetscInt elements = 8) {
-  return mesh::polyline(comm, {{{0, 0.5 + shift, 0}, {2, 0.5 + shift, 0}, {2, 0.5 + shift, 1}},
-                               {{0, 1}, {1, 2}},
-                               {elements, 3},
-                               {"stiffener", "post"}});
+  return generate::polyline(comm, {{{0, 0.5 + shift, 0}, {2, 0.5 + shift, 0}, {2, 0.5 + shift, 1}},
+                                   {{0, 1}, {1, 2}},
+                                   {elements, 3},
+                                   {"stiffener", "post"}});
 }
 
 }  // namespace
@@ -20,7 +20,7 @@ RawMesh frame(MPI_Comm comm, double shift, PetscInt elements = 8) {
 TEST_CASE("a beam joins the nodes of a plate that it runs along") {
   for (const double shift : {0., 0.9e-3}) {
     const auto make = [&](MPI_Comm comm) {
-      return mesh::merged(mesh::plate(comm, unit), frame(comm, shift), {{"plate", "stiffener"}}, 1e-3);
+      return generate::merged(generate::plate(comm, unit), frame(comm, shift), {{"plate", "stiffener"}}, 1e-3);
     };
     const auto all = testing::sound(make);
     CHECK(all.positions.size() == 9 * 5 + 3);  // only the post has nodes of its own
@@ -38,25 +38,26 @@ TEST_CASE("a beam joins the nodes of a plate that it runs along") {
 
 TEST_CASE("nodes outside the seam or the tolerance stay apart") {
   const auto ends =
-      mesh::merged(mesh::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0), {{"left", "start"}}, 1e-9);
+      generate::merged(generate::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0), {{"left", "start"}}, 1e-9);
   CHECK(ends.node_count == 45 + 12 - 1);
-  const auto half =
-      mesh::merged(mesh::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0, 5), {{"plate", "stiffener"}}, 1e-9);
+  const auto half = generate::merged(generate::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0, 5),
+                                     {{"plate", "stiffener"}}, 1e-9);
   CHECK(half.node_count == 45 + 9 - 2);
-  const auto apart = mesh::merged(mesh::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0), {}, 1e-9);
+  const auto apart = generate::merged(generate::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0), {}, 1e-9);
   CHECK(mesh::inspect(apart).component_count == 2);
 }
 
 TEST_CASE("of several nodes within the tolerance the nearest is joined, wherever the boxes of the grid lie") {
   for (const double offset : {0., -7.3, 1e3}) {
     for (const double tolerance : {0.02, 0.1, 0.12}) {  // cells are 0.25 long
-      mesh::Plate moved = unit;
+      generate::Plate moved = unit;
       moved.origin = {offset + 0.01, offset - 0.01, offset};
-      mesh::Plate there = unit;
+      generate::Plate there = unit;
       there.origin = Eigen::Vector3d::Constant(offset);
-      const auto all = testing::whole(mesh::merged(mesh::plate(PETSC_COMM_WORLD, there),
-                                                   mesh::prefixed(mesh::plate(PETSC_COMM_WORLD, moved), "second."),
-                                                   {{"plate", "second.plate"}}, tolerance));
+      const auto all =
+          testing::whole(generate::merged(generate::plate(PETSC_COMM_WORLD, there),
+                                          generate::prefixed(generate::plate(PETSC_COMM_WORLD, moved), "second."),
+                                          {{"plate", "second.plate"}}, tolerance));
       CHECK(all.positions.size() == 45);
       CHECK(all.places.at("second.left") == all.places.at("left"));
       CHECK(all.places.at("second.p3") == all.places.at("p3"));
@@ -65,16 +66,17 @@ TEST_CASE("of several nodes within the tolerance the nearest is joined, wherever
 }
 
 TEST_CASE("a scaled mesh has its lengths times the factor") {
-  const auto raw = mesh::scaled(mesh::plate(PETSC_COMM_WORLD, unit), 1e-3);
+  const auto raw = generate::scaled(generate::plate(PETSC_COMM_WORLD, unit), 1e-3);
   CHECK(testing::measure(raw, 0) == Approx(2e-6));
   for (const double factor : {0., -1., std::nan("")})
-    CHECK_THAT(testing::fault_of([&] { mesh::scaled(raw, factor); }), Contains("scaled: factor"));
+    CHECK_THAT(testing::fault_of([&] { generate::scaled(raw, factor); }), Contains("scaled: factor"));
 }
 
 TEST_CASE("meshes that cannot be merged are refused") {
-  const auto fault = [](const mesh::Seam& seam, double tolerance, PetscInt elements = 8) {
+  const auto fault = [](const generate::Seam& seam, double tolerance, PetscInt elements = 8) {
     return testing::fault_of([&] {
-      mesh::merged(mesh::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0, elements), {seam}, tolerance);
+      generate::merged(generate::plate(PETSC_COMM_WORLD, unit), frame(PETSC_COMM_WORLD, 0, elements), {seam},
+                       tolerance);
     });
   };
   CHECK_THAT(fault({"plat", "stiffener"}, 1e-6), Contains("plate: there is no place or part 'plat'"));

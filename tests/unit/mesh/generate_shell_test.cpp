@@ -4,9 +4,9 @@
 
 using namespace floe;
 using Catch::Matchers::Contains;
-using mesh::Diagonals;
-using mesh::MappedGrid;
-using mesh::ShellCells;
+using generate::Diagonals;
+using generate::MappedGrid;
+using generate::ShellCells;
 
 namespace {
 
@@ -19,7 +19,7 @@ Eigen::Vector3d sphere(double u, double v) {
   return {std::sin(pi * v) * std::cos(2 * pi * u), -std::sin(pi * v) * std::sin(2 * pi * u), std::cos(pi * v)};
 }
 
-double area(const MappedGrid& grid) { return testing::measure(mesh::shell_of(PETSC_COMM_WORLD, grid), 0); }
+double area(const MappedGrid& grid) { return testing::measure(generate::shell_of(PETSC_COMM_WORLD, grid), 0); }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ TEST_CASE("tubes close, with the area of the inscribed prism") {
         MappedGrid grid{nu, 4, tube, true};
         grid.cells = cells;
         grid.diagonals = diagonals;
-        const auto all = testing::sound([&](MPI_Comm comm) { return mesh::shell_of(comm, grid); });
+        const auto all = testing::sound([&](MPI_Comm comm) { return generate::shell_of(comm, grid); });
         CHECK(static_cast<PetscInt>(all.positions.size()) == nu * 5);
         const auto topology = testing::topology_of(all);
         CHECK(topology.euler == 0);  // of an annulus
@@ -50,7 +50,7 @@ TEST_CASE("a sphere has two poles, no edge and the area 4 pi at order 2") {
     for (int k = 0; k < 2; ++k) {
       MappedGrid grid{12 << k, 6 << k, sphere, true, true, true};
       grid.cells = cells;
-      const auto all = testing::sound([&](MPI_Comm comm) { return mesh::shell_of(comm, grid); });
+      const auto all = testing::sound([&](MPI_Comm comm) { return generate::shell_of(comm, grid); });
       CHECK(static_cast<PetscInt>(all.positions.size()) == grid.nu * (grid.nv - 1) + 2);
       const auto topology = testing::topology_of(all);
       CHECK(topology.euler == 2);
@@ -70,7 +70,7 @@ TEST_CASE("crossed diagonals and poles go together") {
       grid.diagonals = Diagonals::crossed;
       const double from = bottom ? 0 : 0.2, to = top ? 1 : 0.9;
       grid.position = [=](double u, double v) { return sphere(u, from + (to - from) * v); };
-      const auto all = testing::sound([&](MPI_Comm comm) { return mesh::shell_of(comm, grid); });
+      const auto all = testing::sound([&](MPI_Comm comm) { return generate::shell_of(comm, grid); });
       const auto topology = testing::topology_of(all);
       CHECK(topology.euler == bottom + top);
       CHECK(topology.boundary_edges == 7 * (2 - bottom - top));
@@ -85,7 +85,7 @@ TEST_CASE("a twisted tapered blade keeps its edges and corners") {
                                            10 * v);
                   }};
   grid.part = "blade";
-  const auto all = testing::sound([&](MPI_Comm comm) { return mesh::shell_of(comm, grid); });
+  const auto all = testing::sound([&](MPI_Comm comm) { return generate::shell_of(comm, grid); });
   CHECK(all.parts == std::vector<std::string>{"blade"});
   CHECK(testing::topology_of(all).euler == 1);
   CHECK(all.places.at("left").size() == 21);
@@ -96,7 +96,7 @@ TEST_CASE("a twisted tapered blade keeps its edges and corners") {
 
 TEST_CASE("maps that do not do what is said of them are refused on every rank") {
   const auto fault = [](const MappedGrid& grid) {
-    return testing::fault_of([&] { mesh::shell_of(PETSC_COMM_WORLD, grid); });
+    return testing::fault_of([&] { generate::shell_of(PETSC_COMM_WORLD, grid); });
   };
   CHECK(fault({4, 4, nullptr}) == "shell: there is no position(u, v)");
   CHECK(fault({2, 0, tube, true}) == "shell: nu = 2, expected at least 3\nshell: nv = 0, expected at least 1");

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/inspect.h"
 #include "mesh_files.h"
 

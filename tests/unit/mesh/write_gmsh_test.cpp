@@ -38,36 +38,36 @@ void check_round_trip(const RawMesh& raw) {
   }
 }
 
-const mesh::Plate skew{{0.1, 0.2, 1 / 3.}, {1e-7, 1 / 7., 0}, {0, 1e9, -1}, 7, 5};
+const generate::Plate skew{{0.1, 0.2, 1 / 3.}, {1e-7, 1 / 7., 0}, {0, 1e9, -1}, 7, 5};
 
 }  // namespace
 
 TEST_CASE("plates of triangles and quadrilaterals come back as they were written") {
-  for (const auto cells : {mesh::ShellCells::triangles, mesh::ShellCells::quadrilaterals}) {
-    mesh::Plate plate = skew;
+  for (const auto cells : {generate::ShellCells::triangles, generate::ShellCells::quadrilaterals}) {
+    generate::Plate plate = skew;
     plate.cells = cells;
-    check_round_trip(mesh::plate(PETSC_COMM_WORLD, plate));
+    check_round_trip(generate::plate(PETSC_COMM_WORLD, plate));
   }
 }
 
 TEST_CASE("folded plates, lattices and beams on a shell come back as they were written") {
-  const mesh::Plate web{{0, 0, 0}, {4, 0, 0}, {0, 0, 1}, 6, 2}, flange{{0, 0, 1}, {4, 0, 0}, {0, 1, 0}, 6, 3};
-  check_round_trip(mesh::folded_plates(PETSC_COMM_WORLD, {{"web", web}, {"top flange", flange}}));
-  check_round_trip(mesh::lattice(PETSC_COMM_WORLD, {2, 3, 2, {1, 1, 1}, mesh::LatticeDiagonals::all}));
+  const generate::Plate web{{0, 0, 0}, {4, 0, 0}, {0, 0, 1}, 6, 2}, flange{{0, 0, 1}, {4, 0, 0}, {0, 1, 0}, 6, 3};
+  check_round_trip(generate::folded_plates(PETSC_COMM_WORLD, {{"web", web}, {"top flange", flange}}));
+  check_round_trip(generate::lattice(PETSC_COMM_WORLD, {2, 3, 2, {1, 1, 1}, generate::LatticeDiagonals::all}));
   const auto lines =
-      mesh::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {4, 0, 0}, {4, -1, 0}}, {}, {6, 2}, {"keel", "arm"}});
-  check_round_trip(mesh::merged(mesh::plate(PETSC_COMM_WORLD, web), lines, {{"bottom", "keel"}}, 1e-6));
+      generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {4, 0, 0}, {4, -1, 0}}, {}, {6, 2}, {"keel", "arm"}});
+  check_round_trip(generate::merged(generate::plate(PETSC_COMM_WORLD, web), lines, {{"bottom", "keel"}}, 1e-6));
 }
 
 TEST_CASE("a part of triangles and quadrilaterals, and a mesh smaller than the ranks, come back") {
-  mesh::MappedGrid cone{6, 3, [](double u, double v) {
-                          const double angle = 6.283185307179586 * u;
-                          return Eigen::Vector3d(v * std::cos(angle), v * std::sin(angle), v);
-                        }};
+  generate::MappedGrid cone{6, 3, [](double u, double v) {
+                              const double angle = 6.283185307179586 * u;
+                              return Eigen::Vector3d(v * std::cos(angle), v * std::sin(angle), v);
+                            }};
   cone.closed_u = cone.pole_bottom = true;
-  cone.cells = mesh::ShellCells::quadrilaterals;
-  check_round_trip(mesh::shell_of(PETSC_COMM_WORLD, cone));
-  check_round_trip(mesh::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {1, 0, 0}}, {}, {1}, {}}));
+  cone.cells = generate::ShellCells::quadrilaterals;
+  check_round_trip(generate::shell_of(PETSC_COMM_WORLD, cone));
+  check_round_trip(generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {1, 0, 0}}, {}, {1}, {}}));
 }
 
 TEST_CASE("what was read with labels of its own is written with them") {
@@ -82,8 +82,8 @@ TEST_CASE("the file does not depend on the number of ranks") {
   };
   const auto alone = path_of("alone" + std::to_string(testing::this_rank()) + ".msh"), together = path_of("all.msh");
   for (const auto encoding : {GmshEncoding::ascii, GmshEncoding::binary}) {
-    mesh::write_gmsh(alone, mesh::plate(PETSC_COMM_SELF, skew), encoding);
-    mesh::write_gmsh(together, mesh::plate(PETSC_COMM_WORLD, skew), encoding);
+    mesh::write_gmsh(alone, generate::plate(PETSC_COMM_SELF, skew), encoding);
+    mesh::write_gmsh(together, generate::plate(PETSC_COMM_WORLD, skew), encoding);
     CHECK(bytes(alone) == bytes(together));
     CHECK(bytes(alone).size() > 1000);
   }
@@ -93,11 +93,12 @@ TEST_CASE("what cannot be written is refused on every rank") {
   const auto fault = [](const RawMesh& raw) {
     return testing::fault_of([&] { mesh::write_gmsh(path_of("bad.msh"), raw); });
   };
-  auto named = mesh::plate(PETSC_COMM_WORLD, skew);
+  auto named = generate::plate(PETSC_COMM_WORLD, skew);
   named.places[0] = "the \"left\"";
   CHECK_THAT(fault(named), Contains("cannot be that of a physical group"));
-  auto mixed = mesh::merged(mesh::plate(PETSC_COMM_WORLD, skew),
-                            mesh::polyline(PETSC_COMM_WORLD, {{{5, 5, 5}, {6, 5, 5}}, {}, {2}, {"plate"}}), {}, 1e-6);
+  auto mixed =
+      generate::merged(generate::plate(PETSC_COMM_WORLD, skew),
+                       generate::polyline(PETSC_COMM_WORLD, {{{5, 5, 5}, {6, 5, 5}}, {}, {2}, {"plate"}}), {}, 1e-6);
   CHECK_THAT(fault(mixed), Contains("part 'plate' has elements of several dimensions"));
-  CHECK_THROWS_AS(mesh::write_gmsh("/no/such/folder/a.msh", mesh::plate(PETSC_COMM_WORLD, skew)), RunError);
+  CHECK_THROWS_AS(mesh::write_gmsh("/no/such/folder/a.msh", generate::plate(PETSC_COMM_WORLD, skew)), RunError);
 }

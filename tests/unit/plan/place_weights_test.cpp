@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "floe/mesh/generate.h"
+#include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
 #include "floe/petsc/error.h"
 
@@ -14,11 +14,11 @@ namespace {
 struct Grid {
   mesh::RawMesh raw;
   fem::Mesh mesh;
-  explicit Grid(mesh::ShellCells cells) {
-    mesh::Plate plate;
+  explicit Grid(generate::ShellCells cells) {
+    generate::Plate plate;
     plate.a = Eigen::Vector3d(1, 0, 0), plate.b = Eigen::Vector3d(0, 1, 0), plate.na = 4, plate.nb = 2;
     plate.cells = cells;
-    raw = mesh::plate(PETSC_COMM_WORLD, plate);
+    raw = generate::plate(PETSC_COMM_WORLD, plate);
     mesh = fem::mesh_of(raw, mesh::partition(raw));
   }
   /// Weights of nodes by their places; the sum of x by weight has to be `centre`.
@@ -48,9 +48,9 @@ void check_equal(const std::vector<double>& found, const std::vector<double>& ex
 }  // namespace
 
 TEST_CASE("weights of places: edges by lengths, areas by areas, points alike") {
-  for (const mesh::ShellCells cells : {mesh::ShellCells::triangles, mesh::ShellCells::quadrilaterals}) {
+  for (const generate::ShellCells cells : {generate::ShellCells::triangles, generate::ShellCells::quadrilaterals}) {
     const Grid grid(cells);
-    const bool quads = cells == mesh::ShellCells::quadrilaterals;
+    const bool quads = cells == generate::ShellCells::quadrilaterals;
     check_equal(grid.weights({{1, 0.5}, {1, 0}, {1, 1}}, {1, 0.5, 0}), {0.5, 0.25, 0.25});                // an edge
     check_equal(grid.weights({{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}}, {0.5, 0.5, 0}), {0.25, 0.5, 0.25});  // inside
     // around a corner, half of each side: 0.5 along and 0.5 across; of triangles one may belong to it as a whole

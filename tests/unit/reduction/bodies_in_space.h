@@ -31,13 +31,13 @@ struct SpatiallyHeld {
 };
 
 /// A plate of 1 x 0.7 x 0.02 of triangles or quadrilaterals; original nodes row by row along x.
-inline fem::Structure small_plate(MPI_Comm comm, mesh::ShellCells cells, Spread spread,
+inline fem::Structure small_plate(MPI_Comm comm, generate::ShellCells cells, Spread spread,
                                   fem::Strains strains = fem::Strains::von_karman) {
-  mesh::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 4, 3};
+  generate::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 4, 3};
   plate.cells = cells;
   fem::ShellSection section = fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}});
   section.strains = strains;
-  return structure_of(mesh::plate(comm, plate), {section}, spread);
+  return structure_of(generate::plate(comm, plate), {section}, spread);
 }
 
 /// The corners of a plate's edge x = 0.
@@ -45,12 +45,12 @@ inline std::vector<PetscInt> root_of_plate() { return {0, 5, 10, 15}; }
 
 /// A portal with a spur out of its plane, of one section whose bending stiffnesses differ.
 inline fem::Structure small_frame(MPI_Comm comm, Spread spread) {
-  const mesh::Polyline lines{{{0, 0, 0}, {0, 0, 1}, {1.2, 0, 1}, {1.2, 0.1, 0}, {0.6, 0.8, 1.1}},
-                             {{0, 1}, {1, 2}, {2, 3}, {1, 4}},
-                             {3, 4, 3, 3},
-                             {}};
+  const generate::Polyline lines{{{0, 0, 0}, {0, 0, 1}, {1.2, 0, 1}, {1.2, 0.1, 0}, {0.6, 0.8, 1.1}},
+                                 {{0, 1}, {1, 2}, {2, 3}, {1, 4}},
+                                 {3, 4, 3, 3},
+                                 {}};
   const fem::SpatialBeam beam{{2e4, 2, 3, 0, 1.5, 1.1, 2e-3, 3e-3, 0, {0, 0}, {0, 0}}, {0.3, 1, 0.2}, {}};
-  return structure_of(mesh::polyline(comm, lines), {beam}, spread);
+  return structure_of(generate::polyline(comm, lines), {beam}, spread);
 }
 
 /// Small bodies of every kind of cell; flat and mixed ones whose shells have strains of second order, the latter with
@@ -61,10 +61,10 @@ inline fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
   if (what == What::mixed) return mixed_structure(comm, spread);
   if (what == What::beams) return small_frame(comm, spread);
   if (what == What::second_order)
-    return small_plate(comm, mesh::ShellCells::quadrilaterals, spread, fem::Strains::second_order);
+    return small_plate(comm, generate::ShellCells::quadrilaterals, spread, fem::Strains::second_order);
   if (what == What::linked_second_order) return linked_structure(comm, spread, fem::Strains::second_order);
-  return small_plate(comm, what == What::triangles ? mesh::ShellCells::triangles : mesh::ShellCells::quadrilaterals,
-                     spread);
+  return small_plate(
+      comm, what == What::triangles ? generate::ShellCells::triangles : generate::ShellCells::quadrilaterals, spread);
 }
 
 /// Columns of a basis by original dofs, on every rank. Collective.

@@ -17,7 +17,7 @@ namespace {
 /// Equal round beams of length one that stick out of a hub, original node 0, in the plane z = 0. Held at the hub, the
 /// body has each frequency of one of them twice as often as there are beams.
 fem::Structure hub(MPI_Comm comm, int beams, int elements) {
-  mesh::Polyline lines{{{0, 0, 0}}, {}, {}, {}};
+  generate::Polyline lines{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i < beams; ++i) {
     const double angle = 2 * std::numbers::pi * i / beams;
     lines.points.emplace_back(std::cos(angle), std::sin(angle), 0);
@@ -25,7 +25,7 @@ fem::Structure hub(MPI_Comm comm, int beams, int elements) {
     lines.elements.push_back(elements);
   }
   const fem::SpatialBeam beam{{1e5, 1, 1, 0, 1e3, 1, 1e-5, 1e-5, 0, {0, 0}, {0, 0}}, {0, 0, 1}, {}};
-  return testing::structure_of(mesh::polyline(comm, lines), {beam}, Spread::shuffled);
+  return testing::structure_of(generate::polyline(comm, lines), {beam}, Spread::shuffled);
 }
 
 /// All eigenvalues but those of rigid motions, from dense matrices under conditions.

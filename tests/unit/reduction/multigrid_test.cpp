@@ -87,7 +87,7 @@ TEST_CASE("so they do of a body that nothing holds") {
 }
 
 TEST_CASE("derivatives with inertia want a factor") {
-  const SpatiallyHeld body(small_plate(PETSC_COMM_WORLD, mesh::ShellCells::triangles, Spread::metis), Kind::clamped,
+  const SpatiallyHeld body(small_plate(PETSC_COMM_WORLD, generate::ShellCells::triangles, Spread::metis), Kind::clamped,
                            root_of_plate());
   const reduction::Modes modes = body.modes(1);
   const Options set(multigrid("derivatives_"));

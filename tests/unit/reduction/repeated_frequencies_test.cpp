@@ -11,17 +11,17 @@ namespace {
 
 /// A beam along x of one bending stiffness about all axes: each bending frequency twice, torsion and tension far above.
 fem::Structure round_beam(MPI_Comm comm, Spread spread) {
-  const mesh::Polyline line{{{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {8}, {}};
+  const generate::Polyline line{{{0, 0, 0}, {1, 0, 0}}, {{0, 1}}, {8}, {}};
   const fem::SpatialBeam beam{{1e5, 1, 1, 0, 1e3, 1, 1e-5, 1e-5, 0, {0, 0}, {0, 0}}, {0, 0, 1}, {}};
-  return testing::structure_of(mesh::polyline(comm, line), {beam}, spread);
+  return testing::structure_of(generate::polyline(comm, line), {beam}, spread);
 }
 
 /// Modes 2 and 3 of a square plate that is clamped all round are one another's mirror images.
 fem::Structure square_plate(MPI_Comm comm, Spread spread) {
-  mesh::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 6, 6};
-  plate.cells = mesh::ShellCells::quadrilaterals;
-  return testing::structure_of(mesh::plate(comm, plate), {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})},
-                               spread);
+  generate::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 6, 6};
+  plate.cells = generate::ShellCells::quadrilaterals;
+  return testing::structure_of(generate::plate(comm, plate),
+                               {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})}, spread);
 }
 
 std::vector<PetscInt> edges_of_plate() {

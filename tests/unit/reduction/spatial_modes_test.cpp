@@ -6,7 +6,7 @@
 using namespace floe;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using mesh::ShellCells;
+using generate::ShellCells;
 using testing::body_of;
 using testing::Kind;
 using testing::SpatiallyHeld;
@@ -105,7 +105,7 @@ TEST_CASE("high modes of a shell are those of a dense solver, without what the m
 TEST_CASE("more modes than elastic dofs of a body in space are refused, free or held") {
   const auto beam = [] {
     const fem::SpatialBeam section{{50, 1, 2, 0, 1, 1, 0.1, 0.1, 0, {0, 0}, {0, 0}}, {0, 1, 0}, {}};
-    return testing::structure_of(mesh::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {1, 0, 0}}, {}, {2}, {}}), {section},
+    return testing::structure_of(generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {1, 0, 0}}, {}, {2}, {}}), {section},
                                  Spread::last);
   };
   const SpatiallyHeld free(beam(), Kind::mean_axis, {}), held(beam(), Kind::clamped, {0});

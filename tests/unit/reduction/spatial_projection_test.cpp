@@ -6,7 +6,7 @@
 using namespace floe;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using mesh::ShellCells;
+using generate::ShellCells;
 using testing::body_of;
 using testing::Kind;
 using testing::SpatiallyHeld;

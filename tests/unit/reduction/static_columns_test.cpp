@@ -17,11 +17,11 @@ Matrix3d oblique() { return Eigen::AngleAxisd(1.3, Vector3d(0.3, -0.7, 1.1).norm
 
 /// Two slender members at an angle, turned by R, clamped at original node 0: r/L = 1e-4.
 fem::Structure bent(MPI_Comm comm, const Matrix3d& R) {
-  const mesh::Polyline lines{
+  const generate::Polyline lines{
       {{0, 0, 0}, R * Vector3d(1, 0, 0), R * Vector3d(1.8, 0.4, 0.5)}, {{0, 1}, {1, 2}}, {5, 4}, {}};
   const fem::SpatialBeam beam{
       {1, 2.5e-9, 2.5e-9, 0, 4e-9, 1, 2.5e-9, 2.5e-9, 0, {0, 0}, {0, 0}}, R * Vector3d(0.3, 0.2, 1), {}};
-  return testing::structure_of(mesh::polyline(comm, lines), {beam}, Spread::shuffled);
+  return testing::structure_of(generate::polyline(comm, lines), {beam}, Spread::shuffled);
 }
 
 constexpr PetscInt knee = 5, end = 9;  // original nodes

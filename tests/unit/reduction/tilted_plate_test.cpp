@@ -8,7 +8,7 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using mesh::ShellCells;
+using generate::ShellCells;
 
 namespace {
 
@@ -23,9 +23,9 @@ struct Cantilever {
   body::FlexibleBody body;
 
   static fem::Structure plate(const Matrix3d& R, ShellCells cells) {
-    mesh::Plate plate;
+    generate::Plate plate;
     plate.a = R * Vector3d(2, 0, 0), plate.b = R * Vector3d(0, 1, 0), plate.na = 16, plate.nb = 8, plate.cells = cells;
-    return testing::structure_of(mesh::plate(PETSC_COMM_WORLD, plate),
+    return testing::structure_of(generate::plate(PETSC_COMM_WORLD, plate),
                                  {fem::shell_section({{fem::isotropic(7e10, 0.3, 2700), 0.002}})},
                                  testing::Spread::shuffled);
   }
@@ -94,11 +94,11 @@ TEST_CASE("a tilted plate reduces to the same body as one in a coordinate plane"
 TEST_CASE("bent, layered and stiffened bodies are not taken for flat ones") {
   const fem::Structure mixed = testing::mixed_structure(PETSC_COMM_WORLD, testing::Spread::metis);
   CHECK(fem::flat_body(mixed) == nullptr);
-  mesh::Plate plate;
+  generate::Plate plate;
   plate.a = {2, 0, 0}, plate.b = {0, 1, 0}, plate.na = 2, plate.nb = 2;
   const fem::ShellMaterial ply{900, 300, 0.25, 150, 2};
   const auto layered = [&](std::vector<fem::Ply> plies) {
-    return testing::structure_of(mesh::plate(PETSC_COMM_WORLD, plate), {fem::shell_section(plies, 0, {1, 0, 0})},
+    return testing::structure_of(generate::plate(PETSC_COMM_WORLD, plate), {fem::shell_section(plies, 0, {1, 0, 0})},
                                  testing::Spread::metis);
   };
   CHECK(fem::flat_body(layered({{ply, 0.1, 0}, {ply, 0.1, 1}})) == nullptr);      // bends when it is stretched

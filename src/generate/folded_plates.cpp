@@ -1,8 +1,8 @@
 #include <set>
 
-#include "generate_fold.h"
+#include "fold.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 void check(const std::vector<NamedPlate>& plates) {
@@ -33,4 +33,4 @@ RawMesh folded_plates(MPI_Comm comm, const std::vector<NamedPlate>& plates) {
       comm, recipe, [&](PetscInt i) { return fold.position(i); }, [&](PetscInt i) { return fold.cell(i); });
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,11 +1,11 @@
-#include "generate_share.h"
+#include "share.h"
 
 #include <cmath>
 #include <sstream>
 
 #include "floe/error.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 template <class Value>
@@ -45,4 +45,4 @@ void require_countable(const std::string& source, double nodes, double cells) {
                    ": use a build on petsc64 (PETSc with 64-bit indices)");
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

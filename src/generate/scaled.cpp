@@ -1,7 +1,7 @@
-#include "floe/mesh/generate.h"
-#include "generate_share.h"
+#include "floe/generate/generate.h"
+#include "share.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 RawMesh scaled(RawMesh mesh, double factor) {
   Checks checks("scaled");
@@ -17,4 +17,4 @@ RawMesh prefixed(RawMesh mesh, const std::string& prefix) {
   return mesh;
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

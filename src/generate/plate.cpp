@@ -1,9 +1,9 @@
-#include "generate_plate.h"
+#include "plate.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 // Node i of 0..n at (r^i - 1) / (r^n - 1), r^(n - 1) = grading.
@@ -69,4 +69,4 @@ RawMesh plate(MPI_Comm comm, const Plate& plate) {
       [&](PetscInt i) { return numbered(cell_of(grid, i), 0, number); });
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "floe/generate/generate.h"
 #include "floe/mesh/exchange.h"
-#include "floe/mesh/generate.h"
-#include "generate_join.h"
-#include "generate_share.h"
+#include "join.h"
+#include "share.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 // Positions of names in a list that grows by those it does not have.
@@ -155,4 +155,4 @@ RawMesh merged(const RawMesh& first, const RawMesh& second, const std::vector<Se
   return mesh;
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,4 +1,4 @@
-#include "generate_join.h"
+#include "join.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,11 +8,10 @@
 
 #include "floe/error.h"
 #include "floe/mesh/exchange.h"
+#include "floe/mesh/members.h"
 #include "floe/petsc/error.h"
-#include "members.h"
-#include "text.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -125,8 +124,8 @@ std::vector<PetscInt> joined_to(const RawMesh& first, const RawMesh& second, con
     PetscInt count = join(first, second, seam, tolerance, matches), all = 0;
     MPI_Allreduce(&count, &all, 1, MPIU_INT, MPI_SUM, first.comm);
     if (all == 0)
-      throw InputError("merged: no node of " + in_quotes(seam.of_second) + " is within the tolerance of a node of " +
-                       in_quotes(seam.of_first));
+      throw InputError("merged: no node of '" + seam.of_second + "' is within the tolerance of a node of '" +
+                       seam.of_first + "'");
   }
   refuse_collapsed(first, matches);
   std::vector<PetscInt> nodes;
@@ -134,4 +133,4 @@ std::vector<PetscInt> joined_to(const RawMesh& first, const RawMesh& second, con
   return nodes;
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,6 +1,6 @@
-#include "generate_grid.h"
+#include "grid.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 PetscInt width(const Grid& grid) { return grid.closed ? grid.nu : grid.nu + 1; }
@@ -97,4 +97,4 @@ void check_grid(Checks& checks, const Grid& grid, const std::string& along_u, co
                  "quadrilaterals have no crossed diagonals");
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

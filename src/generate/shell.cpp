@@ -1,8 +1,8 @@
 #include "floe/error.h"
 #include "floe/petsc/error.h"
-#include "generate_grid.h"
+#include "grid.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 // Position of a node, checked: where u closes and at the poles the map gives one point.
@@ -68,4 +68,4 @@ RawMesh shell_of(MPI_Comm comm, const MappedGrid& given) {
   return mesh;
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,4 +1,4 @@
-#include "generate_fold.h"
+#include "fold.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "floe/error.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 constexpr int sides = 4;  // bottom, right, top, left
@@ -173,4 +173,4 @@ Cell Fold::cell(PetscInt number) const {
                   [&](GridNode node) { return this->number(plate, node); });
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

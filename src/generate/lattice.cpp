@@ -1,7 +1,7 @@
-#include "floe/mesh/generate.h"
-#include "generate_share.h"
+#include "floe/generate/generate.h"
+#include "share.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 using Corner = std::array<int, 3>;
@@ -103,4 +103,4 @@ RawMesh lattice(MPI_Comm comm, const Lattice& lattice) {
   return generated(comm, recipe, position, [&](PetscInt number) { return cell(all, boxes, number); });
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

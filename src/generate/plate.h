@@ -1,7 +1,7 @@
 #pragma once
-#include "generate_grid.h"
+#include "grid.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 Grid grid_of(const Plate& plate);
 
@@ -15,4 +15,4 @@ void check_plate(const std::string& source, const Plate& plate);
 std::vector<PlaceRule> plate_places(const Plate& plate, const std::string& prefix,
                                     const std::function<PetscInt(GridNode)>& number);
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

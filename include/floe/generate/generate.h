@@ -3,7 +3,8 @@
 
 #include "floe/mesh/raw_mesh.h"
 
-namespace floe::mesh {
+namespace floe::generate {
+using namespace mesh;
 
 // Meshes without a file. Every rank makes its own share only, without communication; what a node or a cell is follows
 // from its number, which does not depend on the number of ranks. Arguments are the same on all ranks. Labels are the
@@ -105,4 +106,4 @@ struct Seam {
 /// Collective.
 RawMesh merged(const RawMesh& first, const RawMesh& second, const std::vector<Seam>& seams, double tolerance);
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,9 +1,9 @@
 #pragma once
 #include <map>
 
-#include "generate_plate.h"
+#include "plate.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 /// Corner points and edges that plates have in common, and the numbers of nodes that follow.
 ///
@@ -64,4 +64,4 @@ class Fold {
   PetscInt nodes_ = 0;
 };
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,9 +1,9 @@
 #pragma once
 #include <functional>
 
-#include "floe/mesh/raw_mesh.h"
+#include "floe/generate/generate.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 /// A node set by a formula: its i-th node, 0 <= i < count.
 struct PlaceRule {
@@ -82,4 +82,4 @@ inline PlaceRule single(std::string name, PetscInt node) {
   return {std::move(name), 1, [node](PetscInt) { return node; }};
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
-#include "floe/mesh/generate.h"
-#include "generate_share.h"
+#include "floe/generate/generate.h"
+#include "share.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 
 /// nu by nv cells, perhaps closed to a ring along u, perhaps with a row v = 0 or v = 1 that is one node.
 struct Grid {
@@ -55,4 +55,4 @@ std::optional<GridNode> centre_of(const Grid& grid);
 /// What makes no grid.
 void check_grid(Checks& checks, const Grid& grid, const std::string& along_u, const std::string& along_v);
 
-}  // namespace floe::mesh
+}  // namespace floe::generate

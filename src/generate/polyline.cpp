@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "floe/mesh/generate.h"
-#include "generate_share.h"
+#include "floe/generate/generate.h"
+#include "share.h"
 
-namespace floe::mesh {
+namespace floe::generate {
 namespace {
 
 Polyline completed(Polyline lines) {
@@ -124,4 +124,4 @@ RawMesh polyline(MPI_Comm comm, const Polyline& given) {
       [&](PetscInt i) { return cell(lines, n, part, i); });
 }
 
-}  // namespace floe::mesh
+}  // namespace floe::generate
