@@ -54,8 +54,8 @@ Number GmshCursor::value(const char* place) const {
 template double GmshCursor::value<double>(const char*) const;
 template std::int32_t GmshCursor::value<std::int32_t>(const char*) const;
 
-long long GmshCursor::count_at(const char* place) const {
-  return count_width == 4 ? value<std::uint32_t>(place) : static_cast<long long>(value<std::uint64_t>(place));
+long long GmshCursor::count_at(const char* place, int width) const {
+  return width == 4 ? value<std::uint32_t>(place) : static_cast<long long>(value<std::uint64_t>(place));
 }
 
 const char* GmshCursor::bytes(int width, const char* of) {
@@ -73,7 +73,7 @@ long long GmshCursor::integer(const char* of) {
 
 long long GmshCursor::count(const char* of) {
   const char* place = at;
-  const long long read = binary ? count_at(bytes(count_width, of)) : integer(of);
+  const long long read = binary ? count_at(bytes(count_width, of), count_width) : integer(of);
   if (read < 0) refuse_at(place, std::string(of) + " is negative: " + std::to_string(read));
   return read;
 }

@@ -13,7 +13,8 @@ class GmshCursor {
 
   bool binary = false;
   bool swapped = false;  // the file's byte order is the other one
-  int count_width = 8;   // bytes of a count or label in a binary file
+  int count_width = 8;   // bytes of a count in a binary file
+  int label_width = 8;   // of a node's or element's number
   const char* at;
   const char* end;
   long long line = 1;  // of `at`, in a text file
@@ -35,7 +36,7 @@ class GmshCursor {
   /// A binary number at `place`, which must lie in the file.
   template <class Number>
   Number value(const char* place) const;
-  long long count_at(const char* place) const;
+  long long count_at(const char* place, int width) const;
 
  private:
   void skip_blanks();

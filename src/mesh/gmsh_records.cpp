@@ -19,7 +19,8 @@ std::string_view next_record(GmshCursor& cursor, Where& where) {
 bool read_labels(GmshCursor& cursor, int count, const char* what, long long* labels, Where& where, Faults& faults) {
   if (cursor.binary) {
     where = cursor.where(cursor.at);
-    for (int i = 0; i < count; ++i, cursor.at += cursor.count_width) labels[i] = cursor.count_at(cursor.at);
+    for (int i = 0; i < count; ++i, cursor.at += cursor.label_width)
+      labels[i] = cursor.count_at(cursor.at, cursor.label_width);
     return true;
   }
   auto line = next_record(cursor, where);
@@ -37,8 +38,14 @@ bool read_labels(GmshCursor& cursor, int count, const char* what, long long* lab
   return false;
 }
 
-std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faults& faults) {
+// The position of a record, of which a label may stand before it.
+std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faults& faults,
+                                             long long* label = nullptr) {
   Eigen::Vector3d position;
+  if (label && cursor.binary) {
+    *label = cursor.count_at(cursor.at, cursor.label_width);
+    cursor.at += cursor.label_width;
+  }
   if (cursor.binary) {
     for (int i = 0; i < 3; ++i) position[i] = cursor.value<double>(cursor.at + static_cast<std::ptrdiff_t>(8) * i);
     cursor.at += static_cast<std::ptrdiff_t>(8) * reals;
@@ -47,6 +54,14 @@ std::optional<Eigen::Vector3d> read_position(GmshCursor& cursor, int reals, Faul
   Where where;
   auto line = next_record(cursor, where);
   const auto whole = line;
+  if (label) {
+    const auto read = number<long long>(next_word(line));
+    if (!read) {
+      faults.add(where, "expected a node number and coordinates, found " + in_quotes(whole));
+      return std::nullopt;
+    }
+    *label = *read;
+  }
   for (int i = 0; i < reals; ++i) {
     const auto read = number<double>(next_word(line));
     if (!read) {
@@ -78,19 +93,23 @@ Window window(long long start, long long count, long long first, long long last)
 void read_block(const GmshElementBlock& block, const GmshUse& use, Window part, FileMesh& mesh, Faults& faults) {
   const auto& type = *gmsh_type(block.type);
   GmshCursor cursor = block.begin;
-  pass(cursor, part.skipped, static_cast<long long>(cursor.count_width) * (1 + type.nodes));
+  pass(cursor, part.skipped,
+       static_cast<long long>(cursor.label_width) * (block.before + 1 + block.skipped + type.nodes));
   const std::string what = "an element number and " + std::to_string(type.nodes) + " nodes (" + type.name + ")";
-  long long labels[1 + most_nodes];
+  long long record[3 + 1 + 2 + gmsh_most_tags + most_nodes];
   std::vector<long long> used;
   for (long long i = 0; i < part.count; ++i) {
     Where where;
-    if (!read_labels(cursor, 1 + type.nodes, what.c_str(), labels, where, faults)) continue;
+    if (!read_labels(cursor, block.before + 1 + block.skipped + type.nodes, what.c_str(), record, where, faults))
+      continue;
+    const long long* labels = record + block.before;
+    const long long* nodes = labels + 1 + block.skipped;
     if (use.part >= 0) {
       FileCell cell{labels[0], static_cast<CellKind>(block.type - 1), use.part, {-1, -1, -1, -1}, where};
-      std::copy(labels + 1, labels + 1 + type.nodes, cell.nodes.begin());
+      std::copy(nodes, nodes + type.nodes, cell.nodes.begin());
       mesh.cells.push_back(cell);
     }
-    if (!use.places.empty()) used.insert(used.end(), labels + 1, labels + 1 + type.nodes);
+    if (!use.places.empty()) used.insert(used.end(), nodes, nodes + type.nodes);
   }
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -107,13 +126,13 @@ void read_nodes(const GmshStructure& structure, Share share, FileMesh& mesh, Fau
     const auto part = window(block.first, block.count, share.first, static_cast<long long>(share.first) + share.count);
     if (part.count == 0) continue;
     GmshCursor labels = block.labels, positions = block.positions;
-    pass(labels, part.skipped, labels.count_width);
-    pass(positions, part.skipped, 8LL * block.reals);
+    if (!block.together) pass(labels, part.skipped, labels.label_width);
+    pass(positions, part.skipped, 8LL * block.reals + (block.together ? positions.label_width : 0));
     for (long long i = 0; i < part.count; ++i) {
-      Where where;
+      Where where = positions.where(positions.at);
       long long label = 0;
-      const bool labelled = read_labels(labels, 1, "a node number", &label, where, faults);
-      const auto position = read_position(positions, block.reals, faults);
+      const bool labelled = block.together || read_labels(labels, 1, "a node number", &label, where, faults);
+      const auto position = read_position(positions, block.reals, faults, block.together ? &label : nullptr);
       if (!labelled || !position) continue;
       mesh.node_labels.push_back(label);
       mesh.positions.push_back(*position);

@@ -16,12 +16,15 @@ struct GmshNodeBlock {
   GmshCursor labels, positions;  // where its first label and its first position stand
   long long first, count;        // of the nodes of the file
   int reals;                     // of a node: 3, and its parameters
+  bool together = false;         // each position follows its label
 };
 
 struct GmshElementBlock {
   GmshEntity entity;
   long long type, count;
   GmshCursor begin;
+  int skipped = 0;  // integers between an element's number and its nodes
+  int before = 0;   // integers of a record before the element's number
 };
 
 /// What a Gmsh file holds and where, without the nodes and elements themselves.
@@ -31,6 +34,7 @@ struct GmshStructure {
   std::vector<GmshNodeBlock> nodes;
   std::vector<GmshElementBlock> elements;
   long long node_count = 0;
+  enum Format { format_2, format_4_0, format_4_1 } format = format_4_1;
 };
 
 /// Walks the file once. Rank-local.
@@ -42,7 +46,12 @@ struct GmshType {
   int nodes;
 };
 
+constexpr int gmsh_most_tags = 100;  // of an element of format 2
+
 /// Name and number of nodes of an element type; nullptr where the format has no such number.
 const GmshType* gmsh_type(long long type);
+
+/// Dimension of the elements of a type. Throws nothing; 3 for all that is neither point, curve nor surface.
+int gmsh_dimension(long long type);
 
 }  // namespace floe::mesh

@@ -42,4 +42,31 @@ const GmshType* gmsh_type(long long type) {
   return found == types.end() ? nullptr : &found->second;
 }
 
+int gmsh_dimension(long long type) {
+  switch (type) {
+    case 15:
+      return 0;
+    case 1:
+    case 8:
+    case 26:
+    case 27:
+    case 28:
+      return 1;
+    case 2:
+    case 3:
+    case 9:
+    case 10:
+    case 16:
+    case 20:
+    case 21:
+    case 22:
+    case 23:
+    case 24:
+    case 25:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
 }  // namespace floe::mesh
