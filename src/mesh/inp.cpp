@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "deck_file.h"
 #include "floe/petsc/error.h"
 #include "inp_reading.h"
 #include "text.h"
@@ -28,42 +29,40 @@ void refuse_incomplete(const InpBlocks& deck, InpReading& reading) {
       faults.add({0, 1}, std::string("the deck has no *") + keyword);
 }
 
-Deck finished(InpReading& reading, const Numbered& numbered, const std::vector<double>& masses,
-              const std::vector<LinkMentions>& links) {
-  Deck deck = std::move(reading.deck);
-  for (std::size_t i = 0; i < masses.size(); ++i) deck.masses.push_back({numbered.mentioned[i], masses[i]});
-  for (const auto& link : links) {
-    auto& nodes = deck.links.emplace_back(RigidLink{numbered.mentioned[link.reference], {}}).nodes;
-    for (const auto mention : link.nodes) nodes.push_back(numbered.mentioned[mention]);
-  }
-  return deck;
+// Materials that no section names.
+void tell_unused(const std::string& path, InpReading& reading) {
+  std::vector<std::string> unused;
+  for (const auto& material : reading.deck.materials)
+    if (std::none_of(reading.materials_used.begin(), reading.materials_used.end(),
+                     [&](const auto& used) { return upper(used.first) == upper(material.name); }))
+      unused.push_back(material.name);
+  if (!unused.empty())
+    reading.notices.push_back(path + ": " + (unused.size() > 1 ? "materials " : "material ") + listed(unused) +
+                              (unused.size() > 1 ? " are" : " is") + " not used by any section");
 }
 
 }  // namespace
 
-InpFile read_inp(MPI_Comm comm, const std::string& path) {
+DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& request) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Faults faults;
-  InpReading reading{faults, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
     const InpBlocks deck = inp_blocks(path, faults);
     read_blocks(deck.blocks, reading);
     refuse_incomplete(deck, reading);
+    tell_ignored(reading);
+    tell_unused(path, reading);
   });
   faults.throw_together(comm);
   agree_members(comm, reading);
-  const auto masses = assign_sections(comm, reading);
-  const auto links = resolve_nodes(comm, reading);
+  assign_sections(comm, reading);
+  resolve_nodes(comm, reading);
+  assign_thicknesses(comm, reading);
   faults.throw_together(comm);
-  Numbered numbered = number_labels(comm, std::move(reading.mesh), faults);
-  if (numbered.mesh.cell_count == 0) throw InputError(path + ": the deck has no beams or shells");
-  numbered.mesh.source = path;
-  if (numbered.dropped > 0)
-    reading.notices.push_back(path + ": " + std::to_string(numbered.dropped) + " unused nodes are ignored");
-  Deck deck = finished(reading, numbered, masses, links);
-  return {std::move(numbered.mesh), std::move(deck), std::move(reading.notices)};
+  return deck_file(comm, path, std::move(reading.mesh), std::move(reading.deck), faults, std::move(reading.notices));
 }
 
 }  // namespace floe::mesh

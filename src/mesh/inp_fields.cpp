@@ -17,7 +17,7 @@ std::optional<std::vector<double>> numbers(std::string_view line, Where where, s
   std::vector<double> values;
   bool good = fields.size() >= least && fields.size() <= most;
   for (const auto field : fields) {
-    const auto value = field.empty() ? std::optional(0.0) : number<double>(field);
+    const auto value = field.empty() ? std::optional(0.0) : fortran_number(field);
     good = good && value;
     values.push_back(value.value_or(0));
   }

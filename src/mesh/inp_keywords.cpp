@@ -13,11 +13,6 @@ struct Keyword {
 
 void nothing(const InpBlock&, InpReading&) {}
 
-void left_out(const InpBlock& block, InpReading& reading) {
-  const std::string why = block.keyword == "BOUNDARY" ? ": supports are joints of the scene" : "";
-  reading.notices.push_back(reading.faults.text_of(block.where) + ": " + block.name + " is ignored" + why);
-}
-
 void read_instance(const InpBlock& block, InpReading& reading) {
   if (!reading.instance.empty()) reading.faults.add(block.where, "a second *INSTANCE: one is read, for one body");
   if (block.lines()) reading.faults.add(block.where, "an *INSTANCE that is moved is not read");
@@ -30,12 +25,15 @@ const std::map<std::string, Keyword>& keywords() {
       {"ELEMENT", {{"TYPE", "ELSET"}, nothing}},
       {"NSET", {{"NSET", "GENERATE", "UNSORTED", "INTERNAL", "INSTANCE"}, read_set}},
       {"ELSET", {{"ELSET", "GENERATE", "UNSORTED", "INTERNAL", "INSTANCE"}, read_set}},
-      {"SURFACE", {{"NAME", "TYPE", "INTERNAL"}, read_surface}},
-      {"MATERIAL", {{"NAME", "DESCRIPTION"}, read_material}},
-      {"ELASTIC", {{"TYPE"}, read_elastic}},
+      {"SURFACE", {{"NAME", "TYPE", "INTERNAL", "COMBINE", "TRIM", "REGIONTYPE", "FILLETRADIUS"}, read_surface}},
+      {"MATERIAL", {{"NAME", "DESCRIPTION", "RTOL"}, read_material}},
+      {"ELASTIC", {{"TYPE", "MODULI"}, read_elastic}},
       {"DENSITY", {{}, read_density}},
       {"ORIENTATION", {{"NAME", "SYSTEM", "DEFINITION"}, read_orientation}},
-      {"SHELLSECTION", {{"ELSET", "MATERIAL", "OFFSET", "ORIENTATION", "COMPOSITE", "CONTROLS"}, read_shell_section}},
+      {"SHELLSECTION",
+       {{"ELSET", "MATERIAL", "OFFSET", "ORIENTATION", "COMPOSITE", "CONTROLS", "SYMMETRIC", "NODALTHICKNESS",
+         "POISSON", "TEMPERATURE", "THICKNESSMODULUS", "SECTIONINTEGRATION", "LAYUP"},
+        read_shell_section}},
       {"BEAMSECTION",
        {{"ELSET", "MATERIAL", "SECTION", "OFFSET1", "OFFSET2", "TEMPERATURE", "POISSON"}, read_beam_section}},
       {"BEAMGENERALSECTION",
@@ -54,13 +52,93 @@ const std::map<std::string, Keyword>& keywords() {
       {"ENDINSTANCE", {{}, nothing}},
       {"HEADING", {{}, nothing}},
       {"PREPRINT", {{"ECHO", "MODEL", "HISTORY", "CONTACT"}, nothing}},
-      {"BOUNDARY", {{"OP", "FIXED", "AMPLITUDE", "TYPE"}, left_out}},
-      {"AMPLITUDE", {{"NAME", "TIME", "DEFINITION", "VALUE", "USER", "SHIFTX", "SHIFTY"}, left_out}},
-      {"TIMEPOINTS", {{"NAME", "TIME", "GENERATE"}, left_out}},
-      {"EXPANSION", {{"TYPE", "ZERO"}, left_out}},
-      {"CONDUCTIVITY", {{"TYPE"}, left_out}},
-      {"SPECIFICHEAT", {{}, left_out}},
+      {"NODALTHICKNESS", {{}, read_nodal_thickness}},
   };
+  return all;
+}
+
+// What does not make a linear elastic body: keywords by the reason that their notice gives.
+const std::map<std::string, std::string>& ignored_keywords() {
+  static const std::map<std::string, std::string> all = [] {
+    const std::pair<const char*, std::vector<const char*>> groups[] = {
+        {"",
+         {"AMPLITUDE",
+          "CFDCONTROLS",
+          "CONSTRAINT",
+          "CONTROLS",
+          "CORRELATIONLENGTH",
+          "DESIGNRESPONSE",
+          "DESIGNVARIABLES",
+          "ELEMENTOUTPUT",
+          "ELFILE",
+          "ELPRINT",
+          "FACEPRINT",
+          "FILEFORMAT",
+          "FILTER",
+          "NODEFILE",
+          "NODEOUTPUT",
+          "NODEPRINT",
+          "OBJECTIVE",
+          "OUTPUT",
+          "PHYSICALCONSTANTS",
+          "RANDOMFIELD",
+          "RESTART",
+          "SECTIONCONTROLS",
+          "SECTIONPRINT",
+          "TIMEPOINTS",
+          "TRANSFORM",
+          "USERSUBROUTINES",
+          "WAVEFRONTMINIMIZATION"}},
+        {"heat and other fields do not concern the body",
+         {"CONDUCTIVITY", "ELECTRICALCONDUCTIVITY", "EXPANSION", "FLUIDCONSTANTS", "FLUIDSECTION",
+          "MAGNETICPERMEABILITY", "RADIATE", "FILM", "SPECIFICGASCONSTANT", "SPECIFICHEAT", "VALUESATINFINITY",
+          "VIEWFACTOR", "LATENTHEAT"}},
+        {"supports are joints of the scene", {"BOUNDARY", "BASEMOTION"}},
+        {"loads are those of the scene", {"CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "CFLUX", "DFLUX"}},
+        {"the body is at rest and without stress at the beginning", {"INITIALCONDITIONS"}},
+        {"the nodes are not tied by it",
+         {"EQUATION", "TIE", "CYCLICSYMMETRYMODEL", "EMBEDDEDELEMENT", "FASTENER", "DISTRIBUTINGCOUPLING",
+          "PRE-TENSIONSECTION", "CONNECTORSECTION"}},
+        {"contact is not represented",
+         {"CHANGECONTACTTYPE",
+          "CLEARANCE",
+          "CONTACT",
+          "CONTACTCLEARANCE",
+          "CONTACTCLEARANCEASSIGNMENT",
+          "CONTACTCONTROLS",
+          "CONTACTDAMPING",
+          "CONTACTEXCLUSIONS",
+          "CONTACTFILE",
+          "CONTACTINCLUSIONS",
+          "CONTACTINITIALIZATIONASSIGNMENT",
+          "CONTACTINITIALIZATIONDATA",
+          "CONTACTOUTPUT",
+          "CONTACTPAIR",
+          "CONTACTPRINT",
+          "CONTACTPROPERTYASSIGNMENT",
+          "FRICTION",
+          "GAPCONDUCTANCE",
+          "GAPHEATGENERATION",
+          "SURFACEBEHAVIOR",
+          "SURFACEINTERACTION",
+          "SURFACEPROPERTYASSIGNMENT",
+          "SURFACESMOOTHING"}},
+        {"the material is linear elastic",
+         {"CONCRETE", "CREEP", "CYCLICHARDENING", "DAMAGEEVOLUTION", "DAMAGEINITIATION", "DEFORMATIONPLASTICITY",
+          "DEPVAR", "DRUCKERPRAGER", "FAILSTRESS", "HYPERELASTIC", "HYPERFOAM", "MOHRCOULOMB", "MOHRCOULOMBHARDENING",
+          "PLASTIC", "RATEDEPENDENT", "USERMATERIAL", "VISCOELASTIC", "VISCOUS"}},
+        {"damping is that of the scene", {"DAMPING"}},
+        {"mass that is not of a density or *MASS is not taken over", {"NONSTRUCTURALMASS", "ROTARYINERTIA"}},
+        {"beams have no shear deformation", {"TRANSVERSESHEARSTIFFNESS", "TRANSVERSESHEAR"}},
+        {"elements use the normals of their nodes' positions", {"NORMAL"}},
+        {"it belongs to elements of another kind",
+         {"SOLIDSECTION", "MEMBRANESECTION", "SPRING", "DASHPOT", "GAP", "USERELEMENT", "COHESIVESECTION",
+          "SURFACESECTION", "CONNECTORBEHAVIOR", "CONNECTORELASTICITY", "CONNECTORDAMPING"}}};
+    std::map<std::string, std::string> reasons;
+    for (const auto& [why, names] : groups)
+      for (const char* name : names) reasons.emplace(name, why);
+    return reasons;
+  }();
   return all;
 }
 
@@ -71,25 +149,43 @@ void check_parameters(const InpBlock& block, const Keyword& keyword, Faults& fau
                                   suggestion(key, keyword.parameters));
 }
 
+// What a step holds that acts on the body: its lines are counted.
+bool acts(const std::string& keyword) {
+  static const std::set<std::string> all{"BOUNDARY",    "CLOAD",      "DLOAD",        "DSLOAD",
+                                         "TEMPERATURE", "BASEMOTION", "INERTIARELIEF"};
+  return all.contains(keyword);
+}
+
 // From *STEP on: skips to *END STEP, and says once what is skipped.
 std::size_t skip_steps(const std::vector<InpBlock>& blocks, std::size_t i, InpReading& reading) {
   const auto& step = blocks[i];
   std::string inside;
   std::set<std::string> told;
-  for (++i; i < blocks.size() && blocks[i].keyword != "ENDSTEP"; ++i)
-    if (told.insert(blocks[i].keyword).second) inside += (inside.empty() ? " (" : ", ") + blocks[i].name;
+  std::vector<std::pair<std::string, long long>> acting;
+  for (++i; i < blocks.size() && blocks[i].keyword != "ENDSTEP"; ++i) {
+    if (told.insert(blocks[i].keyword).second) {
+      inside += (inside.empty() ? " (" : ", ") + blocks[i].name;
+      if (acts(blocks[i].keyword)) acting.emplace_back(blocks[i].name, 0);
+    }
+    for (auto& [name, lines] : acting)
+      if (folded(name) == "*" + blocks[i].keyword) lines += blocks[i].lines();
+  }
+  std::vector<std::string> counts;
+  for (const auto& [name, lines] : acting) counts.push_back(name + " " + counted(lines, "line"));
   if (i == blocks.size())
     reading.faults.add(step.where, "*STEP has no *END STEP");
   else
     reading.notices.push_back(reading.faults.text_of(step.where) + ": what is between *STEP and *END STEP (line " +
                               std::to_string(blocks[i].where.at) + ") is ignored" + inside +
-                              (inside.empty() ? "" : ")") + ": supports and loads are those of the scene");
+                              (inside.empty() ? "" : ")") + ": supports and loads are those of the scene" +
+                              (counts.empty() ? "" : "; not taken over: " + listed(counts)));
   return i;
 }
 
 void refuse_unknown(const InpBlock& block, Faults& faults) {
   std::vector<std::string> known;
   for (const auto& [name, unused] : keywords()) known.push_back("*" + name);
+  for (const auto& [name, unused] : ignored_keywords()) known.push_back("*" + name);
   faults.add(block.where, "keyword " + in_quotes(block.name) + " is not read" + suggestion("*" + block.keyword, known));
 }
 
@@ -104,6 +200,27 @@ void check_nesting(const InpBlock& block, int& parts, bool& in_assembly, Faults&
 
 }  // namespace
 
+void ignore(const InpBlock& block, const std::string& why, InpReading& reading) {
+  for (auto& one : reading.ignored) {
+    if (upper(one.name) != upper(block.name)) continue;
+    ++one.times, one.lines += block.lines();
+    return;
+  }
+  reading.ignored.push_back({block.where, block.name, why, 1, block.lines()});
+}
+
+void tell_ignored(InpReading& reading) {
+  std::vector<std::string> lines;
+  for (const auto& one : reading.ignored) {
+    std::string text = reading.faults.text_of(one.where) + ": " + one.name + " is ignored";
+    if (!one.why.empty()) text += ": " + one.why;
+    if (one.lines > 0 && !one.why.empty()) text += " (" + counted(one.lines, "line") + ")";
+    if (one.times > 1) text += ", " + std::to_string(one.times) + " times";
+    lines.push_back(std::move(text));
+  }
+  reading.notices.insert(reading.notices.begin(), lines.begin(), lines.end());
+}
+
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
   InpShares shares = shares_of(blocks, reading.rank, reading.ranks, reading.faults);
   int parts = 0;
@@ -116,6 +233,10 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
                          "*COUPLING is read with *KINEMATIC only");
     if (block.keyword == "STEP") {
       i = skip_steps(blocks, i, reading);
+      continue;
+    }
+    if (const auto why = ignored_keywords().find(block.keyword); why != ignored_keywords().end()) {
+      ignore(block, why->second, reading);
       continue;
     }
     if (keyword == keywords().end()) {

@@ -17,6 +17,17 @@ void read_mass(const InpBlock& block, InpReading& reading) {
   reading.uses.push_back({InpUse::mass, set, block.where, mass->front()});
 }
 
+void read_nodal_thickness(const InpBlock& block, InpReading& reading) {
+  std::vector<std::string_view> fields;
+  block.each_line([&](Where where, std::string_view line) {
+    split_fields(line, fields);
+    const auto value = fields.size() > 1 ? fortran_number(fields[1]) : std::nullopt;
+    if (!value || !(*value > 0) || fields[0].empty())
+      return reading.faults.add(where, "expected a node or node set and a thickness, found " + in_quotes(line));
+    reading.thicknesses.push_back({where, std::string(fields[0]), *value});
+  });
+}
+
 void read_rigid_body(const InpBlock& block, InpReading& reading) {
   for (const char* key : {"ELSET", "PINNSET", "ANALYTICALSURFACE"})
     if (block.parameters.contains(key))

@@ -13,6 +13,14 @@ Material* current(const InpBlock& block, InpReading& reading) {
   return nullptr;
 }
 
+constexpr std::size_t most_lines = 1000;  // of a material's constants, each at one temperature
+
+void tell_temperatures(const InpBlock& block, long long temperatures, InpReading& reading) {
+  if (temperatures > 1)
+    reading.notices.push_back(reading.faults.text_of(block.where) + ": " + block.name + " is given at " +
+                              std::to_string(temperatures) + " temperatures: the first is used");
+}
+
 bool positive(const std::vector<double>& values, std::initializer_list<int> which) {
   for (const int i : which)
     if (!(values[i] > 0)) return false;
@@ -22,8 +30,9 @@ bool positive(const std::vector<double>& values, std::initializer_list<int> whic
 std::optional<std::vector<double>> engineering_constants(const InpBlock& block, InpReading& reading) {
   constexpr std::size_t on_first = 8;
   const auto lines =
-      data_lines(block, 2, 2, "E1 E2 E3 nu12 nu13 nu23 G12 G13 and, on a second line, G23", reading.faults);
+      data_lines(block, 2, most_lines, "E1 E2 E3 nu12 nu13 nu23 G12 G13 and, on a second line, G23", reading.faults);
   if (lines.empty()) return std::nullopt;
+  tell_temperatures(block, block.lines() / 2, reading);
   auto values =
       numbers(lines[0].second, lines[0].first, on_first, on_first, "E1 E2 E3 nu12 nu13 nu23 G12 G13", reading.faults);
   const auto last = numbers(lines[1].second, lines[1].first, 1, 2, "G23[, temperature]", reading.faults);
@@ -36,8 +45,9 @@ std::optional<std::vector<double>> engineering_constants(const InpBlock& block, 
 
 std::optional<std::vector<double>> one_line(const InpBlock& block, std::size_t count, const char* what,
                                             std::initializer_list<int> moduli, InpReading& reading) {
-  const auto lines = data_lines(block, 1, 1, std::string(what) + " at one temperature", reading.faults);
+  const auto lines = data_lines(block, 1, most_lines, what, reading.faults);
   if (lines.empty()) return std::nullopt;
+  tell_temperatures(block, block.lines(), reading);
   auto values = numbers(lines[0].second, lines[0].first, count, count + 1, what, reading.faults);
   if (!values) return std::nullopt;
   values->resize(count);

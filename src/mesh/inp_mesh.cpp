@@ -12,13 +12,47 @@ const std::map<std::string, int>& element_nodes() {
   return nodes;
 }
 
-// 0: not one that is read.
-int nodes_of(const InpBlock& block) {
-  const auto type = block.parameters.find("TYPE");
-  if (type == block.parameters.end()) return 0;
-  const auto found = element_nodes().find(upper(type->second));
-  return found == element_nodes().end() ? 0 : found->second;
+// Types that differ from one that is read in integration or formulation only.
+const std::map<std::string, std::string>& twins() {
+  static const std::map<std::string, std::string> all{{"B31H", "B31"}, {"B31R", "B31"}, {"B33H", "B33"}, {"S4R5", "S4"},
+                                                      {"S4RS", "S4"},  {"S4RSW", "S4"}, {"S3RS", "S3"}};
+  return all;
 }
+
+struct ElementType {
+  int nodes = 0;       // of a record; 0: the type is unknown
+  bool other = false;  // neither beam, shell nor mass
+};
+
+// Nodes of solids, membranes, trusses, springs, ...: mostly the number that follows the family; 0: none of them.
+int nodes_of_other(const std::string& type) {
+  static const std::map<std::string, int> named{{"SPRINGA", 2},  {"SPRING1", 1},  {"SPRING2", 2}, {"DASHPOTA", 2},
+                                                {"DASHPOT1", 1}, {"DASHPOT2", 2}, {"GAPUNI", 2},  {"DCOUP3D", 1},
+                                                {"CONN3D2", 2},  {"RB3D2", 2},    {"ROTARYI", 1}, {"D", 3}};
+  if (const auto found = named.find(type); found != named.end()) return found->second;
+  for (const char* family : {"C3D", "F3D", "CPS", "CPE", "CAX", "M3D", "T3D", "R3D", "SC", "DC3D", "AC3D", "COH3D"}) {
+    const std::string_view start(family);
+    if (!type.starts_with(start)) continue;
+    const std::string_view rest = std::string_view(type).substr(start.size());
+    const auto digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    const auto nodes = number<int>(rest.substr(0, digits));
+    constexpr int most = 27;
+    if (nodes && *nodes > 0 && *nodes <= most) return *nodes;
+  }
+  return 0;
+}
+
+ElementType type_of(const InpBlock& block) {
+  const auto given = block.parameters.find("TYPE");
+  if (given == block.parameters.end()) return {};
+  std::string type = upper(given->second);
+  if (const auto twin = twins().find(type); twin != twins().end()) type = twin->second;
+  if (const auto found = element_nodes().find(type); found != element_nodes().end()) return {found->second, false};
+  const int nodes = nodes_of_other(type);
+  return {nodes, nodes > 0};
+}
+
+int nodes_of(const InpBlock& block) { return type_of(block).nodes; }
 
 // Lines that the first record takes: it goes on after a comma at the end while nodes are missing.
 long long lines_of_record(const InpBlock& block, int nodes) {
@@ -42,6 +76,16 @@ Window window(long long start, long long count, const Share& share) {
   const long long begin = std::max<long long>(start, share.first);
   const long long end = std::min<long long>(start + count, static_cast<long long>(share.first) + share.count);
   return {begin - start, std::max(0LL, end - begin)};
+}
+
+// An element of another kind: its label, so that sets may name it.
+bool add_other(const std::vector<std::string_view>& fields, InpElement element, InpReading& reading) {
+  const auto label = fields.empty() ? std::nullopt : number<long long>(fields[0]);
+  if (!label) return false;
+  element.label = *label;
+  element.nodes = 0;
+  reading.elements.push_back(element);
+  return true;
 }
 
 bool add_element(const std::vector<std::string_view>& fields, InpElement element, InpReading& reading) {
@@ -83,14 +127,16 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
   const int set = named == block.parameters.end() ? -1 : reading.node_sets.named(named->second, block.where);
   const Window part = window(shares.nodes_before, block.lines(), shares.nodes);
   shares.nodes_before += block.lines();
+  constexpr std::size_t most_of_node = 7;  // the normal's direction may follow
   std::vector<std::string_view> fields;
   block.each_line(part.skipped, part.count, [&](Where where, std::string_view line) {
     split_fields(line, fields);
     const auto label = fields.empty() ? std::nullopt : number<long long>(fields[0]);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    bool good = label && fields.size() >= 3 && fields.size() <= 4;
-    for (std::size_t i = 1; good && i < fields.size(); ++i) {
-      const auto value = number<double>(fields[i]);
+    const auto given = std::count(line.begin(), line.end(), ',');  // of coordinates, also empty ones
+    bool good = label && given >= 2 && fields.size() <= most_of_node;
+    for (std::size_t i = 1; good && i < std::min<std::size_t>(fields.size(), 4); ++i) {
+      const auto value = fields[i].empty() ? std::optional(0.0) : fortran_number(fields[i]);
       good = value.has_value();
       position[static_cast<Eigen::Index>(i) - 1] = value.value_or(0);
     }
@@ -105,17 +151,27 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
 
 void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading) {
   const std::string type = required(block, "TYPE", reading);
-  const int nodes = nodes_of(block);
-  if (!nodes && !type.empty()) {
+  const auto [nodes, other] = type_of(block);
+  const auto& ignored = reading.request.ignore;
+  const bool left_out = std::any_of(ignored.begin(), ignored.end(), [&](const std::string& name) {
+    return !type.empty() && upper(name) == upper(type);
+  });
+  if ((!nodes || (other && !left_out)) && !type.empty()) {
     std::vector<std::string> known;
     for (const auto& [name, unused] : element_nodes()) known.push_back(name);
-    reading.faults.add(block.where,
-                       "elements of type " + in_quotes(type) + " are not read (" + listed(known) + " are)");
+    reading.faults.add(block.where, "elements of type " + in_quotes(type) + " are not read (" + listed(known) +
+                                        " are)" + (other ? "; to leave them out: file: {ignore: [" + type + "]}" : ""));
   }
+  if (const auto twin = twins().find(upper(type)); twin != twins().end())
+    reading.notices.push_back(reading.faults.text_of(block.where) + ": elements of type " + type + " are read as " +
+                              twin->second);
   const auto named = block.parameters.find("ELSET");
   const int set = named == block.parameters.end() ? -1 : reading.element_sets.named(named->second, block.where);
   if (!nodes) return;
   const long long lines = lines_of_record(block, nodes), records = block.lines() / lines;
+  if (other && left_out)
+    reading.notices.push_back(reading.faults.text_of(block.where) + ": " + counted(records, "element") + " of type " +
+                              type + (records == 1 ? " is" : " are") + " left out, as the scene asks");
   const std::string what = "an element number and " + std::to_string(nodes) + " nodes" +
                            (lines > 1 ? " on " + std::to_string(lines) + " lines, as in the first record" : "");
   if (records * lines != block.lines()) reading.faults.add(block.where, block.name + " expects records of " + what);
@@ -130,7 +186,7 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
     if (line_of_record) fields.insert(fields.end(), more.begin(), more.end());
     if (++line_of_record < lines) return;
     line_of_record = 0;
-    if (!add_element(fields, element, reading))
+    if (!(other ? add_other(fields, element, reading) : add_element(fields, element, reading)))
       reading.faults.add(element.where, "expected " + what + ", found " + in_quotes(line));
   });
 }

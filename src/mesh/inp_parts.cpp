@@ -42,23 +42,71 @@ std::vector<Assignment> listed_elements(MPI_Comm comm, const std::vector<std::ve
   return received;
 }
 
-void assign(InpElement& element, int use, InpReading& reading) {
-  if (element.use >= 0 && element.use != use)
-    return reading.faults.add(element.where, "element " + std::to_string(element.label) + " is in two sections, of " +
-                                                 in_quotes(reading.uses[element.use].set) + " and " +
-                                                 in_quotes(reading.uses[use].set));
-  element.use = use;
+bool fits(const InpElement& element, InpUse::Kind kind) {
+  if (element.nodes == 1) return kind == InpUse::mass;
+  return kind == InpUse::scene || kind == (element.nodes == 2 ? InpUse::beam : InpUse::shell);
 }
 
-void refuse_wrong_use(const InpElement& element, InpReading& reading) {
+void assign(InpElement& element, int use, const InpReading& reading) {
+  if (element.nodes == 0) return;
+  if (!fits(element, reading.uses[use].kind)) {
+    element.other_use = std::max(element.other_use, use);
+    return;
+  }
+  element.again = element.again || (element.use >= 0 && element.use != use);
+  element.use = std::max(element.use, use);
+}
+
+void refuse_unused(const InpElement& element, InpReading& reading) {
   static const char* const needs[] = {"", "*MASS", "*BEAM SECTION", "*SHELL SECTION", "*SHELL SECTION"};
-  const int kind = element.nodes == 1 ? InpUse::mass : element.nodes == 2 ? InpUse::beam : InpUse::shell;
-  if (element.use < 0)
+  if (element.other_use >= 0)
+    return reading.faults.add(
+        element.where, "element " + std::to_string(element.label) + " needs a " + needs[element.nodes] + ", set " +
+                           in_quotes(reading.uses[element.other_use].set) + " has another section");
+  const bool by_scene = element.nodes > 1 && (reading.request.section || !reading.request.parts.empty());
+  if (!by_scene)
     reading.faults.add(element.where, "element " + std::to_string(element.label) +
                                           " has no section: it is in no set of a " + needs[element.nodes]);
-  else if (reading.uses[element.use].kind != kind)
-    reading.faults.add(element.where, "element " + std::to_string(element.label) + " needs a " + needs[element.nodes] +
-                                          ", set " + in_quotes(reading.uses[element.use].set) + " has another section");
+}
+
+/// Sections by which earlier ones of the same elements do not hold. Collective.
+void tell_overridden(MPI_Comm comm, InpReading& reading) {
+  std::vector<long long> counts(reading.uses.size(), 0);
+  for (const auto& element : reading.elements)
+    if (element.again) ++counts[element.use];
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_LONG_LONG, MPI_SUM, comm);
+  for (std::size_t use = 0; use < counts.size(); ++use)
+    if (counts[use] > 0 && reading.uses[use].kind != InpUse::scene)
+      reading.notices.push_back(reading.faults.text_of(reading.uses[use].where) + ": set " + reading.uses[use].set +
+                                " overrides an earlier section of " + counted(counts[use], "element"));
+}
+
+/// Parts of the elements that have no section, by their *ELEMENT, ELSET=; of each element set, and last of none: the
+/// part's number, or -1. Collective.
+std::vector<int> parts_without_section(MPI_Comm comm, InpReading& reading) {
+  const std::size_t sets = reading.element_sets.sets.size();
+  std::vector<int> parts(sets + 1, 0);
+  for (const auto& element : reading.elements)
+    if (element.nodes > 1 && element.use < 0) parts[element.set < 0 ? sets : static_cast<std::size_t>(element.set)] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(parts.size()), MPI_INT, MPI_MAX, comm);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool needed = parts[i] > 0;
+    parts[i] = needed ? static_cast<int>(reading.mesh.parts.size()) : -1;
+    if (needed) reading.mesh.parts.push_back(i < sets ? reading.element_sets.sets[i].name : "mesh");
+  }
+  return parts;
+}
+
+/// Sets that the scene gives a section, after those of the deck.
+void add_requested(InpReading& reading) {
+  for (const auto& name : reading.request.parts) {
+    const bool own = std::any_of(reading.uses.begin(), reading.uses.end(), [&](const InpUse& use) {
+      return use.kind != InpUse::mass && upper(use.set) == upper(name);
+    });
+    if (!own && reading.element_sets.find(name) >= 0)
+      reading.uses.push_back(
+          {InpUse::scene, reading.element_sets.sets[reading.element_sets.find(name)].name, {0, 1}, 0});
+  }
 }
 
 // The element sets of each use, members included; names that are no sets become faults.
@@ -70,9 +118,6 @@ std::vector<std::vector<int>> sets_of_uses(InpReading& reading) {
     if (set < 0)
       reading.faults.add(use.where, "there is no element set " + in_quotes(use.set) +
                                         suggestion(use.set, reading.element_sets.names()));
-    for (std::size_t j = 0; j < i; ++j)
-      if (upper(reading.uses[j].set) == upper(use.set))
-        reading.faults.add(use.where, "element set " + in_quotes(use.set) + " has a section already");
     sets.push_back(set < 0 ? std::vector<int>{} : reading.element_sets.with_members(set));
   }
   return sets;
@@ -80,7 +125,8 @@ std::vector<std::vector<int>> sets_of_uses(InpReading& reading) {
 
 }  // namespace
 
-std::vector<double> assign_sections(MPI_Comm comm, InpReading& reading) {
+void assign_sections(MPI_Comm comm, InpReading& reading) {
+  add_requested(reading);
   const auto sets = sets_of_uses(reading);
   for (auto& element : reading.elements)
     for (std::size_t use = 0; use < sets.size(); ++use)
@@ -100,20 +146,24 @@ std::vector<double> assign_sections(MPI_Comm comm, InpReading& reading) {
     part_of[use] = static_cast<int>(mesh.parts.size());
     mesh.parts.push_back(reading.uses[use].set);
   }
-  std::vector<double> masses;
+  tell_overridden(comm, reading);
+  const std::vector<int> without = parts_without_section(comm, reading);
   for (const auto& element : reading.elements) {
-    refuse_wrong_use(element, reading);
-    if (element.use < 0) continue;
+    if (element.nodes == 0) continue;
+    if (element.use < 0) refuse_unused(element, reading);
     if (element.nodes == 1) {
+      if (element.use < 0) continue;
+      reading.deck.masses.push_back({static_cast<PetscInt>(mesh.mentions.size()), reading.uses[element.use].amount});
       mesh.mentions.push_back({element.node_labels[0], element.where});
       mesh.masses.push_back({element.label, element.where});
-      masses.push_back(reading.uses[element.use].amount);
     } else {
-      mesh.cells.push_back({element.label, static_cast<CellKind>(element.nodes - 2), part_of[element.use],
-                            element.node_labels, element.where});
+      const int part = element.use >= 0  ? part_of[element.use]
+                       : element.set < 0 ? without.back()
+                                         : without[element.set];
+      mesh.cells.push_back(
+          {element.label, static_cast<CellKind>(element.nodes - 2), part, element.node_labels, element.where});
     }
   }
-  return masses;
 }
 
 }  // namespace floe::mesh

@@ -31,16 +31,18 @@ struct InpSets {
 
 struct InpElement {
   long long label;
-  int nodes;  // 1: a mass
+  int nodes;  // 1: a mass; 0: one of another kind, which is left out
   int set;    // of *ELEMENT, ELSET=; -1: none
   int use;    // number in InpReading::uses; -1: none yet
   std::array<long long, 4> node_labels;
   Where where;
+  int other_use = -1;  // one that does not fit its kind
+  bool again = false;  // has two uses that fit, of which the later holds
 };
 
-/// An element set that a section or *MASS names.
+/// An element set that a section, *MASS or the scene names.
 struct InpUse {
-  enum Kind { shell, beam, mass } kind;
+  enum Kind { shell, beam, mass, scene } kind;
   std::string set;
   Where where;
   double amount;  // of a mass
@@ -52,16 +54,33 @@ struct InpLink {
   std::string nodes;      // a node or a set
 };
 
+/// *NODAL THICKNESS of a node, or of a node set.
+struct InpThickness {
+  Where where;
+  std::string nodes;
+  double value;
+};
+
+/// A keyword that is left out.
+struct InpIgnored {
+  Where where;  // its first
+  std::string name, why;
+  long long times, lines;
+};
+
 /// All that is known of a deck while it is read. What is not of this rank's share is the same on all ranks.
 struct InpReading {
   Faults& faults;
+  const DeckRequest& request;
   int rank, ranks;
   FileMesh mesh;                     // its nodes
   std::vector<InpElement> elements;  // of this rank's share
   InpSets node_sets, element_sets;
   std::vector<InpUse> uses;
   std::vector<InpLink> links;
+  std::vector<InpThickness> thicknesses;
   Deck deck;
+  std::vector<InpIgnored> ignored;  // become notices before these
   std::vector<std::string> notices;
   std::string instance;             // of Abaqus; "" where there is none
   std::optional<InpLink> coupling;  // that waits for its *KINEMATIC
@@ -88,6 +107,7 @@ void read_shell_section(const InpBlock& block, InpReading& reading);
 void read_beam_section(const InpBlock& block, InpReading& reading);
 void read_beam_general_section(const InpBlock& block, InpReading& reading);
 void read_mass(const InpBlock& block, InpReading& reading);
+void read_nodal_thickness(const InpBlock& block, InpReading& reading);
 void read_rigid_body(const InpBlock& block, InpReading& reading);
 void read_mpc(const InpBlock& block, InpReading& reading);
 void read_coupling(const InpBlock& block, InpReading& reading);
@@ -97,17 +117,21 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading);
 /// Tells all ranks which sets the sets hold by name; names that are no sets become faults. Collective.
 void agree_members(MPI_Comm comm, InpReading& reading);
 
-/// Gives each element of the share the section or mass of its set, and turns elements into cells. Collective.
-/// @return  of each mention of a mass's node that was added to reading.mesh: the mass
-std::vector<double> assign_sections(MPI_Comm comm, InpReading& reading);
+/// Gives each element of the share the section or mass of its set, and turns elements into cells; the nodes of
+/// reading.deck.masses are numbers of mentions. Collective.
+void assign_sections(MPI_Comm comm, InpReading& reading);
 
-/// The node sets become places; nodes of links become mentions. Collective.
-/// @return  of each link the mentions that are its reference and this rank's nodes
-struct LinkMentions {
-  std::size_t reference;
-  std::vector<std::size_t> nodes;
-};
-std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading);
+/// The node sets become places; the nodes of reading.deck.links are numbers of mentions. Collective.
+void resolve_nodes(MPI_Comm comm, InpReading& reading);
+
+/// Parts for shells whose nodes have a thickness of their own. Collective.
+void assign_thicknesses(MPI_Comm comm, InpReading& reading);
+
+/// Keeps a keyword for the notices: what it is instead, or why it does not matter; "" where that is plain.
+void ignore(const InpBlock& block, const std::string& why, InpReading& reading);
+
+/// The notices of what was ignored, one line a keyword.
+void tell_ignored(InpReading& reading);
 
 /// A parameter's value; where it is missing a fault and "".
 std::string required(const InpBlock& block, const std::string& key, InpReading& reading);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "deck_file.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -16,7 +17,7 @@ double number_of(const InpBlock& block, const std::string& key, InpReading& read
   if (text.empty()) return 0;
   if (upper(text) == "SPOS") return 0.5;
   if (upper(text) == "SNEG") return -0.5;
-  if (const auto value = number<double>(text); value && std::isfinite(*value)) return *value;
+  if (const auto value = fortran_number(text); value && std::isfinite(*value)) return *value;
   reading.faults.add(block.where, block.name + " expects a number after " + key + "=, found " + in_quotes(text));
   return 0;
 }
@@ -35,14 +36,14 @@ std::optional<Ply> ply(std::string_view line, Where where, InpReading& reading) 
   std::vector<std::string_view> fields;
   split_fields(line, fields);
   fields.resize(std::max<std::size_t>(fields.size(), 4));
-  const auto thickness = number<double>(fields[0]);
+  const auto thickness = fortran_number(fields[0]);
   if (!thickness || !(*thickness > 0) || fields[2].empty() || fields.size() > 5) {
     reading.faults.add(where,
                        "a ply is: thickness, (points), material[, angle or orientation], found " + in_quotes(line));
     return std::nullopt;
   }
   Ply result{*thickness, std::string(fields[2]), "", 0};
-  if (const auto angle = number<double>(fields[3]))
+  if (const auto angle = fortran_number(fields[3]))
     result.angle = *angle;
   else
     result.orientation = std::string(fields[3]);
@@ -58,7 +59,7 @@ struct Shape {
   std::size_t least, most;
   const char* dimensions;
 };
-constexpr Shape shapes[] = {{"RECT", Profile::rectangle, 2, 2, "a, b"},
+constexpr Shape shapes[] = {{"RECT", Profile::rectangle, 1, 2, "a, b"},
                             {"CIRC", Profile::circle, 1, 2, "a radius, or two equal diameters"},
                             {"PIPE", Profile::pipe, 2, 2, "outer radius, wall"},
                             {"BOX", Profile::box, 6, 6, "a, b, t1, t2, t3, t4"},
@@ -87,6 +88,7 @@ void read_direction(const std::pair<Where, std::string_view>& line, BeamSection&
 BeamSection named_beam(const BeamSection& plain, const InpBlock& block, InpReading& reading) {
   BeamSection section = plain;
   section.part = set_of(block, InpUse::beam, reading);
+  section.number = next_part(reading.deck);
   section.offset_1 = number_of(block, "OFFSET1", reading);
   section.offset_2 = number_of(block, "OFFSET2", reading);
   return section;
@@ -95,13 +97,18 @@ BeamSection named_beam(const BeamSection& plain, const InpBlock& block, InpReadi
 }  // namespace
 
 void read_shell_section(const InpBlock& block, InpReading& reading) {
-  ShellSection section{
-      set_of(block, InpUse::shell, reading), value_of(block, "ORIENTATION"), number_of(block, "OFFSET", reading), {}};
+  ShellSection section{set_of(block, InpUse::shell, reading),
+                       next_part(reading.deck),
+                       value_of(block, "ORIENTATION"),
+                       number_of(block, "OFFSET", reading),
+                       {}};
   use_orientation(section.orientation, block.where, reading);
   if (block.parameters.contains("COMPOSITE")) {
     constexpr std::size_t most_plies = 1000;
     for (const auto& [where, line] : data_lines(block, 1, most_plies, "a line for each ply", reading.faults))
       if (const auto layer = ply(line, where, reading)) section.plies.push_back(*layer);
+    if (block.parameters.contains("SYMMETRIC"))
+      for (std::size_t i = section.plies.size(); i-- > 0;) section.plies.push_back(Ply(section.plies[i]));
   } else {
     const std::string material = required(block, "MATERIAL", reading);
     if (!material.empty()) reading.materials_used.emplace_back(material, block.where);
@@ -114,15 +121,19 @@ void read_shell_section(const InpBlock& block, InpReading& reading) {
   reading.deck.shell_sections.push_back(section);
 }
 
-void read_beam_section(const InpBlock& block, InpReading& reading) {
+// Sections of a named shape, by *BEAM SECTION, or in CalculiX by *BEAM GENERAL SECTION.
+void read_shape(const InpBlock& block, InpReading& reading) {
   BeamSection section = named_beam({}, block, reading);
   section.material = required(block, "MATERIAL", reading);
   if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
   const std::string name = upper(required(block, "SECTION", reading));
   const Shape* shape = nullptr;
   for (const auto& candidate : shapes)
-    if (name == candidate.name) shape = &candidate;
-  if (!shape) return reading.faults.add(block.where, "*BEAM SECTION is read with SECTION=RECT, CIRC, PIPE, BOX or I");
+    if (name == candidate.name || ((name == "RECTANGULAR" || name == "CIRCULAR") && name.starts_with(candidate.name)))
+      shape = &candidate;
+  if (!shape)
+    return reading.faults.add(block.where, block.name + " is read with SECTION=RECT, CIRC, PIPE, BOX or I" +
+                                               (block.keyword == "BEAMSECTION" ? "" : ", or GENERAL"));
   section.profile = shape->profile;
   const auto lines = data_lines(block, 1, 2, "dimensions and perhaps a direction", reading.faults);
   if (lines.empty()) return;
@@ -134,20 +145,26 @@ void read_beam_section(const InpBlock& block, InpReading& reading) {
     if ((*values)[0] != (*values)[1]) reading.faults.add(lines[0].first, "an elliptical section is not read");
     section.dimensions = {values->front() / 2};
   }
+  if (section.profile == Profile::rectangle && values->size() == 1) {
+    section.dimensions.push_back(values->front());
+    reading.notices.push_back(reading.faults.text_of(lines[0].first) + ": " + block.name +
+                              " has one dimension: it is read as a square");
+  }
   refuse_bad_dimensions(section, lines[0].first, reading.faults);
   if (lines.size() == 2) read_direction(lines[1], section, reading.faults);
   reading.deck.beam_sections.push_back(section);
 }
 
+void read_beam_section(const InpBlock& block, InpReading& reading) { read_shape(block, reading); }
+
 void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   auto& faults = reading.faults;
+  const std::string shape = value_of(block, "SECTION");
+  if (!shape.empty() && upper(shape) != "GENERAL") return read_shape(block, reading);
   BeamSection section = named_beam({}, block, reading);
   section.profile = Profile::general;
   section.material = value_of(block, "MATERIAL");
   if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
-  const std::string shape = value_of(block, "SECTION");
-  if (!shape.empty() && upper(shape) != "GENERAL")
-    return faults.add(block.where, block.name + " is read with SECTION=GENERAL only");
   if (block.parameters.contains("DENSITY")) section.density = number_of(block, "DENSITY", reading);
   if (section.density < 0.0)
     faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +

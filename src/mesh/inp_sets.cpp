@@ -98,10 +98,10 @@ void read_set(const InpBlock& block, InpReading& reading) {
 }
 
 void read_surface(const InpBlock& block, InpReading& reading) {
-  const std::string name = required(block, "NAME", reading);
   const auto type = block.parameters.find("TYPE");
   if (type == block.parameters.end() || upper(type->second) != "NODE")
-    return reading.faults.add(block.where, "*SURFACE is read with TYPE=NODE only");
+    return ignore(block, "only surfaces of TYPE=NODE are node sets", reading);
+  const std::string name = required(block, "NAME", reading);
   if (!name.empty())
     read_members(block, reading.node_sets.sets[reading.node_sets.named(name, block.where)], 1, reading);
 }
@@ -162,13 +162,12 @@ std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where 
 
 }  // namespace
 
-std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading) {
+void resolve_nodes(MPI_Comm comm, InpReading& reading) {
   auto& mesh = reading.mesh;
   for (std::size_t i = 0; i < reading.node_sets.sets.size(); ++i) {
     const auto& set = reading.node_sets.sets[i];
     mesh.places.push_back({set.name, set.where, labels_of(reading, static_cast<int>(i))});
   }
-  std::vector<LinkMentions> links;
   for (const auto& link : reading.links) {
     const auto reference = one_node(comm, link.reference, link.where, reading);
     const auto node = number<long long>(link.nodes);
@@ -177,19 +176,18 @@ std::vector<LinkMentions> resolve_nodes(MPI_Comm comm, InpReading& reading) {
       reading.faults.add(link.where, "there is no node set " + in_quotes(link.nodes) +
                                          suggestion(link.nodes, reading.node_sets.names()));
     if (!reference || (!node && set < 0)) continue;
-    LinkMentions mentions{mesh.mentions.size(), {}};
+    RigidLink rigid{static_cast<PetscInt>(mesh.mentions.size()), {}};
     mesh.mentions.push_back({*reference, link.where});
     std::vector<long long> labels;
     if (set >= 0) labels = mesh.places[set].labels;
     if (node && reading.rank == 0) labels = {*node};
     for (const long long label : labels) {
       if (label == *reference) continue;
-      mentions.nodes.push_back(mesh.mentions.size());
+      rigid.nodes.push_back(static_cast<PetscInt>(mesh.mentions.size()));
       mesh.mentions.push_back({label, link.where});
     }
-    links.push_back(std::move(mentions));
+    reading.deck.links.push_back(std::move(rigid));
   }
-  return links;
 }
 
 }  // namespace floe::mesh

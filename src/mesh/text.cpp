@@ -24,6 +24,26 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near.empty() ? "" : ", did you mean " + near + "?";
 }
 
+std::optional<double> fortran_number(std::string_view word, bool bare) {
+  if (const auto plain = number<double>(word)) return plain;
+  constexpr std::size_t longest = 64;
+  if (word.size() > longest) return std::nullopt;
+  std::string text(word);
+  const auto letter = text.find_first_of("dD");
+  const auto sign = text.find_last_of("+-");
+  if (letter != std::string::npos)
+    text[letter] = 'e';
+  else if (bare && sign != std::string::npos && sign > 0 && text.find_first_of("eE") == std::string::npos)
+    text.insert(sign, "e");
+  else
+    return std::nullopt;
+  return number<double>(text);
+}
+
+std::string counted(long long count, const char* one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
 std::string listed(const std::vector<std::string>& words) {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;

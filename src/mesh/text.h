@@ -47,6 +47,9 @@ std::optional<Number> number(std::string_view word) {
   return value;
 }
 
+/// A number that may have the exponent of Fortran: 1.0d0, and, where `bare`, 1.5+3 for 1.5e3.
+std::optional<double> fortran_number(std::string_view word, bool bare = false);
+
 /// In upper case (ASCII).
 std::string upper(std::string_view text);
 
@@ -55,6 +58,9 @@ std::string in_quotes(std::string_view text);
 
 /// ", did you mean ...?" with the word of `known` that is nearest to `word`, or nothing.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+
+/// `1 line`, `2 lines`.
+std::string counted(long long count, const char* one);
 
 /// "a, b, c".
 std::string listed(const std::vector<std::string>& words);

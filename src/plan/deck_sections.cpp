@@ -13,7 +13,7 @@ namespace {
 
 /// The deck with the part at work, for messages.
 struct Reader {
-  const mesh::InpFile& file;
+  const mesh::DeckFile& file;
   std::vector<std::string> faults = {};
   std::vector<std::string> massless = {};  ///< materials of the part at work
 
@@ -77,8 +77,8 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
   for (const mesh::Orientation& o : reader.file.deck.orientations)
     if (o.name == orientation) axis = axis_of(o);
   try {
-    deck.parts.push_back({section.part, fem::shell_section(plies, -section.offset * thickness, axis), {}});
-    deck.described.push_back({section.part, std::exchange(reader.massless, {}), thickness});
+    deck.parts[section.number] = fem::shell_section(plies, -section.offset * thickness, axis);
+    deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), thickness});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
   }
@@ -144,11 +144,16 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
     Eigen::Vector2d centroid = Eigen::Vector2d::Zero();
     if (section.offset_1 != 0 || section.offset_2 != 0)
       centroid = -Eigen::Vector2d(section.offset_1, section.offset_2).cwiseProduct(extent_of(section));
-    deck.parts.push_back(
-        {section.part,
-         fem::SpatialBeam{fem::spatial_section(shape_of(section), material, centroid), section.direction_1, {}},
-         {}});
-    deck.described.push_back({section.part, std::exchange(reader.massless, {}), size_of(section)});
+    fem::SectionShape shape = shape_of(section);
+    if (section.quarter_turn) {
+      std::swap(shape.Iy, shape.Iz);
+      shape.Iyz = -shape.Iyz;
+    }
+    fem::SpatialBeam beam{fem::spatial_section(shape, material, centroid), section.direction_1, {}};
+    for (int i : {0, 1})
+      if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;
+    deck.parts[section.number] = beam;
+    deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), size_of(section)});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
   }
@@ -156,7 +161,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
 
 }  // namespace
 
-DeckSections deck_sections(const mesh::InpFile& file) {
+DeckSections deck_sections(const mesh::DeckFile& file) {
   Reader reader{file};
   DeckSections deck;
   for (const mesh::ShellSection& section : file.deck.shell_sections) add_shell(reader, section, deck);
@@ -187,22 +192,34 @@ double extent_of(const mesh::RawMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::string> deck_notices(const mesh::InpFile& file, const DeckSections& deck,
+std::vector<std::string> deck_notices(const mesh::DeckFile& file, const DeckSections& deck,
                                       const std::vector<std::string>& replaced, double scale) {
   const mesh::RawMesh& mesh = file.mesh;
   const std::vector<long long> cells = cells_of_parts(mesh);
   const double extent = extent_of(mesh);
   std::vector<std::string> notices;
   const DeckPart* thickest = nullptr;
+  struct Massless {
+    std::string what, part;
+    long long cells;
+  };
+  std::vector<Massless> all;  // parts of one name count together
   for (const DeckPart& part : deck.described) {
-    const auto number = std::find(mesh.parts.begin(), mesh.parts.end(), part.name) - mesh.parts.begin();
-    if (number == std::ssize(mesh.parts) || std::count(replaced.begin(), replaced.end(), part.name) > 0) continue;
+    if (cells[part.number] == 0 || std::count(replaced.begin(), replaced.end(), part.name) > 0) continue;
     if (!thickest || part.size > thickest->size) thickest = &part;
-    for (const std::string& what : part.massless)
-      notices.push_back(fmt::format(
-          "{}: {} has no density: it adds stiffness without mass to part {} ({} of {} elements); expected *DENSITY",
-          mesh.source, what, part.name, cells[number], mesh.cell_count));
+    for (const std::string& what : part.massless) {
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const Massless& m) { return m.what == what && m.part == part.name; });
+      if (same == all.end())
+        all.push_back({what, part.name, cells[part.number]});
+      else
+        same->cells += cells[part.number];
+    }
   }
+  for (const Massless& m : all)
+    notices.push_back(fmt::format(
+        "{}: {} has no density: it adds stiffness without mass to part {} ({} of {} elements); expected {}",
+        mesh.source, m.what, m.part, m.cells, mesh.cell_count, file.deck.nastran ? "RHO of the MAT card" : "*DENSITY"));
   if (scale != 1 && thickest)
     notices.push_back(fmt::format(
         "{}: scale {} applies to coordinates only; sections, materials and masses of the deck remain as written: "
@@ -213,27 +230,43 @@ std::vector<std::string> deck_notices(const mesh::InpFile& file, const DeckSecti
   return notices;
 }
 
-void add_masses(mesh::InpFile& file, std::vector<PartSpec>& parts) {
+namespace {
+
+/// Mass, centre, inertia (11, 12, 13, 22, 23, 33): points that have the same are one part.
+using MassKey = std::array<double, 10>;
+
+MassKey key_of(const mesh::PointMass& point) {
+  const Eigen::Vector3d& c = point.offset;
+  const Eigen::Matrix3d& J = point.inertia;
+  return {point.mass, c[0], c[1], c[2], J(0, 0), J(0, 1), J(0, 2), J(1, 1), J(1, 2), J(2, 2)};
+}
+
+}  // namespace
+
+void add_masses(mesh::DeckFile& file, std::map<int, fem::Section>& parts) {
   mesh::RawMesh& raw = file.mesh;
-  std::vector<double> mine, all;
-  for (const mesh::PointMass& point : file.deck.masses) mine.push_back(point.mass);
-  int size = 1, rank = 0, count = static_cast<int>(mine.size());
+  std::vector<MassKey> mine, all;
+  for (const mesh::PointMass& point : file.deck.masses) mine.push_back(key_of(point));
+  int size = 1, rank = 0, count = static_cast<int>(mine.size() * sizeof(MassKey) / sizeof(double));
   MPI_Comm_size(raw.comm, &size);
   MPI_Comm_rank(raw.comm, &rank);
   std::vector<int> counts(size), starts(size + 1, 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, raw.comm);
   for (int r = 0; r < size; ++r) starts[r + 1] = starts[r] + counts[r];
-  all.resize(starts[size]);
+  all.resize(starts[size] * sizeof(double) / sizeof(MassKey));
   MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, raw.comm);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   const int first = static_cast<int>(raw.parts.size());
-  for (double mass : all) {
-    raw.parts.push_back(fmt::format("mass {}", mass));
-    parts.push_back({raw.parts.back(), fem::PointMass{mass}, {}});
+  for (const MassKey& key : all) {
+    fem::PointMass point{key[0]};
+    point.offset = {key[1], key[2], key[3]};
+    point.inertia << key[4], key[5], key[6], key[5], key[7], key[8], key[6], key[8], key[9];
+    parts[static_cast<int>(raw.parts.size())] = point;
+    raw.parts.push_back(fmt::format("mass {}", key[0]));
   }
   for (const mesh::PointMass& point : file.deck.masses) {
-    const int part = first + static_cast<int>(std::lower_bound(all.begin(), all.end(), point.mass) - all.begin());
+    const int part = first + static_cast<int>(std::lower_bound(all.begin(), all.end(), key_of(point)) - all.begin());
     raw.cells.push_back({mesh::CellKind::point, {point.node, -1, -1, -1}, part});
     raw.cell_labels.push_back(0);
   }

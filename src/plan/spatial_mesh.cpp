@@ -29,7 +29,7 @@ Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 /// A mesh with what its file says besides.
 struct Source {
   mesh::RawMesh mesh;
-  std::vector<PartSpec> parts;  ///< a deck's own
+  std::map<int, fem::Section> parts;  ///< a deck's own, by the number of RawMesh::parts
   std::vector<std::string> notices;
   std::vector<mesh::Follower> followers = {};
 };
@@ -60,15 +60,22 @@ void refuse_missing(const Body& body, MPI_Comm comm) {
                                  body.mesh.where.text(), body.mesh.file->path));
 }
 
+/// What the scene gives the elements of a deck.
+mesh::DeckRequest request_of(const Body& body) {
+  const std::vector<std::string> named = named_parts(body);
+  return {named, named.size() < body.parts.size(), body.mesh.file->ignore};
+}
+
 Source read_file(const Body& body, MPI_Comm comm) {
   const MeshFileSpec& file = *body.mesh.file;
   Source source;
-  if (file.path.ends_with(".msh") || file.path.ends_with(".inp")) refuse_missing(body, comm);
-  if (file.path.ends_with(".msh")) {
+  const bool gmsh = file.path.ends_with(".msh"), inp = file.path.ends_with(".inp");
+  if (gmsh || inp) refuse_missing(body, comm);
+  if (gmsh) {
     mesh::GmshFile read = mesh::read_gmsh(comm, file.path, wanted_parts(body));
     source = {std::move(read.mesh), {}, std::move(read.notices)};
-  } else if (file.path.ends_with(".inp")) {
-    mesh::InpFile read = mesh::read_inp(comm, file.path);
+  } else if (inp) {
+    mesh::DeckFile read = mesh::read_inp(comm, file.path, request_of(body));
     DeckSections deck = deck_sections(read);
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
@@ -134,11 +141,12 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
   const auto find = [&](const std::vector<PartSpec>& specs, const std::string& name) {
     return std::find_if(specs.begin(), specs.end(), [&](const PartSpec& spec) { return spec.part == name; });
   };
-  for (const std::string& part : source.mesh.parts) {
+  for (std::size_t number = 0; number < source.mesh.parts.size(); ++number) {
+    const std::string& part = source.mesh.parts[number];
     auto spec = find(body.parts, part);
     if (spec == body.parts.end()) {
-      if (const auto own = find(source.parts, part); own != source.parts.end()) {
-        sections.push_back(own->section);
+      if (const auto own = source.parts.find(static_cast<int>(number)); own != source.parts.end()) {
+        sections.push_back(own->second);
         continue;
       }
       spec = find(body.parts, "");
@@ -151,7 +159,9 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
       sections.push_back(spec->section);
   }
   for (const PartSpec& spec : body.parts) {
-    const auto& known = source.mesh.parts;
+    std::vector<std::string> known;
+    for (const std::string& part : source.mesh.parts)
+      if (std::find(known.begin(), known.end(), part) == known.end()) known.push_back(part);
     if (spec.part.empty() || std::count(known.begin(), known.end(), spec.part) > 0) continue;
     const std::string near = math::nearest(spec.part, known);
     faults.push_back(fmt::format("{}: the mesh has no part \"{}\"; expected one of {}{}", spec.where.text(), spec.part,

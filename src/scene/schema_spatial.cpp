@@ -25,13 +25,16 @@ const SchemaSection plate_section{
 
 const SchemaSection file_section{
     "file",
-    "A mesh from a file. Parts and places are physical groups (.msh) or element and node sets (.inp). A deck may "
+    "A mesh from a file. Parts and places are physical groups (.msh), element and node sets (.inp), or properties and "
+    "SPC sets (.bdf, .nas, .dat). A deck may "
     "contain its own sections and materials.",
     "path: wing.msh\nscale: 1e-3",
     {
         {"path", Type::text, "", required, "path of the file, relative to the folder of the scene"},
         {"scale", Type::number, "", "1",
          "factor on all coordinates, but not on sections, materials and masses of a deck", positive},
+        {"ignore", Type::texts, "", "",
+         "decks: types of elements that are left out with the nodes that only they use, as C3D20R or CTETRA"},
     }};
 
 const SchemaSection part_section{"part",

@@ -1,7 +1,8 @@
 """Decks whose units, densities, supports or loads are not what they seem: what every command says of them."""
 NODES = "*NODE\n1, 0, 0, 0\n2, {0}, 0, 0\n3, {1}, 0, 0\n4, 0, {0}, 0\n5, {0}, {0}, 0\n6, {1}, {0}, 0\n"
 SHELLS = "*ELEMENT, TYPE=S4, ELSET=LEFT\n1, 1, 2, 5, 4\n*ELEMENT, TYPE=S4, ELSET=RIGHT\n2, 2, 3, 6, 5\n*NSET, NSET=ROOT\n1, 4\n*NSET, NSET=TIP\n6\n"
-MATERIALS = "*MATERIAL, NAME=STEEL\n*ELASTIC\n{0}, 0.3\n*DENSITY\n{1}\n*MATERIAL, NAME=FOAM\n*ELASTIC\n{0}, 0.3\n"
+MATERIALS = "*MATERIAL, NAME=STEEL\n*ELASTIC\n{0}, 0.3\n*DENSITY\n{1}\n"
+FOAM = "*MATERIAL, NAME=FOAM\n*ELASTIC\n2e11, 0.3\n"
 SECTIONS = "*SHELL SECTION, ELSET=LEFT, MATERIAL=STEEL\n{0}\n*SHELL SECTION, ELSET=RIGHT, MATERIAL={1}\n{0}\n"
 STEP = "*STEP\n*STATIC\n*BOUNDARY\nROOT, 1, 6\n*CLOAD\n6, 3, 1.0\n*DLOAD\nLEFT, P, 10.\n*END STEP\n"
 
@@ -11,7 +12,7 @@ MILLIMETRES = (NODES.format(1000, 2000), MATERIALS.format(2e5, 7.8e-9))
 
 def deck(units, thickness, material="STEEL", more=""):
     nodes, materials = units
-    return nodes + SHELLS + materials + SECTIONS.format(thickness, material) + more
+    return nodes + SHELLS + materials + (FOAM if material == "FOAM" else "") + SECTIONS.format(thickness, material) + more
 
 
 def scene(mesh="path: part.inp", more=""):
@@ -23,7 +24,7 @@ def scene(mesh="path: part.inp", more=""):
 MASSLESS = ("part.inp: material FOAM has no density: it adds stiffness without mass to part RIGHT (1 of 2 elements); "
             "expected *DENSITY")
 STEPS = "is ignored (*STATIC, *BOUNDARY, *CLOAD, *DLOAD): supports and loads are those of the scene"
-BEFORE = "part.inp:28: *BOUNDARY is ignored: supports are joints of the scene"
+BEFORE = "part.inp:25: *BOUNDARY is ignored: supports are joints of the scene"
 # 2 mm in metres on a mesh whose diagonal is sqrt(5) m after scaling, sqrt(5) 1000 mm before
 SCALED = ("part.inp: scale 0.001 applies to coordinates only", "part LEFT is 2 thick, 89 % of the scaled extent 2.236",
           "(0.089 % in the deck's own units)")

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "floe/mesh/raw_mesh.h"
+
 namespace floe::mesh {
 
 enum class Elasticity { none, isotropic, engineering_constants, lamina };
@@ -39,6 +41,7 @@ struct Ply {
 /// *SHELL SECTION of a part: one ply, or those of COMPOSITE from the bottom up.
 struct ShellSection {
   std::string part;
+  int number = -1;  // of the part in RawMesh::parts, which may have several of one name: sections of the same set
   std::string orientation;  // of the section; "" where none is named
   double offset = 0;        // of the nodes from the mid-surface along the normal, in thicknesses
   std::vector<Ply> plies;
@@ -50,11 +53,14 @@ enum class Profile { rectangle, circle, pipe, box, i_section, general };
 /// *BEAM SECTION or *BEAM GENERAL SECTION of a part.
 struct BeamSection {
   std::string part;
+  int number = -1;       // as of ShellSection
   std::string material;  // "" where the section has its own constants
   Profile profile = Profile::rectangle;
   std::vector<double> dimensions;
   Eigen::Vector3d direction_1{0, 0, -1};  // local 1-axis of the section, roughly
   double offset_1 = 0, offset_2 = 0;      // of the nodes from the centre, in thicknesses
+  bool quarter_turn = false;              // the dimensions' directions 1 and 2 are those of -2 and 1
+  std::array<double, 2> shear_factors{};  // A_s / A for forces along 1 and 2; 0: no shear deformation
   double youngs = 0, shear = 0;           // where `material` is ""
   std::optional<double> density;          // likewise; none where the deck gives none
 };
@@ -63,6 +69,15 @@ struct BeamSection {
 struct PointMass {
   PetscInt node;
   double mass;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   // of its centre from the node
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  // about its centre
+};
+
+/// What a scene says about the elements of a deck.
+struct DeckRequest {
+  std::vector<std::string> parts;   // element sets that the scene gives a section
+  bool section = false;             // the scene has a section for all other elements
+  std::vector<std::string> ignore;  // types of elements to leave out, with the nodes that only they use
 };
 
 /// Nodes that move as one rigid body with a reference node, in all six directions.
@@ -79,6 +94,14 @@ struct Deck {
   std::vector<BeamSection> beam_sections;
   std::vector<PointMass> masses;
   std::vector<RigidLink> links;
+  bool nastran = false;  // of Nastran's cards, for messages
+};
+
+/// What a file with a deck holds.
+struct DeckFile {
+  RawMesh mesh;
+  Deck deck;
+  std::vector<std::string> notices;  // same on all ranks: what was left out
 };
 
 }  // namespace floe::mesh

@@ -43,10 +43,10 @@ struct PlateSpec {
   enum class Cells { triangles, quadrilaterals } cells = Cells::triangles;
 };
 
-/// A mesh file (.msh, .inp).
+/// A mesh file (.msh, .inp, .bdf, .nas, .dat).
 struct MeshFileSpec {
   std::string path;
-  std::vector<std::string> parts;  ///< empty: those that the body's `parts` name, or all
+  std::vector<std::string> ignore;  ///< of a deck: types of elements that are left out
   double scale = 1;
 };
 

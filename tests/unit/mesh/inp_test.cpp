@@ -8,7 +8,7 @@ using mesh::Elasticity;
 
 namespace {
 
-mesh::InpFile read(const std::string& path) { return mesh::read_inp(PETSC_COMM_WORLD, path); }
+mesh::DeckFile read(const std::string& path) { return mesh::read_inp(PETSC_COMM_WORLD, path); }
 
 // Square of side 1 with its section; `more` comes after.
 std::string square(const std::string& more) {
@@ -116,4 +116,104 @@ TEST_CASE("*MPC BEAM and *COUPLING are rigid links") {
   std::sort(coupled.begin(), coupled.end());
   CHECK(coupled == std::vector<PetscInt>{0, 3});
   CHECK(deck.links[1].reference == 4);
+}
+
+TEST_CASE("keywords that do not make a linear elastic body are ignored with one line each") {
+  const auto path = testing::written(
+      "ignored.inp",
+      square("*SURFACE, NAME=S, TYPE=ELEMENT\nE, SPOS\n*CONTACT PAIR, INTERACTION=I\nS, S\n*AMPLITUDE, NAME=A\n0,0\n"
+             "*Initial Conditions, TYPE=TEMPERATURE\nN, 20\n*EQUATION\n2\n1,1,1.,2,1,-1.\n*amplitude, NAME=B\n0,0\n"
+             "*PLASTIC\n1, 0\n*STEP\n*STATIC\n*CLOAD\n1,1,1.\n2,1,1.\n*NODE PRINT\nU\n*END STEP\n"));
+  const auto notices = read(path).notices;
+  REQUIRE(notices.size() == 7);
+  CHECK_THAT(notices[0], Contains("ignored.inp:13: *SURFACE is ignored: only surfaces of TYPE=NODE are node sets"));
+  CHECK_THAT(notices[1], Contains("ignored.inp:15: *CONTACT PAIR is ignored: contact is not represented (1 line)"));
+  CHECK_THAT(notices[2], Contains("ignored.inp:17: *AMPLITUDE is ignored, 2 times"));
+  CHECK_THAT(notices[3], Contains("*Initial Conditions is ignored: the body is at rest"));
+  CHECK_THAT(notices[4], Contains("*EQUATION is ignored: the nodes are not tied by it (2 lines)"));
+  CHECK_THAT(notices[5], Contains("*PLASTIC is ignored: the material is linear elastic (1 line)"));
+  CHECK_THAT(notices[6],
+             Contains("(*STATIC, *CLOAD, *NODE PRINT): supports and loads are those of the scene; not taken "
+                      "over: *CLOAD 2 lines"));
+}
+
+TEST_CASE("numbers have the forms that the format allows") {
+  const auto path = testing::written(
+      "forms.inp",
+      "*NODE\n1,,,\n2, 1.d0, ,\n3, 1.0D+00, 10.0d-1\n4, , 1.\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, 3, 4\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n2.1d5, 0.3, 20.\n1.9d5, 0.3, 100.\n*SHELL SECTION, ELSET=E, MATERIAL=M\n1.d-1, "
+      "5\n");
+  const auto file = read(path);
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK(file.deck.materials.at(0).constants == std::vector<double>{2.1e5, 0.3});
+  CHECK(file.deck.shell_sections.at(0).plies.at(0).thickness == 0.1);
+  CHECK_THAT(file.notices.at(0), Contains("*ELASTIC is given at 2 temperatures: the first is used"));
+}
+
+TEST_CASE("a later section overrides an earlier one") {
+  const std::string more =
+      "*ELEMENT, TYPE=S4, ELSET=E\n2, 1, 2, 3, 4\n*ELSET, ELSET=F\n2\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"
+      "*ELEMENT, TYPE=B31, ELSET=E\n3, 1, 2\n*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n0.1\n";
+  const auto file = read(testing::written("override.inp", square(more)));
+  CHECK(file.mesh.parts == std::vector<std::string>{"E", "F", "E"});
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK(testing::measure(file.mesh, 1) == Approx(1.0));
+  CHECK(testing::measure(file.mesh, 2) == Approx(1.0));  // the beam takes the section of its kind
+  CHECK(file.deck.shell_sections.at(1).number == 1);
+  CHECK(file.deck.beam_sections.at(0).number == 2);
+  CHECK(file.deck.beam_sections.at(0).dimensions == std::vector<double>{0.1, 0.1});
+  const std::string all = file.notices.at(0) + file.notices.at(1);
+  CHECK_THAT(all, Contains("override.inp:17: set F overrides an earlier section of 1 element"));
+  CHECK_THAT(all, Contains("has one dimension: it is read as a square"));
+}
+
+TEST_CASE("shells take the mean of nodal thicknesses") {
+  const auto file = read(testing::written(
+      "nodal.inp", square("*NODE\n5, 2, 0\n6, 2, 1\n*ELEMENT, TYPE=S4, ELSET=E\n2, 2, 5, 6, 3\n*NSET, NSET=R\n5, 6\n"
+                          "*NODAL THICKNESS\nR, 3\n6, 5\n")));
+  CHECK(file.mesh.parts == std::vector<std::string>{"E", "E"});
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK(testing::measure(file.mesh, 1) == Approx(1.0));
+  REQUIRE(file.deck.shell_sections.size() == 2);
+  CHECK(file.deck.shell_sections[1].number == 1);
+  CHECK(file.deck.shell_sections[1].plies.at(0).thickness == Approx((1 + 1 + 3 + 5) / 4.));
+  CHECK_THAT(file.notices.at(0), Contains("nodal.inp:21: *NODAL THICKNESS: 1 shell with the mean thickness"));
+}
+
+TEST_CASE("elements that have a twin are read as it, with a notice") {
+  const auto file = read(testing::written(
+      "twins.inp",
+      square("*ELEMENT, TYPE=B31R, ELSET=B\n2, 1, 2\n*BEAM GENERAL SECTION, ELSET=B, MATERIAL=M, SECTION=PIPE\n"
+             ".11, .01\n1.d0, 0., 0.\n")));
+  CHECK_THAT(file.notices.at(0), Contains("twins.inp:13: elements of type B31R are read as B31"));
+  REQUIRE(file.deck.beam_sections.size() == 1);
+  CHECK(file.deck.beam_sections[0].profile == mesh::Profile::pipe);
+}
+
+TEST_CASE("a scene may give sections to a deck without any, and leave out solids") {
+  const std::string deck =
+      "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n5, 0, 0, 1\n6, 2, 0\n7, 2, 1\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, "
+      "3, 4\n"
+      "2, 2, 6, 7, 3\n*ELEMENT, TYPE=C3D4, ELSET=V\n8, 1, 2, 3, 5\n*ELSET, ELSET=F\n2, 8\n*SOLID SECTION, ELSET=V, "
+      "MATERIAL=M\n";
+  const auto path = testing::written("bare.inp", deck);
+  CHECK_THAT(testing::fault_of([&] { read(path); }),
+             Contains("bare.inp:12: elements of type 'C3D4' are not read") && Contains("file: {ignore: [C3D4]}"));
+  mesh::DeckRequest request;
+  request.ignore = {"c3d4"};
+  CHECK_THAT(testing::fault_of([&] { mesh::read_inp(PETSC_COMM_WORLD, path, request); }),
+             Contains("bare.inp:10: element 1 has no section"));
+  request.parts = {"F"};
+  const auto file = mesh::read_inp(PETSC_COMM_WORLD, path, request);
+  CHECK(file.mesh.parts == std::vector<std::string>{"F", "E"});
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+  CHECK(testing::measure(file.mesh, 1) == Approx(1.0));
+  CHECK(file.mesh.node_count == 6);  // without 5
+  CHECK_THAT(file.notices.at(0), Contains("*SOLID SECTION is ignored"));
+  CHECK_THAT(file.notices.at(1), Contains("bare.inp:12: 1 element of type C3D4 is left out, as the scene asks"));
+}
+
+TEST_CASE("materials that no section uses are reported") {
+  const auto file = read(testing::written("unused.inp", square("*MATERIAL, NAME=FOAM\n*ELASTIC\n1, 0\n")));
+  CHECK_THAT(file.notices.at(0), Contains("unused.inp: material FOAM is not used by any section"));
 }
