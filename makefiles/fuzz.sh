@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # make fuzz: coverage-guided fuzzing (libFuzzer, with the address and undefined-behaviour sanitizers) of what reads files:
-# scenes, Gmsh meshes, decks, reduced bodies. Begins from tests/fuzz/seeds; what is new stays in build-fuzz/corpus.
+# scenes, Gmsh meshes, decks, bulk data, reduced bodies. Begins from tests/fuzz/seeds; what is new stays in build-fuzz/corpus.
 # SECONDS_EACH: of each reader (60); 1200 is what a release takes. READERS: some of them. JOBS.
 # A crash, a leak of an exception that is no InputError, or ten seconds for one input end it; the input is in build-fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-build=build-fuzz jobs=${JOBS:-$(nproc)} seconds=${SECONDS_EACH:-60} readers=${READERS:-scene msh inp reduced}
+build=build-fuzz jobs=${JOBS:-$(nproc)} seconds=${SECONDS_EACH:-60} readers=${READERS:-scene msh inp bdf reduced}
 source makefiles/mpi_environment.sh
 export OMPI_MCA_mpi_yield_when_idle=0
 CC=clang-16 CXX=clang++-16 cmake -S . -B $build -G Ninja -DFLOE_FUZZ=ON >$build.log 2>&1 || { cat $build.log; exit 1; }

@@ -37,7 +37,7 @@ void check(const Polyline& lines) {
   checks.finish();
   for (int i = 0; i < points; ++i) checks.require(met[i], "no segment meets point " + std::to_string(i + 1));
   auto sorted = lines.segments;
-  for (auto& ends : sorted) std::sort(ends.begin(), ends.end());
+  for (auto& pair : sorted) std::sort(pair.begin(), pair.end());
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   if (twice != sorted.end())

@@ -14,6 +14,7 @@
 #include "floe/mesh/gmsh.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
+#include "floe/mesh/nastran.h"
 #include "floe/mesh/partition.h"
 #include "floe/mesh/pieces.h"
 #include "floe/plan/place_weights.h"
@@ -69,13 +70,15 @@ mesh::DeckRequest request_of(const Body& body) {
 Source read_file(const Body& body, MPI_Comm comm) {
   const MeshFileSpec& file = *body.mesh.file;
   Source source;
-  const bool gmsh = file.path.ends_with(".msh"), inp = file.path.ends_with(".inp");
-  if (gmsh || inp) refuse_missing(body, comm);
+  const bool gmsh = file.path.ends_with(".msh"), inp = file.path.ends_with(".inp"),
+             nastran = mesh::is_nastran(file.path);
+  if (gmsh || inp || nastran) refuse_missing(body, comm);
   if (gmsh) {
     mesh::GmshFile read = mesh::read_gmsh(comm, file.path, wanted_parts(body));
     source = {std::move(read.mesh), {}, std::move(read.notices)};
-  } else if (inp) {
-    mesh::DeckFile read = mesh::read_inp(comm, file.path, request_of(body));
+  } else if (inp || nastran) {
+    mesh::DeckFile read =
+        inp ? mesh::read_inp(comm, file.path, request_of(body)) : mesh::read_nastran(comm, file.path, request_of(body));
     DeckSections deck = deck_sections(read);
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
@@ -83,7 +86,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
     std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
     source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers)};
   } else {
-    throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh or .inp",
+    throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh, .inp, .bdf, .nas or .dat",
                                  body.mesh.where.text(), file.path));
   }
   for (Eigen::Vector3d& x : source.mesh.positions) x *= file.scale;

@@ -62,7 +62,9 @@ const SchemaSection mesh_section{
         part("segments", Type::section, "", "a frame structure: points and the segments between them", "segments"),
         part("plate", Type::section, "", "a flat parallelogram of shells (spatial scenes)", "plate"),
         part("file", Type::section, "",
-             "a mesh file (spatial scenes): Gmsh 4.1 (.msh) or a CalculiX/Abaqus deck (.inp)", "file"),
+             "a mesh file (spatial scenes): Gmsh (.msh), a deck of CalculiX or Abaqus (.inp), or bulk data of Nastran "
+             "(.bdf, .nas, .dat)",
+             "file"),
     }};
 
 const SchemaSection line_section{

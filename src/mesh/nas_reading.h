@@ -1,0 +1,151 @@
+#pragma once
+#include <array>
+#include <map>
+#include <unordered_map>
+
+#include "floe/mesh/deck.h"
+#include "nas_cards.h"
+
+namespace floe::mesh {
+
+struct NasGrid {
+  long long id, cp, cd;  // axes of its position and of its displacements; 0: basic; -1: that of GRDSET
+  Eigen::Vector3d x;
+  Where where;
+};
+
+struct NasShell {
+  long long id, property;
+  std::array<long long, 4> nodes;
+  int count;         // of its nodes
+  double angle;      // THETA [deg], where axes is -1
+  long long axes;    // MCID; -1: none
+  double offset;     // ZOFFS
+  double thickness;  // mean of T1..T4; 0: that of the property
+  bool ratio;        // of the property's thickness
+  Where where;
+};
+
+struct NasBeam {
+  long long id, property;
+  std::array<long long, 2> nodes;
+  Eigen::Vector3d orientation;  // in the displacement axes of GA
+  long long orientation_node;   // G0; 0: none
+  std::array<Eigen::Vector3d, 2> offsets;
+  Where where;
+};
+
+struct NasPly {
+  long long material;
+  double thickness, angle;
+};
+
+struct NasShellProperty {
+  std::string name;  // PSHELL3
+  std::vector<NasPly> plies;
+  std::optional<double> bottom;  // Z0
+  double extra;                  // nonstructural mass by area
+  Where where;
+};
+
+struct NasBeamProperty {
+  std::string name;  // PBAR3
+  long long material;
+  BeamSection section;  // without material and orientation
+  double area, extra;   // nonstructural mass by length
+  Where where;
+};
+
+struct NasMaterial {
+  Material material;
+  double shear = 0;  // G of MAT1
+  Where where;
+};
+
+struct NasAxes {
+  char kind;            // R, C, S
+  long long reference;  // of points; -1: they are grids
+  std::array<Eigen::Vector3d, 3> points;
+  std::array<long long, 3> grids;
+  Where where;
+};
+
+struct NasMass {
+  long long grid, axes;  // -1: the centre is given in basic axes
+  PointMass mass;
+  Where where;
+};
+
+struct NasLink {
+  long long reference;
+  std::vector<long long> nodes;
+  Where where;
+};
+
+/// A card that is not read: how often, and where first.
+struct NasCount {
+  Where where;
+  long long times = 0;
+};
+
+/// What the cards say, the same on every rank.
+struct NasModel {
+  std::vector<NasGrid> grids;
+  std::vector<NasShell> shells;
+  std::vector<NasBeam> beams;
+  std::map<long long, NasShellProperty> shell_properties;
+  std::map<long long, NasBeamProperty> beam_properties;
+  std::map<long long, NasMaterial> materials;
+  std::map<long long, NasAxes> axes;
+  std::vector<NasMass> masses;
+  std::vector<NasLink> links;
+  std::map<long long, std::vector<std::pair<long long, Where>>> supports;  // of each set: grids
+  std::map<std::string, NasCount> ignored, refused, unknown;               // by the card's name
+  std::map<std::string, NasCard> defaults;                                 // BAROR, BEAMOR, GRDSET
+  std::deque<std::string> texts;                                           // of their fields, which outlive their file
+  double mass_factor = 1;                                                  // PARAM,WTMASS
+};
+
+/// One card into the model; what is wrong becomes a fault.
+void read_nas_card(const NasCard& card, NasModel& model, Faults& faults);
+
+/// All names of cards that are read or ignored.
+std::vector<std::string> nas_names();
+
+/// Why a card of another kind is refused, as `a scalar spring`; "" where it is none of them.
+std::string nas_refusal(const std::string& name);
+
+/// Why an ignored card does not matter; "" where that is plain.
+std::string nas_reason(const std::string& name);
+
+/// Axes of the model, and positions in them, in basic axes.
+class NasFrames {
+ public:
+  NasFrames(const NasModel& model, Faults& faults);
+
+  /// Of a grid: nothing, and a fault at `where`, where there is none.
+  std::optional<Eigen::Vector3d> position(long long grid, Where where);
+  Eigen::Vector3d position_of(const NasGrid& grid);
+  /// Directions 1, 2, 3 of axes at a point given in basic axes.
+  Eigen::Matrix3d directions(long long axes, const Eigen::Vector3d& at, Where where);
+  Eigen::Vector3d point(long long axes, const Eigen::Vector3d& x, Where where);
+  const NasGrid* grid(long long id) const;
+  long long displacement_axes(const NasGrid& grid) const { return grid.cd < 0 ? default_cd_ : grid.cd; }
+
+ private:
+  struct Frame {
+    char kind = 'R';
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  };
+  const Frame& frame(long long id, Where where);
+
+  const NasModel& model_;
+  Faults& faults_;
+  long long default_cp_ = 0, default_cd_ = 0;
+  std::unordered_map<long long, std::size_t> grids_;
+  std::map<long long, Frame> frames_;
+  std::vector<long long> at_work_;  // axes that refer to each other
+};
+
+}  // namespace floe::mesh
