@@ -26,6 +26,7 @@ void refuse_faults(const std::vector<int>& coordinates, double length, const Cor
   refuse(!positive(p.EI), "expected EI > 0");
   refuse(!positive(p.rhoA), "expected rhoA > 0");
   refuse(!positive(p.rhoI) && p.rhoI != 0, "expected rhoI >= 0");
+  refuse(!(p.viscosity >= 0 && std::isfinite(p.viscosity)), "expected viscosity >= 0");
   refuse(!gravity.allFinite(), "gravity is not finite");
   if (!faults.empty()) throw InputError(faults);
 }
@@ -58,7 +59,9 @@ void CorotationalBeam::residual(const dynamics::Motion& motion, Eigen::VectorXd&
   const Chord chord = chord_at(chord_, motion.q);
   const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity(motion.t));
   const Moments m = moments(length_, properties_);
-  const Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, extended_rates(chord, v, a));
+  const Rates rates = extended_rates(chord, v, a);
+  Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, rates);
+  if (properties_.viscosity != 0) f += properties_.viscosity * viscous_force(m, length_, chord, rates.velocity);
   r += on_world(chord, reduced(chord, f));
 }
 
@@ -67,10 +70,14 @@ void CorotationalBeam::tangent(const dynamics::Motion& motion, dynamics::Weights
   const Six v = on_chord(chord, motion.v), a = apparent(chord, motion.a, gravity(motion.t));
   const Moments m = moments(length_, properties_);
   const Rates rates = extended_rates(chord, v, a);
-  const Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, rates);
-  InertiaTangent inertia = inertia_tangent(m, chord, rates);
-  inertia.K += elastic_stiffness(m, length_, chord);
-  J += on_world(chord, reduced(chord, v, a, f, inertia.K, inertia.C, inertia.M, {weights.q, weights.v, weights.a}));
+  Seven f = elastic_force(m, length_, chord) + inertia_force(m, chord, rates);
+  ForceTangent by = inertia_tangent(m, chord, rates);
+  by.K += elastic_stiffness(m, length_, chord);
+  if (properties_.viscosity != 0) {
+    f += properties_.viscosity * viscous_force(m, length_, chord, rates.velocity);
+    add_viscous_tangent(m, length_, chord, rates.velocity, properties_.viscosity, by);
+  }
+  J += on_world(chord, reduced(chord, v, a, f, by.K, by.C, by.M, {weights.q, weights.v, weights.a}));
 }
 
 dynamics::Energy CorotationalBeam::energy(const dynamics::Motion& motion) const {
@@ -81,6 +88,23 @@ dynamics::Energy CorotationalBeam::energy(const dynamics::Motion& motion) const 
   const Eigen::Vector2d first_moment = m.mass * middle + chord.n * (m.first + m.last).dot(chord.local);
   return {kinetic_energy(m, chord, extended_rates(chord, v, Six::Zero()).velocity), elastic_energy(m, length_, chord),
           -gravity_.dot(first_moment)};
+}
+
+void CorotationalBeamMass::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
+  const Chord chord = chord_at(chord_, motion.q);
+  const Rates rates = extended_rates(chord, Six::Zero(), on_chord(chord, motion.a));
+  r += on_world(chord, reduced(chord, inertia_force(moments(chord_.norm(), properties_), chord, rates)));
+}
+
+void CorotationalBeamMass::tangent(const dynamics::Motion& motion, dynamics::Weights weights,
+                                   Eigen::MatrixXd& J) const {
+  const Chord chord = chord_at(chord_, motion.q);
+  const Six v = Six::Zero(), a = on_chord(chord, motion.a);
+  const Moments m = moments(chord_.norm(), properties_);
+  const Rates rates = extended_rates(chord, v, a);
+  const ForceTangent by = inertia_tangent(m, chord, rates);
+  J += on_world(
+      chord, reduced(chord, v, a, inertia_force(m, chord, rates), by.K, by.C, by.M, {weights.q, weights.v, weights.a}));
 }
 
 }  // namespace floe::reference

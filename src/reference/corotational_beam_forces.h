@@ -23,6 +23,12 @@ double elastic_energy(const Moments& m, double length, const Chord& chord);
 Seven elastic_force(const Moments& m, double length, const Chord& chord);
 SevenSquare elastic_stiffness(const Moments& m, double length, const Chord& chord);
 
+/// EA l0 (deps/dz)' eps. + (0, B a.) for one unit of viscosity, and its derivatives times `weight`.
+Seven viscous_force(const Moments& m, double length, const Chord& chord, const Seven& velocity);
+struct ForceTangent;
+void add_viscous_tangent(const Moments& m, double length, const Chord& chord, const Seven& velocity, double weight,
+                         ForceTangent& by);
+
 double kinetic_energy(const Moments& m, const Chord& chord, const Seven& velocity);
 
 /// int rhoA (dr/dz)' r.. + rhoI (dpsi/dz)' psi.., psi the rotation of the section.
@@ -30,10 +36,10 @@ double kinetic_energy(const Moments& m, const Chord& chord, const Seven& velocit
 /// Gravity g is the same as accelerations of the nodes less g.
 Seven inertia_force(const Moments& m, const Chord& chord, const Rates& rates);
 
-/// Its derivatives with respect to z, z., z...
-struct InertiaTangent {
+/// Derivatives of a force with respect to z, z., z...
+struct ForceTangent {
   SevenSquare K, C, M;
 };
-InertiaTangent inertia_tangent(const Moments& m, const Chord& chord, const Rates& rates);
+ForceTangent inertia_tangent(const Moments& m, const Chord& chord, const Rates& rates);
 
 }  // namespace floe::reference::corotational

@@ -91,7 +91,7 @@ SevenSquare by_acceleration(const Moments& m, const Chord& chord) {
 
 }  // namespace
 
-InertiaTangent inertia_tangent(const Moments& m, const Chord& chord, const Rates& rates) {
+ForceTangent inertia_tangent(const Moments& m, const Chord& chord, const Rates& rates) {
   return {by_place(m, chord, rates), by_velocity(m, chord, rates.velocity), by_acceleration(m, chord)};
 }
 

@@ -3,7 +3,7 @@
 namespace floe::reference::corotational {
 
 Moments moments(double l, const CorotationalBeam::Properties& properties) {
-  const auto [EA, EI, rhoA, rhoI] = properties;
+  const auto [EA, EI, rhoA, rhoI, viscosity] = properties;
   Moments m;
   m.mass = rhoA * l;
   m.first = rhoA * l * l * Eigen::Vector2d(1. / 20, -1. / 30);

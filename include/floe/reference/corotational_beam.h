@@ -16,7 +16,9 @@ namespace floe::reference {
 ///     r(x) = (1 - xi) r1 + xi r2 + n w,    rotation of the section = beta + w'
 ///     T = 1/2 int rhoA |dr/dt|^2 + rhoI (dbeta/dt + dw'/dt)^2 dx
 ///     U = 1/2 EA l0 eps^2 + 1/2 EI int w''^2 dx,    eps = (l - l0)/l0 + 1/(2 l0) int w'^2 dx
-///     V = - int rhoA g.r dx
+///     V = - int rhoA g.r dx,    D = 1/2 beta (EA l0 (deps/dt)^2 + EI int (dw''/dt)^2 dx)
+///
+/// Kelvin-Voigt damping D acts on the strain rates: a rigid motion has none.
 ///
 /// Nothing of T is neglected: the force holds every gyroscopic and centrifugal term, and the tangent is exact. The
 /// element itself is that of small local rotations (section rotation w' for atan w', x for the arc length), which mesh
@@ -28,9 +30,10 @@ namespace floe::reference {
 /// Source: Le, Battini, Hjiaj 2011, Comput. Mech. 48; here without shear and with every power of a_i in the inertia.
 class CorotationalBeam : public dynamics::Term {
  public:
-  /// Per unit length: axial [N] and bending stiffness [N m2], mass [kg/m], rotary inertia [kg m] (0: left out).
+  /// Per unit length: axial [N] and bending stiffness [N m2], mass [kg/m], rotary inertia [kg m] (0: left out);
+  /// beta of Kelvin-Voigt damping [s].
   struct Properties {
-    double EA, EI, rhoA, rhoI;
+    double EA, EI, rhoA, rhoI, viscosity = 0;
   };
 
   /// @param coordinates  six different indices into the system's local coordinates, in the order of q
@@ -54,6 +57,23 @@ class CorotationalBeam : public dynamics::Term {
   double length_;               // undeformed
   Properties properties_;
   Eigen::Vector2d gravity_;
+};
+
+/// M(q) a of a CorotationalBeam: its inertia where nothing has a velocity.
+class CorotationalBeamMass final : public dynamics::Term {
+ public:
+  /// As CorotationalBeam.
+  CorotationalBeamMass(std::vector<int> coordinates, const Eigen::Vector2d& X1, const Eigen::Vector2d& X2,
+                       const CorotationalBeam::Properties& properties)
+      : coordinates_(std::move(coordinates)), chord_(X2 - X1), properties_(properties) {}
+  const std::vector<int>& coordinates() const override { return coordinates_; }
+  void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
+  void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;
+
+ private:
+  std::vector<int> coordinates_;
+  Eigen::Vector2d chord_;
+  CorotationalBeam::Properties properties_;
 };
 
 }  // namespace floe::reference

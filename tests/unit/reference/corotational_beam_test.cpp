@@ -24,6 +24,8 @@ const double length = (X2 - X1).norm();
 
 CorotationalBeam stocky_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, stocky, gravity}; }
 
+CorotationalBeam viscous_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, {3.0e3, 40, 1.7, 0.3, 0.04}, gravity}; }
+
 struct State {
   VectorXd q, v, a;
 };
@@ -96,7 +98,7 @@ TEST_CASE("corotational beam: the static force is the gradient of the energy", "
 }
 
 TEST_CASE("corotational beam: the tangent is the derivative of the residual", "[corotational]") {
-  const auto beam = stocky_beam();
+  const auto beam = GENERATE(true, false) ? viscous_beam() : stocky_beam();
   for (const double turn : {0.3, 3.1, -7.9}) {
     const State s = some_state(2, turn);
     check_derivative(
@@ -113,6 +115,51 @@ TEST_CASE("corotational beam: the tangent is the derivative of the residual", "[
     const MatrixXd sum = tangent(beam, s, {2, 0, 0}) / 2 + 3 * C - 5 * M;
     CHECK((tangent(beam, s, {1, 3, -5}) - sum).norm() < 1e-9 * sum.norm());
   }
+}
+
+TEST_CASE("corotational beam: viscous forces take power from strain rates alone", "[corotational]") {
+  const auto beam = stocky_beam(), damped = viscous_beam();
+  State s = some_state(4, 2.3);
+  const auto power = [&] { return (residual(damped, s) - residual(beam, s)).dot(s.v); };
+  const auto strain = [&](double t) {  // eps and the local rotations
+    const VectorXd q = s.q + t * s.v;
+    const Vector2d d = X2 - X1, now = d + q.segment<2>(3) - q.head<2>();
+    const double beta = std::atan2(d[0] * now[1] - d[1] * now[0], d.dot(now)), whole = 2 * std::numbers::pi;
+    const double turns = beta + whole * std::round(((q[2] + q[5]) / 2 - beta) / whole);
+    const double a1 = q[2] - turns, a2 = q[5] - turns;
+    return Eigen::Vector3d(now.norm() / length - 1 + (2 * a1 * a1 - a1 * a2 + 2 * a2 * a2) / 30, a1, a2);
+  };
+  const double h = 1e-4;
+  const Eigen::Vector3d rate = (8 * (strain(h) - strain(-h)) - (strain(2 * h) - strain(-2 * h))) / (12 * h);
+  const double bending = 4 * rate[1] * rate[1] + 4 * rate[1] * rate[2] + 4 * rate[2] * rate[2];
+  CHECK(power() == Approx(0.04 * (3.0e3 * length * rate[0] * rate[0] + 40 / length * bending)).epsilon(1e-8));
+  const Vector2d at(0.3, -1.2), second = X2 + s.q.segment<2>(3), first = X1 + s.q.head<2>();
+  const double w = 1.7;  // a rigid motion
+  s.v << at[0] - w * first[1], at[1] + w * first[0], w, at[0] - w * second[1], at[1] + w * second[0], w;
+  CHECK((residual(damped, s) - residual(beam, s)).norm() < 1e-12 * residual(beam, s).norm());
+}
+
+TEST_CASE("corotational beam: its mass is that of its inertia forces", "[corotational]") {
+  const auto beam = stocky_beam();
+  const reference::CorotationalBeamMass mass({0, 1, 2, 3, 4, 5}, X1, X2, stocky);
+  State s = some_state(5, -1.3);
+  s.v.setZero();
+  const auto force = [&](const State& at) {
+    VectorXd r = VectorXd::Zero(6);
+    mass.residual(Motion{0, at.q, at.v, at.a}, r);
+    return r;
+  };
+  MatrixXd M = MatrixXd::Zero(6, 6), K = M;
+  mass.tangent(Motion{0, s.q, s.v, s.a}, {0, 0, 1}, M);
+  CHECK((M - tangent(beam, s, {0, 0, 1})).norm() < 1e-14 * M.norm());
+  CHECK((force(s) - M * s.a).norm() < 1e-13 * force(s).norm());
+  mass.tangent(Motion{0, s.q, s.v, s.a}, {1, 0, 0}, K);
+  check_derivative(
+      K,
+      [&](const VectorXd& q) {
+        return force({q, s.v, s.a});
+      },
+      s.q);
 }
 
 TEST_CASE("corotational beam: kinetic energy equals quadrature of the moving body", "[corotational]") {
