@@ -58,14 +58,18 @@ std::vector<int> distances(const Plan& plan) {
 
 }  // namespace
 
-fem::Conditions held_for_damping(const Plan& plan, int index) {
+fem::Conditions held_for_damping(const Plan& plan, int index) { return held_for_damping(plan, {index}, index); }
+
+fem::Conditions held_for_damping(const Plan& plan, const std::vector<int>& whole, int index) {
   const PlannedBody& body = plan.bodies[index];
   fem::Conditions held = body.held;
   const std::vector<int> away = distances(plan);
+  int nearest = away[index];
+  for (int b : whole) nearest = std::min(nearest, away[b]);
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
     for (const int side : {0, 1}) {
       const Anchor &here = plan.joints[j][side], &there = plan.joints[j][1 - side];
-      if (here.body != index || there.body < 0 || here.map || away[there.body] >= away[index]) continue;
+      if (here.body != index || there.body < 0 || here.map || away[there.body] >= nearest) continue;
       hold_place_by_joint(plan, j, here, held);
     }
   const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
@@ -83,11 +87,13 @@ fem::ReferenceFrame damping_frame(const Plan& plan, int index) {
 
 namespace {
 
+bool in_several_frames(const PlannedBody& body) { return whole_name(body.spec) != body.spec.name; }
+
 /// Modal damping, as it came with the basis or the file, and alpha V'P'MPV.
 Eigen::MatrixXd constant_damping(const Plan& plan, int index, const ReducedBody& reduced) {
   const PlannedBody& body = plan.bodies[index];
   Eigen::MatrixXd C = reduced.damping;
-  if (body.spec.damping.mass == 0 || !reduced.basis || reduced.basis->columns == 0) return C;
+  if (body.spec.damping.mass == 0 || in_several_frames(body) || !reduced.basis || reduced.basis->columns == 0) return C;
   std::vector<petsc::VecHandle> columns;
   for (int i = 0; i < reduced.basis->columns; ++i) {
     columns.push_back(fem::field(body.structure));
@@ -119,26 +125,10 @@ std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int
   return terms;
 }
 
-std::vector<std::string> damping_warnings(const Plan& plan) {
-  std::vector<std::string> warnings;
-  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
-    const Body& body = plan.bodies[b].spec;
-    const std::string name = whole_name(body);
-    if (name == body.name || body.damping.mass == 0 || (b > 0 && whole_name(plan.bodies[b - 1].spec) == name)) continue;
-    const auto frames = std::count_if(plan.bodies.begin(), plan.bodies.end(),
-                                      [&](const PlannedBody& one) { return whole_name(one.spec) == name; });
-    warnings.push_back(fmt::format(
-        "body {}: damping.mass acts on the deformation of each of its {} frames relative to the previous frame (limit "
-        "1 frame), so that damping ratios are less than alpha/(2 omega); use frames: 1, or damping.stiffness",
-        name, frames));
-  }
-  return warnings;
-}
-
 std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int index, const fem::Conditions& held,
                                                          dynamics::Coordinates& coordinates) {
   const PlannedBody& body = plan.bodies[index];
-  if (body.spec.damping.mass == 0) return std::nullopt;
+  if (body.spec.damping.mass == 0 || in_several_frames(body)) return std::nullopt;
   const fem::Conditions by_joints = held_for_damping(plan, index);
   reference::MassDamping damping{fem::joint_frame(body.structure, body.frame, by_joints), held, body.spec.damping.mass};
   const bool mean_axes = by_joints.empty() && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis;

@@ -36,12 +36,11 @@ std::vector<PetscInt> visited_nodes(const Plan& plan, int body) {
   return nodes;
 }
 
-/// World position of a node of a corotational body at rest.
-Eigen::Vector2d world(const PlannedBody& body, const Eigen::Vector3d& x) {
+}  // namespace
+
+Eigen::Vector2d undeformed_place(const PlannedBody& body, const Eigen::Vector3d& x) {
   return body.pose.head<2>() + turn(body.pose[2]) * x.head<2>();
 }
-
-}  // namespace
 
 PlanarAssembly::PlanarAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced)
     : plan_(plan),
@@ -81,6 +80,7 @@ void PlanarAssembly::add_coordinates() {
     if (formulation_ != Formulation::cfr)
       slot.damping = full_order_damping(plan_, index, body.frame.conditions, coordinates_);
   }
+  add_damping_axes();
   joint_rows_ = standing_rows(plan_, reduced_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
@@ -124,8 +124,6 @@ void PlanarAssembly::add_body_terms(int b) {
     for (auto& term : more) terms_.push_back(std::move(term));
     return;
   }
-  if (damping.mass != 0 || damping.stiffness != 0)
-    throw InputError(damping.where.text() + ": formulation cfr has no Rayleigh damping (it would damp rigid motion)");
   if (body.spec.section.GA)
     throw InputError(body.spec.section.where.text() +
                      ": formulation cfr has no shear (GA); expected vm, vm+md, lffr or nlffr, or a section without GA");
@@ -138,8 +136,10 @@ void PlanarAssembly::add_body_terms(int b) {
       for (int d = 0; d < 3; ++d) coordinates.push_back(slot.nodes->of_local_node(node) + d);
     const fem::BeamSection& section = std::get<fem::BeamSection>(s.sections[cell.part]);
     auto beam = std::make_unique<reference::CorotationalBeam>(
-        coordinates, world(body, s.mesh.positions[cell.corner[0]]), world(body, s.mesh.positions[cell.corner[1]]),
-        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}, gravity);
+        coordinates, undeformed_place(body, s.mesh.positions[cell.corner[0]]),
+        undeformed_place(body, s.mesh.positions[cell.corner[1]]),
+        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, damping.stiffness},
+        gravity);
     if (!weight.constant())
       beam->changing_gravity = [weight](double t) -> Eigen::Vector2d { return weight(t).head<2>(); };
     terms_.push_back(std::move(beam));
@@ -201,7 +201,7 @@ Marker PlanarAssembly::marker(const Anchor& place) {
   if (corotational) {
     at.framed = false;
     at.coordinates.erase(at.coordinates.begin(), at.coordinates.begin() + 3);
-    at.x = world(body, place.x);
+    at.x = undeformed_place(body, place.x);
     at.angle0 = body.pose[2];
   }
   return at;
@@ -242,8 +242,8 @@ Model PlanarAssembly::model() {
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
     model.bodies.push_back(std::move(report));
   }
-  model.warnings = damping_warnings(plan_);
   set_start(model);
+  for (const DampedWhole& whole : damped_) add_damping(whole, model);
   Eigen::VectorXd q;
   {
     const dynamics::System layout(coordinates_, {});
@@ -253,6 +253,8 @@ Model PlanarAssembly::model() {
   add_joints(model, q);
   add_probes(model, q);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
+  for (const DampedWhole& whole : damped_)
+    if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
   model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "damping_axes.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/reference/full_order.h"
 #include "floe/reference/mass_damping.h"
@@ -29,6 +30,15 @@ class PlanarAssembly {
   bool compact(int body) const;  // described by a ReducedBody
   void add_coordinates();
   void add_body_terms(int body);
+  void add_damping_axes();
+  void add_damping(const DampedWhole& whole, Model& model);
+  /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
+  std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
+  std::vector<HeldPlace> held_places(const DampedWhole& whole, int body);
+  dynamics::MovingAxes node_axes(int body, int first, const Eigen::Vector3d& x) const;
+  void start_damping(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
+                     Model& model);
+  void set_shared(const std::vector<int>& local, const std::vector<double>& values, Vec into) const;
   void add_gravity(int body);
   void add_loads();
   void add_joints(Model& model, const Eigen::VectorXd& q);
@@ -48,10 +58,14 @@ class PlanarAssembly {
   bool owner_;  // this rank has the shared terms
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
+  std::vector<DampedWhole> damped_;
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::map<std::string, JointLatches> latches_;
 };
+
+/// World position of a point of a corotational body, undeformed at the start. @param x  in the frame's axes
+Eigen::Vector2d undeformed_place(const PlannedBody& body, const Eigen::Vector3d& x);
 
 }  // namespace floe::assembly

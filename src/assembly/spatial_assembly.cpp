@@ -203,6 +203,7 @@ void SpatialAssembly::add_coordinates() {
       slot.multipliers = coordinates_.add_shared(6, true);
     slot.damping = full_order_damping(plan_, index, held(index), coordinates_);
   }
+  add_damping_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind);
@@ -336,6 +337,10 @@ void SpatialAssembly::set_start(Model& model) {
       check(VecSetValue(model.V, turn, body.spin[i], INSERT_VALUES));
     }
   }
+  for (const DampedWhole& whole : damped_)
+    for (int i = 0; i < 3 && owner_ && !whole.fixed; ++i)
+      check(VecSetValue(model.U, coordinates_.global()[whole.f.position + i],
+                        plan_.bodies[whole.bodies.front()].spec.initial.position[i], INSERT_VALUES));
   for (Vec v : {model.U.get(), model.V.get()}) {
     check(VecAssemblyBegin(v));
     check(VecAssemblyEnd(v));
@@ -348,9 +353,9 @@ Model SpatialAssembly::model() {
   Model model;
   model.formulation = formulation_;
   if (plan_.extent > 0) model.extent = plan_.extent;
-  model.warnings = damping_warnings(plan_);
   add_coordinates();
   set_start(model);
+  for (const DampedWhole& whole : damped_) add_damping(whole, model);
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
     const PlannedBody& body = plan_.bodies[b];
@@ -390,11 +395,16 @@ Model SpatialAssembly::model() {
       slots_[b].corotated->add_attitudes(attitudes);
     else if (slots_[b].attitude && plan_.bodies[b].host < 0)
       attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
+  std::size_t next = 0;
+  for (const DampedWhole& whole : damped_)
+    if (!whole.fixed) attitudes.emplace_back(whole.f.rotation, damped_attitudes_[next++]);
   for (std::size_t j = 0; j < multipliers_.size(); ++j) {
     std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind));
     std::iota(rows.begin(), rows.end(), 0);
     model.joints.push_back({multipliers_[j], std::move(rows)});
   }
+  for (const DampedWhole& whole : damped_)
+    if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
   model.latches = latches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;

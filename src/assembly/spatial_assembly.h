@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "damping_axes.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/dynamics/spatial_joint.h"
 #include "floe/reference/corotational_body.h"
@@ -59,6 +60,11 @@ class SpatialAssembly {
   void add_coordinates();
   void add_body(int body);
   void add_still_cells(int body);
+  void add_damping_axes();
+  void add_damping(const DampedWhole& whole, Model& model);
+  /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
+  std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
+  std::vector<HeldPlace> held_places(const DampedWhole& whole, int body);
   void add_gravity(int body);
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative);
@@ -86,8 +92,10 @@ class SpatialAssembly {
   bool owner_;  // this rank has the shared terms
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
-  std::vector<int> multipliers_;  // of each joint, the first
-  Eigen::VectorXd start_;         // local coordinates at the start
+  std::vector<DampedWhole> damped_;
+  std::vector<std::shared_ptr<dynamics::Attitude>> damped_attitudes_;  // of those that have axes
+  std::vector<int> multipliers_;                                       // of each joint, the first
+  Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::map<std::string, JointLatches> latches_;
 };

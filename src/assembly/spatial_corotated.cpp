@@ -73,11 +73,6 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
     pieces.push_back(corotated(index) ? clamped_edges(index) : Pieces{});
-    const Body& spec = plan_.bodies[b].spec;
-    if (corotated(index) && spec.damping.mass != 0)
-      faults.push_back(spec.damping.where.text() +
-                       ".mass: formulation cfr has no mass-proportional damping in space (the deformation that it acts "
-                       "on is seen from a floating frame); expected damping.stiffness, or another formulation");
   }
   const auto mean = [&](const Anchor& place) {
     return place.body >= 0 && corotated(place.body) && is_mean(place, pieces[place.body]);

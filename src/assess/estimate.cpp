@@ -8,6 +8,7 @@
 
 #include "estimate_lift.h"
 #include "estimate_parts.h"
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/combination.h"
 #include "floe/assembly/damping.h"
 #include "floe/assembly/enrichment.h"
@@ -79,9 +80,10 @@ class Residuals {
       const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
       for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
     }
-    if (body.spec.damping.mass != 0) add_mass_damping(b, state, load);
+    const bool several = whole_name(body.spec) != body.spec.name;  // frames, whose damping acts on the body as one
+    if (body.spec.damping.mass != 0 && !several) add_mass_damping(b, state, load);
     VectorXd along = products(*reduced.basis, load);
-    if (!body.spec.damping.modal.empty()) {
+    if (!body.spec.damping.modal.empty() || (body.spec.damping.mass != 0 && several)) {
       const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
       combine(*reduced.basis, along, field);
       check(MatMult(fem::mass(body.structure, {}), field, force));

@@ -14,13 +14,14 @@ namespace {
 
 int frame_size(const BodyReport& body) { return body.first_coordinate < 0 ? 0 : body.dimension == 2 ? 3 : 6; }
 
-/// Visits pairs (from, to) of local indices: frames, and the multipliers of the rows that both models have.
+/// Visits pairs (from, to) of local indices: frames, and the multipliers of the rows that both models have, with the
+/// axes of damping among them, which full-order models lack here.
 template <class Visit>
 void for_each_shared(const Model& from, const Model& to, Visit&& visit) {
   for (std::size_t b = 0; b < from.bodies.size(); ++b)
     for (int i = 0; i < frame_size(from.bodies[b]); ++i)
       visit(from.bodies[b].first_coordinate + i, to.bodies[b].first_coordinate + i);
-  for (std::size_t j = 0; j < from.joints.size(); ++j) {
+  for (std::size_t j = 0; j < std::min(from.joints.size(), to.joints.size()); ++j) {
     const std::vector<int>&mine = from.joints[j].rows, &theirs = to.joints[j].rows;
     for (std::size_t i = 0; i < mine.size(); ++i)
       if (const auto at = std::find(theirs.begin(), theirs.end(), mine[i]); at != theirs.end())
@@ -51,6 +52,7 @@ State lifted_to_more_columns(const State& state, const Model& reduced, const Mod
 void lift_to_full_order(const State& state, const Model& reduced, const Offline& offline, const Model& full, Vec U,
                         Vec V, Vec A) {
   State lifted = zero_state(state, full);
+  lifted.bases.resize(full.system->attitudes().size());  // without those of damping
   for_each_shared(reduced, full, [&](int i, int j) { copy_entry(state, i, lifted, j); });
   for (std::size_t b = 0; b < reduced.bodies.size(); ++b) {
     const BodyReport &mine = reduced.bodies[b], &theirs = full.bodies[b];

@@ -237,30 +237,31 @@ void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_pt
   }
 }
 
-CorotationalBody::Inertias CorotationalBody::carried(Density density) const {
-  Inertias all;
+std::vector<CorotationalBody::NodeMass> CorotationalBody::carried(Density density) const {
+  std::map<int, NodeMass> all;
   for (const fem::Mesh::Cell& cell : structure_.mesh.cells) {
     const std::vector<SpatialMarker> places = this->places(cell);
     for (const CarriedMass& mass : carried_mass(structure_, cell, density)) {
       const SpatialMarker& at = places[mass.corner];
-      auto [found, fresh] = all.try_emplace(at.coordinates[0], at, body::Inertia(3, 0));
-      body::Inertia& sum = found->second.second;
+      const Vector3d& x = structure_.mesh.positions[cell.moved[mass.corner]];
+      body::Inertia& sum = all.try_emplace(at.coordinates[0], at, body::Inertia(3, 0), x).first->second.inertia;
       const Vector3d arm = at.x0 + mass.arm;
       sum.m += mass.mass;
       sum.s0 += mass.mass * arm;
       sum.C0 += mass.mass * arm * arm.transpose() + mass.spread;
     }
   }
-  return all;
+  std::vector<NodeMass> list;
+  for (auto& [first, one] : all)
+    if (one.inertia.m != 0) list.push_back(std::move(one));
+  return list;
 }
 
 std::vector<SpatialMarker> CorotationalBody::density(Density density) const {
   std::vector<SpatialMarker> markers;
-  for (const auto& [first, one] : carried(density)) {
-    SpatialMarker marker = one.first;
-    marker.mass = one.second.m;
-    marker.x0 = one.second.s0;
-    if (marker.mass != 0) markers.push_back(std::move(marker));
+  for (NodeMass& one : carried(density)) {
+    one.at.mass = one.inertia.m, one.at.x0 = one.inertia.s0;
+    markers.push_back(std::move(one.at));
   }
   return markers;
 }
@@ -301,10 +302,9 @@ std::vector<std::unique_ptr<dynamics::Term>> CorotationalBody::terms(double visc
   std::vector<std::unique_ptr<dynamics::Term>> all;
   add_elements(viscosity, all);
   const body::Elasticity rigid{Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0), {}};
-  for (const auto& [first, one] : carried(Density::mass))
-    if (one.second.m != 0)
-      all.push_back(std::make_unique<dynamics::SpatialBody>(one.first.coordinates, one.first.attitude,
-                                                            body::spatial(one.second), rigid));
+  for (const NodeMass& one : carried(Density::mass))
+    all.push_back(std::make_unique<dynamics::SpatialBody>(one.at.coordinates, one.at.attitude,
+                                                          body::spatial(one.inertia), rigid));
   add_links(all);
   add_idle(all);
   return all;

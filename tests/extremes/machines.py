@@ -61,13 +61,6 @@ def crank():
                    "turn": {"at": "rod.end", "quantity": "rotation"}}}
 
 
-def undamped_crank():
-    """For cfr, which knows no Rayleigh damping."""
-    scene = crank()
-    del scene["bodies"]["rod"]["damping"]
-    return scene
-
-
 def arm_in_space():
     """A flexible arm with a bend on a driven hub, a hinge with stops and a ball joint at its end, under gravity."""
     square = {"shape": "rectangle", "width": 0.02, "height": 0.03, "orientation": [0, 1, 0.3]}
@@ -173,7 +166,7 @@ def estimates(floe, convert, units):
 MACHINES = {
     "crank": Machine("crank, flexible rod, slider, stops and springs, reduced", motion(crank())),
     "full-order crank": Machine("the same, nlffr", motion(crank(), "nlffr")),
-    "crank, exact beams": Machine("the same, cfr", motion(undamped_crank(), "cfr")),
+    "crank, exact beams": Machine("the same, cfr", motion(crank(), "cfr")),
     "arm in space": Machine("driven arm, hinge with stops, ball joint, gravity, reduced", motion(arm_in_space())),
     "full-order arm in space": Machine("the same, nlffr", motion(arm_in_space(), "nlffr")),
     "wing": Machine("plate under follower pressure on a moving ground, reduced", motion(wing())),

@@ -153,8 +153,6 @@ SCENES = [
     *case("modal damping at full order", formulations=("nlffr", "lffr", "cfr"), codes=2, lines=1, check=no_results,
           says=("scene.yaml:", "modal damping needs a reduced formulation"),
           changes={"bodies.beam.damping": {"modal": [0.01]}}),
-    *case("Rayleigh damping in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
-          says=("scene.yaml:", "no Rayleigh damping"), changes={"bodies.beam.damping": {"mass": 0.1}}),
     *case("load in body axes in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
           says=("scene.yaml:", "axes"), changes={"loads.tip.axes": "body"}),
     *case("formula not a number when read", codes=2, lines=1, check=nothing,

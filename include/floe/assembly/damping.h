@@ -15,6 +15,8 @@ namespace floe::assembly {
 /// the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away from
 /// these. Collective.
 fem::Conditions held_for_damping(const Plan& plan, int body);
+/// Likewise of a body of several, `whole`, as one: joints among these do not count.
+fem::Conditions held_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
 
 /// What damping.mass acts on: the displacement in the frame less its rigid part as the body's joints see it.
 /// Collective.
@@ -23,15 +25,13 @@ fem::ReferenceFrame damping_frame(const Plan& plan, int body);
 /// alpha V'P'MPV + beta V'KV + modal: of small motions, for files and exports. Empty: none. Collective.
 Eigen::MatrixXd linear_damping(const Plan& plan, int body, const ReducedBody& reduced);
 
-/// Terms of a reduced body's damping on its elastic coordinates: mass-proportional, modal (one constant matrix), and
-/// Kelvin-Voigt. Collective.
+/// Terms of a reduced body's damping on its elastic coordinates: mass-proportional (of a body in one frame), modal (one
+/// constant matrix), and Kelvin-Voigt. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int body, const ReducedBody& reduced,
                                                            const std::vector<int>& elastic);
 
-/// Bodies in several frames whose damping.mass acts on each frame by itself.
-std::vector<std::string> damping_warnings(const Plan& plan);
-
-/// Mass-proportional damping of a full-order body, with its unknowns added where it needs some; none: it has none.
+/// Mass-proportional damping of a full-order body in one frame, with its unknowns added where it needs some; none: it
+/// has none.
 /// @param held  dofs that are zero with the full-order model. Collective.
 std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int body, const fem::Conditions& held,
                                                          dynamics::Coordinates& coordinates);

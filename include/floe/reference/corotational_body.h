@@ -54,6 +54,14 @@ class CorotationalBody {
   /// cells and nodes. Collective.
   /// @param viscosity  beta of Kelvin-Voigt damping [s]
   std::vector<std::unique_ptr<dynamics::Term>> terms(double viscosity) const;
+  /// The mass that a node's frame carries, as far as this rank's cells bring it: constants in the frame's axes about x,
+  /// the node undeformed in body axes.
+  struct NodeMass {
+    dynamics::SpatialMarker at;
+    body::Inertia inertia;
+    Eigen::Vector3d x;
+  };
+  std::vector<NodeMass> masses() const { return carried(Density::mass); }
   /// Force densities per mass, or per line and area, as a marker for each frame (SpatialMarker::mass).
   std::vector<dynamics::SpatialMarker> density(Density density) const;
   /// Of the frames that this rank sees.
@@ -71,8 +79,7 @@ class CorotationalBody {
     Eigen::Vector3d arm, axis;
     int rows() const { return axis.isZero(0) ? 6 : 5; }
   };
-  using Inertias = std::map<int, std::pair<dynamics::SpatialMarker, body::Inertia>>;
-  Inertias carried(Density density) const;
+  std::vector<NodeMass> carried(Density density) const;
   void add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
   void add_links(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
   void add_idle(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;

@@ -105,7 +105,7 @@ TEST_CASE("what cannot be built is told with its place in the file") {
   }
   CHECK_THAT(complaint(modal, Formulation::nlffr), Contains("test.yaml:7") && Contains("modal damping"));
   CHECK(complaint(modal, Formulation::vm_md).empty());
-  CHECK_THAT(complaint(rayleigh, Formulation::cfr), Contains("Rayleigh"));
+  CHECK(complaint(rayleigh, Formulation::cfr).empty());
   CHECK(complaint(rayleigh, Formulation::nlffr).empty());
   CHECK_THAT(complaint(follower, Formulation::cfr), Contains("axes: body"));
   CHECK(complaint(follower, Formulation::lffr).empty());

@@ -138,7 +138,6 @@ $rest
   };
   using Catch::Matchers::Contains;
   CHECK(refused("", "").empty());
-  CHECK_THAT(refused("damping: {mass: 1}", ""), Contains("no mass-proportional damping"));
   CHECK_THAT(refused("", "joints: {j: {type: fixed, edges: mean, between: [b.left, b.right]}}"),
              Contains("mean of 3 nodes"));
   CHECK_THAT(refused("", "loads: {f: {type: force, at: b.p1, force: [1, 0, 0], axes: body}}"), Contains("axes: body"));

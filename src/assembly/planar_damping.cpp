@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "damping_axes.h"
+#include "floe/dynamics/floating_body.h"
+#include "floe/plan/hold_by_joint.h"
+#include "floe/reference/corotational_beam.h"
+#include "planar_assembly.h"
+
+// damping.mass of planar bodies in several frames, and of corotational ones.
+namespace floe::assembly {
+
+using dynamics::MovingAxes;
+using dynamics::RelativeDamping;
+using petsc::check;
+
+namespace {
+
+body::Elasticity no_elasticity(Eigen::Index k) { return {Eigen::MatrixXd::Zero(k, k), Eigen::MatrixXd(0, k), {}}; }
+
+}  // namespace
+
+void PlanarAssembly::add_damping_axes() {
+  damped_ = damped_wholes(plan_, formulation_ == Formulation::cfr, std::vector<bool>(slots_.size(), false));
+  for (DampedWhole& whole : damped_) {
+    if (whole.fixed) continue;
+    coordinates_.belongs_to("damping of body " + plan_.bodies[whole.bodies.front()].spec.name);
+    const int first = coordinates_.add_shared(3);
+    coordinates_.add_angle(first + 2, true);
+    whole.f.position = first, whole.f.rotation = first + 2;
+    whole.multipliers = coordinates_.add_shared(3, true);
+  }
+}
+
+/// The axes of a node of a corotational body.
+MovingAxes PlanarAssembly::node_axes(int b, int first, const Eigen::Vector3d& x) const {
+  const PlannedBody& body = plan_.bodies[b];
+  MovingAxes axes{first, first + 2};
+  axes.origin.head<2>() = undeformed_place(body, x);
+  axes.angle = body.pose[2];
+  return axes;
+}
+
+std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, int b) {
+  const PlannedBody& body = plan_.bodies[b];
+  const Slot& slot = slots_[b];
+  const Eigen::Matrix3d A0 = undeformed_axes(body);
+  const Eigen::Vector3d X0 = undeformed_origin(body);
+  std::vector<CarriedMass> all;
+  const auto add = [&](const std::vector<int>& elastic, const body::Inertia& inertia) {
+    const MovingAxes axes{slot.frame, slot.frame + 2};
+    std::vector<int> coordinates = axes.coordinates();
+    coordinates.insert(coordinates.end(), elastic.begin(), elastic.end());
+    terms_.push_back(std::make_unique<RelativeDamping>(
+        std::make_unique<dynamics::FloatingBody>(coordinates, body::planar(inertia), no_elasticity(inertia.S.cols())),
+        std::vector<MovingAxes>{axes}, whole.axes(), whole.alpha));
+    all.push_back({axes, elastic, inertia, X0, A0});
+  };
+  if (compact(b)) {
+    std::vector<int> elastic;
+    for (int i = 0; i < reduced_[b].body.coordinates(); ++i) elastic.push_back(slot.elastic + i);
+    if (owner_) add(elastic, reduced_[b].body.inertia);
+    return all;
+  }
+  const fem::Structure& s = body.structure;
+  for (const auto& cell : s.mesh.cells) {
+    if (formulation_ != Formulation::cfr) {
+      const std::vector<int> dofs = s.cell_dofs(cell);
+      std::vector<int> elastic;
+      std::vector<Eigen::Index> kept;
+      for (std::size_t i = 0; i < dofs.size(); ++i) {
+        if (std::binary_search(body.frame.conditions.begin(), body.frame.conditions.end(), s.global_dof(dofs[i])))
+          continue;
+        kept.push_back(static_cast<Eigen::Index>(i));
+        elastic.push_back(slot.nodes->of_local_node(dofs[i] / 3) + dofs[i] % 3);
+      }
+      const auto n = static_cast<Eigen::Index>(dofs.size());
+      add(elastic, fem::inertia(s.maps(cell), Eigen::MatrixXd::Identity(n, n)(Eigen::all, kept)));
+      continue;
+    }
+    const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
+    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.corner[0]], s.mesh.positions[cell.corner[1]]},
+                          along = ends[1] - ends[0];
+    std::vector<MovingAxes> nodes;
+    std::vector<int> coordinates;
+    for (const int i : {0, 1}) {
+      nodes.push_back(node_axes(b, slot.nodes->of_local_node(cell.nodes()[i]), ends[i]));
+      for (int coordinate : nodes.back().coordinates()) coordinates.push_back(coordinate);
+      const Eigen::Vector2d arm = (i == 0 ? 1 : -1) * (0.5 - 0.5 / std::sqrt(3.0)) * along.head<2>();
+      body::Inertia half(2, 0);
+      half.add(body::MassPoint{section.rhoA * along.norm() / 2, arm, Eigen::MatrixXd(2, 0)});
+      all.push_back({nodes.back(), {}, half, undeformed_origin(body) + A0 * ends[i], A0});
+    }
+    terms_.push_back(std::make_unique<RelativeDamping>(
+        std::make_unique<reference::CorotationalBeamMass>(
+            coordinates, undeformed_place(body, ends[0]), undeformed_place(body, ends[1]),
+            reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}),
+        nodes, whole.axes(), whole.alpha));
+  }
+  return all;
+}
+
+std::vector<HeldPlace> PlanarAssembly::held_places(const DampedWhole& whole, int b) {
+  const PlannedBody& body = plan_.bodies[b];
+  const Slot& slot = slots_[b];
+  const fem::Conditions& held = whole.held[whole.place_in(b)];
+  const Eigen::Matrix3d A0 = undeformed_axes(body);
+  std::map<PetscInt, std::vector<int>> of_node;
+  for (PetscInt dof : held) of_node[dof / 3].push_back(static_cast<int>(dof % 3));
+  std::vector<HeldPlace> all;
+  for (const auto& [node, dofs] : of_node) {
+    HeldPlace place;
+    place.axes.position = slot.frame, place.axes.rotation = slot.frame + 2;
+    place.dofs = dofs, place.X = undeformed_origin(body), place.A0 = A0;
+    if (compact(b)) {
+      Anchor at;
+      at.body = b, at.node = node;
+      const body::PlaceMap map = place_map(plan_, reduced_[b], at);
+      for (Eigen::Index i = 0; i < map.S.cols(); ++i) place.elastic.push_back(slot.elastic + static_cast<int>(i));
+      place.x.setZero(), place.S.setZero(3, map.S.cols()), place.psi = place.S;
+      place.x.head<2>() = map.x.head<2>(), place.S.topRows<2>() = map.S.topRows<2>(), place.psi.row(2) = map.psi.row(0);
+      if (owner_) all.push_back(std::move(place));
+      continue;
+    }
+    const PetscInt local = node - body.structure.mesh.first_node;
+    if (local < 0 || local >= body.structure.mesh.owned_nodes) continue;
+    const Eigen::Vector3d x = body.structure.mesh.positions[local];
+    const int first = slot.nodes->of_local_node(static_cast<int>(local));
+    if (formulation_ == Formulation::cfr) {
+      place.axes = node_axes(b, first, x);
+      place.X = undeformed_origin(body) + A0 * x;
+      place.x.setZero(), place.S.setZero(3, 0), place.psi.setZero(3, 0);
+    } else {
+      place.x = x, place.S.setZero(3, 3), place.psi.setZero(3, 3);
+      for (int d = 0; d < 3; ++d) {
+        place.elastic.push_back(first + d);
+        if (std::binary_search(body.frame.conditions.begin(), body.frame.conditions.end(), 3 * node + d)) continue;
+        (d < 2 ? place.S(d, d) : place.psi(2, 2)) = 1;
+      }
+    }
+    all.push_back(std::move(place));
+  }
+  return all;
+}
+
+void PlanarAssembly::add_damping(const DampedWhole& whole, Model& model) {
+  std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> rows;
+  const auto take = [&](std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> more) {
+    for (auto& term : more) rows.push_back(std::move(term));
+  };
+  for (int b : whole.bodies) {
+    for (const CarriedMass& mass : add_masses(whole, b))
+      if (!whole.fixed) take(conditions(whole, mass));
+    if (whole.fixed) continue;
+    for (const HeldPlace& place : held_places(whole, b)) take(conditions(whole, place, 3));
+  }
+  if (whole.fixed) return;
+  start_damping(whole, rows, model);
+  for (auto& term : rows) terms_.push_back(std::move(term));
+}
+
+void PlanarAssembly::start_damping(const DampedWhole& whole,
+                                   std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows, Model& model) {
+  const InitialSpec& initial = plan_.bodies[whole.bodies.front()].spec.initial;
+  const std::vector<int> own = whole.f.coordinates();
+  const double base[3] = {initial.position[0], initial.position[1], initial.angle};
+  set_shared(own, {base, base + 3}, model.U);
+  const dynamics::System layout(coordinates_, {});
+  Eigen::VectorXd q, v;
+  layout.gather(model.U, q), layout.gather(model.V, v);
+  const Eigen::VectorXd rate = begin(whole, rows, q, v, coordinates_.comm());
+  set_shared(own, {rate.begin(), rate.end()}, model.V);
+}
+
+void PlanarAssembly::set_shared(const std::vector<int>& local, const std::vector<double>& values, Vec into) const {
+  for (std::size_t i = 0; i < local.size() && owner_; ++i)
+    check(VecSetValue(into, coordinates_.global()[local[i]], values[i], INSERT_VALUES));
+  check(VecAssemblyBegin(into));
+  check(VecAssemblyEnd(into));
+}
+
+}  // namespace floe::assembly
