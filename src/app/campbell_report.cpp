@@ -11,6 +11,13 @@ namespace floe::app {
 
 using nlohmann::ordered_json;
 
+namespace {
+
+/// An exponent s that is real: a growth or a decay without oscillation.
+bool is_real(const solve::Vibration& v) { return v.omega == 0 && !v.zero; }
+
+}  // namespace
+
 output::Table campbell_table(const CampbellDiagram& diagram) {
   output::Table table;
   table.columns = {{"speed", "rad/s", 6},     {"mode", ""},         {"frequency", "Hz", 6},
@@ -22,14 +29,18 @@ output::Table campbell_table(const CampbellDiagram& diagram) {
                             std::string(point.fault.empty() ? "no vibrations"
                                         : point.steady      ? "vibrations not found"
                                                             : "no steady rotation")});
-    for (std::size_t i = 0; i < point.vibrations.size(); ++i) {
-      const solve::Vibration& v = point.vibrations[i];
-      table.rows.push_back({point.speed, static_cast<std::int64_t>(i + 1), v.omega / (2 * M_PI), v.omega,
-                            v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
-                            std::string(v.unstable() ? "unstable"
-                                        : v.zero     ? fmt::format("rigid-body mode, or below {:.2g} rad/s", v.below)
-                                                     : "")});
-    }
+    std::int64_t mode = 0;
+    for (const solve::Vibration& v : point.vibrations)
+      if (!is_real(v))
+        table.rows.push_back({point.speed, ++mode, v.omega / (2 * M_PI), v.omega,
+                              v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
+                              std::string(v.unstable() ? "unstable"
+                                          : v.zero     ? fmt::format("rigid-body mode, or below {:.2g} rad/s", v.below)
+                                                       : "")});
+    for (const solve::Vibration& v : point.vibrations)
+      if (is_real(v))
+        table.rows.push_back({point.speed, empty, empty, empty, v.growth,
+                              std::string(v.unstable() ? "unstable, without oscillation" : "overdamped")});
   }
   return table;
 }
@@ -53,11 +64,15 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
       at["reason"] = point.fault;
     else
       at["newton_iterations"] = point.iterations, at["vibrations"] = ordered_json::array();
-    for (const solve::Vibration& v : point.vibrations)
+    for (const solve::Vibration& v : point.vibrations) {
+      if (is_real(v)) {
+        at["real_exponents_per_s"].push_back(v.growth);
+        continue;
+      }
       at["vibrations"].push_back(
           {{"Hz", v.omega / (2 * M_PI)}, {"rad_per_s", v.omega}, {"growth_per_s", v.growth}, {"zero", v.zero}});
-    for (std::size_t i = 0; i < point.vibrations.size(); ++i)
-      if (point.vibrations[i].zero) at["vibrations"][i]["below_rad_per_s"] = point.vibrations[i].below;
+      if (v.zero) at["vibrations"].back()["below_rad_per_s"] = v.below;
+    }
     j["speeds"].push_back(at);
   }
   j["warnings"] = diagram.model.warnings;

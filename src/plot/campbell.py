@@ -9,9 +9,10 @@ SIZE = 7.6, 4.6  # inches
 
 
 def load(folder):
-    """Frequencies [Hz] by speed [rad/s], ascending, and whether each is unstable; and the diagram's title."""
+    """Frequencies [Hz] by speed [rad/s], ascending, and whether each is unstable; where something grows without
+    oscillation; the diagram's title."""
     path = os.path.join(folder, "campbell.csv")
-    speeds = {}
+    speeds, growing = {}, []
     try:
         with open(path, newline="", encoding="utf-8") as file:
             rows = csv.reader(file)
@@ -19,6 +20,8 @@ def load(folder):
             for speed, mode, hertz, _, _, remark in rows:
                 if mode:
                     speeds.setdefault(float(speed), []).append((float(hertz), remark == "unstable"))
+                elif remark.startswith("unstable"):
+                    growing.append((float(speed), 0.0))
     except OSError as error:
         raise Fault(f"{path}: {error.strerror}") from error
     except (ValueError, StopIteration) as error:
@@ -27,11 +30,11 @@ def load(folder):
         raise Fault(f"{path}: no vibrations")
     summary = read_json(os.path.join(folder, "summary.json"))
     scene = summary.get("scene", {})
-    return speeds, f"{scene.get('title') or scene.get('file', '')}: {summary.get('label', '')}"
+    return speeds, growing, f"{scene.get('title') or scene.get('file', '')}: {summary.get('label', '')}"
 
 
 def draw(folder, path, dpi, orders=6):
-    speeds, title = load(folder)
+    speeds, growing, title = load(folder)
     figure, panel = pyplot().subplots(figsize=SIZE, layout="constrained")
     end = max(speeds)
     top = 1.08 * max(hertz for modes in speeds.values() for hertz, _ in modes) or 1
@@ -48,7 +51,7 @@ def draw(folder, path, dpi, orders=6):
         points = [(speed, modes[mode][0]) for speed, modes in sorted(speeds.items()) if mode < len(modes)]
         panel.plot(*zip(*points), marker=MARKS[mode % len(MARKS)], markersize=3.4, linewidth=1.4,
                    color=COLOURS[mode % len(COLOURS)], label=f"{mode + 1}", zorder=3)
-    wild = [(speed, hertz) for speed, modes in speeds.items() for hertz, unstable in modes if unstable]
+    wild = growing + [(speed, hertz) for speed, modes in speeds.items() for hertz, unstable in modes if unstable]
     if wild:
         panel.plot(*zip(*wild), "kx", markersize=8, label="unstable", zorder=4)
     panel.set_xlim(0, end if end > 0 else 1)

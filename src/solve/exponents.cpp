@@ -73,6 +73,8 @@ std::optional<Complex> confirmed(const Quadratic& problem, const Complex s, doub
   return none(exact.real()) || (!real && !agreed) ? Complex(0, exact.imag()) : exact;
 }
 
+bool is_overdamped(const Vibration& one) { return one.omega == 0 && !one.zero && one.growth < 0; }
+
 }  // namespace
 
 Refined refined(const Quadratic& problem, const Complex start) {
@@ -102,8 +104,8 @@ std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Expone
   for (std::size_t i = 0; i < real.size() && (2 * i < real.size() || real[i] > 0); ++i) all.push_back({0, real[i]});
   const auto size_of = [](const Vibration& one) { return std::hypot(one.omega, one.growth); };
   const auto before = [&](double size) {  // how many are slower
-    return static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](const Vibration& one) { return size_of(one) < size; }));
+    return static_cast<std::size_t>(std::count_if(
+        all.begin(), all.end(), [&](const Vibration& one) { return size_of(one) < size && !is_overdamped(one); }));
   };
   std::sort(swings.begin(), swings.end(), [](const Complex& a, const Complex& b) { return std::abs(a) < std::abs(b); });
   for (const Complex& s : swings) {
@@ -113,9 +115,10 @@ std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Expone
   // the slowest, and whatever grows
   std::stable_sort(all.begin(), all.end(),
                    [&](const Vibration& a, const Vibration& b) { return size_of(a) < size_of(b); });
-  std::vector<Vibration> chosen;
+  std::vector<Vibration> chosen;  // overdamped motions besides: they are no vibrations
+  std::size_t vibrations = 0;
   for (const Vibration& one : all)
-    if (chosen.size() < wanted || one.unstable()) chosen.push_back(one);
+    if (vibrations < wanted || one.unstable()) chosen.push_back(one), vibrations += is_overdamped(one) ? 0 : 1;
   std::sort(chosen.begin(), chosen.end(), [](const Vibration& a, const Vibration& b) {
     return a.omega != b.omega ? a.omega < b.omega : a.growth > b.growth;
   });

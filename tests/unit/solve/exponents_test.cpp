@@ -182,6 +182,18 @@ TEST_CASE("a true growth survives beside what is very much stiffer") {
   CHECK(all[2].growth == 0);
 }
 
+TEST_CASE("overdamped motions do not count among the vibrations that were asked for") {
+  const MatrixXd one = MatrixXd::Identity(4, 4), nothing = MatrixXd::Zero(4, 4);
+  Quadratic problem{one, nothing, nothing};  // (s + 1)(s + 20), frequencies 2, 3, 5
+  problem.C(0, 0) = 21;
+  problem.K.diagonal() << 20, 4, 9, 25;
+  const std::vector<Vibration> found = of(mixed(problem), 2);
+  REQUIRE(found.size() == 3);
+  CHECK(found[0].growth == Approx(-1));
+  CHECK(found[1].omega == Approx(2));
+  CHECK(found[2].omega == Approx(3));
+}
+
 TEST_CASE("only the slowest vibrations come, and all that are free") {
   Quadratic problem{MatrixXd::Identity(5, 5), MatrixXd::Zero(5, 5), MatrixXd::Zero(5, 5)};
   problem.K.diagonal() << 0, 1, 4, 9, 16;
