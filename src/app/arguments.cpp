@@ -155,8 +155,8 @@ void add_compare(CLI::App& app, Arguments& given, Work& work) {
   add_scene(command, given);
   command
       ->add_option("--formulations", given.formulations,
-                   "the formulations, separated by commas (default: cfr,nlffr,lffr,vm,vm+md; modal damping: vm,vm+md; "
-                   "bodies from files: lffr,vm,vm+md; cfr in space only where it is named; planar beams with shear: "
+                   "the formulations, separated by commas (default: cfr,nlffr,lffr,vm,vm+md; bodies from files: "
+                   "lffr,vm,vm+md; cfr in space only where it is named; planar beams with shear and modal damping: "
                    "without cfr)")
       ->delimiter(',');
   command->add_flag("--no-reference-error", given.no_reference_error,
@@ -165,8 +165,8 @@ void add_compare(CLI::App& app, Arguments& given, Work& work) {
   command->callback([&given, &work] {
     work = [&given] {
       const scene::Scene scene = read_moving(given.scene);
-      compare(scene, formulations_to_compare(scene, given.formulations, PETSC_COMM_WORLD), PETSC_COMM_WORLD,
-              folder_of(given, "compare"), given.force, !given.no_reference_error);
+      compare(scene, formulations_to_compare(scene, given.formulations), PETSC_COMM_WORLD, folder_of(given, "compare"),
+              given.force, !given.no_reference_error);
     };
   });
 }

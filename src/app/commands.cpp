@@ -132,11 +132,10 @@ std::vector<std::string> notices_of(const Bodies& bodies) {
   return all;
 }
 
-/// In which formulation `check` builds a scene: of the full-order model, or where bodies are from files or their
-/// damping is of modes, in the first that has them.
+/// In which formulation `check` builds a scene: of the full-order model, or where bodies are from files, in the first
+/// that has them.
 scene::Formulation first_possible(const scene::Scene& scene) {
   const auto any = [&](const auto& is) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), is); };
-  if (any([](const scene::Body& body) { return !body.damping.modal.empty(); })) return scene::Formulation::vm_md;
   return any([](const scene::Body& body) { return body.reduced.has_value(); }) ? scene::Formulation::lffr
                                                                                : scene::Formulation::nlffr;
 }

@@ -59,23 +59,19 @@ bool any_of(const scene::Scene& scene, const std::function<bool(const scene::Bod
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), is);
 }
 
-std::vector<std::string> names_for(const scene::Scene& scene, MPI_Comm comm) {
-  if (any_of(scene, [](const scene::Body& body) { return !body.damping.modal.empty(); })) {
-    if (petsc::first_rank(comm)) fmt::print("Note: modal damping needs vibration modes; vm and vm+md are compared\n");
-    return {"vm", "vm+md"};
-  }
+std::vector<std::string> names_for(const scene::Scene& scene) {
   if (any_of(scene, [](const scene::Body& body) { return body.reduced.has_value(); })) return {"lffr", "vm", "vm+md"};
   std::vector<std::string> names = {"nlffr", "lffr", "vm", "vm+md"};
   const bool shears = any_of(scene, [](const scene::Body& body) { return !body.rigid && body.section.GA.has_value(); });
-  if (scene.dimension == 2 && !shears) names.insert(names.begin(), "cfr");
+  const bool modal = any_of(scene, [](const scene::Body& body) { return !body.damping.modal.empty(); });
+  if (scene.dimension == 2 && !shears && !modal) names.insert(names.begin(), "cfr");
   return names;
 }
 
 }  // namespace
 
-std::vector<Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names,
-                                                 MPI_Comm comm) {
-  if (names.empty()) names = names_for(scene, comm);
+std::vector<Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names) {
+  if (names.empty()) names = names_for(scene);
   std::vector<Formulation> formulations;
   for (const std::string& name : names) {
     const Formulation one = scene::formulation_of(name);

@@ -7,11 +7,9 @@
 namespace floe::app {
 
 /// The formulations of these names, each once; without any those that the scene can have: with modal damping, with
-/// bodies from files, in space, and with shear in the plane fewer than cfr, nlffr, lffr, vm, vm+md. Prints a note where
-/// modal damping leaves only reduced ones.
+/// bodies from files, in space, and with shear in the plane fewer than cfr, nlffr, lffr, vm, vm+md.
 /// @throws InputError  a name is unknown, or given twice
-std::vector<scene::Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names,
-                                                        MPI_Comm comm);
+std::vector<scene::Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names);
 
 /// Runs a scene in several formulations and writes a folder each, one table (compare.csv, compare.md, compare.json) and
 /// one picture (compare.png). Errors are relative L2 over the horizon against cfr and against nlffr, where these are

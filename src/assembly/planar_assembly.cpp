@@ -77,8 +77,9 @@ void PlanarAssembly::add_coordinates() {
         coordinates_.add_angle(slot.nodes->first() + 3 * static_cast<int>(node) + 2, false);
     if (formulation_ != Formulation::cfr && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(3, true);
-    if (formulation_ != Formulation::cfr)
-      slot.damping = full_order_damping(plan_, index, body.frame.conditions, coordinates_);
+    if (formulation_ == Formulation::cfr) continue;
+    slot.damping = full_order_damping(plan_, index, body.frame.conditions, coordinates_);
+    slot.modal = full_order_modal_damping(plan_, index, body.frame.conditions, coordinates_);
   }
   add_damping_axes();
   joint_rows_ = standing_rows(plan_, reduced_);
@@ -110,9 +111,10 @@ void PlanarAssembly::add_body_terms(int b) {
     std::move(dampers.begin(), dampers.end(), std::back_inserter(terms_));
     return;
   }
-  if (!damping.modal.empty())
-    throw InputError(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is a full-order model",
-                                 damping.where.text(), name_of(formulation_)));
+  if (!damping.modal.empty() && formulation_ == Formulation::cfr)
+    throw InputError(damping.where.text() +
+                     ": formulation cfr has no modal damping (modes are seen from a floating frame); expected "
+                     "damping.mass or damping.stiffness, or another formulation");
   if (formulation_ != Formulation::cfr) {
     auto more = reference::full_order_terms(
         body.structure, body.frame, *slot.nodes, slot.frame, slot.multipliers,
@@ -120,6 +122,9 @@ void PlanarAssembly::add_body_terms(int b) {
         damping.stiffness);
     if (slot.damping)
       for (auto& term : reference::mass_damping_terms(body.structure, *slot.damping, *slot.nodes))
+        more.push_back(std::move(term));
+    if (slot.modal)
+      for (auto& term : reference::modal_damping_terms(body.structure, *slot.modal, *slot.nodes))
         more.push_back(std::move(term));
     for (auto& term : more) terms_.push_back(std::move(term));
     return;

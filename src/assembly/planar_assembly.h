@@ -5,6 +5,7 @@
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/reference/full_order.h"
 #include "floe/reference/mass_damping.h"
+#include "full_order_modes.h"
 
 namespace floe::assembly {
 
@@ -25,6 +26,7 @@ class PlanarAssembly {
     int elastic = -1;                                    // local index of reduced coordinates
     int multipliers = -1;                                // of the mean axes
     std::optional<reference::MassDamping> damping = {};  // at full order
+    std::optional<reference::ModalDamping> modal = {};   // likewise
     std::unique_ptr<reference::NodeCoordinates> nodes;
   };
   bool compact(int body) const;  // described by a ReducedBody

@@ -44,6 +44,7 @@ void PlanarAssembly::set_start(Model& model) {
     const Slot& slot = slots_[b];
     if (!compact(static_cast<int>(b))) set_full_order_start(static_cast<int>(b), model.U, model.V);
     if (slot.damping) set_rigid_part(*slot.damping, body, coordinates_, owner_, model.U, model.V);
+    if (slot.modal) set_modal_coordinates(*slot.modal, body, coordinates_, owner_, model.U, model.V);
     Eigen::VectorXd shape, rate;
     const int k = compact(static_cast<int>(b)) ? reduced_[b].body.coordinates() : 0;
     shape.setZero(k), rate.setZero(k);

@@ -142,9 +142,6 @@ void SpatialAssembly::refuse() const {
   }
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
-    if (!compact(static_cast<int>(b)) && !body.spec.damping.modal.empty())
-      faults.push_back(fmt::format("{}: modal damping needs a reduced formulation (vm, vm+md); {} is full-order",
-                                   body.spec.damping.where.text(), name_of(formulation_)));
     if (slots_[b].still && body.deformation &&
         ((body.place - start_of_mesh(body.spec, body.origin)).norm() > 1e-6 * plan_.extent ||
          (body.attitude - attitude_of_mesh(body.spec) * body.axes).norm() > 1e-6))
@@ -202,6 +199,7 @@ void SpatialAssembly::add_coordinates() {
     if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(6, true);
     slot.damping = full_order_damping(plan_, index, held(index), coordinates_);
+    slot.modal = full_order_modal_damping(plan_, index, held(index), coordinates_);
   }
   add_damping_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
@@ -252,6 +250,9 @@ void SpatialAssembly::add_body(int b) {
   }
   if (slot.damping)
     for (auto& term : reference::mass_damping_terms(body.structure, *slot.damping, *slot.nodes))
+      terms_.push_back(std::move(term));
+  if (slot.modal)
+    for (auto& term : reference::modal_damping_terms(body.structure, *slot.modal, *slot.nodes))
       terms_.push_back(std::move(term));
   if (slot.still) return add_still_cells(b);
   const auto force =
@@ -324,6 +325,7 @@ void SpatialAssembly::set_start(Model& model) {
     }
     set_deformation(static_cast<int>(b), body.deformation, model.U);
     set_deformation(static_cast<int>(b), body.deformation_rate, model.V);
+    if (slots_[b].modal) set_modal_coordinates(*slots_[b].modal, body, coordinates_, owner_, model.U, model.V);
     if (slots_[b].damping) set_rigid_part(*slots_[b].damping, body, coordinates_, owner_, model.U, model.V);
   }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {

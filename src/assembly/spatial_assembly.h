@@ -7,6 +7,7 @@
 #include "floe/reference/corotational_body.h"
 #include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"
+#include "full_order_modes.h"
 
 namespace floe::assembly {
 
@@ -31,6 +32,7 @@ class SpatialAssembly {
     int elastic = -1;                                    // local index of reduced coordinates
     int multipliers = -1;                                // of the mean axes
     std::optional<reference::MassDamping> damping = {};  // at full order
+    std::optional<reference::ModalDamping> modal = {};   // likewise
     std::unique_ptr<reference::NodeCoordinates> nodes;
     std::unique_ptr<reference::CorotationalBody> corotated;  // formulation cfr: no frame, no nodes of the above
   };

@@ -109,14 +109,14 @@ std::vector<Held> ways_to_hold(int dimension) {
           {"free", shape("cosh($k*x) + cos($k*x) - $s*(sinh($k*x) + sin($k*x))", f, s_f), "", f * f}};
 }
 
-/// Some ten half periods of the first mode, with alpha = 0.1 omega. @param rest  more of the body
+/// Some ten half periods of the first mode, with alpha = 0.1 omega or modal ratios. @param rest  more of the body
 History vibrating(int dimension, const Held& held, const std::string& frame, Formulation formulation,
-                  const std::string& rest = "") {
+                  const std::string& rest = "", const std::string& ratios = "") {
   const std::string z = dimension == 3 ? ", 0" : "";
   return move(unit_beam(dimension, fill(R"yaml(
     frame: $frame
     $rest
-    damping: {mass: $alpha}
+    damping: {$damping}
     reduction: {modes: $modes, derivatives: none, attachment: none}
     initial: {deformation: [0, "1e-5*($shape)"$z]}
 $joints
@@ -125,7 +125,7 @@ probes: {tip: {at: beam.end, quantity: position}}
 )yaml",
                                         {{"frame", frame},
                                          {"rest", rest},
-                                         {"alpha", number(0.1 * held.omega)},
+                                         {"damping", ratios.empty() ? "mass: " + number(0.1 * held.omega) : ratios},
                                          {"modes", dimension == 3 ? "6" : "3"},
                                          {"shape", held.shape},
                                          {"z", z},
@@ -162,10 +162,16 @@ probes: {tip: {at: beam.end}}
 
 }  // namespace
 
-TEST_CASE("damping: decay of one mode, modal") { check_decay(plucked(Formulation::vm_md, "modal: [0.03]"), 0.03); }
+TEST_CASE("damping: decay of one mode, modal") {
+  for (const Formulation formulation : {Formulation::vm_md, Formulation::vm, Formulation::nlffr, Formulation::lffr}) {
+    INFO(name_of(formulation));
+    check_decay(plucked(formulation, "modal: [0.03]"), 0.03);
+  }
+}
 
 TEST_CASE("damping: ratios of other modes do not affect the first") {
-  check_decay(plucked(Formulation::vm_md, "modal: [0, 0.5, 0.5]"), 0);
+  for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr})
+    check_decay(plucked(formulation, "modal: [0, 0.5, 0.5]"), 0);
 }
 
 // A mode of the body as its joints hold it has the frame's rigid motion in it, another one in each frame.
@@ -175,6 +181,18 @@ TEST_CASE("damping: a mode's ratio is the same in every frame") {
     const History tip = let_go(frame);
     CHECK(ratio_of_decay(tip.t, tip["tip.y"]) == Approx(0.02).epsilon(0.01));
   }
+}
+
+// In space two modes have the same frequency: both are damped.
+TEST_CASE("damping: modal, in full-order models as in reduced ones") {
+  const int dimension = GENERATE(2, 3);
+  for (const Held& held : ways_to_hold(dimension))
+    for (const std::string frame : {"pinned", "{type: clamped, at: start}", "mean-axis"})
+      for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
+        INFO(dimension << " " << held.name << " " << frame << " " << name_of(formulation));
+        const History at = vibrating(dimension, held, frame, formulation, "", "modal: [0.05, 0.05]");
+        CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.005));
+      }
 }
 
 // z = alpha / (2 w) of the modes of the body as its joints hold it, whatever frame measures the deformation.
