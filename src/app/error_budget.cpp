@@ -61,13 +61,16 @@ ordered_json part_of(const char* name, const std::string& advice, const assess::
                      const std::function<assess::ErrorPart()>& work, assess::ErrorPart& part, RunResult& result) {
   const std::string why = petsc::failed_together(motion.comm, [&] { part = work(); });
   if (!why.empty()) part = {}, part.none = why;
-  if (!part.none.empty()) return {{"none", part.none}};
   ordered_json j;
+  if (!part.notes.empty()) j["notes"] = part.notes;
+  if (!part.none.empty()) {
+    j["none"] = part.none;
+    return j;
+  }
   const std::size_t worst = put_probes(part.probes, motion.model, j);
   j["by"] = part.by;
   j["until"] = part.until;
   j["seconds"] = part.seconds;
-  if (!part.notes.empty()) j["notes"] = part.notes;
   if (!part.probes.empty() && part.probes[worst] > limit)
     result.warnings.push_back(fmt::format("error of the {} in probe {}: {} (limit {}); {}", name,
                                           motion.model.probes[worst].name, math::percent(part.probes[worst]),
@@ -119,27 +122,29 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
 }
 
 std::string budget_words(const ordered_json& estimate, double end) {
-  if (!estimate.is_object() || !estimate.contains("total") || !estimate["total"].contains("probes")) return "";
+  if (!estimate.is_object()) return "";
+  const bool has_total = estimate.contains("total") && estimate["total"].contains("probes");
   output::Table table;
   table.columns = {{"estimated error", ""}};
   for (const char* name : parts) table.columns.push_back({name, "%", 2});
   table.columns.push_back({"total", "%", 2});
-  for (const auto& [probe, error] : estimate["total"]["probes"].items())
-    table.rows.push_back({probe, cell_of(estimate, probe), cell_of(estimate.value("model", ordered_json()), probe),
-                          cell_of(estimate.value("mesh", ordered_json()), probe),
-                          cell_of(estimate.value("step", ordered_json()), probe), cell_of(estimate["total"], probe)});
-  std::string words = "\n" + output::to_text(table);
+  if (has_total)
+    for (const auto& [probe, error] : estimate["total"]["probes"].items())
+      table.rows.push_back({probe, cell_of(estimate, probe), cell_of(estimate.value("model", ordered_json()), probe),
+                            cell_of(estimate.value("mesh", ordered_json()), probe),
+                            cell_of(estimate.value("step", ordered_json()), probe), cell_of(estimate["total"], probe)});
+  std::string words = has_total ? "\n" + output::to_text(table) : "";
   for (const char* name : {"model", "mesh", "step"}) {
     const ordered_json part = estimate.value(name, ordered_json());
     if (!part.is_object()) continue;
     if (part.contains("none")) {
       words += fmt::format("No estimate of the {} error: {}\n", name, part["none"].get<std::string>());
-      continue;
+    } else {
+      const double until = part["until"];
+      words +=
+          fmt::format("{}: {}{} ({:.2g} s)\n", name, part["by"].get<std::string>(),
+                      until < 0.98 * end ? fmt::format(", to t = {:.3g} s", until) : "", part["seconds"].get<double>());
     }
-    const double until = part["until"];
-    words +=
-        fmt::format("{}: {}{} ({:.2g} s)\n", name, part["by"].get<std::string>(),
-                    until < 0.98 * end ? fmt::format(", to t = {:.3g} s", until) : "", part["seconds"].get<double>());
     if (part.contains("notes"))
       for (const auto& note : part["notes"])
         words += fmt::format("Note ({} error): {}\n", name, note.get<std::string>());

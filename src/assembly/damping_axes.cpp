@@ -79,7 +79,8 @@ std::pair<MatrixXd, MatrixXd> split(const Eigen::Matrix<double, 6, 6>& products,
   std::vector<int> motions = {0, 1, 2, 3, 4, 5};
   if (dimension == 2) motions = {0, 1, 5};
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(products(motions, motions)));
-  const Index free = (eigen.eigenvalues().array() <= 1e-10).count(), all = static_cast<Index>(motions.size());
+  const double least = 1e-10 + 1e-13 * eigen.eigenvalues().tail<1>()[0];  // round-off of places far from the origin
+  const Index free = (eigen.eigenvalues().array() <= least).count(), all = static_cast<Index>(motions.size());
   MatrixXd vectors = MatrixXd::Zero(6, all);
   vectors(motions, Eigen::all) = eigen.eigenvectors();
   return {vectors.rightCols(all - free), vectors.leftCols(free)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "floe/assess/probe_errors.h"
 
@@ -24,7 +25,7 @@ ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Est
   const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                          A = model.system->create_vector();
   const std::size_t stride = reduction.t.empty() ? 1 + states.size() / most_instants : 1;
-  for (std::size_t i = states.size() % stride; i < states.size(); i += stride) {
+  for (std::size_t i = states.empty() ? 0 : (states.size() - 1) % stride; i < states.size(); i += stride) {
     if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
@@ -56,6 +57,8 @@ std::vector<double> total_error(const ProbeSeries& own, const std::vector<const 
   for (const ErrorPart* part : beside)
     for (std::size_t p = 0; p < part->probes.size(); ++p)
       if (!std::isnan(part->probes[p])) total[p] = std::hypot(total[p], part->probes[p]);
+  for (double& error : total)
+    if (error > 100) error = std::numeric_limits<double>::infinity();
   return total;
 }
 

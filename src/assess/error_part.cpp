@@ -1,5 +1,7 @@
 #include "error_part.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -50,6 +52,8 @@ void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated&
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+std::string too_long(double limit) { return fmt::format("ended after {:.2g} s", limit); }
 
 Simulated again(const FinishedMotion& motion, const ProbeSeries& own, double times, double end) {
   solve::Integration how = motion.how;

@@ -18,6 +18,10 @@ void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated&
 /// The first line.
 std::string first_line(const std::string& text);
 
+/// Why a simulation was ended: it took more than `limit` [s].
+std::string too_long(double limit);
+inline constexpr PetscInt look_every = 32;  ///< steps between looks at the time
+
 /// The motion itself, in steps `times` as long, until `end`. Collective where the system is.
 Simulated again(const FinishedMotion& motion, const ProbeSeries& own, double times, double end);
 

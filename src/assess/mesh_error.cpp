@@ -51,9 +51,11 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowa
   how.step *= step, how.end = end;
   part.by = finer ? "elements half as long" : "elements twice as long";
   if (step > 1) part.by += fmt::format(", steps {} times as long", step);
-  const ProbeHistory history = probe_history(other, model, how, own.t);
-  if (!history.stopped.empty()) {
-    const std::string why = part.by + ": " + first_line(history.stopped);
+  const ProbeHistory history = probe_history(other, model, how, own.t, [&](const solve::Instant& instant) {
+    return instant.step % look_every == 0 && time.spent() > 2 * allowed;
+  });
+  if (history.enough || !history.stopped.empty()) {
+    const std::string why = part.by + ": " + (history.enough ? too_long(2 * allowed) : first_line(history.stopped));
     if (history.reached < least_share * motion.how.end) {
       part.none = why;
       return;
@@ -72,6 +74,7 @@ ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& o
   ErrorPart part;
   part.none = why_none(motion.scene);
   if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
+  if (part.none.empty() && motion.scene.probes.empty()) part.none = "no probes";
   if (!part.none.empty()) return part;
   if (const std::vector<std::string> imported = meshed_bodies(motion.scene, true); !imported.empty())
     part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));

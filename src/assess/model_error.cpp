@@ -92,8 +92,12 @@ class ModelError {
     how.step *= thinning.step, how.end = end;
     const double left = time_.left(), steps = static_cast<double>(motion_.steps);
     double begin = 0;
+    bool late = false;
     const auto enough = [&](const solve::Instant& instant) {
-      if (!gives_up || instant.step > decided) return false;
+      if (!gives_up || instant.step > decided) {
+        late = instant.step % look_every == 0 && time_.spent() > 2 * allowed_;
+        return late;
+      }
       const double spent = time_.spent();
       if (instant.step <= slow_steps) begin = spent;
       if (instant.step <= slow_steps && spent < left) return false;
@@ -102,9 +106,9 @@ class ModelError {
       return (instant.step >= decided || spent > 0.2 * left) && each_ * steps > left;
     };
     ProbeHistory history = probe_history(scene, model, how, own_.t, enough);
-    if (history.enough) return std::nullopt;
-    if (!history.stopped.empty()) {
-      const std::string why = "formulation cfr: " + first_line(history.stopped);
+    if (history.enough && !late) return std::nullopt;
+    if (late || !history.stopped.empty()) {
+      const std::string why = "formulation cfr: " + (late ? too_long(2 * allowed_) : first_line(history.stopped));
       if (history.reached < least_share * motion_.how.end) throw RunError(why);
       part_.notes.push_back(why);
     }
@@ -120,6 +124,7 @@ class ModelError {
       if (!mesh_.none.empty() || !can_scale(mesh) || time_.of_first(needs(other)) > time_.left()) continue;
       try {
         std::optional<Exact> second = simulated(other, exact.reached, false);
+        if (second->reached < 0.98 * exact.reached) return;
         if (mesh > 1) std::swap(exact, *second);
         add_third(second->probes.values, exact.probes.values);
         exact = std::move(*second);
@@ -223,6 +228,7 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
     part.none = "no body has a mesh";
   else if (own.t.empty())
     part.none = "the integrator provides no accelerations";
+  if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
   if (!part.none.empty()) return part;
   ModelError error(motion, own, reduction, mesh, allowed, part);
   try {

@@ -116,7 +116,8 @@ void add_turns(const shell::Geometry& g, StrainRows& rows) {
   for (int i = 0; i < 3; ++i) {
     StrainRows::Term x{first + 3 * i, first + 3 * i + 2, {}}, y{first + 3 * i + 1, first + 3 * i + 2, {}};
     for (Eigen::Index s = 0; s < rows.L.rows(); ++s) {
-      const Eigen::Vector2d c = shell::second_order_turn(g, rows.L.row(s), i);
+      Eigen::Vector2d c = shell::second_order_turn(g, rows.L.row(s), i);
+      if (c.norm() < 1e-12 * rows.L.row(s).segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
       x.C[static_cast<std::size_t>(s)] = c.x(), y.C[static_cast<std::size_t>(s)] = c.y();
       any = any || !c.isZero(0);
     }

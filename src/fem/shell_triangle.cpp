@@ -92,7 +92,9 @@ void add_turns(const shell::Geometry& g, StrainPoint& point) {
   for (std::size_t s = 0; s < P.size(); ++s) {
     P[s].conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, before + 9));
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector2d c = shell::second_order_turn(g, point.L.row(static_cast<Eigen::Index>(s)), i);
+      const auto row = point.L.row(static_cast<Eigen::Index>(s));
+      Eigen::Vector2d c = shell::second_order_turn(g, row, i);
+      if (c.norm() < 1e-12 * row.segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
       const Eigen::Index x = before + 3 * i, y = x + 1, n = x + 2;
       P[s](x, n) = P[s](n, x) = c.x(), P[s](y, n) = P[s](n, y) = c.y();
       any = any || !c.isZero(0);

@@ -276,7 +276,7 @@ void read_pbarl(Reader& r) {
   const std::size_t after = 8 + found->count;
   property.extra = r.card.real(after, "a mass by length (NSM)", 0);
   if (card.name == "PBEAML") {
-    for (std::size_t i = after + 1; i < card.fields.size() && !card.blank(i); i += 3 + found->count)
+    for (std::size_t i = after + 1; i < card.fields.size() && !card.blank_from(i); i += 3 + found->count)
       for (int k = 0; k < found->count; ++k)
         if (!equal(r.card.real(i + 2 + k, "a dimension", d[k]), d[k]))
           r.card.refuse(i + 2 + k, "differs from end A: beams with taper are not read; expected the same section");
@@ -390,9 +390,7 @@ void read_spc(Reader& r) {
   }
   if (upper(card.text(3)) == "THRU") {
     const long long first = r.card.integer(2, "a grid"), last = r.card.integer(4, "a grid");
-    if (r.card.good())
-      for (const auto& grid : r.model.grids)
-        if (grid.id >= first && grid.id <= last) nodes.emplace_back(grid.id, r.where());
+    if (r.card.good()) r.model.support_ranges.push_back({set, first, last, r.where()});
     return;
   }
   for (std::size_t i = 2; i < card.fields.size(); ++i)

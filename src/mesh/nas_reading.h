@@ -100,10 +100,15 @@ struct NasModel {
   std::vector<NasMass> masses;
   std::vector<NasLink> links;
   std::map<long long, std::vector<std::pair<long long, Where>>> supports;  // of each set: grids
-  std::map<std::string, NasCount> ignored, refused, unknown;               // by the card's name
-  std::map<std::string, NasCard> defaults;                                 // BAROR, BEAMOR, GRDSET
-  std::deque<std::string> texts;                                           // of their fields, which outlive their file
-  double mass_factor = 1;                                                  // PARAM,WTMASS
+  struct SupportRange {
+    long long set, first, last;
+    Where where;
+  };
+  std::vector<SupportRange> support_ranges;                   // THRU: of the grids of all cards
+  std::map<std::string, NasCount> ignored, refused, unknown;  // by the card's name
+  std::map<std::string, NasCard> defaults;                    // BAROR, BEAMOR, GRDSET
+  std::deque<std::string> texts;                              // of their fields, which outlive their file
+  double mass_factor = 1;                                     // PARAM,WTMASS
 };
 
 /// One card into the model; what is wrong becomes a fault.

@@ -1,5 +1,8 @@
 #include "floe/mesh/nastran.h"
 
+#include <fmt/format.h>
+
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -170,9 +173,12 @@ class NasBuild {
     for (const NasPly& ply : property.plies) {
       const NasMaterial* found = material(ply.material, property.where, property.name);
       if (!found) return;
-      section.plies.push_back({property.plies.size() == 1 ? thickness : ply.thickness,
-                               named_material(*found, property.extra * model_.mass_factor / total, property.name), "",
-                               ply.angle});
+      const bool one = property.plies.size() == 1, own = one && thickness != total;  // the element's T1 to T4
+      const std::string with = own ? fmt::format("{}, thickness {:.9g}", property.name, thickness) : property.name;
+      section.plies.push_back(
+          {one ? thickness : ply.thickness,
+           named_material(*found, property.extra * model_.mass_factor / (one ? thickness : total), with), "",
+           ply.angle});
     }
     if (property.plies.size() == 1) total = thickness;
     const double middle = shell.offset + (property.bottom ? *property.bottom + total / 2 : 0);
@@ -343,7 +349,11 @@ class NasBuild {
       auto& labels = mesh.places[of_part[cell.part]].labels;
       labels.insert(labels.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
     }
-    for (const auto& [set, grids] : model_.supports) {
+    auto supports = model_.supports;
+    for (const auto& [set, first, last, where] : model_.support_ranges)
+      for (const auto& grid : model_.grids)
+        if (grid.id >= first && grid.id <= last) supports[set].emplace_back(grid.id, where);
+    for (const auto& [set, grids] : supports) {
       auto& support = mesh.places[place(set ? "SPC" + std::to_string(set) : "PS",
                                         grids.empty() ? Where{0, 1} : grids.front().second)];
       for (const auto& [grid, where] : grids) {

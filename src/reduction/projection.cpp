@@ -12,40 +12,14 @@ using petsc::check;
 
 namespace {
 
-using Groups = std::vector<std::vector<int>>;
-
-/// Whether nodes of this body follow others, on any rank.
-bool has_followers(const fem::Mesh& mesh) {
-  int any = !mesh.followers.empty();
-  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
-  return any != 0;
-}
-
 /// Columns that have slope anywhere: their slopes' root mean square is not round-off against that of the steepest.
-/// Those that move out of the plane of a flat body and those that move in it have no strain in common, e(a, b) = 0:
-/// they are two groups, the pairs of which are left out. Rigid regions that rotate to second order have both.
-Groups sloped_groups(const fem::Structure& structure, const fem::FieldRows& V) {
-  const fem::Slopes slopes = fem::slopes(structure, V);
-  const Eigen::VectorXd squares = slopes.squares();
+std::vector<int> sloped_columns(const fem::Structure& structure, const fem::FieldRows& V) {
+  const Eigen::VectorXd squares = fem::slopes(structure, V).squares();
   const double least = squares.size() > 0 ? 1e-22 * squares.maxCoeff() : 0;
-  std::vector<int> sloped, across, in_plane;
-  bool apart = !has_followers(structure.mesh);
-  for (int j = 0; j < squares.size(); ++j) {
-    if (!(squares[j] > least)) continue;
-    const bool out = slopes.across[j] > least, in = slopes.in_plane[j] > least;
-    apart = apart && out != in;
-    sloped.push_back(j);
-    (in ? in_plane : across).push_back(j);
-  }
-  if (!apart || in_plane.empty()) return {sloped};
-  return {across, in_plane};
-}
-
-std::vector<std::pair<int, int>> pairs_of(const Groups& groups) {
-  std::vector<std::pair<int, int>> pairs;
-  for (const std::vector<int>& group : groups)
-    for (const auto& pair : fem::pairs_of(group)) pairs.push_back(pair);
-  return pairs;
+  std::vector<int> sloped;
+  for (int j = 0; j < squares.size(); ++j)
+    if (squares[j] > least) sloped.push_back(j);
+  return sloped;
 }
 
 void sum_over_ranks(MPI_Comm comm, double* values, Eigen::Index count) {
@@ -104,7 +78,7 @@ class BendingSum {
 /// Adds the rows [ L V | e(V_a, V_b) ] of strain points to a QR.
 class StrainStack {
  public:
-  StrainStack(const fem::FieldRows& V, const Groups& sloped, Eigen::Index pairs)
+  StrainStack(const fem::FieldRows& V, const std::vector<int>& sloped, Eigen::Index pairs)
       : V_(V),
         sloped_(sloped),
         qr_(V.cols() + pairs),
@@ -119,13 +93,9 @@ class StrainStack {
     fem::multiply(point.L, strained, structure.dofs_per_node, linear_.data());
     bilinear_.setZero();
     if (!fem::multiply(structure, piece, point.G, V_, ranges, slope_.data()).empty() && bilinear_.cols() > 0) {
-      Eigen::Index first = 0, pair = 0;
-      for (const std::vector<int>& group : sloped_) {
-        for (std::size_t i = 0; i < group.size(); ++i) steep_.col(first + i).head(g) = slope_.col(group[i]).head(g);
-        for (const auto& term : point.terms) add_term(term, s, first, pair, static_cast<int>(group.size()));
-        const auto n = static_cast<Eigen::Index>(group.size());
-        first += n, pair += n * (n + 1) / 2;
-      }
+      for (std::size_t i = 0; i < sloped_.size(); ++i)
+        steep_.col(static_cast<Eigen::Index>(i)).head(g) = slope_.col(sloped_[i]).head(g);
+      for (const auto& term : point.terms) add_term(term, s);
     }
     auto rows = qr_.rows(s);
     rows.leftCols(k) = linear_.topRows(s);
@@ -134,15 +104,11 @@ class StrainStack {
   Eigen::MatrixXd factor() { return qr_.factor(); }
 
  private:
-  /// @param first, n  of the group's columns; @param pair  of its pairs
-  void add_term(const fem::StrainRows::Term& term, Eigen::Index strains, Eigen::Index first, Eigen::Index pair, int n) {
-    const double *p = steep_.row(term.p).data() + first, *q = steep_.row(term.q).data() + first;
-    const auto rises = [n](const double* slope) {
-      return std::any_of(slope, slope + n, [](double s) { return s != 0; });
-    };
-    if (sloped_.size() > 1 && !(rises(p) && rises(q))) return;
+  void add_term(const fem::StrainRows::Term& term, Eigen::Index strains) {
+    const int n = static_cast<int>(sloped_.size());
+    const double *p = steep_.row(term.p).data(), *q = steep_.row(term.q).data();
     for (Eigen::Index r = 0; r < strains; ++r) {
-      double* out = bilinear_.row(r).data() + pair;
+      double* out = bilinear_.row(r).data();
       for (int i = 0; i < n; out += n - i, ++i) {  // pairs (i, i), (i, i + 1), ...
         fem::add_multiple(term.C[r] * p[i], q + i, out, n - i);
         if (term.p != term.q) fem::add_multiple(term.C[r] * q[i], p + i, out, n - i);
@@ -150,7 +116,7 @@ class StrainStack {
     }
   }
   const fem::FieldRows& V_;
-  const Groups& sloped_;
+  const std::vector<int>& sloped_;
   TallSkinnyQr qr_;
   fem::FieldRows linear_, slope_, steep_, bilinear_;
 };
@@ -172,9 +138,9 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
   const int k = basis.columns;
   const fem::FieldRows V = local_rows(structure, basis);
   const fem::DofRanges ranges = fem::dof_ranges(structure, V);
-  const Groups sloped = sloped_groups(structure, V);
+  const std::vector<int> sloped = sloped_columns(structure, V);
   body::FlexibleBody body;
-  body.elasticity.pairs = pairs_of(sloped);
+  body.elasticity.pairs = fem::pairs_of(sloped);
   MassForms inertia(structure, V, ranges, true), line(structure, V, ranges, true);
   BendingSum bending(k);
   StrainStack strain(V, sloped, static_cast<Eigen::Index>(body.elasticity.pairs.size()));

@@ -148,13 +148,6 @@ TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place 
   }
 }
 
-TEST_CASE("strains of second order: a flat body leaves out the products of bending and in-plane columns") {
-  const Reduced r(What::second_order, PETSC_COMM_WORLD, Spread::shuffled, 4);
-  const std::size_t k = static_cast<std::size_t>(r.basis.columns);
-  CHECK(r.body.elasticity.pairs.size() < k * (k + 1) / 2);
-  CHECK(r.body.elasticity.pairs.size() > 4 * 5 / 2);  // those of the modes, and of the columns in the plane
-}
-
 TEST_CASE("strains of second order: loads of derivatives are those of the elements, one by one") {
   const What what = GENERATE(What::second_order, What::linked_second_order);
   const SpatiallyHeld held(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
