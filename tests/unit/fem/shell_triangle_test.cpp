@@ -162,7 +162,8 @@ TEST_CASE("shell triangle: strains of second order are Green-Lagrange's of the p
   section.axis = turn * section.axis;
   const fem::TriangleNodes nodes = turned(flat);
   const fem::ShellStrain strain = fem::shell_triangle_strain(nodes, section);
-  const fem::StrainPoint point = fem::shell_triangle(nodes, section).membrane[0];
+  fem::StrainPoint point = fem::shell_triangle(nodes, section).membrane[0];
+  for (MatrixXd& P : point.P) P = P.topLeftCorner(6, 6).eval();  // without the products of rotations in its curvature
   const Vector3d x = (turn * Vector3d(1, 0.2, 0)).normalized(), y = (turn * Vector3d::UnitZ()).cross(x);
   const Matrix3d H = 0.3 * testing::Random(4).matrix(3, 3);  // u = H x, with the rotations that go along
   VectorXd q(18);
