@@ -116,8 +116,9 @@ class Floe:
         return self._made("campbell", scene, words, **rest).summary["speeds"]
 
     def campbell(self, scene, speeds, formulation="nlffr", *words, **rest):
-        """The vibrations at each speed: lists of (omega, growth), in ascending order."""
-        return [[(v["rad_per_s"], v["growth_per_s"]) for v in at.get("vibrations", [])]
+        """Exponents at each speed: lists of (omega, growth), in ascending order; real ones have omega = 0."""
+        return [[(0.0, growth) for growth in at.get("real_exponents_per_s", [])] +
+                [(v["rad_per_s"], v["growth_per_s"]) for v in at.get("vibrations", [])]
                 for at in self.campbell_points(scene, speeds, formulation, *words, **rest)]
 
     def modes(self, scene, **rest):
