@@ -30,7 +30,7 @@ void refuse_incomplete(const InpBlocks& deck, InpReading& reading) {
 }
 
 // Materials that no section names.
-void tell_unused(const std::string& path, InpReading& reading) {
+void report_unused(const std::string& path, InpReading& reading) {
   std::vector<std::string> unused;
   for (const auto& material : reading.deck.materials)
     if (std::none_of(reading.materials_used.begin(), reading.materials_used.end(),
@@ -53,8 +53,8 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
     const InpBlocks deck = inp_blocks(path, faults);
     read_blocks(deck.blocks, reading);
     refuse_incomplete(deck, reading);
-    tell_ignored(reading);
-    tell_unused(path, reading);
+    report_ignored(reading);
+    report_unused(path, reading);
   });
   faults.throw_together(comm);
   agree_members(comm, reading);

@@ -209,7 +209,7 @@ void ignore(const InpBlock& block, const std::string& why, InpReading& reading) 
   reading.ignored.push_back({block.where, block.name, why, 1, block.lines()});
 }
 
-void tell_ignored(InpReading& reading) {
+void report_ignored(InpReading& reading) {
   std::vector<std::string> lines;
   for (const auto& one : reading.ignored) {
     std::string text = reading.faults.text_of(one.where) + ": " + one.name + " is ignored";

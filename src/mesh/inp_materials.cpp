@@ -15,7 +15,7 @@ Material* current(const InpBlock& block, InpReading& reading) {
 
 constexpr std::size_t most_lines = 1000;  // of a material's constants, each at one temperature
 
-void tell_temperatures(const InpBlock& block, long long temperatures, InpReading& reading) {
+void report_temperatures(const InpBlock& block, long long temperatures, InpReading& reading) {
   if (temperatures > 1)
     reading.notices.push_back(reading.faults.text_of(block.where) + ": " + block.name + " is given at " +
                               std::to_string(temperatures) + " temperatures: the first is used");
@@ -32,7 +32,7 @@ std::optional<std::vector<double>> engineering_constants(const InpBlock& block, 
   const auto lines =
       data_lines(block, 2, most_lines, "E1 E2 E3 nu12 nu13 nu23 G12 G13 and, on a second line, G23", reading.faults);
   if (lines.empty()) return std::nullopt;
-  tell_temperatures(block, block.lines() / 2, reading);
+  report_temperatures(block, block.lines() / 2, reading);
   auto values =
       numbers(lines[0].second, lines[0].first, on_first, on_first, "E1 E2 E3 nu12 nu13 nu23 G12 G13", reading.faults);
   const auto last = numbers(lines[1].second, lines[1].first, 1, 2, "G23[, temperature]", reading.faults);
@@ -47,7 +47,7 @@ std::optional<std::vector<double>> one_line(const InpBlock& block, std::size_t c
                                             std::initializer_list<int> moduli, InpReading& reading) {
   const auto lines = data_lines(block, 1, most_lines, what, reading.faults);
   if (lines.empty()) return std::nullopt;
-  tell_temperatures(block, block.lines(), reading);
+  report_temperatures(block, block.lines(), reading);
   auto values = numbers(lines[0].second, lines[0].first, count, count + 1, what, reading.faults);
   if (!values) return std::nullopt;
   values->resize(count);

@@ -131,10 +131,11 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
   std::vector<std::string_view> fields;
   block.each_line(part.skipped, part.count, [&](Where where, std::string_view line) {
     split_fields(line, fields);
-    const auto label = fields.empty() ? std::nullopt : number<long long>(fields[0]);
+    const auto found = fields.empty() ? std::nullopt : number<long long>(fields[0]);
+    const long long label = found ? *found : 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     const auto given = std::count(line.begin(), line.end(), ',');  // of coordinates, also empty ones
-    bool good = label && given >= 2 && fields.size() <= most_of_node;
+    bool good = found && given >= 2 && fields.size() <= most_of_node;
     for (std::size_t i = 1; good && i < std::min<std::size_t>(fields.size(), 4); ++i) {
       const auto value = fields[i].empty() ? std::optional(0.0) : fortran_number(fields[i]);
       good = value.has_value();
@@ -142,10 +143,10 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
     }
     if (!good)
       return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + in_quotes(line));
-    reading.mesh.node_labels.push_back(*label);
+    reading.mesh.node_labels.push_back(label);
     reading.mesh.positions.push_back(position);
     reading.mesh.node_where.push_back(where);
-    if (set >= 0) reading.node_sets.sets[set].labels.push_back(*label);
+    if (set >= 0) reading.node_sets.sets[set].labels.push_back(label);
   });
 }
 

@@ -70,7 +70,7 @@ void refuse_unused(const InpElement& element, InpReading& reading) {
 }
 
 /// Sections by which earlier ones of the same elements do not hold. Collective.
-void tell_overridden(MPI_Comm comm, InpReading& reading) {
+void report_overridden(MPI_Comm comm, InpReading& reading) {
   std::vector<long long> counts(reading.uses.size(), 0);
   for (const auto& element : reading.elements)
     if (element.again) ++counts[element.use];
@@ -146,7 +146,7 @@ void assign_sections(MPI_Comm comm, InpReading& reading) {
     part_of[use] = static_cast<int>(mesh.parts.size());
     mesh.parts.push_back(reading.uses[use].set);
   }
-  tell_overridden(comm, reading);
+  report_overridden(comm, reading);
   const std::vector<int> without = parts_without_section(comm, reading);
   for (const auto& element : reading.elements) {
     if (element.nodes == 0) continue;

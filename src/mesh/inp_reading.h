@@ -131,7 +131,7 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading);
 void ignore(const InpBlock& block, const std::string& why, InpReading& reading);
 
 /// The notices of what was ignored, one line a keyword.
-void tell_ignored(InpReading& reading);
+void report_ignored(InpReading& reading);
 
 /// A parameter's value; where it is missing a fault and "".
 std::string required(const InpBlock& block, const std::string& key, InpReading& reading);

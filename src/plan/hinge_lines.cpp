@@ -85,7 +85,7 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
   return lines;
 }
 
-void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices) {
+void report_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices) {
   std::vector<std::string> faults;
   for (const Joint& joint : scene.joints) {
     if (std::find(left_out.begin(), left_out.end(), joint.where.text()) == left_out.end()) continue;

@@ -28,7 +28,7 @@ std::vector<mesh::HingeLine> hinge_lines(const Scene& scene, const Body& body, c
 ///
 /// @param left_out  where their joints stand
 /// @throws InputError  told to be a line
-void tell_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices);
+void report_left_out(const Scene& scene, const std::vector<std::string>& left_out, std::vector<std::string>& notices);
 
 /// Nodes of the body's edges that the ground clamps, and those that its frame goes through.
 std::vector<PetscInt> held_elsewhere(const Scene& scene, const Body& body,

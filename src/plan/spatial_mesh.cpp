@@ -244,7 +244,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
                                       hinge_lines(scene, body, source.mesh, places, source.notices),
                                       held_elsewhere(scene, body, places), &left_out);
-  tell_left_out(scene, left_out, source.notices);
+  report_left_out(scene, left_out, source.notices);
   std::vector<std::array<PetscInt, 2>> linked;
   for (const mesh::Follower& f : source.followers)
     if (rank == 0) linked.push_back({f.node, f.leader});
