@@ -15,7 +15,7 @@ void read_format(GmshCursor& cursor, GmshStructure& result) {
     result.format = GmshStructure::format_4_1;
   else if (version == "4" || version == "4.0")
     result.format = GmshStructure::format_4_0;
-  else if (version == "2" || version == "2.1" || version == "2.2")
+  else if (version == "2" || version == "2.0" || version == "2.1" || version == "2.2")
     result.format = GmshStructure::format_2;
   else
     cursor.refuse("format " + in_quotes(version) +

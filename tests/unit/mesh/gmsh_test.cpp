@@ -38,6 +38,25 @@ TEST_CASE("files that Gmsh wrote, as text and binary, give the same mesh") {
   }
 }
 
+TEST_CASE("formats 2.0 and 2.1 are read as 2.2; names of groups need their dimension") {
+  std::ifstream file(folder + "plate_msh22.msh");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto other = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    REQUIRE(changed.find(from) != std::string::npos);
+    changed.replace(changed.find(from), from.size(), to);
+    return written("other.msh", changed);
+  };
+  for (const char* version : {"2 0 8", "2.0 0 8", "2.1 0 8"}) {
+    const auto raw = read(other("2.2 0 8", version)).mesh;
+    CHECK(raw.parts == std::vector<std::string>{"skin"});
+    CHECK(testing::measure(raw, 0) == Approx(2.0));
+    CHECK(testing::labels_at(raw, "root") == std::vector<long long>{1, 4, 13});
+  }
+  const std::string bare = other("2 8 \"skin\"", "8 \"skin\"");
+  CHECK_THAT(testing::fault_of([&] { read(bare); }), Contains("other.msh:9: a physical group has dimension 0 to 3"));
+}
+
 TEST_CASE("wanted parts are taken in the order that they are named in, curves as lines") {
   for (const std::string name : all_formats) {
     const auto file = read(folder + name, {"stiffener", "skin"});
