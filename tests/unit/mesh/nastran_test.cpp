@@ -1,44 +1,8 @@
-#include "floe/mesh/nastran.h"
-
-#include "mesh_files.h"
+#include "nastran_text.h"
 
 using namespace floe;
+using namespace floe::testing::nastran;
 using Catch::Matchers::Contains;
-
-namespace {
-
-mesh::DeckFile read(const std::string& name, const std::string& text, const mesh::DeckRequest& request = {}) {
-  return mesh::read_nastran(PETSC_COMM_WORLD, testing::written(name, text), request);
-}
-
-std::string said(const std::string& text) {
-  const auto path = testing::written("bad.bdf", text);
-  return testing::fault_of([&] { mesh::read_nastran(PETSC_COMM_WORLD, path); });
-}
-
-std::string all_of(const std::vector<std::string>& notices) {
-  std::string text;
-  for (const auto& notice : notices) text += notice + "\n";
-  return text;
-}
-
-const std::string grids = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n";
-const std::string steel = "MAT1,1,2.1+11,,.3,7800.\n";
-const std::string skin = "PSHELL,3,1,.01,1\n" + steel;
-const std::string square = grids + "CQUAD4,1,3,1,2,3,4\n" + skin;
-
-/// The square with a beam of the cards `more` from grid 1 to grid 2.
-std::string with_beam(const std::string& more) { return square + "CBAR,9,5,1,2,0.,0.,1.\n" + more; }
-
-Eigen::Vector3d position(const mesh::RawMesh& raw, long long label) {
-  const auto labels = testing::of_all_ranks(raw.node_labels);
-  const auto positions = testing::of_all_ranks(raw.positions);
-  const auto at = std::find(labels.begin(), labels.end(), label);
-  REQUIRE(at != labels.end());
-  return positions[at - labels.begin()];
-}
-
-}  // namespace
 
 TEST_CASE("small, large and free field and tabs are the same deck") {
   const std::string small =
@@ -168,12 +132,6 @@ TEST_CASE("beams have sections by numbers and by shapes") {
   CHECK(i.dimensions == std::vector<double>{.02, .04, .02, .02, .002, .002, .001});
   const auto beam = section("PBEAM,5,1,.01,3.-6,2.-6,,1.-6\n,YES,1.,.01,3.-6\n");
   CHECK(beam.shear_factors == std::array<double, 2>{1, 1});
-  CHECK_THAT(said(with_beam("PBEAM,5,1,.01,3.-6,2.-6,,1.-6\n,YES,1.,.02,3.-6\n")),
-             Contains("field 14 differs from end A: beams with taper are not read"));
-  CHECK_THAT(said(with_beam("PBARL,5,1,,BXO\n,.02,.03,.001,.002\n")), Contains("found 'BXO', did you mean BOX?"));
-  CHECK_THAT(said(with_beam("PBARL,5,1,,I\n,.04,.02,.03,.001,.002,.002\n")), Contains("not symmetric"));
-  CHECK_THAT(said(with_beam("PBARL,5,1,,BOX\n,.02,.03,.02,.002\n")), Contains("walls thinner"));
-  CHECK_THAT(said(with_beam("PBAR,5,1,.01,3.-6,2.-6,0.\n")), Contains("PBAR 5 expects A, I1, I2, J"));
 }
 
 TEST_CASE("beams have orientations by grid, in displacement axes, and by default") {
@@ -187,9 +145,6 @@ TEST_CASE("beams have orientations by grid, in displacement axes, and by default
   CHECK((direction("GRID,8,,0.,0.,0.,1\nCBEAM,9,5,8,2,1.,0.,0.\nRBAR,77,1,8,123456\n") - Eigen::Vector3d(0, 1, 0))
             .norm() < 1e-9);
   CHECK((direction("BAROR,,5,,,0.,1.,0.\nCBAR,9,,1,2\n") - Eigen::Vector3d(0, 1, 0)).norm() < 1e-9);
-  CHECK_THAT(said(square + bar + "CBAR,9,5,1,2,1.,0.,0.\n"), Contains("parallel to the beam"));
-  CHECK_THAT(said(square + bar + "CBAR,9,5,1,2\n"), Contains("CBAR: field 6 expects an orientation vector"));
-  CHECK_THAT(said(square + bar + "CBAR,9,5,1,2,0.,0.,1.\n,45\n"), Contains("CBAR: field 12 has pin flags '45'"));
 }
 
 TEST_CASE("offsets of beams are rigid links") {
@@ -243,47 +198,40 @@ TEST_CASE("what is not taken over is counted") {
   CHECK_THAT(notices, Contains("not used by any element: PBAR8, MAT1_9"));
 }
 
-TEST_CASE("cards that are not read are refused by name and line, or left out on request") {
-  const std::string spring = "CELAS2,70,1.+5,1,1\nCELAS2,71,1.+5,2,1\nRBE3,72,,1,123,1.,123,2,3\n";
-  CHECK_THAT(said(square + spring),
-             Contains("bad.bdf:8: CELAS2 (a spring; use springs or bushings of the scene, 2 cards) is not read; "
-                      "to leave them out: file: {ignore: [CELAS2]}") &&
-                 Contains("bad.bdf:10: RBE3 (a mean over grids"));
-  CHECK_THAT(said(square + "CQUAD44,7,3,1,2,3,4\n"),
-             Contains("bad.bdf:8: card 'CQUAD44' is not known, did you mean CQUAD4?"));
-  CHECK_THAT(all_of(read("left.bdf", square + spring, {{}, false, {"celas2", "RBE3"}}).notices),
-             Contains("2 cards CELAS2 left out, as the scene asks"));
+TEST_CASE("supports of grids, of GRDSET and of SPC are places") {
+  const auto file = read("supports.bdf", "SPC1,7,123456,2,THRU,4\nSPC1,7,123,1,THRU,2\n" + square);
+  CHECK(testing::labels_at(file.mesh, "SPC7") == std::vector<long long>{1, 2, 3, 4});
+  const auto own = read("own.bdf", "SPC1,8,123456,3,THRU,9\nGRDSET,,,,,,,345\n" + square +
+                                       "GRID,5,,2.,0.,0.,,0\nGRID,6,,2.,1.,0.,,12\nCQUAD4,2,3,2,5,6,3\n");
+  CHECK(testing::labels_at(own.mesh, "SPC8") == std::vector<long long>{3, 4, 5, 6});
+  CHECK(testing::labels_at(own.mesh, "PS") == std::vector<long long>{1, 2, 3, 4, 6});
+  const auto notices = all_of(own.notices);
+  CHECK_THAT(notices, Contains("own.bdf:2: GRDSET PS is ignored: supports are joints of the scene (1 card)"));
+  CHECK_THAT(notices, Contains("GRID PS is ignored: supports are joints of the scene (1 card)"));
 }
 
-TEST_CASE("wrong cards of Nastran are refused with line and field") {
-  CHECK(said(square) == "nothing was thrown");
-  CHECK(said("") == "bad.bdf: is empty");
-  CHECK_THAT(said("garbage\n"), Contains("card 'GARBAGE' is not known") && Contains("has no GRID"));
-  CHECK_THAT(said(",1,2\n"), Contains("a continuation without a card"));
-  CHECK_THAT(said(square + "GRID,x,,0.,0.,0.\n"),
-             Contains("bad.bdf:8: GRID: field 2 expects the grid's number (an integer greater than 0), found 'x'"));
-  CHECK_THAT(said(square + "GRID,9,,0.,1.2.3,0.\n"),
-             Contains("bad.bdf:8: GRID: field 5 expects a coordinate (a real number), found '1.2.3'"));
-  CHECK_THAT(said(square + "GRID,9,,0.,0.,0.,,,,7\n"), Contains("expected at most 8 fields after the name, found '7'"));
-  CHECK_THAT(said(square + "GRID,4,,0.,0.,0.\n"), Contains("bad.bdf:8: node 4 is defined a second time"));
-  CHECK_THAT(said(square + "CTRIA3,1,3,1,2,3\n"), Contains("bad.bdf:8: element 1 is defined a second time"));
-  CHECK_THAT(said(square + "CTRIA3,2,3,1,2,77\n"), Contains("element 2 names node 77, which is not defined"));
-  CHECK_THAT(said(square + "CTRIA3,2,33,1,2,3\n"), Contains("shell 2 names property 33, which is not defined (3 are)"));
-  CHECK_THAT(said(square + skin), Contains("bad.bdf:8: PSHELL 3 defines property 3 a second time"));
-  CHECK_THAT(said(grids + "CTRIA3,2,3,1,2,3\nPSHELL,3,7,.01,7\n"),
-             Contains("PSHELL3 names material 7, which is not defined"));
-  CHECK_THAT(said(square + "PSHELL,4,1,.01\n"), Contains("PSHELL: field 5 (MID2) differs from MID1"));
-  CHECK_THAT(said(square + "PSHELL,4,1,0.,1\n"), Contains("PSHELL: field 4 expects a thickness greater than 0"));
-  CHECK_THAT(said(square + "MAT1,4,0.,,.3\n"), Contains("expect E and G greater than 0"));
-  CHECK_THAT(said(square + "PCOMP,4\n"), Contains("PCOMP 4 has no plies"));
-  CHECK_THAT(said(square + "SPC1,1,123,88\n"), Contains("SPC of set 1 names grid 88, which is not defined"));
-  CHECK_THAT(said(square + "CONM2,1,88,,1.\n"), Contains("grid 88, which is not defined"));
-}
-
-TEST_CASE("bulk data that ends early is refused, or lacks what follows") {
-  for (std::size_t size = 1; size < square.size(); size += 3) {
-    INFO("size " << size);
-    const std::string text = said(square.substr(0, size));
-    CHECK((text.find("bad.bdf") != std::string::npos || text == "nothing was thrown"));
+TEST_CASE("nonstructural mass follows the thicknesses of elements") {
+  const auto file =
+      read("nsm.bdf", grids + "CTRIA3,1,3,1,2,3\nCTRIA3,2,3,1,3,4\n,,,.02,.02,.02\nPSHELL,3,1,.01,1,,,,5.\n" + steel);
+  REQUIRE(file.deck.shell_sections.size() == 2);
+  for (const auto& section : file.deck.shell_sections) {  // 7800 t + 5 by area
+    const auto& ply = section.plies.at(0);
+    const auto material = std::find_if(file.deck.materials.begin(), file.deck.materials.end(),
+                                       [&](const auto& one) { return one.name == ply.material; });
+    REQUIRE(material != file.deck.materials.end());
+    CHECK(material->density * ply.thickness == Approx(7800 * ply.thickness + 5));
   }
+}
+
+TEST_CASE("fields of beams and materials that are not read are counted") {
+  const auto notices =
+      all_of(read("extras.bdf", square + "CBEAM,9,5,1,2,0.,0.,1.\n,\n,101,102\nMAT1,7,2.+11,,.3,7800.,,,.02\n"
+                                         "PBEAM,5,7,.01,3.-6,2.-6,,1.-6\n,YES,1.,.01\n,\n"
+                                         ",.8,.8,.1,.1,2.,2.,1.-9,1.-9\n")
+                 .notices);
+  CHECK_THAT(notices, Contains("extras.bdf:8: CBEAM SA, SB is ignored: beams have no warping stiffness (1 card)"));
+  CHECK_THAT(notices, Contains("PBEAM S1, S2 is ignored: shear forces of beams are not relieved by taper (1 card)"));
+  CHECK_THAT(notices, Contains("PBEAM NSI is ignored: the nonstructural mass is spread over the section (1 card)"));
+  CHECK_THAT(notices, Contains("PBEAM CW is ignored: beams have no warping stiffness (1 card)"));
+  CHECK_THAT(notices, Contains("GE is ignored: damping is that of the scene (1 card)"));
 }

@@ -1,0 +1,160 @@
+#include "nas_build.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "text.h"
+
+namespace floe::mesh {
+
+void NasBuild::build() {
+  deck.nastran = true;
+  share_ = share_of(static_cast<PetscInt>(model_.shells.size() + model_.beams.size()), rank_, ranks_);
+  add_grids();
+  add_links();
+  add_shells();
+  add_beams();
+  add_extra_grids();
+  add_masses();
+  add_places();
+  report_unused();
+}
+
+bool NasBuild::mine(std::size_t element) const {
+  const auto i = static_cast<PetscInt>(element);
+  return i >= share_.first && i < share_.first + share_.count;
+}
+
+void NasBuild::add_grids() {
+  const Share share = share_of(static_cast<PetscInt>(model_.grids.size()), rank_, ranks_);
+  for (std::size_t i = 0; i < model_.grids.size(); ++i) {
+    const NasGrid& grid = model_.grids[i];
+    const Eigen::Vector3d x = frames_.position_of(grid);
+    next_label_ = std::max(next_label_, grid.id + 1);
+    if (static_cast<PetscInt>(i) < share.first || static_cast<PetscInt>(i) >= share.first + share.count) continue;
+    mesh.node_labels.push_back(grid.id);
+    mesh.positions.push_back(x);
+    mesh.node_where.push_back(grid.where);
+  }
+}
+
+void NasBuild::link(long long reference, const std::vector<long long>& nodes, Where where) {
+  auto& rigid = deck.links.emplace_back(RigidLink{static_cast<PetscInt>(mesh.mentions.size()), {}});
+  mesh.mentions.push_back({reference, where});
+  if (rank_ != 0) return;
+  for (const long long node : nodes) {
+    if (node == reference) continue;
+    rigid.nodes.push_back(static_cast<PetscInt>(mesh.mentions.size()));
+    mesh.mentions.push_back({node, where});
+  }
+}
+
+void NasBuild::add_links() {
+  for (const NasLink& rigid : model_.links) {
+    link(rigid.reference, rigid.nodes, rigid.where);
+    for (const long long node : rigid.nodes) independent_[node] = rigid.reference;
+  }
+}
+
+void NasBuild::add_extra_grids() {
+  if (extra_.empty()) return;
+  if (rank_ == ranks_ - 1)
+    for (const Extra& extra : extra_) {
+      mesh.node_labels.push_back(extra.label);
+      mesh.positions.push_back(extra.x);
+      mesh.node_where.push_back(extra.where);
+    }
+  for (const auto& [reference, which] : extra_links_) {
+    std::vector<long long> nodes;
+    for (const std::size_t i : which) nodes.push_back(extra_[i].label);
+    link(reference, nodes, extra_[which.front()].where);
+  }
+  notices.push_back(faults_.text_of(extra_.front().where) + ": " +
+                    counted(static_cast<long long>(extra_.size()), "node") + " of beams with offsets, from " +
+                    std::to_string(extra_.front().label) + " on, rigidly linked to their grids");
+}
+
+void NasBuild::add_masses() {
+  for (const NasMass& given : model_.masses) {
+    const auto x = frames_.position(given.grid, given.where);
+    if (!x) continue;
+    PointMass mass = given.mass;
+    if (given.axes < 0) {
+      mass.offset -= *x;
+    } else {
+      const Eigen::Matrix3d axes = frames_.directions(given.axes, *x, given.where);
+      mass.offset = axes * mass.offset;
+      mass.inertia = axes * mass.inertia * axes.transpose();
+    }
+    mass.mass *= model_.mass_factor;
+    mass.inertia *= model_.mass_factor;
+    const Eigen::Vector3d roots = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
+    constexpr double rounding = 1e-9;
+    if (roots[0] < -rounding * roots[2] || roots[0] + roots[1] < roots[2] * (1 - 1e-6))
+      notices.push_back(faults_.text_of(given.where) + ": CONM2: its moments of inertia are those of no body (" +
+                        "one is negative or greater than the sum of the others)");
+    if (rank_ != 0) continue;
+    mass.node = static_cast<PetscInt>(mesh.mentions.size());
+    mesh.mentions.push_back({given.grid, given.where});
+    deck.masses.push_back(mass);
+  }
+}
+
+std::map<std::string, std::vector<std::pair<long long, Where>>> NasBuild::supports() const {
+  std::map<std::string, std::vector<std::pair<long long, Where>>> all;
+  for (const auto& [set, grids] : model_.supports) all["SPC" + std::to_string(set)] = grids;
+  for (const auto& [set, first, last, where] : model_.support_ranges)
+    for (const NasGrid& grid : model_.grids)
+      if (grid.id >= first && grid.id <= last) all["SPC" + std::to_string(set)].emplace_back(grid.id, where);
+  for (const NasGrid& grid : model_.grids)
+    if (frames_.held(grid)) all["PS"].emplace_back(grid.id, grid.where);
+  return all;
+}
+
+void NasBuild::add_places() {
+  std::map<std::string, std::size_t> numbers;
+  const auto place = [&](const std::string& name, Where where) {
+    const auto [at, fresh] = numbers.try_emplace(name, mesh.places.size());
+    if (fresh) mesh.places.push_back({name, where, {}});
+    return at->second;
+  };
+  std::vector<std::size_t> of_part;
+  for (const std::string& part : mesh.parts) of_part.push_back(place(part, {0, 1}));
+  for (const FileCell& cell : mesh.cells) {
+    auto& labels = mesh.places[of_part[cell.part]].labels;
+    labels.insert(labels.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+  }
+  for (const auto& [name, grids] : supports()) {
+    auto& support = mesh.places[place(name, grids.empty() ? Where{0, 1} : grids.front().second)];
+    for (const auto& [grid, where] : grids) {
+      if (!frames_.grid(grid))
+        faults_.add(where, "supports " + name + " name grid " + std::to_string(grid) + ", which is not defined");
+      else if (rank_ == 0)
+        support.labels.push_back(grid);
+    }
+  }
+  for (auto& one : mesh.places) {
+    std::sort(one.labels.begin(), one.labels.end());
+    one.labels.erase(std::unique(one.labels.begin(), one.labels.end()), one.labels.end());
+  }
+}
+
+void NasBuild::report_unused() {
+  std::vector<std::string> unused;
+  const auto is_used = [](std::vector<long long>& used, long long id) {
+    return std::find(used.begin(), used.end(), id) != used.end();
+  };
+  for (auto* used : {&used_materials_, &used_properties_}) {
+    std::sort(used->begin(), used->end());
+    used->erase(std::unique(used->begin(), used->end()), used->end());
+  }
+  for (const auto& [id, own] : model_.shell_properties)
+    if (!is_used(used_properties_, id)) unused.push_back(own.name);
+  for (const auto& [id, own] : model_.beam_properties)
+    if (!is_used(used_properties_, id)) unused.push_back(own.name);
+  for (const auto& [id, own] : model_.materials)
+    if (!is_used(used_materials_, id)) unused.push_back(own.material.name);
+  if (!unused.empty()) notices.push_back(faults_.text_of({0, 1}) + ": not used by any element: " + listed(unused));
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,75 @@
+#pragma once
+#include "file_mesh.h"
+#include "nas_reading.h"
+
+namespace floe::mesh {
+
+/// Turns the model into the mesh and the deck: parts and sections are the same on all ranks, of the rest a rank keeps
+/// its share. Rank-local.
+class NasBuild {
+ public:
+  NasBuild(const NasModel& model, Faults& faults, int rank, int ranks)
+      : model_(model), faults_(faults), rank_(rank), ranks_(ranks), frames_(model, faults) {}
+
+  FileMesh mesh;
+  Deck deck;
+  std::vector<std::string> notices;
+
+  void build();
+
+ private:
+  /// What makes elements of one property different parts.
+  using Variant = std::array<double, 5>;
+
+  /// A node at the end of a beam with an offset.
+  struct Extra {
+    long long label;
+    Eigen::Vector3d x;
+    Where where;
+  };
+
+  void add_grids();
+  /// Rigid links by independent grid: all ranks mention it, the first rank its dependent ones.
+  void link(long long reference, const std::vector<long long>& nodes, Where where);
+  void add_links();
+  void add_shells();
+  void add_beams();
+  void add_extra_grids();
+  void add_masses();
+  void add_places();
+  /// Labels of the grids of supports, each with its card, by the name of their place.
+  std::map<std::string, std::vector<std::pair<long long, Where>>> supports() const;
+  void report_unused();
+
+  bool mine(std::size_t element) const;
+  /// The part of elements of a property that agree in `variant`; `make` adds its section.
+  template <class Make>
+  int part_of(long long property, const Variant& variant, const std::string& name, Make&& make);
+  template <class Map>
+  const typename Map::mapped_type* property(const Map& all, long long id, Where where, const std::string& element);
+  const NasMaterial* material(long long id, Where where, const std::string& user);
+  std::string named_material(const NasMaterial& of, double extra_density, const std::string& property);
+  bool has_axes(const NasShellProperty& property) const;
+  Eigen::Vector3d axis_of(const NasShell& shell);
+  void add_shell_section(const NasShell& shell, const NasShellProperty& property, double thickness,
+                         const Eigen::Vector3d& axis, int part);
+  long long end_of(const NasBeam& beam, int end, const NasGrid& grid, const Eigen::Vector3d& x);
+  Eigen::Vector3d orientation_of(const NasBeam& beam, const NasGrid& a, const Eigen::Vector3d& x_a,
+                                 const Eigen::Vector3d& axis);
+  void add_beam_section(const NasBeamProperty& own, const Eigen::Vector3d& orientation, int part);
+
+  const NasModel& model_;
+  Faults& faults_;
+  int rank_, ranks_;
+  NasFrames frames_;
+  Share share_{0, 0};
+  long long next_label_ = 1;
+  std::map<std::pair<long long, Variant>, int> parts_;    // of beams by the negative number of the property
+  std::unordered_map<long long, long long> independent_;  // of dependent grids
+  std::vector<Extra> extra_;
+  std::map<std::array<double, 4>, long long> extra_of_;
+  std::map<long long, std::vector<std::size_t>> extra_links_;
+  std::vector<long long> used_materials_, used_properties_;
+};
+
+}  // namespace floe::mesh

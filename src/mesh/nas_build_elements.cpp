@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "nas_build.h"
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+/// Rounded, so that parallel directions are the same.
+double rounded(double x) { return std::round(x * 1e10) / 1e10 + 0.0; }
+
+}  // namespace
+
+template <class Make>
+int NasBuild::part_of(long long property, const Variant& variant, const std::string& name, Make&& make) {
+  const auto [at, fresh] = parts_.try_emplace({property, variant}, static_cast<int>(mesh.parts.size()));
+  if (!fresh) return at->second;
+  constexpr std::size_t most = 20000;
+  if (mesh.parts.size() == most)
+    faults_.add({0, 1}, "the elements have more than " + std::to_string(most) +
+                            " different sections: give material axes by MCID, orientations by vectors");
+  mesh.parts.push_back(name);
+  make(at->second);
+  return at->second;
+}
+
+const NasMaterial* NasBuild::material(long long id, Where where, const std::string& user) {
+  const auto found = model_.materials.find(id);
+  if (found != model_.materials.end()) {
+    used_materials_.push_back(id);
+    return &found->second;
+  }
+  std::vector<std::string> known;
+  for (const auto& [number, unused] : model_.materials) known.push_back(std::to_string(number));
+  faults_.add(where, user + " names material " + std::to_string(id) + ", which is not defined" +
+                         suggestion(std::to_string(id), known));
+  return nullptr;
+}
+
+template <class Map>
+const typename Map::mapped_type* NasBuild::property(const Map& all, long long id, Where where,
+                                                    const std::string& element) {
+  const auto found = all.find(id);
+  if (found != all.end()) {
+    used_properties_.push_back(id);
+    return &found->second;
+  }
+  std::vector<std::string> known;
+  for (const auto& [number, unused] : all) known.push_back(std::to_string(number));
+  if (known.size() > 10) known.resize(10);
+  faults_.add(where, element + " names property " + std::to_string(id) + ", which is not defined" +
+                         (known.empty() ? "" : " (" + listed(known) + " are)"));
+  return nullptr;
+}
+
+/// Whether a direction of the material matters.
+bool NasBuild::has_axes(const NasShellProperty& property) const {
+  return std::any_of(property.plies.begin(), property.plies.end(), [&](const NasPly& ply) {
+    const auto found = model_.materials.find(ply.material);
+    return found != model_.materials.end() && found->second.material.elasticity != Elasticity::isotropic;
+  });
+}
+
+/// Direction of angle 0 of a shell's material.
+Eigen::Vector3d NasBuild::axis_of(const NasShell& shell) {
+  std::vector<Eigen::Vector3d> x;
+  for (int i = 0; i < shell.count; ++i) {
+    const auto at = frames_.position(shell.nodes[i], shell.where);
+    if (!at) return Eigen::Vector3d::UnitX();
+    x.push_back(*at);
+  }
+  if (shell.axes >= 0) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& at : x) middle += at / shell.count;
+    return frames_.directions(shell.axes, middle, shell.where).col(0);
+  }
+  const Eigen::Vector3d side = x[1] - x[0],
+                        normal = shell.count == 3 ? side.cross(x[2] - x[0]) : (x[2] - x[0]).cross(x[3] - x[1]);
+  if (!(side.norm() > 0 && normal.norm() > 0)) return Eigen::Vector3d::UnitX();
+  return Eigen::AngleAxisd(shell.angle * M_PI / 180, normal.normalized()) * side.normalized();
+}
+
+std::string NasBuild::named_material(const NasMaterial& of, double extra_density, const std::string& property) {
+  Material material = of.material;
+  material.density = material.density * model_.mass_factor + extra_density;
+  if (extra_density != 0) material.name += " with the NSM of " + property;
+  for (const auto& known : deck.materials)
+    if (known.name == material.name) return material.name;
+  deck.materials.push_back(material);
+  return material.name;
+}
+
+void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& property, double thickness,
+                                 const Eigen::Vector3d& axis, int part) {
+  ShellSection section;
+  section.part = property.name;
+  section.number = part;
+  double total = 0;
+  for (const NasPly& ply : property.plies) total += ply.thickness;
+  for (const NasPly& ply : property.plies) {
+    const NasMaterial* found = material(ply.material, property.where, property.name);
+    if (!found) return;
+    const bool one = property.plies.size() == 1, own = one && thickness != total;  // the element's T1 to T4
+    const std::string with = own ? fmt::format("{}, thickness {:.9g}", property.name, thickness) : property.name;
+    section.plies.push_back(
+        {one ? thickness : ply.thickness,
+         named_material(*found, property.extra * model_.mass_factor / (one ? thickness : total), with), "", ply.angle});
+  }
+  if (property.plies.size() == 1) total = thickness;
+  const double middle = shell.offset + (property.bottom ? *property.bottom + total / 2 : 0);
+  section.offset = -middle / total;
+  if (!axis.isZero(0)) {
+    Orientation orientation{"axis " + std::to_string(deck.orientations.size() + 1), axis, axis.unitOrthogonal(), 0, 0};
+    section.orientation = orientation.name;
+    deck.orientations.push_back(orientation);
+  }
+  deck.shell_sections.push_back(section);
+}
+
+void NasBuild::add_shells() {
+  for (std::size_t i = 0; i < model_.shells.size(); ++i) {
+    const NasShell& shell = model_.shells[i];
+    const NasShellProperty* own =
+        property(model_.shell_properties, shell.property, shell.where, "shell " + std::to_string(shell.id));
+    if (!own) continue;
+    double thickness = own->plies.front().thickness;
+    if (shell.thickness > 0 && own->plies.size() == 1)
+      thickness = shell.ratio ? thickness * shell.thickness : shell.thickness;
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
+    const int part = part_of(shell.property, {thickness, shell.offset, axis[0], axis[1], axis[2]}, own->name,
+                             [&](int number) { add_shell_section(shell, *own, thickness, axis, number); });
+    if (mine(i))
+      mesh.cells.push_back(
+          {shell.id, shell.count == 3 ? CellKind::triangle : CellKind::quadrilateral, part, shell.nodes, shell.where});
+  }
+}
+
+/// The node at the end of a beam, which an offset moves away from the grid.
+long long NasBuild::end_of(const NasBeam& beam, int end, const NasGrid& grid, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d& offset = beam.offsets[end];
+  if (offset.isZero(0)) return grid.id;
+  const Eigen::Vector3d moved = frames_.directions(frames_.displacement_axes(grid), x, beam.where) * offset;
+  const auto [at, fresh] =
+      extra_of_.try_emplace({static_cast<double>(grid.id), moved[0], moved[1], moved[2]}, next_label_);
+  if (fresh) {
+    extra_.push_back({next_label_++, x + moved, beam.where});
+    const auto found = independent_.find(grid.id);
+    extra_links_[found == independent_.end() ? grid.id : found->second].push_back(extra_.size() - 1);
+  }
+  return at->second;
+}
+
+/// The orientation vector in basic axes; of G0 its part normal to the beam, which neighbours share.
+Eigen::Vector3d NasBuild::orientation_of(const NasBeam& beam, const NasGrid& a, const Eigen::Vector3d& x_a,
+                                         const Eigen::Vector3d& axis) {
+  Eigen::Vector3d v;
+  if (beam.orientation_node > 0) {
+    const auto x = frames_.position(beam.orientation_node, beam.where);
+    if (!x) return Eigen::Vector3d::Zero();
+    v = *x - x_a;
+    v -= axis * axis.dot(v);
+  } else {
+    v = frames_.directions(frames_.displacement_axes(a), x_a, beam.where) * beam.orientation;
+  }
+  constexpr double least = 1e-6;
+  if (!(v.norm() > 0) || !(v.normalized().cross(axis).norm() > least)) {
+    faults_.add(beam.where, "beam " + std::to_string(beam.id) + ": the orientation vector is parallel to the beam");
+    return Eigen::Vector3d::Zero();
+  }
+  return v.normalized().unaryExpr([](double c) { return rounded(c); });
+}
+
+void NasBuild::add_beam_section(const NasBeamProperty& own, const Eigen::Vector3d& orientation, int part) {
+  const NasMaterial* found = material(own.material, own.where, own.name);
+  if (!found) return;
+  if (found->material.elasticity != Elasticity::isotropic)
+    return faults_.add(own.where, own.name + " names material " + std::to_string(own.material) +
+                                      ", which is not isotropic; expected MAT1");
+  BeamSection section = own.section;
+  section.part = own.name;
+  section.number = part;
+  section.direction_1 = orientation;
+  section.youngs = found->material.constants[0];
+  section.shear = found->shear;
+  const double density = (found->material.density + own.extra / own.area) * model_.mass_factor;
+  if (density > 0) section.density = density;
+  deck.beam_sections.push_back(section);
+}
+
+void NasBuild::add_beams() {
+  for (std::size_t i = 0; i < model_.beams.size(); ++i) {
+    const NasBeam& beam = model_.beams[i];
+    const NasBeamProperty* own =
+        property(model_.beam_properties, beam.property, beam.where, "beam " + std::to_string(beam.id));
+    const NasGrid *a = frames_.grid(beam.nodes[0]), *b = frames_.grid(beam.nodes[1]);
+    for (int end : {0, 1})
+      if (!(end ? b : a))
+        faults_.add(beam.where, "beam " + std::to_string(beam.id) + " names grid " + std::to_string(beam.nodes[end]) +
+                                    ", which is not defined");
+    if (!own || !a || !b) continue;
+    const Eigen::Vector3d x_a = frames_.position_of(*a), x_b = frames_.position_of(*b);
+    const std::array<long long, 4> nodes{end_of(beam, 0, *a, x_a), end_of(beam, 1, *b, x_b), -1, -1};
+    const auto place = [&](int end, const Eigen::Vector3d& x) {
+      return nodes[end] == beam.nodes[end] ? x : extra_[static_cast<std::size_t>(nodes[end] - extra_.front().label)].x;
+    };
+    const Eigen::Vector3d line = place(1, x_b) - place(0, x_a);
+    if (!(line.norm() > 0)) {
+      faults_.add(beam.where, "beam " + std::to_string(beam.id) + " has no length");
+      continue;
+    }
+    const Eigen::Vector3d v = orientation_of(beam, *a, x_a, line.normalized());
+    const int part = part_of(-beam.property, {v[0], v[1], v[2], 0, 0}, own->name,
+                             [&](int number) { add_beam_section(*own, v, number); });
+    if (mine(model_.shells.size() + i)) mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
+  }
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nas_reader.h"
+#include "text.h"
+
+namespace floe::mesh {
+void read_grid(NasReader& r) {
+  NasGrid grid{r.card.integer(0, "the grid's number"),
+               r.card.integer(1, "axes (CP)", -1),
+               r.card.integer(5, "axes (CD)", -1),
+               {},
+               {},
+               r.where()};
+  for (int i = 0; i < 3; ++i) grid.x[i] = r.card.real(2 + i, "a coordinate", 0);
+  if (!r.card.card.blank(6)) grid.held = NasGrid::holds(r.card.card.text(6));
+  if (grid.held.value_or(false)) r.count_ignored("GRID PS");
+  if (r.card.good()) r.model.grids.push_back(grid);
+}
+
+void read_axes(NasReader& r) {
+  const std::string& name = r.card.card.name;
+  const bool by_grids = name[4] == '1';
+  for (std::size_t first = 0; first < (by_grids ? 8 : 1); first += 4) {
+    if (first > 0 && r.card.card.blank(first)) break;
+    const long long id = r.card.integer(first, "the number of the axes");
+    NasAxes axes{name.back(), -1, {}, {}, r.where()};
+    if (by_grids) {
+      for (int i = 0; i < 3; ++i) axes.grids[i] = r.card.integer(first + 1 + i, "a grid");
+    } else {
+      axes.reference = std::max(0LL, r.card.integer(1, "axes (RID)", 0));
+      for (int i = 0; i < 9; ++i) axes.points[i / 3][i % 3] = r.card.real(2 + i, "a coordinate", 0);
+    }
+    r.define(r.model.axes, id, axes, "axes");
+  }
+}
+
+void read_shell(NasReader& r) {
+  const bool four = r.card.card.name.starts_with("CQUAD");
+  NasShell shell{
+      r.card.integer(0, "the element's number"), 0, {-1, -1, -1, -1}, four ? 4 : 3, 0, -1, 0, 0, false, r.where()};
+  shell.property = r.card.card.blank(1) ? shell.id : r.card.integer(1, "a property");
+  for (int i = 0; i < shell.count; ++i) shell.nodes[i] = r.card.integer(2 + i, "a grid");
+  const std::size_t after = 2 + shell.count;
+  if (r.card.is_integer(after))
+    shell.axes = std::max(0LL, r.card.integer(after, "axes (MCID)", 0));
+  else
+    shell.angle = r.card.real(after, "an angle (THETA) or axes (MCID)", 0);
+  shell.offset = r.card.real(after + 1, "an offset (ZOFFS)", 0);
+  shell.ratio = r.card.integer(9, "0 or 1 (TFLAG)", 0) == 1;
+  int given = 0;
+  for (int i = 0; i < shell.count; ++i) {
+    given += !r.card.card.blank(10 + i);
+    shell.thickness += r.card.real(10 + i, "a thickness", 0) / shell.count;
+  }
+  if (given > 0 && given < shell.count)
+    r.card.refuse(10, "to " + std::to_string(10 + shell.count + 3) + ": expected a thickness at each grid, or at none");
+  if (given > 0) r.count_ignored("corner thicknesses");
+  if (shell.thickness < 0) r.card.refuse(10, "expects thicknesses greater than 0");
+  if (r.card.good()) r.model.shells.push_back(shell);
+}
+
+namespace {
+
+// X1, X2, X3 or G0 in fields 6 to 8 of a beam, or of the defaults for beams.
+void read_orientation_of(NasFields& card, NasBeam& beam) {
+  if (card.is_integer(4) && card.card.blank(5) && card.card.blank(6)) {
+    beam.orientation_node = card.integer(4, "a grid (G0)");
+    return;
+  }
+  for (int i = 0; i < 3; ++i) beam.orientation[i] = card.real(4 + i, "a component of the orientation vector", 0);
+}
+
+}  // namespace
+
+void read_beam(NasReader& r) {
+  NasBeam beam{r.card.integer(0, "the element's number"), 0, {}, Eigen::Vector3d::Zero(), 0, {}, r.where()};
+  const auto found = r.model.defaults.find(r.card.card.name == "CBAR" ? "BAROR" : "BEAMOR");
+  const NasCard* otherwise = found == r.model.defaults.end() ? nullptr : &found->second;
+  if (!r.card.card.blank(1))
+    beam.property = r.card.integer(1, "a property");
+  else if (otherwise && !otherwise->blank(1))
+    beam.property = number<long long>(otherwise->text(1)).value_or(beam.id);
+  else
+    beam.property = beam.id;
+  for (int i : {0, 1}) beam.nodes[i] = r.card.integer(2 + i, "a grid");
+  const auto& card = r.card.card;
+  if (card.blank(4) && card.blank(5) && card.blank(6) && otherwise) {
+    NasFields fields(*otherwise, r.card.faults());
+    read_orientation_of(fields, beam);
+  } else {
+    read_orientation_of(r.card, beam);
+  }
+  const bool own = !card.blank(7) || !otherwise;
+  const std::string offt = upper(own ? card.text(7) : otherwise->text(7));
+  if (!offt.empty() && offt != "GGG" && number<double>(offt).value_or(1) != 0)
+    r.card.refuse(7, "expects GGG (OFFT: offsets and orientation in displacement axes), found " + in_quotes(offt) +
+                         (own ? "" : " of " + otherwise->name));
+  for (int i : {8, 9})
+    if (!card.blank(i) && card.text(i) != "0")
+      r.card.refuse(i, "has pin flags " + in_quotes(card.text(i)) +
+                           ": they are not read; expected none (use a joint of the scene between two bodies)");
+  for (int end : {0, 1})
+    for (int i = 0; i < 3; ++i) beam.offsets[end][i] = r.card.real(10 + 3 * end + i, "an offset", 0);
+  if (card.name == "CBEAM" && !(card.blank(16) && card.blank(17))) r.count_ignored("CBEAM SA, SB");
+  if (beam.orientation_node == 0 && beam.orientation.isZero(0))
+    r.card.refuse(4, "expects an orientation vector, or a grid (G0)");
+  if (r.card.good()) r.model.beams.push_back(beam);
+}
+
+void read_conm2(NasReader& r) {
+  NasMass found{r.card.integer(1, "a grid"), std::max(-1LL, r.card.integer(2, "axes (CID)", 0)), {}, r.where()};
+  found.mass.mass = r.card.real(3, "a mass");
+  if (r.card.good() && found.mass.mass < 0) r.card.refuse(3, "expects a mass that is not negative");
+  for (int i = 0; i < 3; ++i) found.mass.offset[i] = r.card.real(4 + i, "an offset", 0);
+  double inertia[6];  // 11 21 22 31 32 33
+  for (int i = 0; i < 6; ++i) inertia[i] = r.card.real(8 + i, "a moment of inertia", 0);
+  found.mass.inertia << inertia[0], -inertia[1], -inertia[3], -inertia[1], inertia[2], -inertia[4], -inertia[3],
+      -inertia[4], inertia[5];
+  if (r.card.good() && (found.mass.mass > 0 || !found.mass.inertia.isZero(0))) r.model.masses.push_back(found);
+}
+
+namespace {
+
+bool all_six(std::string_view text) {
+  std::string digits(text);
+  std::sort(digits.begin(), digits.end());
+  digits.erase(std::unique(digits.begin(), digits.end()), digits.end());
+  return digits == "123456";
+}
+
+}  // namespace
+
+void read_rbe2(NasReader& r) {
+  const auto& card = r.card.card;
+  NasLink link{r.card.integer(1, "the independent grid (GN)"), {}, r.where()};
+  if (!all_six(card.text(2)))
+    r.card.refuse(2, "expects 123456: rigid links hold all six directions; found " + in_quotes(card.text(2)));
+  std::size_t last = card.fields.size();
+  while (last > 3 && card.blank(last - 1)) --last;
+  if (last > 4 && card.text(last - 1).find('.') != std::string_view::npos) --last;  // ALPHA
+  for (std::size_t i = 3; i < last; ++i)
+    if (!card.blank(i)) link.nodes.push_back(r.card.integer(i, "a dependent grid"));
+  if (r.card.good()) r.model.links.push_back(link);
+}
+
+void read_rbar(NasReader& r) {
+  const auto& card = r.card.card;
+  const long long a = r.card.integer(1, "a grid (GA)"), b = r.card.integer(2, "a grid (GB)");
+  const bool first = all_six(card.text(3)) && card.blank(4), second = all_six(card.text(4)) && card.blank(3);
+  if (!first && !second) r.card.refuse(3, "and 6 expect 123456 for one end and nothing for the other (CNA, CNB)");
+  const std::string_view dependent = card.text(first ? 6 : 5);
+  if (!dependent.empty() && dependent != "0" && !all_six(dependent))
+    r.card.refuse(first ? 6 : 5, "expects nothing or 123456, found " + in_quotes(dependent));
+  if (r.card.good()) r.model.links.push_back({first ? a : b, {first ? b : a}, r.where()});
+}
+
+}  // namespace floe::mesh

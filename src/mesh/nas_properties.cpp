@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "nas_reader.h"
+#include "text.h"
+
+namespace floe::mesh {
+void read_pshell(NasReader& r) {
+  const long long id = r.card.integer(0, "the property's number"), material = r.card.integer(1, "a material (MID1)");
+  NasShellProperty property{r.named("PSHELL", id), {}, {}, 0, r.where()};
+  property.plies.push_back({material, r.card.positive(2, "a thickness"), 0});
+  if (r.card.integer(3, "a material (MID2)", 0) != material)
+    r.card.refuse(3, "(MID2) differs from MID1: shells have one material for membrane and bending; expected " +
+                         std::to_string(material));
+  if (std::abs(r.card.real(4, "12 I / T^3", 1) - 1) > 1e-9)
+    r.card.refuse(4, "(12 I / T^3) is not 1, which is not read");
+  if (!r.card.card.blank(5)) r.count_ignored("PSHELL MID3");
+  if (!r.card.card.blank(10)) r.card.refuse(10, "(MID4: coupling of membrane and bending) is not read: use PCOMP");
+  property.extra = r.card.real(7, "a mass by area (NSM)", 0);
+  r.define(r.model.shell_properties, id, std::move(property), "property");
+}
+
+void read_pcomp(NasReader& r) {
+  const auto& card = r.card.card;
+  const bool global = card.name == "PCOMPG";
+  const long long id = r.card.integer(0, "the property's number");
+  NasShellProperty property{
+      r.named(card.name.c_str(), id), {}, {}, r.card.real(2, "a mass by area (NSM)", 0), r.where()};
+  if (!card.blank(1)) property.bottom = r.card.real(1, "the height of the bottom (Z0)");
+  if (r.card.real(6, "GE", 0) != 0) r.count_ignored("GE");
+  const std::string lamination = global ? "" : upper(card.text(7));
+  if (!lamination.empty() && lamination != "SYM")
+    r.card.refuse(7, "expects nothing or SYM (LAM), found " + in_quotes(lamination));
+  const std::size_t step = global ? 8 : 4, start = global ? 9 : 8;
+  for (std::size_t i = start; i + 2 < std::max(card.fields.size(), start); i += step) {
+    if (card.blank(i) && card.blank(i + 1) && card.blank(i + 2)) continue;
+    const bool first = property.plies.empty();
+    NasPly ply{first ? 0 : property.plies.back().material, first ? 0 : property.plies.back().thickness, 0};
+    if (first || !card.blank(i)) ply.material = r.card.integer(i, "a material");
+    if (first || !card.blank(i + 1)) ply.thickness = r.card.positive(i + 1, "a thickness");
+    ply.angle = r.card.real(i + 2, "an angle", 0);
+    property.plies.push_back(ply);
+  }
+  if (property.plies.empty()) r.card.refuse_card("has no plies");
+  if (lamination == "SYM")
+    for (std::size_t i = property.plies.size(); i-- > 0;) property.plies.push_back(NasPly(property.plies[i]));
+  r.define(r.model.shell_properties, id, std::move(property), "property");
+}
+
+namespace {
+
+// A, I1, I2, I12, J of a section without a shape: I1 is about z, whose direction is that of 2.
+void take_general(NasFields& card, NasBeamProperty& property, std::array<double, 5> d) {
+  const auto [area, i1, i2, i12, j] = d;
+  property.area = area;
+  property.section.profile = Profile::general;
+  property.section.dimensions = {area, i2, i12, i1, j};
+  if (card.good() && !(area > 0 && i1 > 0 && i2 > 0 && j > 0 && i1 * i2 > i12 * i12))
+    card.refuse_card("expects A, I1, I2, J and I1 I2 - I12^2 greater than 0");
+}
+
+}  // namespace
+
+void read_pbar(NasReader& r) {
+  const long long id = r.card.integer(0, "the property's number");
+  NasBeamProperty property{r.named("PBAR", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
+  take_general(r.card, property,
+               {r.card.real(2, "the area"), r.card.real(3, "I1"), r.card.real(4, "I2"), r.card.real(18, "I12", 0),
+                r.card.real(5, "J")});
+  property.extra = r.card.real(6, "a mass by length (NSM)", 0);
+  for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(16 + i, "a shear factor", 0));
+  r.define(r.model.beam_properties, id, std::move(property), "property");
+}
+
+namespace {
+
+bool equal(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+/// The line after the stations of PBEAM: K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), and the offsets after it.
+void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property) {
+  for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(at + i, "a shear factor", 1));
+  constexpr const char* pairs[] = {"PBEAM S1, S2", "PBEAM NSI", "PBEAM CW"};
+  for (std::size_t k = 0; k < std::size(pairs); ++k) {
+    const std::size_t first = at + 2 + 2 * k;
+    const double a = r.card.real(first, "a real number", 0), b = r.card.real(first + 1, "a real number", 0);
+    if (a != 0 || b != 0) r.count_ignored(pairs[k]);
+  }
+  for (int i = 8; i < 12; ++i)
+    if (r.card.real(at + i, "an offset of the mass", 0) != 0)
+      r.card.refuse(at + i, "is an offset of the nonstructural mass, which is not read");
+  for (int i = 12; i < 16; ++i)
+    if (r.card.real(at + i, "an offset of the neutral axis", 0) != 0)
+      r.card.refuse(at + i, "is an offset of the neutral axis, which is not read");
+}
+
+}  // namespace
+
+void read_pbeam(NasReader& r) {
+  const auto& card = r.card.card;
+  const long long id = r.card.integer(0, "the property's number");
+  NasBeamProperty property{r.named("PBEAM", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
+  constexpr const char* names[] = {"the area", "I1", "I2", "I12", "J", "a mass by length (NSM)"};
+  std::array<double, 6> at_a;
+  for (int i = 0; i < 6; ++i)
+    at_a[i] = i == 3 || i == 5 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]);
+  take_general(r.card, property, {at_a[0], at_a[1], at_a[2], at_a[3], at_a[4]});
+  property.extra = at_a[5];
+  const auto station = [&](std::size_t i) {
+    const std::string word = upper(card.text(i));
+    return word == "YES" || word == "YESA" || word == "NO";
+  };
+  std::size_t next = station(8) ? 8 : 16;
+  while (station(next)) {
+    for (int i = 0; i < 6; ++i)
+      if (!equal(r.card.real(next + 2 + i, names[i], at_a[i]), at_a[i]))
+        r.card.refuse(next + 2 + i, "differs from end A: beams with taper are not read; expected the same section");
+    next += upper(card.text(next)) == "YES" ? 16 : 8;
+  }
+  read_after_stations(r, next, property);
+  r.define(r.model.beam_properties, id, std::move(property), "property");
+}
+
+namespace {
+
+struct NasShape {
+  const char* name;
+  int count;
+};
+constexpr NasShape nas_shapes[] = {{"BAR", 2}, {"BOX", 4}, {"I", 6}, {"ROD", 1}, {"TUBE", 2}, {"TUBE2", 2}};
+
+// Dimensions of PBARL and PBEAML in those of BeamSection: direction 1 is y of the element, 2 is z.
+void take_shape(NasFields& card, const std::string& shape, const std::vector<double>& d, NasBeamProperty& property) {
+  auto& section = property.section;
+  constexpr double whole = 1 - 1e-12;  // of a wall that leaves nothing
+  if (shape == "BAR") {
+    section.profile = Profile::rectangle;
+    section.dimensions = {d[1], d[0]};
+    property.area = d[0] * d[1];
+  } else if (shape == "ROD") {
+    section.profile = Profile::circle;
+    section.dimensions = {d[0]};
+    property.area = M_PI * d[0] * d[0];
+  } else if (shape == "TUBE" || shape == "TUBE2") {
+    const double inner = shape == "TUBE" ? d[1] : d[0] - d[1];
+    if (!(inner >= 0 && inner < d[0])) return card.refuse(9, "expects a wall inside the outer radius");
+    section.profile = inner > 0 ? Profile::pipe : Profile::circle;
+    section.dimensions = {d[0]};
+    if (inner > 0) section.dimensions.push_back(d[0] - inner);
+    property.area = M_PI * (d[0] * d[0] - inner * inner);
+  } else if (shape == "BOX") {
+    if (!(2 * d[3] < whole * d[0] && 2 * d[2] < whole * d[1]))
+      return card.refuse(10, "expects walls thinner than the box");
+    section.profile = Profile::box;
+    section.dimensions = {d[1], d[0], d[2], d[3], d[2], d[3]};
+    property.area = d[0] * d[1] - (d[0] - 2 * d[3]) * (d[1] - 2 * d[2]);
+  } else {
+    if (!equal(d[1], d[2]) || !equal(d[4], d[5]))
+      return card.refuse(9, "to 17: an I that is not symmetric is not read; expected DIM2 = DIM3, DIM5 = DIM6");
+    if (!(d[4] + d[5] < whole * d[0] && d[3] < whole * d[1]))
+      return card.refuse(11, "expects walls thinner than the section");
+    section.profile = Profile::i_section;
+    section.dimensions = {d[0] / 2, d[0], d[1], d[2], d[4], d[5], d[3]};
+    section.quarter_turn = true;
+    property.area = d[1] * d[4] + d[2] * d[5] + (d[0] - d[4] - d[5]) * d[3];
+  }
+}
+
+}  // namespace
+
+void read_pbarl(NasReader& r) {
+  const auto& card = r.card.card;
+  const long long id = r.card.integer(0, "the property's number");
+  NasBeamProperty property{r.named(card.name.c_str(), id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
+  const std::string shape = upper(card.text(3));
+  const auto* found =
+      std::find_if(std::begin(nas_shapes), std::end(nas_shapes), [&](const auto& s) { return shape == s.name; });
+  if (found == std::end(nas_shapes)) {
+    std::vector<std::string> known;
+    for (const auto& one : nas_shapes) known.push_back(one.name);
+    return r.card.refuse(3,
+                         "expects one of " + listed(known) + ", found " + in_quotes(shape) + suggestion(shape, known));
+  }
+  std::vector<double> d;
+  for (int i = 0; i < found->count; ++i) d.push_back(r.card.positive(8 + i, "a dimension"));
+  if (!r.card.good()) return;
+  take_shape(r.card, shape, d, property);
+  const std::size_t after = 8 + found->count;
+  property.extra = r.card.real(after, "a mass by length (NSM)", 0);
+  if (card.name == "PBEAML") {
+    d.push_back(property.extra);
+    for (std::size_t i = after + 1; i < card.fields.size() && !card.blank_from(i); i += 2 + d.size())
+      for (std::size_t k = 0; k < d.size(); ++k)
+        if (!equal(r.card.real(i + 2 + k, "a dimension or NSM", d[k]), d[k]))
+          r.card.refuse(i + 2 + k, "differs from end A: beams with taper are not read; expected the same section");
+  }
+  r.define(r.model.beam_properties, id, std::move(property), "property");
+}
+
+}  // namespace floe::mesh

@@ -1,0 +1,77 @@
+#include "nastran_text.h"
+
+using namespace floe;
+using namespace floe::testing::nastran;
+using Catch::Matchers::Contains;
+
+TEST_CASE("cards that are not read are refused by name and line, or left out on request") {
+  const std::string spring = "CELAS2,70,1.+5,1,1\nCELAS2,71,1.+5,2,1\nRBE3,72,,1,123,1.,123,2,3\n";
+  CHECK_THAT(said(square + spring),
+             Contains("bad.bdf:8: CELAS2 (a spring; use springs or bushings of the scene, 2 cards) is not read; "
+                      "to leave them out: file: {ignore: [CELAS2]}") &&
+                 Contains("bad.bdf:10: RBE3 (a mean over grids"));
+  CHECK_THAT(said(square + "CQUAD44,7,3,1,2,3,4\n"),
+             Contains("bad.bdf:8: card 'CQUAD44' is not known, did you mean CQUAD4?"));
+  CHECK_THAT(all_of(read("left.bdf", square + spring, {{}, false, {"celas2", "RBE3"}}).notices),
+             Contains("2 cards CELAS2 left out, as the scene asks"));
+}
+
+TEST_CASE("wrong cards of Nastran are refused with line and field") {
+  CHECK(said(square) == "nothing was thrown");
+  CHECK(said("") == "bad.bdf: is empty");
+  CHECK_THAT(said("garbage\n"), Contains("card 'GARBAGE' is not known") && Contains("has no GRID"));
+  CHECK_THAT(said(",1,2\n"), Contains("a continuation without a card"));
+  CHECK_THAT(said(grids + "CTRIA3,2,3,1,2,3\nPSHELL,3,7,.01,7\n"),
+             Contains("PSHELL3 names material 7, which is not defined"));
+  const std::pair<std::string, const char*> after_square[] = {
+      {"GRID,x,,0.,0.,0.\n",
+       "bad.bdf:8: GRID: field 2 expects the grid's number (an integer greater than 0), found 'x'"},
+      {"GRID,9,,0.,1.2.3,0.\n", "bad.bdf:8: GRID: field 5 expects a coordinate (a real number), found '1.2.3'"},
+      {"GRID,9,,0.,0.,0.,,,,7\n", "expected at most 8 fields after the name, found '7'"},
+      {"GRID,4,,0.,0.,0.\n", "bad.bdf:8: node 4 is defined a second time"},
+      {"CTRIA3,1,3,1,2,3\n", "bad.bdf:8: element 1 is defined a second time"},
+      {"CTRIA3,2,3,1,2,77\n", "element 2 names node 77, which is not defined"},
+      {"CTRIA3,2,33,1,2,3\n", "shell 2 names property 33, which is not defined (3 are)"},
+      {skin, "bad.bdf:8: PSHELL 3 defines property 3 a second time"},
+      {"PSHELL,4,1,.01\n", "PSHELL: field 5 (MID2) differs from MID1"},
+      {"PSHELL,4,1,0.,1\n", "PSHELL: field 4 expects a thickness greater than 0"},
+      {"MAT1,4,0.,,.3\n", "expect E and G greater than 0"},
+      {"PCOMP,4\n", "PCOMP 4 has no plies"},
+      {"SPC1,1,123,88\n", "bad.bdf:8: supports SPC1 name grid 88, which is not defined"},
+      {"CONM2,1,88,,1.\n", "grid 88, which is not defined"}};
+  for (const auto& [cards, text] : after_square) CHECK_THAT(said(square + cards), Contains(text));
+}
+
+TEST_CASE("wrong beams of Nastran are refused with line and field") {
+  const std::pair<std::string, const char*> sections[] = {
+      {"PBEAM,5,1,.01,3.-6,2.-6,,1.-6\n,YES,1.,.02,3.-6\n",
+       "field 14 differs from end A: beams with taper are not read"},
+      {"PBEAML,5,1,,BAR\n,.02,.03,,,1.,.02,.04\n", "PBEAML: field 18 differs from end A"},
+      {"PBEAML,5,1,,BAR\n,.02,.03,2.,,1.,,,3.\n", "PBEAML: field 19 differs from end A"},
+      {"PBARL,5,1,,BXO\n,.02,.03,.001,.002\n", "found 'BXO', did you mean BOX?"},
+      {"PBARL,5,1,,I\n,.04,.02,.03,.001,.002,.002\n", "not symmetric"},
+      {"PBARL,5,1,,BOX\n,.02,.03,.02,.002\n", "walls thinner"},
+      {"PBAR,5,1,.01,3.-6,2.-6,0.\n", "PBAR 5 expects A, I1, I2, J"}};
+  for (const auto& [cards, text] : sections) CHECK_THAT(said(with_beam(cards)), Contains(text));
+  const std::string bar = square + "PBAR,5,1,.01,3.-6,2.-6,1.-6\n";
+  const std::pair<std::string, const char*> elements[] = {
+      {"CBAR,9,5,1,2,1.,0.,0.\n", "parallel to the beam"},
+      {"CBAR,9,5,1,2\n", "CBAR: field 6 expects an orientation vector"},
+      {"CBAR,9,5,1,2,0.,0.,1.\n,45\n", "CBAR: field 12 has pin flags '45'"},
+      {"CBAR,9,5,1,2,0.,0.,1.,BGG\n",
+       "CBAR: field 9 expects GGG (OFFT: offsets and orientation in displacement axes), "
+       "found 'BGG'"},
+      {"BAROR,,5,,,0.,0.,1.,GGO\nCBAR,9,,1,2\n",
+       "CBAR: field 9 expects GGG (OFFT: offsets and orientation in "
+       "displacement axes), found 'GGO' of BAROR"}};
+  for (const auto& [cards, text] : elements) CHECK_THAT(said(bar + cards), Contains(text));
+  CHECK(said(bar + "BAROR,,5,,,0.,0.,1.,GGO\nCBAR,9,,1,2,,,,GGG\n") == "nothing was thrown");
+}
+
+TEST_CASE("bulk data that ends early is refused, or lacks what follows") {
+  for (std::size_t size = 1; size < square.size(); size += 3) {
+    INFO("size " << size);
+    const std::string text = said(square.substr(0, size));
+    CHECK((text.find("bad.bdf") != std::string::npos || text == "nothing was thrown"));
+  }
+}
