@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "commands.h"
 #include "compare.h"
@@ -36,6 +38,19 @@ scene::Scene read(const std::string& path) {
   return scene;
 }
 
+/// A scene, or for a mesh file or deck one of it as a free body.
+scene::Scene read_bodies(const std::string& path) {
+  const auto ends = [&](const char* with) { return path.ends_with(with); };
+  const char* const meshes[] = {".inp", ".bdf", ".nas", ".dat", ".msh"};
+  if (std::none_of(std::begin(meshes), std::end(meshes), ends) || !std::filesystem::exists(path)) return read(path);
+  const std::string file = nlohmann::json(std::filesystem::absolute(path).string()).dump();
+  scene::Scene scene;
+  petsc::agree(PETSC_COMM_WORLD, [&] {
+    scene = scene::parse_scene("bodies: {body: {frame: mean-axis, mesh: {file: {path: " + file + "}}}}\n", path);
+  });
+  return scene;
+}
+
 /// The scene of a command that moves it.
 scene::Scene read_moving(const std::string& path) {
   scene::Scene scene = read(path);
@@ -62,6 +77,13 @@ std::string positive(const std::string& word) {
 
 void add_scene(CLI::App* command, Arguments& given) {
   command->add_option("SCENE", given.scene, "the scene, a YAML file (floe schema prints its grammar)")->required();
+}
+
+void add_scene_or_mesh(CLI::App* command, Arguments& given) {
+  command
+      ->add_option("SCENE", given.scene,
+                   "the scene, a YAML file (floe schema prints its grammar); or a deck or mesh file, as a free body")
+      ->required();
 }
 
 void add_folder(CLI::App* command, Arguments& given) {
@@ -266,7 +288,7 @@ void add_campbell(CLI::App& app, Arguments& given, Work& work) {
 
 void add_modes(CLI::App& app, Arguments& given, Work& work) {
   CLI::App* command = app.add_subcommand("modes", "compute the natural frequencies of each body, with residuals");
-  add_scene(command, given);
+  add_scene_or_mesh(command, given);
   command->add_option("--write", given.out,
                       "shapes of modes and derivatives for ParaView: FILE.xdmf, and FILE.h5 beside it");
   command->add_option("--write-matrices", given.matrices,
@@ -274,7 +296,7 @@ void add_modes(CLI::App& app, Arguments& given, Work& work) {
                       "format, with the meaning of their rows");
   command->add_flag("--force", given.force, "replace these files if they exist");
   command->callback([&given, &work] {
-    work = [&given] { modes(read(given.scene), PETSC_COMM_WORLD, given.out, given.matrices, given.force); };
+    work = [&given] { modes(read_bodies(given.scene), PETSC_COMM_WORLD, given.out, given.matrices, given.force); };
   });
 }
 
@@ -301,16 +323,20 @@ void add_info(CLI::App& app, Arguments& given, Work& work) {
 
 void add_check(CLI::App& app, Arguments& given, Work& work) {
   CLI::App* command = app.add_subcommand("check", "check the input; list bodies, unknowns and steps");
-  add_scene(command, given);
+  add_scene_or_mesh(command, given);
   const CLI::Option* formulation =
       command->add_option("--formulation", given.formulation,
                           "build the scene in this formulation, as run would (default: nlffr, if possible)");
+  command
+      ->add_option("--frequencies", given.frequencies,
+                   "number of natural frequencies of each body to compute, free of supports and as its modes are held")
+      ->check(CLI::Range(1, 1000));
   command->callback([&given, &work, formulation] {
     given.formulation_given = formulation->count() > 0;
     work = [&given] {
       std::optional<scene::Formulation> wanted;
       if (given.formulation_given) wanted = scene::formulation_of(given.formulation);
-      check(read(given.scene), PETSC_COMM_WORLD, wanted);
+      check(read_bodies(given.scene), PETSC_COMM_WORLD, wanted, given.frequencies);
     };
   });
 }

@@ -16,12 +16,12 @@
 #include "choose.h"
 #include "error_budget.h"
 #include "estimate_words.h"
-#include "floe/assembly/check_modes.h"
 #include "floe/assembly/reduced_bodies_file.h"
 #include "floe/assess/validity.h"
 #include "floe/math/rounded.h"
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
+#include "notices.h"
 #include "run.h"
 
 namespace floe::app {
@@ -29,87 +29,6 @@ namespace floe::app {
 using nlohmann::ordered_json;
 
 namespace {
-
-std::string derivative_words(const scene::DerivativesSpec& spec, int fields) {
-  using Choice = scene::DerivativesSpec::Choice;
-  const std::string kind = spec.full ? "full" : "static";
-  switch (spec.choice) {
-    case Choice::none:
-      return "no derivatives";
-    case Choice::all:
-      return fmt::format("all {} {} derivatives of each pair", fields * (fields + 1) / 2, kind);
-    case Choice::count:
-      return fmt::format("{} {} derivatives by modal interaction", spec.count, kind);
-    default:
-      return fmt::format("{} {} derivatives as listed", spec.pairs.size(), kind);
-  }
-}
-
-std::string reduced_words(const output::ReducedBodyFile& file, const std::string& path) {
-  std::map<std::string, int> count;
-  for (const output::ReducedColumn& column : file.columns) count[column.kind] += column.kept;
-  std::vector<std::string> words;
-  for (const char* kind : {"mode", "attachment", "derivative"})
-    if (count[kind] > 0) words.push_back(fmt::format("{} {}{}", count[kind], kind, count[kind] > 1 ? "s" : ""));
-  return fmt::format("{}, from {}", fmt::join(words, ", "), path);
-}
-
-std::string basis_words(const scene::Body& body) {
-  if (body.rigid) return "rigid";
-  if (body.reduced) return reduced_words(*body.reduced->file, body.reduced->path);
-  const scene::ModesSpec& modes = body.reduction.modes;
-  return fmt::format(
-      "{} modes ({}), {}", modes.count,
-      modes.of == scene::ModesSpec::Of::joints ? "with its joints fixed" : "under its frame's conditions",
-      derivative_words(body.reduction.derivatives, modes.count));
-}
-
-/// From so many elements on, `check` does not build the full-order system: it would take seconds and gigabytes.
-constexpr std::int64_t greatest_built = 20000;
-
-std::int64_t elements_of(const scene::Body& body) {
-  if (body.reduced) return body.reduced->file->cells;
-  return std::accumulate(body.mesh.elements.begin(), body.mesh.elements.end(), std::int64_t{0});
-}
-
-/// Three at each node: of the points that segments join, and between the elements of each segment.
-std::int64_t dofs_of(const scene::Body& body) {
-  if (body.rigid) return 3;
-  if (body.reduced) return body.reduced->file->dofs;
-  std::set<int> points;
-  for (const auto& segment : body.mesh.segments) points.insert(segment.begin(), segment.end());
-  const std::int64_t ends = static_cast<std::int64_t>(points.size());
-  return 3 * (ends + elements_of(body) - static_cast<std::int64_t>(body.mesh.segments.size()));
-}
-
-std::string frame_words(const scene::Body& body) {
-  if (body.reduced) return body.reduced->file->frame.kind;
-  switch (body.frame.kind) {
-    case scene::FrameSpec::Kind::pinned:
-      return "pinned";
-    case scene::FrameSpec::Kind::clamped:
-      return "clamped";
-    default:
-      return "mean-axis";
-  }
-}
-
-struct Size {
-  std::int64_t elements, dofs;
-  std::string frame, strains = "von_karman";
-  std::vector<std::string> notices = {};  ///< of its mesh
-};
-
-/// In the plane a scene says it all; in space meshes come from files, and frames from joints.
-std::vector<Size> sizes_of(const scene::Scene& scene, const scene::Scene& split, MPI_Comm comm) {
-  std::vector<Size> sizes;
-  if (scene.dimension == 2)
-    for (const scene::Body& body : split.bodies) sizes.push_back({elements_of(body), dofs_of(body), frame_words(body)});
-  else
-    for (const assembly::BodyReport& body : assembly::body_sizes(scene, comm))
-      sizes.push_back({body.elements, body.dofs, body.frame, body.strains, body.notices});
-  return sizes;
-}
 
 /// Of modes that bend within single cells; empty if there are none.
 std::string unresolved_words(const assembly::BodyReport& body) {
@@ -120,24 +39,6 @@ std::string unresolved_words(const assembly::BodyReport& body) {
   if (which.empty()) return "";
   const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
   return fmt::format("Note: {}\n", assembly::sag_text(body.name, modes, most, assembly::greatest_sag_of_modes));
-}
-
-/// `notices` of each, each once: the parts of a split body have the same mesh.
-template <class Bodies>
-std::vector<std::string> notices_of(const Bodies& bodies) {
-  std::vector<std::string> all;
-  for (const auto& body : bodies)
-    for (const std::string& notice : body.notices)
-      if (std::find(all.begin(), all.end(), notice) == all.end()) all.push_back(notice);
-  return all;
-}
-
-/// In which formulation `check` builds a scene: of the full-order model, or where bodies are from files, in the first
-/// that has them.
-scene::Formulation first_possible(const scene::Scene& scene) {
-  const auto any = [&](const auto& is) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), is); };
-  return any([](const scene::Body& body) { return body.reduced.has_value(); }) ? scene::Formulation::lffr
-                                                                               : scene::Formulation::nlffr;
 }
 
 /// Numbers from 1, ascending, as `3, 7 to 9`.
@@ -195,54 +96,6 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
     if (!body.file.empty())
       fmt::print("Note: body {} comes from {}, which contains its shapes\n", body.name, body.file);
   fmt::print("Shapes: {}\n", *path);
-}
-
-void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted) {
-  const scene::Scene split = plan::split_frames(scene);
-  const std::vector<Size> sizes = sizes_of(scene, split, comm);
-  assembly::check_modes(scene, comm);
-  std::int64_t elements = 0;
-  for (std::size_t b = 0; b < sizes.size(); ++b)
-    if (!split.bodies[b].reduced) elements += sizes[b].elements;
-  std::optional<assembly::Model> model;
-  const scene::Formulation formulation = wanted ? *wanted : first_possible(scene);
-  if (wanted || elements < greatest_built) model = assembly::build(scene, formulation, comm);
-  if (!petsc::first_rank(comm)) return;
-  output::Table table;
-  table.columns = {{"body", ""},  {"elements", ""}, {"dofs", ""},
-                   {"frame", ""}, {"strains", ""},  {"reduction (vm+md)", ""}};
-  for (std::size_t b = 0; b < sizes.size(); ++b)
-    table.rows.push_back({split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, sizes[b].strains,
-                          basis_words(split.bodies[b])});
-  fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
-  fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());
-  if (model)
-    fmt::print(
-        "{} coordinates and {} multipliers {}\n", model->coordinates, model->multipliers,
-        formulation == scene::Formulation::nlffr ? "of the full-order model" : "as " + scene::name_of(formulation));
-  else
-    fmt::print(
-        "the full-order model is not built by this command from {} elements on (--formulation vm+md builds the reduced "
-        "one)\n",
-        greatest_built);
-  const bool moves = scene.motion.end > 0;
-  if (moves)
-    fmt::print("simulation to t = {} s, ", scene.motion.end);
-  else
-    fmt::print(
-        "no motion: sufficient for modes, reduce, static and campbell; run, compare, tradeoff and sweep need it\n");
-  if (moves && scene.motion.tolerance)
-    fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
-  else if (moves)
-    fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
-  if (model && model->velocity_correction > 1e-9)
-    fmt::print("the initial velocities violate the joints and will be changed by {:.2g} of their size\n",
-               model->velocity_correction);
-  std::vector<std::string> notes = notices_of(sizes);
-  if (model)
-    for (const std::string& warning : model->warnings)
-      if (std::find(notes.begin(), notes.end(), warning) == notes.end()) notes.push_back(warning);
-  for (const std::string& note : notes) fmt::print("Note: {}\n", note);
 }
 
 void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path,

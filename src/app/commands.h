@@ -12,10 +12,12 @@ namespace floe::app {
 /// their matrices into it. Collective.
 void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::string>& path,
            const std::optional<std::string>& matrices, bool overwrite);
-/// `floe check`: what would be simulated; nothing is moved.
+/// `floe check`: what would be simulated, and the mass properties of its bodies; nothing is moved.
 /// @param formulation  that the scene is built in; none: the first that it can be built in, of full order if possible
+/// @param frequencies  how many of each body to compute, free and as its modes are held
 /// Collective.
-void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& formulation = {});
+void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& formulation = {},
+           int frequencies = 0);
 /// `floe reduce`: one body of a scene into a file. Collective.
 void reduce(const scene::Scene& scene, const std::string& body, MPI_Comm comm, const std::string& path, bool overwrite);
 /// `floe info`: what such a file holds. Collective.

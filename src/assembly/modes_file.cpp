@@ -16,18 +16,6 @@ std::string label_of(const reduction::ColumnOrigin& origin) {
   return fmt::format("{} ({:.4g} Hz)", origin.label, origin.omega / (2 * M_PI));
 }
 
-/// Frame axes as columns in mesh axes, and the frame's origin there.
-Eigen::Isometry3d frame_in_mesh(const PlannedBody& body) {
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
-  if (body.structure.dimension() == 3) {
-    frame.linear() = body.axes, frame.translation() = body.origin;
-  } else {
-    frame.linear().topLeftCorner<2, 2>() = turn(body.frame_angle);
-    frame.translation().head<2>() = body.frame_origin;
-  }
-  return frame;
-}
-
 /// Displacement and rotation vector of a node from its dofs.
 Eigen::Matrix<double, 6, 1> motion(const double* dofs, int dimension, const Eigen::Matrix3d& axes) {
   Eigen::Matrix<double, 6, 1> all = Eigen::Matrix<double, 6, 1>::Zero();

@@ -21,6 +21,17 @@ output::ReducedShapes::Kind vtk_kind(fem::CellKind kind) {
 
 }  // namespace
 
+Eigen::Isometry3d frame_in_mesh(const PlannedBody& body) {
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  if (body.structure.dimension() == 3) {
+    frame.linear() = body.axes, frame.translation() = body.origin;
+  } else {
+    frame.linear().topLeftCorner<2, 2>() = turn(body.frame_angle);
+    frame.translation().head<2>() = body.frame_origin;
+  }
+  return frame;
+}
+
 output::ReducedShapes mesh_copy(const PlannedBody& body) {
   const fem::Mesh& mesh = body.structure.mesh;
   output::ReducedShapes shapes;

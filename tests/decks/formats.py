@@ -146,6 +146,27 @@ def frequencies(floe, folder, name, text, model):
         return [float(omega) / (2 * math.pi) for omega in file["frequencies/omega"]]
 
 
+def mass_properties(floe, folder, text):
+    """Mass, centre of gravity and second moments int rho x x' about it (xx, yy, zz, xy, xz, yz), by `floe check`."""
+    (folder / "part.inp").write_text(text)
+    done = subprocess.run([floe, "check", "part.inp"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    rows = [[float(w) for w in line.split()[1:8]] for line in done.stdout.splitlines() if re.match(r"body +[-\d.e+]+ +[-\d.e+]+ +[-\d.e+]+ ", line)]
+    (mass, x, y, z, *_), (xx, yy, zz, xy, xz, yz) = [r for r in rows if len(r) in (6, 7)][-2:]
+    half = (xx + yy + zz) / 2
+    return mass, (x, y, z), (half - xx, half - yy, half - zz, -xy, -xz, -yz)
+
+
+def calculix_mass(folder, text):
+    """The same by CalculiX (EMAS), of a deck that a static step follows."""
+    (folder / "ccx.inp").write_text(text[:text.index("*STEP")] + "*BOUNDARY\n1, 1, 6\n*STEP\n*STATIC\n*CLOAD\n9, 1, 1.\n"
+                                    "*EL PRINT, ELSET=SKIN, TOTALS=ONLY\nEMAS\n*END STEP\n")
+    subprocess.run(["ccx", "ccx"], cwd=folder, capture_output=True, text=True, timeout=600)
+    numbers = [[float(w) for w in line.split()] for line in (folder / "ccx.dat").read_text().splitlines()
+               if re.fullmatch(r"(\s+[-\d.]+E[+-]\d+)+\s*", line)]
+    return numbers[0][0], tuple(numbers[2]), tuple(numbers[3])
+
+
 def calculix(folder, text, count, rigid):
     (folder / "ccx.inp").write_text(text)
     subprocess.run(["ccx", "ccx"], cwd=folder, capture_output=True, text=True, timeout=600)
@@ -171,6 +192,11 @@ def main():
                 limit = 1e-10
                 print(f"{name:6s} {form:10s} {error:.1e} of {limit:.0e}")
                 failed |= not error <= limit
+            if shutil.which("ccx") and model["shells"]:
+                (own, centre, moments), (mass, other_centre, other) = mass_properties(floe, folder, inp(model)), calculix_mass(folder, inp(model))
+                error = max(abs(own / mass - 1), math.dist(centre, other_centre), math.dist(moments, other) / math.hypot(*other))
+                print(f"{name:6s} mass, centre of gravity and moments of inertia, CalculiX {error:.1e} of 1e-05")
+                failed |= not error <= 1e-5
             if shutil.which("ccx"):
                 reference = calculix(folder, inp(model, bool(model["beams"])), 10, 0 if model["fixed"] else 6)
                 own = first

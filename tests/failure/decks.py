@@ -52,6 +52,10 @@ def cases(Case):
                    files={"part.inp": deck(METRES, 0.01, more="*BOUNDARY\nROOT, 1, 6\n" + STEP)})
         yield Case(f"deck: scale, {name}", words, 0, lines=0, check=once(*SCALED), scene=scene("path: part.inp, scale: 1e-3"),
                    files={"part.inp": deck(MILLIMETRES, 2)})
+    for name in ("modes", "check"):
+        yield Case(f"deck: in place of a scene, {name}", [name, "part.inp"] + ["--frequencies", "2"] * (name == "check"), 0, lines=0,
+                   shows=("body", "[Hz]"), files={"part.inp": deck(METRES, 0.01)})
+        yield Case(f"deck: that is not there, {name}", [name, "none.inp"], 2, says=("none.inp",), lines=1)
     silent = {"never": ("Note: part.inp", "has no density", "scale"), "lines": 0}
     yield Case("deck: in millimetres throughout", ["modes", "scene.yaml"], 0, scene=scene(),
                files={"part.inp": deck(MILLIMETRES, 2)}, **silent)

@@ -1,8 +1,13 @@
 #pragma once
+#include <Eigen/Geometry>
+
 #include "floe/plan/body_mesh.h"
 #include "floe/plan/prepare.h"
 
 namespace floe::plan {
+
+/// The floating frame's axes as columns in mesh axes, and its origin there.
+Eigen::Isometry3d frame_in_mesh(const PlannedBody& body);
 
 /// A body's mesh as files hold it: this rank's nodes and cells in original numbers, positions in the frame, no columns.
 output::ReducedShapes mesh_copy(const PlannedBody& body);

@@ -80,6 +80,16 @@ TEST_CASE("run: a thrown rod, on its parabola, in the table, the summary and on 
   CHECK(std::filesystem::exists(folder.result()));
 }
 
+TEST_CASE("check: mass properties of each body, and frequencies on request") {
+  const std::string said = printed([&] { app::check(parsed(thrown), PETSC_COMM_WORLD); });
+  CHECK_THAT(said, Contains("centre x") && Contains("1.333333") && !Contains("[Hz]"));  // 4 kg (2 m)^2 / 12
+  const std::string held =
+      "joints:\n  root: {type: fixed, between: [ground, beam.start]}\n  tip: {type: revolute, between: [ground, "
+      "beam.end]}\n";
+  const std::string both = printed([&] { app::check(parsed(beam(held)), PETSC_COMM_WORLD, {}, 2); });
+  CHECK_THAT(both, Contains("free") && Contains("as held") && Contains("1.62"));  // 22.373 sqrt(EI/rhoA)/L^2 / 2 pi
+}
+
 TEST_CASE("run: taken up from a checkpoint, the same motion; with another scene refused") {
   const OwnFolder own;
   const std::string text = beam(
