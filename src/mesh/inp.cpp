@@ -48,7 +48,7 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Faults faults;
-  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
     const InpBlocks deck = inp_blocks(path, faults);
     read_blocks(deck.blocks, reading);
@@ -59,7 +59,9 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   faults.throw_together(comm);
   agree_members(comm, reading);
   assign_sections(comm, reading);
-  resolve_nodes(comm, reading);
+  resolve_surfaces(comm, reading);
+  add_places(reading);
+  resolve_links(comm, reading);
   assign_thicknesses(comm, reading);
   faults.throw_together(comm);
   return deck_file(comm, path, std::move(reading.mesh), std::move(reading.deck), faults, std::move(reading.notices));

@@ -13,12 +13,6 @@ struct Keyword {
 
 void nothing(const InpBlock&, InpReading&) {}
 
-void read_instance(const InpBlock& block, InpReading& reading) {
-  if (!reading.instance.empty()) reading.faults.add(block.where, "a second *INSTANCE: one is read, for one body");
-  if (block.lines()) reading.faults.add(block.where, "an *INSTANCE that is moved is not read");
-  reading.instance = required(block, "NAME", reading);
-}
-
 const std::map<std::string, Keyword>& keywords() {
   static const std::map<std::string, Keyword> all{
       {"NODE", {{"NSET"}, nothing}},
@@ -44,12 +38,17 @@ const std::map<std::string, Keyword>& keywords() {
       {"MPC", {{}, read_mpc}},
       {"COUPLING", {{"CONSTRAINTNAME", "REFNODE", "SURFACE"}, read_coupling}},
       {"KINEMATIC", {{}, read_kinematic}},
+      {"DISTRIBUTING", {{"COUPLING", "WEIGHTINGMETHOD"}, read_distributing}},
+      {"TIE",
+       {{"NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE", "NOROTATION", "CYCLICSYMMETRY", "MULTISTAGE", "FLUIDCYCLIC",
+         "FLUIDPERIODIC", "TIEDNSET", "CONSTRAINTRATIO", "NOTHICKNESS"},
+        read_tie}},
       {"PART", {{"NAME"}, nothing}},
       {"ENDPART", {{}, nothing}},
       {"ASSEMBLY", {{"NAME"}, nothing}},
       {"ENDASSEMBLY", {{}, nothing}},
       {"INSTANCE", {{"NAME", "PART"}, read_instance}},
-      {"ENDINSTANCE", {{}, nothing}},
+      {"ENDINSTANCE", {{}, read_end_instance}},
       {"HEADING", {{}, nothing}},
       {"PREPRINT", {{"ECHO", "MODEL", "HISTORY", "CONTACT"}, nothing}},
       {"NODALTHICKNESS", {{}, read_nodal_thickness}},
@@ -97,7 +96,7 @@ const std::map<std::string, std::string>& ignored_keywords() {
         {"loads are those of the scene", {"CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE", "CFLUX", "DFLUX"}},
         {"the body is at rest and without stress at the beginning", {"INITIALCONDITIONS"}},
         {"the nodes are not tied by it",
-         {"EQUATION", "TIE", "CYCLICSYMMETRYMODEL", "EMBEDDEDELEMENT", "FASTENER", "DISTRIBUTINGCOUPLING",
+         {"EQUATION", "CYCLICSYMMETRYMODEL", "EMBEDDEDELEMENT", "FASTENER", "DISTRIBUTINGCOUPLING",
           "PRE-TENSIONSECTION", "CONNECTORSECTION"}},
         {"contact is not represented",
          {"CHANGECONTACTTYPE",
@@ -131,6 +130,9 @@ const std::map<std::string, std::string>& ignored_keywords() {
         {"mass that is not of a density or *MASS is not taken over", {"NONSTRUCTURALMASS", "ROTARYINERTIA"}},
         {"beams have no shear deformation", {"TRANSVERSESHEARSTIFFNESS", "TRANSVERSESHEAR"}},
         {"elements use the normals of their nodes' positions", {"NORMAL"}},
+        {"it is outside of a *STEP",
+         {"STATIC", "FREQUENCY", "DYNAMIC", "MODALDYNAMIC", "BUCKLE", "STEADYSTATEDYNAMICS", "HEATTRANSFER", "VISCO",
+          "ENDSTEP"}},
         {"it belongs to elements of another kind",
          {"SOLIDSECTION", "MEMBRANESECTION", "SPRING", "DASHPOT", "GAP", "USERELEMENT", "COHESIVESECTION",
           "SURFACESECTION", "CONNECTORBEHAVIOR", "CONNECTORELASTICITY", "CONNECTORDAMPING"}}};
@@ -198,6 +200,11 @@ void check_nesting(const InpBlock& block, int& parts, bool& in_assembly, Faults&
     faults.add(block.where, block.name + " of the *ASSEMBLY is not read: define it in the *PART");
 }
 
+void refuse_open_coupling(InpReading& reading) {
+  reading.faults.add(std::exchange(reading.coupling, std::nullopt)->where,
+                     "*COUPLING is read with *KINEMATIC or *DISTRIBUTING after it");
+}
+
 }  // namespace
 
 void ignore(const InpBlock& block, const std::string& why, InpReading& reading) {
@@ -228,9 +235,8 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const auto& block = blocks[i];
     const auto keyword = keywords().find(block.keyword);
-    if (reading.coupling && block.keyword != "KINEMATIC")
-      reading.faults.add(std::exchange(reading.coupling, std::nullopt)->where,
-                         "*COUPLING is read with *KINEMATIC only");
+    if (reading.coupling && block.keyword != "KINEMATIC" && block.keyword != "DISTRIBUTING")
+      refuse_open_coupling(reading);
     if (block.keyword == "STEP") {
       i = skip_steps(blocks, i, reading);
       continue;
@@ -249,7 +255,7 @@ void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading) {
     if (block.keyword == "ELEMENT") read_inp_elements(block, shares, reading);
     keyword->second.read(block, reading);
   }
-  if (reading.coupling) reading.faults.add(reading.coupling->where, "*COUPLING is read with *KINEMATIC only");
+  if (reading.coupling) refuse_open_coupling(reading);
 }
 
 }  // namespace floe::mesh

@@ -29,14 +29,22 @@ void read_nodal_thickness(const InpBlock& block, InpReading& reading) {
 }
 
 void read_rigid_body(const InpBlock& block, InpReading& reading) {
-  for (const char* key : {"ELSET", "PINNSET", "ANALYTICALSURFACE"})
+  for (const char* key : {"PINNSET", "ANALYTICALSURFACE"})
     if (block.parameters.contains(key))
-      return reading.faults.add(block.where,
-                                "*RIGID BODY is read with NSET= or TIE NSET=, not with " + std::string(key));
-  const bool tie = block.parameters.contains("TIENSET");
+      return reading.faults.add(block.where, "*RIGID BODY is read with NSET=, TIE NSET= or ELSET=, not with " +
+                                                 std::string(key == std::string("PINNSET") ? "PIN NSET" : key));
   const std::string reference = required(block, "REFNODE", reading);
-  const std::string nodes = required(block, tie ? "TIENSET" : "NSET", reading);
-  if (!reference.empty() && !nodes.empty()) reading.links.push_back({block.where, reference, nodes});
+  const bool elements = block.parameters.contains("ELSET"), tie = block.parameters.contains("TIENSET");
+  const auto add = [&](const std::string& nodes) {
+    if (!reference.empty() && !nodes.empty()) reading.links.push_back({InpLink::rigid, block.where, reference, nodes});
+  };
+  if (tie) add(required(block, "TIENSET", reading));
+  if (block.parameters.contains("NSET") || !(tie || elements)) add(required(block, "NSET", reading));
+  if (elements) {
+    const std::string set = without_instance(required(block, "ELSET", reading), reading);
+    reading.surfaces.push_back({"elements of " + set, block.where, {{block.where, set, ""}}});
+    add(reading.surfaces.back().name);
+  }
   if (block.parameters.contains("ROTNODE"))
     reading.notices.push_back(reading.faults.text_of(block.where) +
                               ": ROT NODE is ignored: the reference node has rotations of its own");
@@ -46,15 +54,19 @@ void read_mpc(const InpBlock& block, InpReading& reading) {
   std::vector<std::string_view> fields;
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
-    if (fields.size() != 3 || upper(fields[0]) != "BEAM")
-      return reading.faults.add(where, "*MPC expects BEAM, node (or set), reference node; found " + in_quotes(line));
-    reading.links.push_back({where, std::string(fields[2]), std::string(fields[1])});
+    const std::string kind = fields.empty() ? "" : upper(fields[0]);
+    if (fields.size() != 3 || (kind != "BEAM" && kind != "TIE"))
+      return reading.faults.add(
+          where, "*MPC expects BEAM or TIE, node (or set), reference node; found " + in_quotes(line) +
+                     (kind == "PIN" ? " (a PIN leaves rotations free: use two bodies and a joint)" : ""));
+    reading.links.push_back(
+        {kind == "TIE" ? InpLink::equal : InpLink::rigid, where, std::string(fields[2]), std::string(fields[1])});
   });
 }
 
 void read_coupling(const InpBlock& block, InpReading& reading) {
   const std::string reference = required(block, "REFNODE", reading), nodes = required(block, "SURFACE", reading);
-  reading.coupling = InpLink{block.where, reference, nodes};
+  reading.coupling = InpLink{InpLink::rigid, block.where, reference, nodes};
 }
 
 void read_kinematic(const InpBlock& block, InpReading& reading) {
@@ -71,6 +83,27 @@ void read_kinematic(const InpBlock& block, InpReading& reading) {
   if (!all && directions.size() != 6)
     reading.faults.add(block.where, "*KINEMATIC is read with all six directions (1, 6)");
   if (!link.reference.empty() && !link.nodes.empty()) reading.links.push_back(link);
+}
+
+void read_distributing(const InpBlock& block, InpReading& reading) {
+  if (!reading.coupling) return reading.faults.add(block.where, "*DISTRIBUTING is given without a *COUPLING before it");
+  InpLink link = *std::exchange(reading.coupling, std::nullopt);
+  link.kind = InpLink::mean;
+  if (!link.reference.empty() && !link.nodes.empty()) reading.links.push_back(link);
+}
+
+void read_tie(const InpBlock& block, InpReading& reading) {
+  for (const auto& [key, value] : block.parameters)
+    if (key != "NAME" && key != "POSITIONTOLERANCE" && key != "ADJUST" && key != "TYPE" && key != "NOROTATION")
+      return ignore(block, "the nodes are not tied by it", reading);
+  if (block.parameters.contains("NOROTATION"))
+    return reading.faults.add(block.where, "*TIE is read without NO ROTATION: all directions are tied");
+  std::vector<std::string_view> fields;
+  block.each_line([&](Where where, std::string_view line) {
+    split_fields(line, fields);
+    if (fields.size() < 2) return reading.faults.add(where, "*TIE expects two surfaces, found " + in_quotes(line));
+    reading.ties.push_back({where, std::string(fields[0]), std::string(fields[1])});
+  });
 }
 
 }  // namespace floe::mesh

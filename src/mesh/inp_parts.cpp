@@ -1,46 +1,10 @@
 #include <algorithm>
 
-#include "floe/mesh/exchange.h"
-#include "floe/mesh/labels.h"
 #include "inp_reading.h"
 #include "text.h"
 
 namespace floe::mesh {
 namespace {
-
-struct Assignment {
-  PetscInt element;
-  int use;
-};
-
-// Elements that the sets list by number, told to the ranks that hold them. Collective.
-std::vector<Assignment> listed_elements(MPI_Comm comm, const std::vector<std::vector<int>>& sets_of_uses,
-                                        InpReading& reading) {
-  std::vector<long long> labels, asked;
-  for (const auto& element : reading.elements) labels.push_back(element.label);
-  std::vector<std::pair<int, int>> origins;  // use, set
-  for (std::size_t use = 0; use < sets_of_uses.size(); ++use)
-    for (const int set : sets_of_uses[use])
-      for (const long long label : reading.element_sets.sets[set].labels) {
-        asked.push_back(label);
-        origins.emplace_back(static_cast<int>(use), set);
-      }
-  const LabelDirectory directory(comm, labels);
-  const auto found = directory.find(asked);
-  std::vector<Assignment> assignments;
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const auto& set = reading.element_sets.sets[origins[i].second];
-    if (found[i] < 0)
-      reading.faults.add(set.where, "element set " + set.name + " names element " + std::to_string(asked[i]) +
-                                        ", which is not defined");
-    else
-      assignments.push_back({found[i], origins[i].first});
-  }
-  const auto starts = starts_of(comm, static_cast<PetscInt>(labels.size()));
-  auto received = scatter(comm, assignments, [&](const Assignment& a) { return owner_of(starts, a.element); }).values;
-  for (auto& a : received) a.element -= directory.first();
-  return received;
-}
 
 bool fits(const InpElement& element, InpUse::Kind kind) {
   if (element.nodes == 1) return kind == InpUse::mass;
@@ -109,34 +73,24 @@ void add_requested(InpReading& reading) {
   }
 }
 
-// The element sets of each use, members included; names that are no sets become faults.
-std::vector<std::vector<int>> sets_of_uses(InpReading& reading) {
-  std::vector<std::vector<int>> sets;
-  for (std::size_t i = 0; i < reading.uses.size(); ++i) {
-    const auto& use = reading.uses[i];
+// The elements of each use; names that are no sets become faults.
+std::vector<InpElementList> elements_of_uses(InpReading& reading) {
+  std::vector<InpElementList> lists;
+  for (const auto& use : reading.uses) {
     const int set = reading.element_sets.find(use.set);
     if (set < 0)
       reading.faults.add(use.where, "there is no element set " + in_quotes(use.set) +
                                         suggestion(use.set, reading.element_sets.names()));
-    sets.push_back(set < 0 ? std::vector<int>{} : reading.element_sets.with_members(set));
+    lists.push_back({set < 0 ? std::vector<int>{} : reading.element_sets.with_members(set), {}, use.set, use.where});
   }
-  return sets;
+  return lists;
 }
 
 }  // namespace
 
 void assign_sections(MPI_Comm comm, InpReading& reading) {
   add_requested(reading);
-  const auto sets = sets_of_uses(reading);
-  for (auto& element : reading.elements)
-    for (std::size_t use = 0; use < sets.size(); ++use)
-      for (const int number : sets[use]) {
-        const auto& ranges = reading.element_sets.sets[number].ranges;
-        if (number == element.set ||
-            std::any_of(ranges.begin(), ranges.end(), [&](const auto& range) { return range.holds(element.label); }))
-          assign(element, static_cast<int>(use), reading);
-      }
-  for (const auto& [element, use] : listed_elements(comm, sets, reading))
+  for (const auto& [element, use] : members_of(comm, elements_of_uses(reading), reading))
     assign(reading.elements[element], use, reading);
 
   auto& mesh = reading.mesh;

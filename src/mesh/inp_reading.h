@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "file_mesh.h"
@@ -49,9 +50,43 @@ struct InpUse {
 };
 
 struct InpLink {
+  enum Kind { rigid, mean, equal } kind = rigid;  // equal: of nodes at one point
   Where where;
   std::string reference;  // a node, or a set of one
-  std::string nodes;      // a node or a set
+  std::string nodes;      // a node, a set or a surface
+};
+
+/// *TIE: nodes of the first surface move with those of the second at the same points.
+struct InpTie {
+  Where where;
+  std::string dependent, independent;
+};
+
+/// *SURFACE of elements, or the elements of *RIGID BODY: their nodes become a node set.
+struct InpSurface {
+  struct Item {
+    Where where;
+    std::string elements;  // a set or an element
+    std::string face;      // "": all nodes
+  };
+  std::string name;
+  Where where;
+  std::vector<Item> items;  // same on all ranks
+  int set = -1;             // of its nodes; -1: it has none
+};
+
+/// Elements by sets, members included, and by number.
+struct InpElementList {
+  std::vector<int> sets;          // same on all ranks
+  std::vector<long long> labels;  // that this rank found
+  std::string name;               // for messages
+  Where where;
+};
+
+/// An element of this rank's share that a list holds.
+struct InpMember {
+  PetscInt element;
+  int list;
 };
 
 /// *NODAL THICKNESS of a node, or of a node set.
@@ -78,12 +113,15 @@ struct InpReading {
   InpSets node_sets, element_sets;
   std::vector<InpUse> uses;
   std::vector<InpLink> links;
+  std::vector<InpSurface> surfaces;
+  std::vector<InpTie> ties;
   std::vector<InpThickness> thicknesses;
   Deck deck;
   std::vector<InpIgnored> ignored;  // become notices before these
   std::vector<std::string> notices;
-  std::string instance;             // of Abaqus; "" where there is none
-  std::optional<InpLink> coupling;  // that waits for its *KINEMATIC
+  std::string instance;                     // of Abaqus; "" where there is none
+  std::optional<Eigen::Isometry3d> motion;  // of the instance at work
+  std::optional<InpLink> coupling;          // that waits for its *KINEMATIC or *DISTRIBUTING
   std::vector<std::pair<std::string, Where>> materials_used, orientations_used;
 };
 
@@ -99,6 +137,7 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
 void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading);
 void read_set(const InpBlock& block, InpReading& reading);
 void read_surface(const InpBlock& block, InpReading& reading);
+void read_element_surface(const InpBlock& block, InpReading& reading);
 void read_material(const InpBlock& block, InpReading& reading);
 void read_elastic(const InpBlock& block, InpReading& reading);
 void read_density(const InpBlock& block, InpReading& reading);
@@ -108,21 +147,34 @@ void read_beam_section(const InpBlock& block, InpReading& reading);
 void read_beam_general_section(const InpBlock& block, InpReading& reading);
 void read_mass(const InpBlock& block, InpReading& reading);
 void read_nodal_thickness(const InpBlock& block, InpReading& reading);
+void read_instance(const InpBlock& block, InpReading& reading);
+void read_end_instance(const InpBlock& block, InpReading& reading);
 void read_rigid_body(const InpBlock& block, InpReading& reading);
 void read_mpc(const InpBlock& block, InpReading& reading);
 void read_coupling(const InpBlock& block, InpReading& reading);
 void read_kinematic(const InpBlock& block, InpReading& reading);
+void read_distributing(const InpBlock& block, InpReading& reading);
+void read_tie(const InpBlock& block, InpReading& reading);
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading);
 
 /// Tells all ranks which sets the sets hold by name; names that are no sets become faults. Collective.
 void agree_members(MPI_Comm comm, InpReading& reading);
 
+/// Elements of this rank's share that each list holds; elements that are not defined become faults. Collective.
+std::vector<InpMember> members_of(MPI_Comm comm, const std::vector<InpElementList>& lists, InpReading& reading);
+
+/// The nodes of surfaces become node sets. Collective.
+void resolve_surfaces(MPI_Comm comm, InpReading& reading);
+
 /// Gives each element of the share the section or mass of its set, and turns elements into cells; the nodes of
 /// reading.deck.masses are numbers of mentions. Collective.
 void assign_sections(MPI_Comm comm, InpReading& reading);
 
-/// The node sets become places; the nodes of reading.deck.links are numbers of mentions. Collective.
-void resolve_nodes(MPI_Comm comm, InpReading& reading);
+/// The node sets become places. Rank-local.
+void add_places(InpReading& reading);
+
+/// Links by node numbers; the nodes of reading.deck.links are numbers of mentions. Collective.
+void resolve_links(MPI_Comm comm, InpReading& reading);
 
 /// Parts for shells whose nodes have a thickness of their own. Collective.
 void assign_thicknesses(MPI_Comm comm, InpReading& reading);

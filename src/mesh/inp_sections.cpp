@@ -60,7 +60,7 @@ struct Shape {
   const char* dimensions;
 };
 constexpr Shape shapes[] = {{"RECT", Profile::rectangle, 1, 2, "a, b"},
-                            {"CIRC", Profile::circle, 1, 2, "a radius, or two equal diameters"},
+                            {"CIRC", Profile::circle, 1, 2, "a radius, or the diameters along 1 and 2"},
                             {"PIPE", Profile::pipe, 2, 2, "outer radius, wall"},
                             {"BOX", Profile::box, 6, 6, "a, b, t1, t2, t3, t4"},
                             {"I", Profile::i_section, 7, 7, "l, h, b1, b2, t1, t2, t3"}};
@@ -142,8 +142,8 @@ void read_shape(const InpBlock& block, InpReading& reading) {
   if (!values) return;
   section.dimensions = *values;
   if (section.profile == Profile::circle && values->size() == 2) {
-    if ((*values)[0] != (*values)[1]) reading.faults.add(lines[0].first, "an elliptical section is not read");
-    section.dimensions = {values->front() / 2};
+    for (double& d : section.dimensions) d /= 2;
+    if (section.dimensions[0] == section.dimensions[1]) section.dimensions.pop_back();
   }
   if (section.profile == Profile::rectangle && values->size() == 1) {
     section.dimensions.push_back(values->front());

@@ -99,8 +99,9 @@ void read_set(const InpBlock& block, InpReading& reading) {
 
 void read_surface(const InpBlock& block, InpReading& reading) {
   const auto type = block.parameters.find("TYPE");
-  if (type == block.parameters.end() || upper(type->second) != "NODE")
-    return ignore(block, "only surfaces of TYPE=NODE are node sets", reading);
+  if (type == block.parameters.end() || upper(type->second) == "ELEMENT") return read_element_surface(block, reading);
+  if (upper(type->second) != "NODE" || has(block, "COMBINE"))
+    return ignore(block, "only surfaces of nodes and of elements are read", reading);
   const std::string name = required(block, "NAME", reading);
   if (!name.empty())
     read_members(block, reading.node_sets.sets[reading.node_sets.named(name, block.where)], 1, reading);
@@ -143,50 +144,13 @@ std::vector<long long> labels_of(const InpReading& reading, int number) {
   return labels;
 }
 
-// The node that a text names: its number, or the only one of a set. Collective.
-std::optional<long long> one_node(MPI_Comm comm, const std::string& text, Where where, InpReading& reading) {
-  if (const auto label = number<long long>(text)) return label;
-  const int set = reading.node_sets.find(without_instance(text, reading));
-  if (set < 0) {
-    reading.faults.add(where, "there is no node set " + in_quotes(text) + suggestion(text, reading.node_sets.names()));
-    return std::nullopt;
-  }
-  const auto& labels = reading.mesh.places[set].labels;
-  long long range[2] = {labels.empty() ? std::numeric_limits<long long>::max() : labels.front(),
-                        labels.empty() ? std::numeric_limits<long long>::max() : -labels.back()};
-  MPI_Allreduce(MPI_IN_PLACE, range, 2, MPI_LONG_LONG, MPI_MIN, comm);
-  if (range[0] == -range[1]) return range[0];
-  reading.faults.add(where, "expected a node set of one node, found " + in_quotes(text));
-  return std::nullopt;
-}
-
 }  // namespace
 
-void resolve_nodes(MPI_Comm comm, InpReading& reading) {
+void add_places(InpReading& reading) {
   auto& mesh = reading.mesh;
   for (std::size_t i = 0; i < reading.node_sets.sets.size(); ++i) {
     const auto& set = reading.node_sets.sets[i];
     mesh.places.push_back({set.name, set.where, labels_of(reading, static_cast<int>(i))});
-  }
-  for (const auto& link : reading.links) {
-    const auto reference = one_node(comm, link.reference, link.where, reading);
-    const auto node = number<long long>(link.nodes);
-    const int set = node ? -1 : reading.node_sets.find(without_instance(link.nodes, reading));
-    if (!node && set < 0)
-      reading.faults.add(link.where, "there is no node set " + in_quotes(link.nodes) +
-                                         suggestion(link.nodes, reading.node_sets.names()));
-    if (!reference || (!node && set < 0)) continue;
-    RigidLink rigid{static_cast<PetscInt>(mesh.mentions.size()), {}};
-    mesh.mentions.push_back({*reference, link.where});
-    std::vector<long long> labels;
-    if (set >= 0) labels = mesh.places[set].labels;
-    if (node && reading.rank == 0) labels = {*node};
-    for (const long long label : labels) {
-      if (label == *reference) continue;
-      rigid.nodes.push_back(static_cast<PetscInt>(mesh.mentions.size()));
-      mesh.mentions.push_back({label, link.where});
-    }
-    reading.deck.links.push_back(std::move(rigid));
   }
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "all_ranks.h"
 #include "deck_file.h"
-#include "floe/mesh/exchange.h"
 #include "floe/mesh/labels.h"
 #include "inp_reading.h"
 #include "text.h"
@@ -14,16 +14,6 @@ struct Given {
   int line;  // of those in the deck: a later one overrides
   double value;
 };
-
-/// Of every rank, on every rank. Collective.
-template <class T>
-std::vector<T> of_all_ranks(MPI_Comm comm, const std::vector<T>& mine) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<T> copies;
-  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
-  return exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
-}
 
 /// What each node has, ascending by label, the same on all ranks. Collective.
 std::vector<Given> given_thicknesses(MPI_Comm comm, InpReading& reading) {

@@ -4,20 +4,11 @@
 
 #include <algorithm>
 
+#include "all_ranks.h"
 #include "floe/error.h"
-#include "floe/mesh/exchange.h"
 
 namespace floe::mesh {
 namespace {
-
-/// Of every rank, on every rank. Collective.
-std::vector<Follower> together(MPI_Comm comm, const std::vector<Follower>& mine) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<Follower> copies;
-  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
-  return exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
-}
 
 /// Labels of nodes, in their order. Collective; `nodes` the same on all ranks.
 std::vector<long long> labels_of(const RawMesh& mesh, const std::vector<PetscInt>& nodes) {
@@ -46,7 +37,7 @@ std::vector<Follower> followers(const RawMesh& mesh, const std::vector<RigidLink
   for (const RigidLink& link : links)
     for (PetscInt node : link.nodes)
       if (node != link.reference) mine.push_back({node, link.reference});
-  std::vector<Follower> all = together(mesh.comm, mine);
+  std::vector<Follower> all = of_all_ranks(mesh.comm, mine);
   const auto order = [](const Follower& a) { return std::pair(a.node, a.leader); };
   std::sort(all.begin(), all.end(), [&](const Follower& a, const Follower& b) { return order(a) < order(b); });
   all.erase(

@@ -84,13 +84,23 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
   }
 }
 
+/// Full, of the half axes a along y and b along z. Source: Timoshenko & Goodier, Theory of elasticity, 3rd ed., art.
+/// 105.
+fem::SectionShape ellipse(double a, double b) {
+  fem::SectionShape shape;
+  shape.A = M_PI * a * b;
+  shape.Iy = shape.A * b * b / 4, shape.Iz = shape.A * a * a / 4;
+  shape.J = M_PI * std::pow(a * b, 3) / (a * a + b * b);
+  return shape;
+}
+
 fem::SectionShape shape_of(const mesh::BeamSection& section) {
   const std::vector<double>& d = section.dimensions;
   switch (section.profile) {
     case mesh::Profile::rectangle:
       return fem::rectangle(d[0], d[1]);
     case mesh::Profile::circle:
-      return fem::circle(d[0]);
+      return d.size() == 1 ? fem::circle(d[0]) : ellipse(d[0], d[1]);
     case mesh::Profile::pipe:
       return fem::tube(d[0], d[0] - d[1]);
     case mesh::Profile::box:
@@ -119,6 +129,8 @@ Eigen::Vector2d extent_of(const mesh::BeamSection& section) {
       return {std::max(d[2], d[3]), d[1]};
     case mesh::Profile::general:
       throw InputError("an offset of a general profile, which has no thickness");
+    case mesh::Profile::circle:
+      return {2 * d[0], 2 * d.back()};
     default:
       return {2 * d[0], 2 * d[0]};
   }

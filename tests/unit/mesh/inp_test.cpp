@@ -98,35 +98,41 @@ TEST_CASE("one part and one instance of Abaqus are looked through") {
       "*NSET, NSET=tip, INSTANCE=I-1\n3\n*NSET, NSET=again\nI-1.tip\n*END ASSEMBLY\n";
   const auto raw = read(testing::written("abaqus.inp", "*PART, NAME=P\n" + body + assembly)).mesh;
   CHECK(testing::labels_at(raw, "again") == std::vector<long long>{3});
-  std::string moved = assembly;
-  moved.replace(moved.find("*END INSTANCE"), 0, "1., 0., 0.\n");
-  const auto path = testing::written("moved.inp", "*PART, NAME=P\n" + body + moved);
-  CHECK_THAT(testing::fault_of([&] { read(path); }), Contains("moved.inp:16: an *INSTANCE that is moved"));
 }
 
-TEST_CASE("*MPC BEAM and *COUPLING are rigid links") {
-  const auto path = testing::written(
-      "links.inp",
-      square("*NODE\n9, 5, 5\n*NSET, NSET=ref\n9\n*SURFACE, NAME=S, TYPE=NODE\n1, 1.\n4\n*MPC\nBEAM, 2, 9\n"
-             "*COUPLING, CONSTRAINT NAME=c, REF NODE=ref, SURFACE=S\n*KINEMATIC\n1, 6\n"));
-  const auto deck = read(path).deck;
-  REQUIRE(deck.links.size() == 2);
-  CHECK(testing::of_all_ranks(deck.links[0].nodes) == std::vector<PetscInt>{1});
-  auto coupled = testing::of_all_ranks(deck.links[1].nodes);
-  std::sort(coupled.begin(), coupled.end());
-  CHECK(coupled == std::vector<PetscInt>{0, 3});
-  CHECK(deck.links[1].reference == 4);
+TEST_CASE("an instance moves its part, its orientations and the directions of its beams") {
+  const std::string part =
+      "*ELEMENT, TYPE=B31, ELSET=B\n2, 1, 2\n*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT\n0.1, 0.2\n"
+      "0, 1, 0\n*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, "
+      "NAME=I, PART=P\n";
+  const auto path = [&](const std::string& motion) {
+    return testing::written("moved.inp", "*PART, NAME=P\n" + square(part + motion + "*END INSTANCE\n*END ASSEMBLY\n"));
+  };
+  const auto file = read(path("1., 0., 0.\n0., 0., 0., 0., 0., 2., 90.\n"));  // x to y, y to -x
+  const auto positions = testing::of_all_ranks(file.mesh.positions);
+  CHECK((positions.at(0) - Eigen::Vector3d(0, 1, 0)).norm() < 1e-12);
+  CHECK((positions.at(2) - Eigen::Vector3d(-1, 2, 0)).norm() < 1e-12);
+  CHECK((file.deck.beam_sections.at(0).direction_1 - Eigen::Vector3d(-1, 0, 0)).norm() < 1e-12);
+  CHECK((file.deck.orientations.at(0).a - Eigen::Vector3d(0, 1, 0)).norm() < 1e-12);
+  for (const auto& [motion, text] :
+       {std::pair("1.,\n0., 0., 0., 0., 0., 0., 90.\n", "axis of an *INSTANCE has no length"),
+        {"1., 2., 3., 4.\n", "a translation"}}) {
+    const auto wrong = path(motion);
+    CHECK_THAT(testing::fault_of([&] { read(wrong); }), Contains("moved.inp:") && Contains(text));
+  }
 }
 
 TEST_CASE("keywords that do not make a linear elastic body are ignored with one line each") {
   const auto path = testing::written(
       "ignored.inp",
-      square("*SURFACE, NAME=S, TYPE=ELEMENT\nE, SPOS\n*CONTACT PAIR, INTERACTION=I\nS, S\n*AMPLITUDE, NAME=A\n0,0\n"
+      square("*SURFACE, NAME=S, TYPE=CUTTING SURFACE\nE, SPOS\n*CONTACT PAIR, INTERACTION=I\nS, S\n*AMPLITUDE, "
+             "NAME=A\n0,0\n"
              "*Initial Conditions, TYPE=TEMPERATURE\nN, 20\n*EQUATION\n2\n1,1,1.,2,1,-1.\n*amplitude, NAME=B\n0,0\n"
              "*PLASTIC\n1, 0\n*STEP\n*STATIC\n*CLOAD\n1,1,1.\n2,1,1.\n*NODE PRINT\nU\n*END STEP\n"));
   const auto notices = read(path).notices;
   REQUIRE(notices.size() == 7);
-  CHECK_THAT(notices[0], Contains("ignored.inp:13: *SURFACE is ignored: only surfaces of TYPE=NODE are node sets"));
+  CHECK_THAT(notices[0],
+             Contains("ignored.inp:13: *SURFACE is ignored: only surfaces of nodes and of elements are read"));
   CHECK_THAT(notices[1], Contains("ignored.inp:15: *CONTACT PAIR is ignored: contact is not represented (1 line)"));
   CHECK_THAT(notices[2], Contains("ignored.inp:17: *AMPLITUDE is ignored, 2 times"));
   CHECK_THAT(notices[3], Contains("*Initial Conditions is ignored: the body is at rest"));
@@ -188,6 +194,16 @@ TEST_CASE("elements that have a twin are read as it, with a notice") {
   CHECK_THAT(file.notices.at(0), Contains("twins.inp:13: elements of type B31R are read as B31"));
   REQUIRE(file.deck.beam_sections.size() == 1);
   CHECK(file.deck.beam_sections[0].profile == mesh::Profile::pipe);
+}
+
+TEST_CASE("a circle of two diameters is an ellipse; keywords of a step may stand outside of one") {
+  const auto file = read(testing::written(
+      "ellipse.inp", square("*ELEMENT, TYPE=B31, ELSET=B\n2, 1, 2\n*ELEMENT, TYPE=B31, ELSET=C\n3, 2, 3\n"
+                            "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=CIRC\n.06, .04\n"
+                            "*BEAM SECTION, ELSET=C, MATERIAL=M, SECTION=CIRC\n.06, .06\n*STATIC\n1., 1.\n")));
+  CHECK(file.deck.beam_sections.at(0).dimensions == std::vector<double>{.03, .02});
+  CHECK(file.deck.beam_sections.at(1).dimensions == std::vector<double>{.03});
+  CHECK_THAT(file.notices.at(0), Contains("ellipse.inp:21: *STATIC is ignored: it is outside of a *STEP"));
 }
 
 TEST_CASE("a scene may give sections to a deck without any, and leave out solids") {
