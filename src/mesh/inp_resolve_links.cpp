@@ -55,24 +55,6 @@ void add_link(long long reference, const std::vector<long long>& labels, Where w
   reading.deck.links.push_back(std::move(rigid));
 }
 
-/// A mean of nodes cannot carry what else its reference node has: it becomes a notice where that is nothing.
-/// Collective.
-void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int set, InpReading& reading) {
-  int used = 0;
-  for (const auto& cell : reading.mesh.cells)
-    used += std::count(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), reference) > 0;
-  for (const auto& mention : reading.mesh.mentions) used += mention.label == reference;
-  MPI_Allreduce(MPI_IN_PLACE, &used, 1, MPI_INT, MPI_SUM, comm);
-  const std::string node = "reference node " + std::to_string(reference);
-  if (used > 0)
-    return reading.faults.add(link.where,
-                              "*COUPLING with *DISTRIBUTING: " + node +
-                                  " has an element, a mass or a link, which a mean of nodes does not carry; "
-                                  "expected *KINEMATIC");
-  reading.notices.push_back(reading.faults.text_of(link.where) + ": *COUPLING with *DISTRIBUTING is ignored: " + node +
-                            " has no element; its motion is the mean of the place " + reading.node_sets.sets[set].name);
-}
-
 struct Labelled {
   long long label;
   double x[3];
@@ -121,6 +103,27 @@ void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, con
     if (!base.empty() && distance(node, base[0]) > coincident * distance(node, origin))
       reading.faults.add(link.where, "*MPC TIE of nodes " + std::to_string(node.label) + " and " +
                                          std::to_string(reference) + " at different points is not read; expected BEAM");
+}
+
+/// A mean of nodes cannot carry what else its reference node has: it becomes a notice where that is nothing.
+/// Collective.
+void leave_out_mean(MPI_Comm comm, const InpLink& link, long long reference, int set, InpReading& reading) {
+  if (with_positions(comm, {reference}, reading).empty())
+    return reading.faults.add(link.where,
+                              "this line names node " + std::to_string(reference) + ", which is not defined");
+  int used = 0;
+  for (const auto& cell : reading.mesh.cells)
+    used += std::count(cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind), reference) > 0;
+  for (const auto& mention : reading.mesh.mentions) used += mention.label == reference;
+  MPI_Allreduce(MPI_IN_PLACE, &used, 1, MPI_INT, MPI_SUM, comm);
+  const std::string node = "reference node " + std::to_string(reference);
+  if (used > 0)
+    return reading.faults.add(link.where,
+                              "*COUPLING with *DISTRIBUTING: " + node +
+                                  " has an element, a mass or a link, which a mean of nodes does not carry; "
+                                  "expected *KINEMATIC");
+  reading.notices.push_back(reading.faults.text_of(link.where) + ": *COUPLING with *DISTRIBUTING is ignored: " + node +
+                            " has no element; its motion is the mean of the place " + reading.node_sets.sets[set].name);
 }
 
 /// Collective.

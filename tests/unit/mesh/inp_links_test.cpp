@@ -74,6 +74,8 @@ TEST_CASE("*DISTRIBUTING is the mean of a place where its reference node carries
                       "element; its motion is the mean of the place edge"));
   CHECK_THAT(said(coupling + "*ELEMENT, TYPE=MASS, ELSET=P\n7, 9\n*MASS, ELSET=P\n1.\n"),
              Contains("links.inp:22: *COUPLING with *DISTRIBUTING: reference node 9 has an element, a mass or a link"));
+  CHECK_THAT(said("*SURFACE, NAME=edge\n2, S4\n*COUPLING, REF NODE=99, SURFACE=edge\n*DISTRIBUTING\n"),
+             Contains("links.inp:22: this line names node 99, which is not defined"));
   CHECK_THAT(said("*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=E\n*NSET, NSET=n\n1\n"),
              Contains("*COUPLING is read with *KINEMATIC or *DISTRIBUTING after it"));
 }
