@@ -20,10 +20,31 @@ void refuse_unnamed(const std::vector<std::pair<std::string, Where>>& used, cons
       faults.add(where, std::string("there is no ") + kind + " " + in_quotes(name) + suggestion(name, names));
 }
 
+template <class Named>
+void spell_as_defined(std::string& name, const std::vector<Named>& defined) {
+  for (const auto& one : defined)
+    if (upper(one.name) == upper(name)) name = one.name;
+}
+
+/// Names do not depend on case: sections get them as materials and orientations are defined.
+void spell_names(Deck& deck, const std::vector<Orientation>& orientations) {
+  for (ShellSection& section : deck.shell_sections) {
+    spell_as_defined(section.orientation, orientations);
+    for (Ply& ply : section.plies) {
+      spell_as_defined(ply.material, deck.materials);
+      spell_as_defined(ply.orientation, orientations);
+    }
+  }
+  for (BeamSection& section : deck.beam_sections) spell_as_defined(section.material, deck.materials);
+}
+
 void refuse_incomplete(const InpBlocks& deck, InpReading& reading) {
   auto& faults = reading.faults;
   refuse_unnamed(reading.materials_used, reading.deck.materials, "material", faults);
-  refuse_unnamed(reading.orientations_used, reading.deck.orientations, "orientation", faults);
+  std::vector<Orientation> orientations = reading.deck.orientations;
+  for (const InpCylinder& cylinder : reading.cylinders) orientations.push_back({cylinder.name, {}, {}});
+  refuse_unnamed(reading.orientations_used, orientations, "orientation", faults);
+  spell_names(reading.deck, orientations);
   for (const char* keyword : {"NODE", "ELEMENT"})
     if (std::none_of(deck.blocks.begin(), deck.blocks.end(), [&](const auto& b) { return b.keyword == keyword; }))
       faults.add({0, 1}, std::string("the deck has no *") + keyword);
@@ -48,7 +69,8 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Faults faults;
-  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {},
+                     {},     {},      {},   {},    {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
     const InpBlocks deck = inp_blocks(path, faults);
     read_blocks(deck.blocks, reading);
@@ -63,6 +85,7 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   add_places(reading);
   resolve_links(comm, reading);
   assign_thicknesses(comm, reading);
+  assign_cylinders(comm, reading);
   faults.throw_together(comm);
   return deck_file(comm, path, std::move(reading.mesh), std::move(reading.deck), faults, std::move(reading.notices));
 }

@@ -41,6 +41,10 @@ void read_end_instance(const InpBlock&, InpReading& reading) {
     orientation.a = motion->linear() * orientation.a;
     orientation.b = motion->linear() * orientation.b;
   }
+  for (InpCylinder& cylinder : reading.cylinders) {
+    cylinder.a = *motion * cylinder.a;
+    cylinder.b = *motion * cylinder.b;
+  }
   for (BeamSection& section : reading.deck.beam_sections) section.direction_1 = motion->linear() * section.direction_1;
 }
 

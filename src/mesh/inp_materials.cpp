@@ -102,11 +102,12 @@ void read_density(const InpBlock& block, InpReading& reading) {
 void read_orientation(const InpBlock& block, InpReading& reading) {
   auto& faults = reading.faults;
   Orientation orientation{required(block, "NAME", reading), {}, {}, 0, 0};
-  for (const auto& [key, expected] : {std::pair("SYSTEM", "RECTANGULAR"), {"DEFINITION", "COORDINATES"}}) {
-    const auto found = block.parameters.find(key);
-    if (found != block.parameters.end() && upper(found->second) != expected)
-      return faults.add(block.where, block.name + " is read with " + key + "=" + expected + " only");
-  }
+  const auto system = block.parameters.find("SYSTEM"), definition = block.parameters.find("DEFINITION");
+  const std::string kind = system == block.parameters.end() ? "RECTANGULAR" : upper(system->second);
+  if (kind != "RECTANGULAR" && kind != "CYLINDRICAL")
+    return faults.add(block.where, block.name + " is read with SYSTEM=RECTANGULAR or CYLINDRICAL only");
+  if (definition != block.parameters.end() && upper(definition->second) != "COORDINATES")
+    return faults.add(block.where, block.name + " is read with DEFINITION=COORDINATES only");
   const auto lines = data_lines(block, 1, 2, "two points, and perhaps an axis and an angle", faults);
   if (lines.empty()) return;
   const auto points = numbers(lines[0].second, lines[0].first, 4, 6, "two points of three coordinates", faults);
@@ -115,7 +116,10 @@ void read_orientation(const InpBlock& block, InpReading& reading) {
   p.resize(6, 0.0);
   orientation.a = {p[0], p[1], p[2]};
   orientation.b = {p[3], p[4], p[5]};
-  if (orientation.a.cross(orientation.b).norm() <= 1e-12 * orientation.a.norm() * orientation.b.norm())
+  const bool cylindrical = kind == "CYLINDRICAL";
+  if (cylindrical && !((orientation.b - orientation.a).norm() > 0))
+    faults.add(lines[0].first, "the axis of a cylindrical orientation has no length");
+  if (!cylindrical && orientation.a.cross(orientation.b).norm() <= 1e-12 * orientation.a.norm() * orientation.b.norm())
     faults.add(lines[0].first, "the points of an orientation lie on one line with the origin");
   if (lines.size() == 2) {
     const auto turn = numbers(lines[1].second, lines[1].first, 1, 2, "an axis (1, 2, 3) and an angle", faults);
@@ -127,7 +131,11 @@ void read_orientation(const InpBlock& block, InpReading& reading) {
     else
       faults.add(lines[1].first, "expected an axis (1, 2, 3) and an angle, found " + in_quotes(lines[1].second));
   }
-  reading.deck.orientations.push_back(orientation);
+  if (cylindrical)
+    reading.cylinders.push_back({orientation.name, block.where, orientation.a, orientation.b,
+                                 orientation.axis == 0 ? 1 : orientation.axis, orientation.angle});
+  else
+    reading.deck.orientations.push_back(orientation);
 }
 
 }  // namespace floe::mesh

@@ -96,6 +96,15 @@ struct InpThickness {
   double value;
 };
 
+/// *ORIENTATION, SYSTEM=CYLINDRICAL: x' is radial, z' along the axis from a to b.
+struct InpCylinder {
+  std::string name;
+  Where where;
+  Eigen::Vector3d a, b;
+  int normal;    // 1, 2, 3: the local axis about the shell's normal
+  double angle;  // about it, degrees
+};
+
 /// A keyword that is left out.
 struct InpIgnored {
   Where where;  // its first
@@ -116,6 +125,7 @@ struct InpReading {
   std::vector<InpSurface> surfaces;
   std::vector<InpTie> ties;
   std::vector<InpThickness> thicknesses;
+  std::vector<InpCylinder> cylinders;
   Deck deck;
   std::vector<InpIgnored> ignored;  // become notices before these
   std::vector<std::string> notices;
@@ -178,6 +188,13 @@ void resolve_links(MPI_Comm comm, InpReading& reading);
 
 /// Parts for shells whose nodes have a thickness of their own. Collective.
 void assign_thicknesses(MPI_Comm comm, InpReading& reading);
+
+/// Parts for shells whose orientation is cylindrical, by its direction at their centres. Collective.
+void assign_cylinders(MPI_Comm comm, InpReading& reading);
+
+/// Positions of nodes by their labels, in the order of the labels that are defined. Collective.
+std::vector<std::pair<long long, Eigen::Vector3d>> positions_of(MPI_Comm comm, const std::vector<long long>& labels,
+                                                                const InpReading& reading);
 
 /// Keeps a keyword for the notices: what it is instead, or why it does not matter; "" where that is plain.
 void ignore(const InpBlock& block, const std::string& why, InpReading& reading);

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "all_ranks.h"
-#include "floe/mesh/labels.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -62,18 +61,9 @@ struct Labelled {
 
 /// Those of the nodes, ascending by label, each once, the same on all ranks. Collective.
 std::vector<Labelled> with_positions(MPI_Comm comm, const std::vector<long long>& labels, const InpReading& reading) {
-  const LabelDirectory directory(comm, reading.mesh.node_labels);
-  std::vector<PetscInt> nodes;
-  for (const PetscInt node : directory.find(labels))
-    if (node >= 0) nodes.push_back(node);
-  const auto starts = starts_of(comm, static_cast<PetscInt>(reading.mesh.node_labels.size()));
-  std::vector<Labelled> all = of_all_ranks(comm, ask<Labelled>(
-                                                     comm, nodes, [&](PetscInt node) { return owner_of(starts, node); },
-                                                     [&](PetscInt node) {
-                                                       const PetscInt i = node - starts[reading.rank];
-                                                       const auto& p = reading.mesh.positions[i];
-                                                       return Labelled{reading.mesh.node_labels[i], {p[0], p[1], p[2]}};
-                                                     }));
+  std::vector<Labelled> mine;
+  for (const auto& [label, x] : positions_of(comm, labels, reading)) mine.push_back({label, {x[0], x[1], x[2]}});
+  std::vector<Labelled> all = of_all_ranks(comm, mine);
   const auto less = [](const Labelled& a, const Labelled& b) { return a.label < b.label; };
   std::sort(all.begin(), all.end(), less);
   all.erase(std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.label == b.label; }),
