@@ -104,11 +104,16 @@ Eigen::MatrixXd constant_damping(const Plan& plan, int index, const ReducedBody&
   return C + body.spec.damping.mass * M;
 }
 
+/// beta [s], of the scene or of the body's file.
+double stiffness_factor(const Plan& plan, int index, const ReducedBody& reduced) {
+  return plan.bodies[index].spec.damping.stiffness + reduced.strain_rate_damping;
+}
+
 }  // namespace
 
 Eigen::MatrixXd linear_damping(const Plan& plan, int index, const ReducedBody& reduced) {
   Eigen::MatrixXd C = constant_damping(plan, index, reduced);
-  const double beta = plan.bodies[index].spec.damping.stiffness;
+  const double beta = stiffness_factor(plan, index, reduced);
   if (beta == 0) return C;
   const Eigen::MatrixXd K = beta * reduced.body.elasticity.linear_stiffness();
   return C.size() == 0 ? K : C + K;
@@ -119,7 +124,7 @@ std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   Eigen::MatrixXd C = constant_damping(plan, index, reduced);
   if (C.size() > 0) terms.push_back(std::make_unique<dynamics::LinearDamping>(elastic, std::move(C)));
-  const double beta = plan.bodies[index].spec.damping.stiffness;
+  const double beta = stiffness_factor(plan, index, reduced);
   if (beta != 0 && !elastic.empty())
     terms.push_back(std::make_unique<dynamics::StrainRateDamping>(elastic, reduced.body.elasticity, beta));
   return terms;

@@ -78,11 +78,14 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
   ReducedBody reduced;
   reduced.body = file.body;
   reduced.damping = file.damping;
+  reduced.strain_rate_damping = file.strain_rate_damping;
+  if (file.strain_rate_damping > 0)
+    reduced.damping -= file.strain_rate_damping * file.body.elasticity.linear_stiffness();
   if (formulation == Formulation::lffr) reduced.body.elasticity = body::linearised(file.body.elasticity);
   if (formulation == Formulation::vm) {
     const int k = leading_fields(body);
     reduced.body = {leading(file.body.inertia, k), leading(file.body.elasticity, k), leading(file.body.line, k)};
-    if (file.damping.size() > 0) reduced.damping = file.damping.topLeftCorner(k, k);
+    if (reduced.damping.size() > 0) reduced.damping = reduced.damping.topLeftCorner(k, k).eval();
   }
   BodyReport& report = reduced.report;
   report.name = body.spec.name, report.file = body.spec.reduced->path;

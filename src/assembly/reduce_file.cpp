@@ -149,6 +149,7 @@ output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const
   file.body = reduced.body;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     if (plan.bodies[b].spec.name == body.spec.name) file.damping = linear_damping(plan, static_cast<int>(b), reduced);
+  file.strain_rate_damping = body.spec.damping.stiffness;
   file.places = places_of(plan, body, *reduced.basis);
   file.columns = columns_of(report);
   file.omega = report.omega, file.residual = report.residual;
@@ -180,12 +181,6 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const Plan plan = prepare(part, comm);
   const PlannedBody& body = plan.bodies[0];
   warnings = body.notices;
-  if (body.spec.damping.stiffness != 0)
-    warnings.push_back(
-        fmt::format("body {}: the file stores damping.stiffness as C = beta K of the undeformed body, which also damps "
-                    "foreshortening at large deflections (above a few percent of the length); for such motions keep "
-                    "the body's mesh in the scene",
-                    body.spec.name));
   if (body.spec.damping.mass != 0 && scene.bodies.size() > 1)
     warnings.push_back(
         fmt::format("body {}: the file stores damping.mass for the body with its joints to the ground; joints to the "

@@ -162,7 +162,10 @@ void put(Writer& to, const ReducedBodyFile& file) {
   put(to, "inertia", file.body.inertia, of_mass);
   put(to, "line", file.body.line, of_line);
   put(to, file.body.elasticity);
-  to.matrix("damping", file.damping, "s^-1", "of the coordinates; 0 x 0 for none");
+  to.matrix("damping", file.damping, "s^-1", "of small motions of the coordinates; 0 x 0 for none");
+  if (file.version >= 3)
+    to.numbers("strain_rate_damping", {}, {file.strain_rate_damping}, "s",
+               "beta of Kelvin-Voigt, in damping as beta K");
   put(to, file.places, d, k);
   put(to, file.columns);
   to.numbers("frequencies/omega", {file.omega.size()}, file.omega, "rad/s");

@@ -161,6 +161,13 @@ ReducedBodyFile parse(hid_t file) {
   if (damping != Extent{0, 0} && damping != Extent(2, k))
     fail("damping", fmt::format("{0} x {0} numbers or none", k), fmt::format("{} x {}", damping[0], damping[1]));
   all.damping = matrix_at(values.data(), damping[0], damping[1]);
+  if (all.version >= 3) {
+    Extent one;
+    all.strain_rate_damping = read_whole<double>(file, "strain_rate_damping", one).front();
+    if (all.strain_rate_damping < 0 || (all.strain_rate_damping > 0 && all.damping.size() == 0))
+      fail("strain_rate_damping", "0, or a positive number with a damping matrix",
+           fmt::format("{}", all.strain_rate_damping));
+  }
   all.places = read_places(file, d, k);
   all.columns = read_columns(file);
   Extent modes{any};

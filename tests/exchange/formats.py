@@ -34,7 +34,7 @@ def numpy_is_the_file(folder):
         with np.load(export(folder, name, ".npz", "--shapes"), allow_pickle=False) as found:
             same = {"C0": "inertia/C0", "s0": "inertia/s0", "S": "inertia/S", "h": "inertia/h", "M": "inertia/M",
                     "m": "inertia/m", "bending": "elasticity/bending", "F": "elasticity/F", "pairs": "elasticity/pairs",
-                    "damping": "damping", "place_x": "places/x", "place_S": "places/S", "place_psi": "places/psi",
+                    "damping": "damping", "strain_rate_damping": "strain_rate_damping", "place_x": "places/x", "place_S": "places/S", "place_psi": "places/psi",
                     "omega": "frequencies/omega", "frame_origin": "frame/origin", "frame_axes": "frame/axes",
                     "line_S": "line/S", "column_kept": "columns/kept", "shape_basis": "shapes/basis",
                     "shape_positions": "shapes/positions", "cell_nodes": "shapes/cells/nodes"}

@@ -9,10 +9,11 @@ namespace floe::assembly {
 struct ReducedBody {
   body::FlexibleBody body;
   std::shared_ptr<reduction::Basis> basis;
-  Eigen::MatrixXd damping;    ///< modal, or all of a body from a file; k x k, or empty
+  Eigen::MatrixXd damping;    ///< modal; of a body from a file all but Kelvin-Voigt; k x k, or empty
   Eigen::MatrixXd of_fields;  ///< coordinates of the generating fields from those of V; ranking's linear run only
   BodyReport report;
   std::shared_ptr<const reduction::Statics> statics = {};  ///< if they were to be kept
+  double strain_rate_damping = 0;                          ///< beta of a body from a file [s]
 };
 
 /// How a place of a reduced body moves with the body's coordinates. Collective; replicated.

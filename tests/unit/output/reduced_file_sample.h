@@ -36,6 +36,7 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
   file.body.elasticity.F = matrix(k + 3, k + std::ssize(file.body.elasticity.pairs));
   if (k > 0) file.body.elasticity.F(0, 0) = 5e-324, file.body.elasticity.F(1, 0) = -0.0;
   file.damping = matrix(k, k);
+  if (k > 0) file.strain_rate_damping = 1e-4;
   for (const char* name : {"tip", "root/left", "lug"})
     file.places.push_back({name, {matrix(d, 1), matrix(d, k), matrix(d == 2 ? 1 : 3, k)}});
   for (int i = 0; i < k; ++i) file.columns.push_back({"mode", "mode " + std::to_string(i + 1), 10.0 + i, 0.5, true, 0});
@@ -80,7 +81,7 @@ inline void check_same(const floe::output::ReducedBodyFile& a, const floe::outpu
   check_same(a.body.line, b.body.line);
   CHECK((same(a.body.elasticity.bending, b.body.elasticity.bending) && same(a.body.elasticity.F, b.body.elasticity.F)));
   CHECK(a.body.elasticity.pairs == b.body.elasticity.pairs);
-  CHECK(same(a.damping, b.damping));
+  CHECK((same(a.damping, b.damping) && a.strain_rate_damping == b.strain_rate_damping));
   REQUIRE(a.places.size() == b.places.size());
   for (std::size_t i = 0; i < a.places.size(); ++i) {
     const auto &left = a.places[i], &right = b.places[i];

@@ -39,7 +39,15 @@ TEST_CASE("a reduced body of the first version of the format, which has no W, is
   Scratch scratch;
   ReducedBodyFile file = sample_body(3, 4);
   file.body.inertia.W.clear(), file.body.line.W.clear();
-  file.version = 1;
+  file.version = 1, file.strain_rate_damping = 0;
+  write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
+  check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
+}
+
+TEST_CASE("a reduced body of the second version of the format, which has no strain_rate_damping, is read") {
+  Scratch scratch;
+  ReducedBodyFile file = sample_body(3, 4);
+  file.version = 2, file.strain_rate_damping = 0;
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
 }
@@ -79,7 +87,7 @@ U = 0.5 * q @ f["elasticity/bending"][:] @ q + 0.5 * np.sum((F @ np.r_[q, s])**2
 place = list(f["places/names"].asstr()).index("root/left")
 u = f["places/S"][place] @ q
 assert abs(U / {:.17g} - 1) < 1e-12 and np.allclose(u, [{:.17g}, {:.17g}, {:.17g}], rtol=1e-12), (U, u)
-assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 2 and f.attrs["complete"] == 1
+assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 3 and f.attrs["complete"] == 1
 )",
                                                     (scratch / "arm.h5").string(),
                                                     body::energy(file.body.elasticity, q), u[0], u[1], u[2]);
