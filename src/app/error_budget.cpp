@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "floe/math/rounded.h"
 #include "floe/output/table.h"
@@ -17,22 +16,17 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double limit = 0.01;  // above it a part is warned of
+constexpr double limit = 0.01;  // above it the largest part is warned of
 constexpr const char* parts[] = {"reduction", "model", "mesh", "step"};
 
-/// `probes` of those that are known, and the number of the largest one.
-std::size_t put_probes(const std::vector<double>& errors, const assembly::Model& model, ordered_json& j) {
-  std::size_t worst = 0;
-  for (std::size_t p = 0; p < errors.size(); ++p) {
-    if (std::isnan(errors[p])) continue;
-    j["probes"][model.probes[p].name] = errors[p];
-    if (std::isnan(errors[worst]) || errors[p] > errors[worst]) worst = p;
-  }
-  return worst;
+/// `probes` of those that are known.
+void put_probes(const std::vector<double>& errors, const assembly::Model& model, ordered_json& j) {
+  for (std::size_t p = 0; p < errors.size(); ++p)
+    if (!std::isnan(errors[p])) j["probes"][model.probes[p].name] = errors[p];
 }
 
 ordered_json step_part(const assess::FinishedMotion& motion, const assess::KeptMotion& kept, double allowed,
-                       assess::ErrorPart& part, RunResult& result) {
+                       assess::ErrorPart& part) {
   double took = motion.seconds;
   MPI_Bcast(&took, 1, MPI_DOUBLE, 0, motion.comm);
   assess::StepError error;
@@ -44,38 +38,107 @@ ordered_json step_part(const assess::FinishedMotion& motion, const assess::KeptM
   if (!error.none.empty()) return {{"none", error.none}};
   part.probes = error.probes, part.t = std::move(error.t), part.errors = std::move(error.errors);
   ordered_json j{{"deformation", error.deformation}};
-  const std::size_t worst = put_probes(error.probes, motion.model, j);
+  put_probes(error.probes, motion.model, j);
   j["by"] = error.halved ? "half the step" : "twice the step";
   j["until"] = error.until;
   j["seconds"] = error.seconds;
-  if (!error.probes.empty() && error.probes[worst] > limit)
-    result.warnings.push_back(fmt::format("motion.step {:.3g} s: its error in probe {} is {} (limit {}); take {:.2g} s",
-                                          motion.how.step, motion.model.probes[worst].name,
-                                          math::percent(error.probes[worst]), math::percent(limit),
-                                          motion.how.step * std::sqrt(limit / error.probes[worst])));
   return j;
 }
 
-/// A part that is found by `work`; `advice`: what to do where it is large.
-ordered_json part_of(const char* name, const std::string& advice, const assess::FinishedMotion& motion,
-                     const std::function<assess::ErrorPart()>& work, assess::ErrorPart& part, RunResult& result) {
-  const std::string why = petsc::failed_together(motion.comm, [&] { part = work(); });
-  if (!why.empty()) part = {}, part.none = why;
+/// A part for the summary.
+ordered_json part_of(const assess::FinishedMotion& motion, const assess::ErrorPart& part) {
   ordered_json j;
   if (!part.notes.empty()) j["notes"] = part.notes;
   if (!part.none.empty()) {
     j["none"] = part.none;
     return j;
   }
-  const std::size_t worst = put_probes(part.probes, motion.model, j);
+  put_probes(part.probes, motion.model, j);
   j["by"] = part.by;
   j["until"] = part.until;
   j["seconds"] = part.seconds;
-  if (!part.probes.empty() && part.probes[worst] > limit)
-    result.warnings.push_back(fmt::format("error of the {} in probe {}: {} (limit {}); {}", name,
-                                          motion.model.probes[worst].name, math::percent(part.probes[worst]),
-                                          math::percent(limit), advice));
   return j;
+}
+
+bool any_body(const scene::Scene& scene, bool (*is)(const scene::Body&)) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), is);
+}
+bool straight(const scene::Body& body) { return !body.rigid && !body.reduced && body.mesh.segments.size() == 1; }
+
+/// What makes the part `model` smaller: what the bodies do not have yet.
+std::string model_advice(const assess::FinishedMotion& motion, const assess::ErrorPart& part) {
+  std::vector<std::string> all;
+  if (!part.apart) all.push_back("take more elements (the part contains the difference of both models' mesh errors)");
+  const auto& bodies = motion.model.bodies;
+  if (std::any_of(bodies.begin(), bodies.end(),
+                  [](const auto& body) { return body.strains.starts_with("von_karman"); }))
+    all.push_back("use strains: second_order");
+  if (any_body(motion.scene, straight)) {
+    const bool divided = any_body(motion.scene, [](const scene::Body& body) { return body.frames > 1; });
+    all.push_back(divided ? "divide the body into more floating frames (frames: N)"
+                          : "divide the body into floating frames (frames: N)");
+  }
+  all.push_back("use formulation cfr");
+  return fmt::format("{}", fmt::join(all, ", or "));
+}
+
+/// What makes a part smaller whose worst probe has this error.
+std::string advice(int part, const assess::FinishedMotion& motion, const assess::ErrorPart& model, double error) {
+  switch (part) {
+    case 0:
+      return "take more modes or derivatives (reduction), or select them: --accuracy reduction:1%";
+    case 1:
+      return model_advice(motion, model);
+    case 2:
+      return "take more elements";
+    default:
+      return std::isfinite(error)
+                 ? fmt::format("take motion.step {:.2g} s or less", motion.how.step * std::sqrt(limit / error))
+                 : "take a shorter motion.step";
+  }
+}
+
+/// The largest part of all probes, what to do about it, and a warning where it is above the limit.
+void put_largest(const assess::FinishedMotion& motion, const assess::ErrorPart* const all[], ordered_json& j,
+                 RunResult& result) {
+  int largest = -1;
+  std::size_t worst = 0;
+  double error = 0;
+  for (int i = 0; i < 4; ++i)
+    for (std::size_t p = 0; all[i]->none.empty() && p < all[i]->probes.size(); ++p)
+      if (all[i]->probes[p] > error) largest = i, worst = p, error = all[i]->probes[p];
+  if (!(error > limit)) return;
+  const std::string what = advice(largest, motion, *all[1], error), &probe = motion.model.probes[worst].name;
+  j["largest"] = {{"part", parts[largest]}, {"probe", probe}, {"advice", what}};
+  result.warnings.push_back(fmt::format("largest part of the estimated error: {} of probe {}, {} (limit {}); {}",
+                                        parts[largest], probe, math::percent(error), math::percent(limit), what));
+}
+
+/// Rigid bodies have no error but that of the step.
+bool all_rigid(const scene::Scene& scene) {
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& body) { return body.rigid; });
+}
+
+/// Of a total: with a mark where it lacks a part.
+output::Cell marked(const output::Cell& cell) {
+  return std::holds_alternative<double>(cell) ? math::rounded(std::get<double>(cell), 2) + " *"
+                                              : std::get<std::string>(cell) + " *";
+}
+
+/// `* without the model error: inner` of each part.
+std::string missing_words(const ordered_json& total) {
+  if (!total.contains("missing")) return "";
+  std::string words;
+  for (const char* part : parts) {
+    std::vector<std::string> probes;
+    for (const auto& [probe, lacks] : total["missing"].items())
+      if (std::find(lacks.begin(), lacks.end(), part) != lacks.end()) probes.push_back(probe);
+    if (probes.size() == total["probes"].size())
+      words += fmt::format("* total without the {} error\n", part);
+    else if (!probes.empty())
+      words += fmt::format("* total without the {} error: {}\n", part, fmt::join(probes, ", "));
+  }
+  return words;
 }
 
 output::Cell cell_of(const ordered_json& part, const std::string& probe) {
@@ -88,24 +151,18 @@ output::Cell cell_of(const ordered_json& part, const std::string& probe) {
 }  // namespace
 
 ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept, RunResult& result) {
-  double allowed = assess::estimate_seconds(result.offline_seconds + result.motion_seconds);
+  double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;
-  const ordered_json of_mesh = part_of(
-      "mesh", "take more elements", motion, [&] { return assess::estimate_mesh_error(motion, own, allowed); }, mesh,
-      result);
+  mesh = assess::estimate_mesh_error(motion, own, allowed);
+  model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed);
   ordered_json j;
-  j["model"] = part_of(
-      "model (strains, floating frames)",
-      motion.scene.dimension == 2
-          ? "divide the body into floating frames (frames: N), or use formulation cfr"
-          : "use strains: second_order, divide the body into floating frames (frames: N), or use formulation cfr",
-      motion, [&] { return assess::estimate_model_error(motion, own, result.estimate, mesh, allowed); }, model, result);
-  j["mesh"] = of_mesh;
-  j["step"] = step_part(motion, kept, allowed, step, result);
+  j["model"] = part_of(motion, model);
+  j["mesh"] = part_of(motion, mesh);
+  j["step"] = step_part(motion, kept, allowed, step);
   std::vector<const assess::ErrorPart*> known, beside;
   const assess::ErrorPart* all[] = {&reduction, &model, &mesh, &step};
   ordered_json names = ordered_json::array();
@@ -116,9 +173,37 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
     names.push_back(parts[i]);
   }
   if (known.empty() || motion.model.probes.empty()) return j;
+  put_largest(motion, all, j, result);
   put_probes(assess::total_error(own, known, beside), motion.model, j["total"]);
   j["total"]["parts"] = names;
+  for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
+    ordered_json lacks = ordered_json::array();
+    for (int i = all_rigid(motion.scene) ? 3 : 0; i < 4; ++i)
+      if (!all[i]->none.empty() || std::isnan(all[i]->probes[p])) lacks.push_back(parts[i]);
+    if (!lacks.empty()) j["total"]["missing"][motion.model.probes[p].name] = lacks;
+  }
   return j;
+}
+
+std::string budget_line(const ordered_json& estimate) {
+  if (!estimate.is_object()) return "not estimated";
+  if (!estimate.contains("total") || !estimate["total"].contains("probes"))
+    return "not estimated: " + estimate.value("none", std::string("no probe has a total"));
+  const ordered_json& total = estimate["total"];
+  const auto size = [](const ordered_json& error) { return error.is_number() ? error.get<double>() : INFINITY; };
+  const auto words = [&](const ordered_json& error) {
+    return std::isfinite(size(error)) ? math::percent(size(error)) : "above 10000 %";
+  };
+  std::string worst;
+  for (const auto& [probe, error] : total["probes"].items())
+    if (worst.empty() || size(error) > size(total["probes"][worst])) worst = probe;
+  std::vector<std::string> all;
+  for (const char* name : parts) {
+    const ordered_json part = std::string(name) == "reduction" ? estimate : estimate.value(name, ordered_json());
+    const bool known = part.is_object() && part.contains("probes") && part["probes"].contains(worst);
+    all.push_back(fmt::format("{} {}", name, known ? words(part["probes"][worst]) : "not known"));
+  }
+  return fmt::format("total {}: {}", words(total["probes"][worst]), fmt::join(all, ", "));
 }
 
 std::string budget_words(const ordered_json& estimate, double end) {
@@ -129,11 +214,14 @@ std::string budget_words(const ordered_json& estimate, double end) {
   for (const char* name : parts) table.columns.push_back({name, "%", 2});
   table.columns.push_back({"total", "%", 2});
   if (has_total)
-    for (const auto& [probe, error] : estimate["total"]["probes"].items())
+    for (const auto& [probe, error] : estimate["total"]["probes"].items()) {
+      const output::Cell total = cell_of(estimate["total"], probe);
+      const bool lacks = estimate["total"].contains("missing") && estimate["total"]["missing"].contains(probe);
       table.rows.push_back({probe, cell_of(estimate, probe), cell_of(estimate.value("model", ordered_json()), probe),
                             cell_of(estimate.value("mesh", ordered_json()), probe),
-                            cell_of(estimate.value("step", ordered_json()), probe), cell_of(estimate["total"], probe)});
-  std::string words = has_total ? "\n" + output::to_text(table) : "";
+                            cell_of(estimate.value("step", ordered_json()), probe), lacks ? marked(total) : total});
+    }
+  std::string words = has_total ? "\n" + output::to_text(table) + missing_words(estimate["total"]) : "";
   for (const char* name : {"model", "mesh", "step"}) {
     const ordered_json part = estimate.value(name, ordered_json());
     if (!part.is_object()) continue;

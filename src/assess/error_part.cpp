@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
+#include <optional>
 
-#include "estimate_parts.h"
 #include "floe/assess/probe_errors.h"
+#include "floe/error.h"
+#include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
+#include "floe/petsc/together.h"
 
 namespace floe::assess {
 
@@ -24,6 +29,27 @@ std::vector<int> places_of(const std::vector<ProbeColumn>& own, const std::vecto
     places.push_back(at == others.end() ? -1 : static_cast<int>(at - others.begin()));
   }
   return places;
+}
+
+/// Whether other models of the scene are built by every rank for itself.
+bool alone(const FinishedMotion& motion) {
+  constexpr PetscInt most_alone = 2000;
+  return elements_of(*motion.model.offline) <= most_alone;
+}
+
+/// Of ranks that simulated a copy each, until one of them failed: what all of them have, and why they have no more.
+void share_fault(MPI_Comm comm, const std::exception_ptr& fault, ProbeHistory& history) {
+  const std::string why = petsc::failed_together(comm, [&] {
+    if (fault) std::rethrow_exception(fault);
+    if (!history.stopped.empty()) throw RunError(history.stopped);
+  });
+  history.stopped = why, history.enough = false;
+  double reached = history.reached;
+  unsigned long count = history.values.size();
+  MPI_Allreduce(MPI_IN_PLACE, &reached, 1, MPI_DOUBLE, MPI_MIN, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_UNSIGNED_LONG, MPI_MIN, comm);
+  history.reached = reached;
+  history.values.resize(count);
 }
 
 }  // namespace
@@ -55,18 +81,74 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 std::string too_long(double limit) { return fmt::format("ended after {:.2g} s", limit); }
 
-Simulated again(const FinishedMotion& motion, const ProbeSeries& own, double times, double end) {
+Simulated compared(const FinishedMotion& motion, std::vector<ProbeColumn> columns, ProbeHistory history,
+                   const std::string& what, ErrorPart& part) {
+  if (!history.stopped.empty()) {
+    const std::string why = what + ": " + first_line(history.stopped);
+    if (history.reached < least_share * motion.how.end) throw RunError(why);
+    part.notes.push_back(why);
+  }
+  return {std::move(columns), std::move(history.values)};
+}
+
+bool fill_in(const FinishedMotion& motion, ErrorPart& part, const std::function<void()>& work) {
+  const std::string why = petsc::failed_together(motion.comm, work);
+  if (why.empty()) return true;
+  std::vector<std::string> notes = std::move(part.notes);
+  part = {};
+  part.none = first_line(why), part.notes = std::move(notes);
+  return false;
+}
+
+Model built(const FinishedMotion& motion, const Scene& scene, Formulation formulation) {
+  if (!alone(motion)) return build(scene, formulation, motion.comm);
+  std::optional<Model> model;
+  petsc::agree(motion.comm, [&] { model = build(scene, formulation, PETSC_COMM_SELF); });
+  return std::move(*model);
+}
+
+ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
+                       const solve::Integration& how, const std::vector<double>& times, const Enough& enough) {
+  const auto looks = [](const solve::Instant& instant) {
+    return instant.step <= looked_at || instant.step % look_every == 0;
+  };
+  if (!is_reduced(model.formulation) && !alone(motion))
+    return probe_history(scene, model, how, times, [&](const solve::Instant& instant) {
+      return enough && looks(instant) && enough(instant, time.spent());
+    });
+  bool failed = false;  // a rank, as all know
+  const auto look = [&](bool here) {
+    double all[2] = {here ? 1. : 0., petsc::first_rank(motion.comm) ? time.spent_here() : 0};
+    MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_DOUBLE, MPI_MAX, motion.comm);
+    failed = all[0] > 0;
+    return all[1];
+  };
+  ProbeHistory history;
+  std::exception_ptr fault;
+  try {
+    history = probe_history(scene, model, how, times, [&](const solve::Instant& instant) {
+      if (!looks(instant)) return false;
+      const double spent = look(false);
+      return failed || (enough && enough(instant, spent));
+    });
+  } catch (const std::exception&) {
+    fault = std::current_exception();
+  }
+  const bool told = failed;
+  if (!told) look(fault || !history.stopped.empty());
+  if (failed) share_fault(motion.comm, told ? nullptr : fault, history);
+  return history;
+}
+
+Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double times, double end,
+                ErrorPart& part) {
   solve::Integration how = motion.how;
   how.step *= times, how.end = end;
   const petsc::VecHandle A = motion.model.system->create_vector();
   solve::set_state(*motion.model.system, motion.start.state, motion.model.U, motion.model.V, A);
   motion.model.system->load(motion.start.carried);
-  return {own.columns, probe_history(motion.scene, motion.model, how, own.t).values};
-}
-
-MPI_Comm comm_of_others(const FinishedMotion& motion) {
-  constexpr PetscInt most_alone = 2000;
-  return elements_of(*motion.model.offline) <= most_alone ? PETSC_COMM_SELF : motion.comm;
+  return compared(motion, own.columns, simulated(motion, time, motion.scene, motion.model, how, own.t),
+                  fmt::format("the motion in steps {} times as long", times), part);
 }
 
 std::vector<std::string> meshed_bodies(const Scene& scene, bool imported) {

@@ -1,4 +1,7 @@
 #pragma once
+#include <functional>
+
+#include "estimate_parts.h"
 #include "floe/assess/budget.h"
 #include "probe_history.h"
 
@@ -20,13 +23,38 @@ std::string first_line(const std::string& text);
 
 /// Why a simulation was ended: it took more than `limit` [s].
 std::string too_long(double limit);
-inline constexpr PetscInt look_every = 32;  ///< steps between looks at the time
 
-/// The motion itself, in steps `times` as long, until `end`. Collective where the system is.
-Simulated again(const FinishedMotion& motion, const ProbeSeries& own, double times, double end);
+/// Builds another model of the scene, up to 2000 elements on every rank for itself, as small ones are faster.
+/// @throws  a fault of any rank, on all. Collective.
+Model built(const FinishedMotion& motion, const Scene& scene, Formulation formulation);
 
-/// Where another model of the scene is built: up to 2000 elements by every rank for itself, as small ones are faster.
-MPI_Comm comm_of_others(const FinishedMotion& motion);
+/// Whether a simulation is to end: called with processor time [s], the same on all ranks, after each of the first 50
+/// steps and then every 32 steps.
+using Enough = std::function<bool(const solve::Instant& instant, double spent)>;
+inline constexpr PetscInt looked_at = 50, look_every = 32;
+
+/// The probes of a model that built() made, or of the motion's own. Where every rank has its own copy, one that fails
+/// stops all of them when they look at the time next: they have as many values, and the reason
+/// (ProbeHistory::stopped) is that of the first one that failed. Collective.
+ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
+                       const solve::Integration& how, const std::vector<double>& times, const Enough& enough = {});
+
+/// A share of the motion: what simulates less than that is no estimate.
+inline constexpr double least_share = 0.2;
+
+/// Probes of a motion that a part is compared with; one that stopped early says so in the notes.
+/// @param what  was simulated, for the note
+/// @throws RunError  it stopped before a fifth of the motion
+Simulated compared(const FinishedMotion& motion, std::vector<ProbeColumn> columns, ProbeHistory history,
+                   const std::string& what, ErrorPart& part);
+
+/// The motion itself, in steps `times` as long, until `end`. @throws RunError  as compared(). Collective.
+Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double times, double end,
+                ErrorPart& part);
+
+/// Runs `work`, which fills the part in: a fault of any rank, also of models that every rank has for itself, leaves the
+/// part out on all of them, with the reason. @return whether there was none. Collective.
+bool fill_in(const FinishedMotion& motion, ErrorPart& part, const std::function<void()>& work);
 
 /// Names of bodies with a mesh, generated or from a file.
 std::vector<std::string> meshed_bodies(const Scene& scene, bool imported);

@@ -17,8 +17,10 @@ namespace floe::assess {
 class Allowance {
  public:
   Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(now()), allowed_(of_first(seconds)) {}
-  double spent() const { return of_first(now() - begin_); }
-  double left() const { return std::max(0.0, allowed_ - spent()); }
+  double spent() const { return of_first(spent_here()); }
+  double spent_here() const { return now() - begin_; }  ///< as this rank sees it
+  double left() const { return left_after(spent()); }
+  double left_after(double spent) const { return std::max(0.0, allowed_ - spent); }
   bool half_left() const { return left() > 0.5 * allowed_; }
   double of_first(double value) const {
     MPI_Bcast(&value, 1, MPI_DOUBLE, 0, comm_);

@@ -4,15 +4,12 @@
 #include <algorithm>
 
 #include "error_part.h"
-#include "estimate_parts.h"
-#include "floe/error.h"
 
 namespace floe::assess {
 
 namespace {
 
-constexpr double power = 4;          // 2^2: errors of order 2 in the elements' length
-constexpr double least_share = 0.2;  // of the motion
+constexpr double power = 4;  // 2^2: errors of order 2 in the elements' length
 
 std::string why_none(const Scene& scene) {
   if (!meshed_bodies(scene, false).empty()) return "";
@@ -40,7 +37,7 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowa
     return;
   }
   if (finer) scale_meshes(other, 2);
-  const Model model = build(other, motion.model.formulation, comm_of_others(motion));
+  const Model model = built(motion, other, motion.model.formulation);
   int step = 1;
   const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
   if (!motion.how.tolerance)
@@ -51,9 +48,8 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowa
   how.step *= step, how.end = end;
   part.by = finer ? "elements half as long" : "elements twice as long";
   if (step > 1) part.by += fmt::format(", steps {} times as long", step);
-  const ProbeHistory history = probe_history(other, model, how, own.t, [&](const solve::Instant& instant) {
-    return instant.step % look_every == 0 && time.spent() > 2 * allowed;
-  });
+  const ProbeHistory history = simulated(motion, time, other, model, how, own.t,
+                                         [&](const solve::Instant&, double spent) { return spent > 2 * allowed; });
   if (history.enough || !history.stopped.empty()) {
     const std::string why = part.by + ": " + (history.enough ? too_long(2 * allowed) : first_line(history.stopped));
     if (history.reached < least_share * motion.how.end) {
@@ -63,7 +59,7 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowa
     part.notes.push_back(why);
   }
   set_errors(own, {probe_columns(model), history.values},
-             step == 1 ? Simulated{own.columns, own.values} : again(motion, own, step, history.reached),
+             step == 1 ? Simulated{own.columns, own.values} : again(motion, own, time, step, history.reached, part),
              finer ? power / (power - 1) : -1 / (power - 1), {}, part);
   if (part.t.empty()) part.none = "there are no results at the instants stored";
 }
@@ -79,11 +75,7 @@ ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& o
   if (const std::vector<std::string> imported = meshed_bodies(motion.scene, true); !imported.empty())
     part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));
   const Allowance time(motion.comm, allowed);
-  try {
-    estimate(motion, own, time, allowed, part);
-  } catch (const InputError& fault) {  // on all ranks
-    part.none = first_line(fault.what());
-  }
+  fill_in(motion, part, [&] { estimate(motion, own, time, allowed, part); });
   part.seconds = time.spent();
   return part;
 }

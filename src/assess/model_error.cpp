@@ -4,16 +4,13 @@
 #include <optional>
 
 #include "error_part.h"
-#include "estimate_parts.h"
 #include "floe/error.h"
 
 namespace floe::assess {
 
 namespace {
 
-constexpr double least_share = 0.2;  // of the motion
-constexpr PetscInt slow_steps = 5;   // at the start, which take longer
-constexpr PetscInt decided = 50;     // steps show how long one takes
+constexpr PetscInt slow_steps = 5;  // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
 struct Thinning {
@@ -27,10 +24,25 @@ std::string words(const Thinning& one) {
 }
 
 /// Deflections in space are from the floating frame, which corotational bodies there do not have.
+bool only_in_frames(const Scene& scene, const Probe& probe) {
+  return scene.dimension == 3 && probe.quantity == Probe::Quantity::deflection;
+}
+
+/// The event that watches such a probe, and why there is no estimate then; empty: none does.
+std::string watched_deflection(const Scene& scene) {
+  for (const Event& event : scene.events)
+    for (const Probe& probe : scene.probes)
+      if (only_in_frames(scene, probe) && event.probe.substr(0, event.probe.rfind('.')) == probe.name)
+        return fmt::format(
+            "event {} watches probe {}, a deflection from the floating frame, which formulation cfr does not have in "
+            "space; watch a displacement relative to a place",
+            event.name, probe.name);
+  return "";
+}
+
 Scene comparable(Scene scene, std::vector<std::string>& notes) {
-  if (scene.dimension == 2) return scene;
   std::erase_if(scene.probes, [&](const Probe& probe) {
-    if (probe.quantity != Probe::Quantity::deflection) return false;
+    if (!only_in_frames(scene, probe)) return false;
     notes.push_back(fmt::format(
         "probe {}: formulation cfr has no floating frame in space to measure a deflection from; measure a displacement "
         "relative to a place",
@@ -60,12 +72,12 @@ class ModelError {
       return;
     }
     Thinning used;
-    std::optional<Exact> exact = simulated(used, motion_.how.end, true);
+    std::optional<Exact> exact = corotational(used, motion_.how.end, true);
     if (!exact) {
       const std::optional<Thinning> thinning = affordable();
       if (!thinning) return;
       used = *thinning;
-      exact = simulated(used, until_, false);
+      exact = corotational(used, until_, false);
     }
     part_.by = "formulation cfr, " + words(used);
     if (used.mesh == 1) extrapolate(used, *exact);
@@ -83,29 +95,27 @@ class ModelError {
     double reached = 0;
   };
 
-  /// None: given up because the whole would take too long.
-  std::optional<Exact> simulated(Thinning thinning, double end, bool gives_up) {
+  /// A simulation; none: given up because the whole would take too long.
+  std::optional<Exact> corotational(Thinning thinning, double end, bool gives_up) {
     Scene scene = scene_;
     if (thinning.mesh != 1) scale_meshes(scene, 1 / thinning.mesh);
-    const Model model = build(scene, Formulation::cfr, comm_of_others(motion_));
+    const Model model = built(motion_, scene, Formulation::cfr);
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
     const double left = time_.left(), steps = static_cast<double>(motion_.steps);
+    const double built_after = time_.spent();
     double begin = 0;
     bool late = false;
-    const auto enough = [&](const solve::Instant& instant) {
-      if (!gives_up || instant.step > decided) {
-        late = instant.step % look_every == 0 && time_.spent() > 2 * allowed_;
-        return late;
-      }
-      const double spent = time_.spent();
-      if (instant.step <= slow_steps) begin = spent;
-      if (instant.step <= slow_steps && spent < left) return false;
-      each_ = instant.step <= slow_steps ? spent / static_cast<double>(std::max<PetscInt>(1, instant.step))
-                                         : (spent - begin) / static_cast<double>(instant.step - slow_steps);
-      return (instant.step >= decided || spent > 0.2 * left) && each_ * steps > left;
+    const auto enough = [&](const solve::Instant& instant, double spent) {
+      if (!gives_up || instant.step > looked_at) return late = spent > 2 * allowed_;
+      const double passed = spent - built_after;
+      if (instant.step <= slow_steps) begin = passed;
+      if (instant.step <= slow_steps && passed < left) return false;
+      each_ = instant.step <= slow_steps ? passed / static_cast<double>(std::max<PetscInt>(1, instant.step))
+                                         : (passed - begin) / static_cast<double>(instant.step - slow_steps);
+      return (instant.step >= looked_at || passed > 0.2 * left) && each_ * steps > left;
     };
-    ProbeHistory history = probe_history(scene, model, how, own_.t, enough);
+    ProbeHistory history = simulated(motion_, time_, scene, model, how, own_.t, enough);
     if (history.enough && !late) return std::nullopt;
     if (late || !history.stopped.empty()) {
       const std::string why = "formulation cfr: " + (late ? too_long(2 * allowed_) : first_line(history.stopped));
@@ -121,17 +131,19 @@ class ModelError {
     for (const double mesh : {0.5, 2.0}) {
       const Thinning other{mesh, used.step};
       if (part_.apart || (mesh > 1 && !plates())) continue;
-      if (!mesh_.none.empty() || !can_scale(mesh) || time_.of_first(needs(other)) > time_.left()) continue;
-      try {
-        std::optional<Exact> second = simulated(other, exact.reached, false);
-        if (second->reached < 0.98 * exact.reached) return;
-        if (mesh > 1) std::swap(exact, *second);
-        add_third(second->probes.values, exact.probes.values);
-        exact = std::move(*second);
-      } catch (const std::runtime_error& fault) {  // on all ranks; the first one stands
-        part_.notes.push_back(words(other) + ": " + first_line(fault.what()));
+      if (mesh_.errors.size() < exact.probes.values.size() || !can_scale(mesh)) continue;  // e_mesh is subtracted
+      if (time_.of_first(needs(other)) > time_.left()) continue;
+      std::optional<Exact> second;
+      const std::string why =
+          petsc::failed_together(motion_.comm, [&] { second = corotational(other, exact.reached, false); });
+      if (!why.empty()) {  // the first one stands
+        part_.notes.push_back(words(other) + ": " + first_line(why));
         return;
       }
+      if (second->reached < 0.98 * exact.reached) return;
+      if (mesh > 1) std::swap(exact, *second);
+      add_third(second->probes.values, exact.probes.values);
+      exact = std::move(*second);
       part_.apart = true;
       part_.by += " and " + words(other);
     }
@@ -155,15 +167,16 @@ class ModelError {
   }
 
   /// The motion itself with the same mesh and steps.
-  Simulated own_motion(Thinning thinning, double end) const {
+  Simulated own_motion(Thinning thinning, double end) {
     if (thinning.mesh == 1 && thinning.step == 1) return {own_.columns, own_.values};
-    if (thinning.mesh == 1) return again(motion_, own_, thinning.step, end);
+    if (thinning.mesh == 1) return again(motion_, own_, time_, thinning.step, end, part_);
     Scene scene = motion_.scene;
     scale_meshes(scene, 1 / thinning.mesh);
-    const Model model = build(scene, motion_.model.formulation, comm_of_others(motion_));
+    const Model model = built(motion_, scene, motion_.model.formulation);
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
-    return {own_.columns, probe_history(scene, model, how, own_.t).values};
+    return compared(motion_, own_.columns, simulated(motion_, time_, scene, model, how, own_.t),
+                    "the motion on " + words(thinning), part_);
   }
 
   bool can_scale(double mesh) const {
@@ -229,13 +242,10 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
   else if (own.t.empty())
     part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
+  if (part.none.empty()) part.none = watched_deflection(motion.scene);
   if (!part.none.empty()) return part;
   ModelError error(motion, own, reduction, mesh, allowed, part);
-  try {
-    error.estimate();
-  } catch (const InputError& fault) {  // on all ranks
-    part.none = first_line(fault.what());
-  }
+  fill_in(motion, part, [&] { error.estimate(); });
   part.seconds = error.spent();
   return part;
 }

@@ -48,18 +48,19 @@ struct FinishedMotion {
 ///   e_model = (y_cfr - y) - e_reduction - e_mesh      at every instant, of every probe column
 ///
 /// y_cfr is extrapolated (order 2) from the same mesh and that of elements half as long, or twice as long of plates.
-/// Where the time is too short for that, it is of the same mesh, e_mesh is not subtracted, and e_model contains the
-/// difference of the meshes' errors in both models (ErrorPart::apart). Where it is shorter, both models take steps two
-/// or four times as long; then lines have elements two or four times as long in both; then only the first part is
-/// simulated, at least a fifth.
+/// Where the time is too short for that, or e_mesh is known of a shorter time, it is of the same mesh, e_mesh is not
+/// subtracted, and e_model contains the difference of the meshes' errors in both models (ErrorPart::apart). Where it is
+/// shorter, both models take steps two or four times as long; then lines have elements two or four times as long in
+/// both; then only the first part is simulated, at least a fifth.
 ///
 /// @param own        the probes of the motion
 /// @param reduction  error of the reduction at the instants of `own`; without one, e_model contains it
 /// @param mesh       error of the mesh at the instants of `own`
 /// @param allowed    processor time that it may take, about [s]
-/// Not estimated: where formulation cfr does not support the scene (the reason is given), and deflections in space.
-/// @throws RunError  on every rank alike. Collective on the communicator of the offline stage; up to 2000 elements
-/// every rank simulates its own copy.
+/// Not estimated: where formulation cfr does not support the scene (the reason is given), deflections in space, and
+/// scenes with events that watch these.
+/// A fault of any rank leaves the part out on all ranks, with the reason. Collective on the communicator of the offline
+/// stage; up to 2000 elements every rank simulates its own copy.
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
                                const ErrorPart& mesh, double allowed);
 
@@ -70,7 +71,7 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
 ///
 /// Errors of higher order are overestimated by a third at most by the first, and by the power of two of the difference
 /// of orders by the second. Not estimated: imported meshes.
-/// @throws, collective  as estimate_model_error
+/// Faults, collective: as estimate_model_error.
 ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& own, double allowed);
 
 /// The error of the answer, of each probe: the sum of the parts at every instant, root mean square over that of the

@@ -25,9 +25,9 @@ struct StepError {
   double deformation = 0;                     ///< as Estimate::deformation
   bool halved = false;                        ///< by half the step, else by twice
   double until = 0;                           ///< [s], of what was moved again
-  double seconds = 0;
-  std::vector<double> t;                    ///< instants [s]
-  std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, exact in time less this one
+  double seconds = 0;                         ///< processor time
+  std::vector<double> t;                      ///< instants [s]
+  std::vector<std::vector<double>> errors;    ///< of each: the error of each probe column, exact in time less this one
 };
 
 /// @param model     reduced; its vectors end where the motion with the other step ends

@@ -2,6 +2,7 @@
 
 #include "estimated.h"
 #include "floe/assess/budget.h"
+#include "floe/petsc/rank.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -42,6 +43,33 @@ Budget budget_of(const std::string& text, double allowed) {
   all.total = assess::total_error(own, parts);
   return all;
 }
+
+/// A reduced motion, for parts of its error.
+struct Reduced {
+  explicit Reduced(const std::string& text)
+      : scene(scene::parse_scene(text, "scene")),
+        model(assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true)),
+        how{scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}},
+        start(assess::start_of(model)),
+        kept(model) {
+    report = solve::simulate(*model.system, how, model.U, model.V, [&](const solve::Instant& at) { kept.keep(at); });
+    estimate = assess::estimate_error(model, kept, 100);
+    own = assess::probe_series(model, kept, estimate);
+  }
+  /// Of which other models are those of another scene.
+  assess::FinishedMotion motion(const scene::Scene& other) const {
+    return {other, model, start, how, report.steps, 0.1, 0.1, PETSC_COMM_WORLD};
+  }
+
+  scene::Scene scene;
+  assembly::Model model;
+  solve::Integration how;
+  assess::MotionStart start;
+  assess::KeptMotion kept;
+  solve::IntegrationReport report;
+  assess::Estimate estimate;
+  assess::ProbeSeries own;
+};
 
 /// Corotational elements, on every rank by itself: small systems on several ranks are slow.
 History exact_motion(const std::string& text) {
@@ -146,6 +174,53 @@ TEST_CASE("error budget: parts of a beginning are added by size") {
   CHECK(assess::total_error(own, {&all, &opposite, &beginning}).at(0) == Approx(.3));
   opposite.probes = {.1};
   CHECK(assess::total_error(own, {&all}, {&opposite}).at(0) == Approx(std::hypot(.3, .1)));
+}
+
+// Deflections in space are not compared; an event that watches one is the reason, not a column that is missing.
+TEST_CASE("error budget: events that watch a deflection in space") {
+  const std::string line = "probes: {tip: {at: plate.p3, quantity: deflection}}";
+  std::string more = plate("deflection");
+  more.replace(more.find(line), line.size(),
+               "probes: {tip: {at: plate.p3, quantity: deflection}, corner: {at: plate.p3}}");
+  more += "events: {far: {stop: true, probe: tip.z, crosses: 1}}\n";
+  CHECK_THAT(budget_of(more, 100).model.none, Catch::StartsWith("event far watches probe tip"));
+}
+
+TEST_CASE("error budget: the model contains the mesh where the mesh error covers less") {
+  const Reduced one(fill(cantilever, {{"elements", "8"}, {"step", "4e-3"}}));
+  assess::ErrorPart mesh = assess::estimate_mesh_error(one.motion(one.scene), one.own, 100);
+  const auto model = [&] {
+    return assess::estimate_model_error(one.motion(one.scene), one.own, one.estimate, mesh, 100);
+  };
+  CHECK(model().apart);
+  mesh.errors.resize(mesh.errors.size() / 2);
+  CHECK_FALSE(model().apart);
+}
+
+// Every rank has its own copy of small models; what fails on one of them must not leave the others waiting.
+TEST_CASE("error budget: a fault of one rank is that of all ranks") {
+  const std::string good = fill(cantilever, {{"elements", "8"}, {"step", "4e-3"}});
+  std::string stops = good, refused = good;
+  stops.replace(stops.find("2500"), 4, "(t > 0.9 ? 1e14 : 2500)");
+  refused.replace(refused.find("I: 585"), 6, "I: 585, GA: 1e5");
+  const Reduced one(good);
+  int size = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &size);
+  const auto on_last = [&](const std::string& text) {
+    return scene::parse_scene(petsc::rank_of(PETSC_COMM_WORLD) == size - 1 ? text : good, "scene");
+  };
+  const scene::Scene stopping = on_last(stops), refusing = on_last(refused);
+  const assess::ErrorPart mesh = assess::estimate_mesh_error(one.motion(stopping), one.own, 100);
+  CHECK(mesh.none == "");
+  REQUIRE(mesh.notes.size() == 1);
+  CHECK_THAT(mesh.notes[0], Catch::Contains("elements half as long: the simulation stopped at t = 0.9"));
+  CHECK(mesh.until > 0.8);
+  CHECK(mesh.until < 0.91);
+  const assess::ErrorPart model = assess::estimate_model_error(one.motion(stopping), one.own, one.estimate, mesh, 100);
+  CHECK(model.none == "");
+  CHECK(model.until == mesh.until);
+  CHECK_THAT(assess::estimate_model_error(one.motion(refusing), one.own, one.estimate, mesh, 100).none,
+             Catch::Contains("GA"));
 }
 
 TEST_CASE("scaled meshes: generated ones, as whole numbers of elements") {
