@@ -47,6 +47,7 @@ class PlanarAssembly {
   void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
                  std::vector<ModelStop>& stops);
   void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
+  Eigen::Vector2d in_mesh_axes(const Anchor& place) const;  // undeformed
   void add_probes(Model& model, const Eigen::VectorXd& q);
   void set_start(Model& model);
   void set_full_order_start(int body, Vec U, Vec V);

@@ -40,15 +40,14 @@ Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Ei
   return {pose.y, pose.yd};
 }
 
-/// Displacement of a corotational body's node from the frame that its conditions define: through nodes a and b
-/// (pinned), or along the section at a (clamped).
-Eigen::Vector2d corotational_deflection(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+/// Displacement of a place from the frame that nodes of the body define: through nodes a and b (pinned), or along the
+/// section at a (clamped).
+Eigen::Vector2d deflection_from_nodes(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                         const Eigen::Vector3d& y) {
   const Eigen::Vector3d a = placed(probe.frame[0], q, v).y, b = placed(probe.frame[1], q, v).y;
   const bool pinned = probe.frame[0].x != probe.frame[1].x;
   const double angle = pinned ? std::atan2(b.y() - a.y(), b.x() - a.x()) : a[2];
-  const Eigen::Vector2d from = probe.frame[0].x, rest = turn(-probe.frame[0].angle0) * (probe.marker.x - from);
-  return turn(-angle) * (y - a).head<2>() - rest;
+  return turn(-angle) * (y - a).head<2>() - probe.at_rest;
 }
 
 dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen::VectorXd& q,
@@ -114,7 +113,7 @@ void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::
       break;
     case Probe::Quantity::deflection: {
       if (!probe.frame.empty()) {
-        const Eigen::Vector2d u = corotational_deflection(probe, q, v, at.y);
+        const Eigen::Vector2d u = deflection_from_nodes(probe, q, v, at.y);
         values.insert(values.end(), {u.x(), u.y()});
         break;
       }

@@ -219,6 +219,8 @@ Plan prepare(const Scene& scene, MPI_Comm comm) {
     places[0] = find(plan.bodies, probe.at);
     if (probe.relative_to) places[1] = find(plan.bodies, *probe.relative_to);
     plan.probes.push_back(places);
+    std::vector<Anchor>& chord = plan.chords.emplace_back();
+    for (const Place& place : probe.chord) chord.push_back(find(plan.bodies, place));
   }
   return plan;
 }

@@ -53,6 +53,18 @@ void redirect(const Scene& scene, Place& place) {
   }
 }
 
+/// In the plane, a deflection in a body of several frames: from the frame that the body would have as a whole.
+void refer_to_whole(const Scene& scene, Probe& probe) {
+  if (scene.dimension == 3 || probe.quantity != Probe::Quantity::deflection) return;
+  for (const Body& body : scene.bodies) {
+    if (body.name != probe.at.body || body.frames == 1) continue;
+    if (body.frame.kind == FrameSpec::Kind::pinned) probe.chord = {body.frame.from, body.frame.to};
+    if (body.frame.kind != FrameSpec::Kind::clamped) continue;
+    probe.quantity = Probe::Quantity::displacement;
+    probe.relative_to = body.frame.at;
+  }
+}
+
 }  // namespace
 
 Scene split_frames(const Scene& scene) {
@@ -61,6 +73,8 @@ Scene split_frames(const Scene& scene) {
   for (Load& load : split.loads)
     if (!load.spread()) redirect(scene, load.at);
   for (Probe& probe : split.probes) {
+    refer_to_whole(scene, probe);
+    for (Place& place : probe.chord) redirect(scene, place);
     redirect(scene, probe.at);
     if (probe.relative_to) redirect(scene, *probe.relative_to);
   }

@@ -70,9 +70,10 @@ struct ModelProbe {
   Probe::Quantity quantity;
   dynamics::Marker marker;
   std::optional<dynamics::Marker> relative_to;
-  std::vector<dynamics::Marker> frame;  ///< deflection of corotational bodies: the nodes that define the frame
+  std::vector<dynamics::Marker> frame;  ///< deflection of corotational and split bodies: nodes that define the frame
   Eigen::Vector3d start, start_relative;
-  std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
+  std::optional<SpatialProbe> spatial = {};           ///< in space; the rest stands for the plane
+  Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();  ///< of the place in the axes of this frame, from its origin
 };
 
 /// One side of a joint's limits.

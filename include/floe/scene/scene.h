@@ -248,6 +248,7 @@ struct Probe {
   Place at;
   enum class Quantity { position, displacement, deflection, velocity, rotation } quantity = Quantity::displacement;
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
+  std::vector<Place> chord;          ///< of a split body, deflection: from the line through these two places
   Where where;
 };
 
