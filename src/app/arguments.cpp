@@ -113,7 +113,7 @@ void check_run(const Arguments& given) {
 
 /// With the model that an accuracy asks for.
 void run_by_accuracy(const Arguments& given, const scene::Scene& scene) {
-  const double accuracy = given.accuracy ? scene::accuracy_of(*given.accuracy) : *scene.accuracy;
+  const scene::Accuracy accuracy = given.accuracy ? scene::accuracy_of(*given.accuracy) : *scene.accuracy;
   if (given.no_estimate)
     throw InputError("--no-estimate: cannot be combined with an accuracy, which needs the estimate");
   if (given.checkpoint)
@@ -149,9 +149,11 @@ void add_run(CLI::App& app, Arguments& given, Work& work) {
                       "the scene, a YAML file (floe schema prints its grammar); with --restart that of the run");
   const CLI::Option* formulation = add_formulation(command, given, "cfr | nlffr | lffr | vm | vm+md");
   add_no_estimate(command, given);
-  command->add_option("--accuracy", given.accuracy,
-                      "select basis vectors, elastic force and step for this error of the probes, 1% or 0.01 "
-                      "(default: the scene's accuracy, if given)");
+  command->add_option(
+      "--accuracy", given.accuracy,
+      "select frames, elements, strains, basis vectors, elastic force and step for this total error of "
+      "the probes, 1% or 0.01; reduction:1% selects basis vectors, elastic force and step for the error "
+      "relative to the full-order model of the same mesh (default: the scene's accuracy, if given)");
   command->add_option("--write-scene", given.explicit_scene,
                       "with an accuracy: write the scene with the selected model to this file");
   add_folder(command, given);

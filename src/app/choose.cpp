@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <map>
 
@@ -29,8 +30,14 @@ struct Trial {
 /// Tries models of a pool, each once.
 class Search {
  public:
-  Search(const scene::Scene& scene, double accuracy, MPI_Comm comm)
-      : scene_(scene), accuracy_(accuracy), comm_(comm), pool_(std::make_unique<assess::Pool>(scene, comm)) {}
+  Search(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference)
+      : scene_(scene),
+        accuracy_(accuracy),
+        comm_(comm),
+        reference_(reference),
+        begin_(std::clock()),
+        pool_(std::make_unique<assess::Pool>(scene, comm)),
+        building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC) {}
 
   Chosen result() {
     enrich();
@@ -53,7 +60,7 @@ class Search {
   RunResult moved(const Selection& selection, double step, bool estimate, bool keep_states) {
     RunPlan plan;
     plan.quiet = true, plan.check_range = false;
-    plan.estimate = estimate, plan.keep_states = keep_states;
+    plan.estimate = estimate, plan.budget = false, plan.keep_states = keep_states;
     plan.estimate_seconds = 1e9;
     assembly::Model model = pool_->model(selection, estimate);
     ++trials_;
@@ -163,7 +170,12 @@ class Search {
       coarse = truth_, before = between;
     }
     finest_ = step;
-    richest_ = space_ + time_;
+    richest_ = reference_.series ? reference_.error : space_ + time_ + reference_.error;
+    if (!reference_.series) return;
+    known_.clear();
+    truth_ = *reference_.series;
+    least_ = tried(pool_->whole(), finest_).error;
+    decide("richest model", "against cfr", "error " + math::percent(least_));
   }
 
   Selection first_of(const std::vector<assess::Participation>& order, std::size_t count) const {
@@ -195,6 +207,8 @@ class Search {
 
   /// What may be lost beside the richest model's own error.
   double allowance() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
+  /// What columns may lose before steps are longer: half of what the richest model leaves.
+  double first_allowance() const { return std::min(least_, allowance()) + 0.5 * std::max(0.0, allowance() - least_); }
 
   /// Of the motion, the least of five where one is too short to tell.
   double seconds_of(const Selection& selection, double step) {
@@ -210,7 +224,7 @@ class Search {
   void choose_columns_and_step() {
     if (!pool_->columns().empty()) order_ = pool_->participation(pool_->model(pool_->whole()), states_);
     step_ = finest_;
-    count_ = fewest(order_, order_.size(), step_, allowance() / 2);
+    count_ = fewest(order_, order_.size(), step_, first_allowance());
     for (double before = 0; step_ != before;) {
       before = step_;
       while (longer_step() && tried(first_of(order_, count_), 2 * step_).error <= allowance()) step_ *= 2;
@@ -294,25 +308,37 @@ class Search {
     const double of_choice = tried(selection_, step_).error;
     chosen.supported = richest_ + of_choice;
     decide("estimated error", math::percent(chosen.supported),
-           fmt::format("{} of the selected model, {} of the richest model, {} of its step", math::percent(of_choice),
-                       math::percent(space_), math::percent(time_)));
+           reference_.series
+               ? fmt::format("{} of the selected model against formulation cfr, {} of that", math::percent(of_choice),
+                             math::percent(richest_))
+               : fmt::format(
+                     "{} of the selected model, {} of the richest model, {} of its step{}", math::percent(of_choice),
+                     math::percent(space_), math::percent(time_),
+                     reference_.error > 0 ? fmt::format(", {} of its mesh", math::percent(reference_.error)) : ""));
     chosen.decisions = std::move(decisions_);
     chosen.scene = with_step(step_);
-    if (!pool_->has_responses(selection_)) chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+    if (!pool_->has_responses(selection_)) {
+      chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+      if (reference_.total) chosen.scene = scene::parse_scene(chosen.scene.text, scene_.file);
+    }
     chosen.selection = selection_;
     chosen.model = pool_->model(selection_, true);
     chosen.pool = std::move(pool_);
-    chosen.trials = trials_;
+    chosen.trials = trials_, chosen.building = building_;
     return chosen;
   }
 
   const scene::Scene& scene_;
   double accuracy_;
   MPI_Comm comm_;
+  Reference reference_;
+  std::clock_t begin_;
   std::unique_ptr<assess::Pool> pool_;
+  double building_;                   // processor time [s]
   std::vector<solve::State> states_;  // of the richest model
   Series truth_;                      // its motion, in fine steps
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
+  double least_ = 0;  // of the richest model against a reference of another formulation
   std::vector<assess::Participation> order_;
   std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
   std::size_t count_ = 0;
@@ -325,7 +351,11 @@ class Search {
 
 }  // namespace
 
-Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
+Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference) {
+  return Search(scene, accuracy, comm, reference).result();
+}
+
+Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm) {
   const double begin = MPI_Wtime();
   if (scene.probes.empty())
     throw InputError(scene.file + ": accuracy: applies to the probes, and there are none; expected `probes: {...}`");
@@ -334,29 +364,10 @@ Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
                      ": accuracy: no error estimate is possible: events change the joints, or end the simulation at a "
                      "time that depends on the model; expected a scene without events");
   const output::Waiting waiting(comm, "selecting the model");
-  Chosen chosen = Search(scene, accuracy, comm).result();
+  Chosen chosen =
+      accuracy.total ? choose_total(scene, accuracy.share, comm) : choose_within(scene, accuracy.share, comm, {});
   chosen.seconds = MPI_Wtime() - begin;
   return chosen;
-}
-
-nlohmann::ordered_json to_json(const Chosen& chosen) {
-  nlohmann::ordered_json j;
-  j["asked"] = chosen.asked;
-  j["supported"] = chosen.supported;
-  j["of_richest_model"] = chosen.richest;
-  j["within"] = chosen.within();
-  j["trials"] = chosen.trials;
-  j["seconds"] = chosen.seconds;
-  for (const Decision& one : chosen.decisions)
-    j["decisions"].push_back({{"what", one.what}, {"choice", one.choice}, {"reason", one.reason}});
-  return j;
-}
-
-output::Table decisions_table(const Chosen& chosen) {
-  output::Table table;
-  table.columns = {{"decision", ""}, {"choice", ""}, {"reason", ""}};
-  for (const Decision& one : chosen.decisions) table.rows.push_back({one.what, one.choice, one.reason});
-  return table;
 }
 
 }  // namespace floe::app

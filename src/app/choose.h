@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "floe/assess/candidate_basis.h"
@@ -19,11 +20,15 @@ struct Chosen {
   assess::Selection selection;
   scene::Scene scene;  ///< with the step that was chosen
   assembly::Model model;
+  bool total = false;                                          ///< chosen for the total error
+  std::vector<std::pair<std::string, std::string>> unbounded;  ///< parts of the total that are not bounded, and why
+  nlohmann::ordered_json before;  ///< total: the estimate of the scene's own model, as in a summary
   double asked = 0;
-  double supported = 0;  ///< estimate of the richest model's error, and how far the chosen one is from that
-  double richest = 0;    ///< of which the richest model's: estimate, and that of its step
+  double supported = 0;  ///< estimate of the reference's error, and how far the chosen model is from that
+  double richest = 0;  ///< of which the reference's: of the richest model (estimate, step, mesh), or of formulation cfr
   bool within() const { return supported <= asked; }
-  int trials = 0;  ///< motions, of reduced models
+  int trials = 0;       ///< motions, of reduced models
+  double building = 0;  ///< processor time of the pool [s]
   double seconds = 0;
   std::vector<Decision> decisions;
 };
@@ -39,7 +44,22 @@ struct Chosen {
 ///
 /// @throws InputError  no probes; nothing to support a choice (no estimate); RunError  the richest model cannot be
 /// moved. Collective; the same on all ranks.
-Chosen choose(const scene::Scene& scene, double accuracy, MPI_Comm comm);
+///
+/// For the total error the reference is formulation cfr on a fine mesh in fine steps (exact_motion.h), and floating
+/// frames, elements and strains are chosen before: the coarsest that leave less than two thirds of the accuracy. Where that
+/// is not to be had, it is the error of reduction, step and mesh, and the rest is named (Chosen::unbounded).
+Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm);
+
+/// What models are measured against.
+struct Reference {
+  bool total = false;
+  const Series* series = nullptr;  ///< null: the richest model of the pool in fine steps
+  double error = 0;                ///< of it; without a series: to be added, of the mesh
+};
+/// The reduced model of a scene as it is discretised. Collective; as choose().
+Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference);
+/// choose() for the total error.
+Chosen choose_total(const scene::Scene& scene, double accuracy, MPI_Comm comm);
 
 nlohmann::ordered_json to_json(const Chosen& chosen);
 output::Table decisions_table(const Chosen& chosen);

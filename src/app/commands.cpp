@@ -189,19 +189,29 @@ void check_target(const std::filesystem::path& target, const std::filesystem::pa
   if (!overwrite) throw InputError(name + ": exists; expected another name, or --force");
 }
 
-void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const output::ResultFolder& folder,
-                const std::optional<std::string>& explicit_scene, bool overwrite) {
+void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm,
+                const output::ResultFolder& folder, const std::optional<std::string>& explicit_scene, bool overwrite) {
   std::vector<std::string> written;
+  RunPlan plan;
   const RunResult result = run_into(folder, [&] {
     petsc::agree(comm, [&] {
       if (explicit_scene) check_target(*explicit_scene, scene.file, overwrite);
     });
     Chosen chosen = choose(scene, accuracy, comm);
-    if (petsc::first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
-    RunPlan plan;
+    if (!chosen.total && petsc::first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
     plan.choice = to_json(chosen);
     plan.measured = true;
+    plan.estimate = chosen.total;
+    plan.budget = !chosen.pool->has_responses(chosen.selection);  // which no scene on another mesh can name
+    plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
+    if (chosen.total) {
+      chosen.decisions.insert(chosen.decisions.begin(), {"error before", "", budget_line(chosen.before)});
+      chosen.decisions.push_back({"error after", "", budget_line(moved.summary["estimate"])});
+      if (petsc::first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
+    }
+    for (const auto& [part, why] : chosen.unbounded)
+      moved.warnings.push_back(fmt::format("accuracy: the {} error is not bounded: {}", part, why));
     if (explicit_scene) {
       try {
         written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
@@ -213,7 +223,7 @@ void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const
     return moved;
   });
   if (!petsc::first_rank(comm)) return;
-  show(scene, scene::Formulation::vm_md, result, folder, {});
+  show(scene, scene::Formulation::vm_md, result, folder, plan);
   if (!written.empty()) fmt::print("Scene: {}\n", fmt::join(written, ", "));
 }
 

@@ -27,7 +27,7 @@ void run_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm
              const output::ResultFolder& folder, const RunPlan& plan = {});
 /// `floe run` of a scene with an accuracy: chooses its reduced model, says why, and moves it. Collective.
 /// @param explicit_scene  a file for the scene as it was chosen
-void run_chosen(const scene::Scene& scene, double accuracy, MPI_Comm comm, const output::ResultFolder& folder,
-                const std::optional<std::string>& explicit_scene, bool overwrite);
+void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm,
+                const output::ResultFolder& folder, const std::optional<std::string>& explicit_scene, bool overwrite);
 
 }  // namespace floe::app

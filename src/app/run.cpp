@@ -133,7 +133,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
   const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
   std::optional<assess::MotionStart> start;
-  if (estimates && !plan.quiet) start = assess::start_of(model);
+  if (estimates && plan.budget) start = assess::start_of(model);
   const std::optional<solve::MotionState> from =
       plan.from ? std::optional(state_of(*plan.from)) : std::optional<solve::MotionState>();
   if (from) how.from = &*from;

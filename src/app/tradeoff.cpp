@@ -55,12 +55,12 @@ Rung measured(const RunResult& result, const References& references) {
 RunResult result_of(const Candidate& member, MPI_Comm comm) {
   RunPlan plan;
   if (member.accuracy > 0) {
-    Chosen chosen = choose(member.scene, member.accuracy, comm);
+    Chosen chosen = choose(member.scene, {member.accuracy, false}, comm);
     RunResult result = move(chosen.scene, chosen.model, chosen.seconds, comm, std::nullopt, plan);
     result.estimate.none = "", result.estimate.probes.assign(probes(result.series.columns).size(), chosen.supported);
     return result;
   }
-  plan.estimate = scene::is_reduced(member.formulation);
+  plan.estimate = scene::is_reduced(member.formulation), plan.budget = false;
   return run(member.scene, member.formulation, comm, std::nullopt, plan);
 }
 

@@ -128,9 +128,11 @@ def choice(summary):
     chosen = summary.get("accuracy")
     if not chosen:
         return ""
-    words = (f"Selected for an error of at most {100 * chosen['asked']:.3g} %: estimated error {per_cent(chosen['supported'])}, "
+    words = (f"Selected for {'a total error' if chosen.get('of') == 'total' else 'an error of the reduction'} of at most "
+             f"{100 * chosen['asked']:.3g} %: estimated error {per_cent(chosen['supported'])}, "
              f"{'within' if chosen['within'] else 'above'} the limit; {chosen['trials']} simulations of reduced models, "
              f"{duration(chosen['seconds'])}.")
+    words += "".join(f" The {part} error is not bounded: {why}." for part, why in (chosen.get("unbounded") or {}).items())
     return (f"<p>{escaped(words)}</p>"
             + table(["decision", "selected", "measured reason"],
                     [[one["what"], one["choice"], one["reason"]] for one in chosen.get("decisions") or []]))

@@ -78,6 +78,14 @@ bool in_space(Document& document, const YAML::Node& root) {
   return false;
 }
 
+Accuracy read_accuracy(Document& document, Reading& scene) {
+  const Value value = *scene.value("accuracy");
+  if (!value.node.IsMap()) return {read_share(document, value, scene.key("accuracy"))};
+  Reading reading(document, value, "accuracy");
+  const auto reduction = reading.value("reduction");
+  return {reduction ? read_share(document, *reduction, reading.key("reduction")) : NAN, false};
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::string& name) { return parse_scene(text, name, {}); }
@@ -107,8 +115,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.joints = read_named<Joint>(document, reading, "joints", read_joint);
   scene.loads = read_named<Load>(document, reading, "loads", read_load);
   if (const auto motion = reading.value("motion")) scene.motion = read_motion(document, *motion);
-  if (reading.given("accuracy"))
-    scene.accuracy = read_share(document, *reading.value("accuracy"), reading.key("accuracy"));
+  if (reading.given("accuracy")) scene.accuracy = read_accuracy(document, reading);
   if (scene.accuracy && scene.motion.tolerance)
     document.fault(reading.where("accuracy"), "cannot be combined with motion.tolerance: it selects the step",
                    "one of them");

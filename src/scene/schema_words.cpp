@@ -97,6 +97,8 @@ std::string describe(const Key& key, int dimension) {
       return fmt::format("a mapping with the keys of `{}`", key.section);
     case Type::modes:
       return fmt::format("an integer, or a mapping with the keys of `{}`", key.section);
+    case Type::accuracy:
+      return fmt::format("a number, or a percentage (1 %), or a mapping with the keys of `{}`", key.section);
     case Type::frame:
       return fmt::format("pinned, clamped, mean-axis, or a mapping with the keys of `{}`", key.section);
     case Type::named_sections:

@@ -126,11 +126,16 @@ double read_share(Document& document, const Value& value, const Key& key) {
   return NAN;
 }
 
-double accuracy_of(const std::string& text) {
-  const auto share = plain_share(text);
+Accuracy accuracy_of(const std::string& text) {
+  const std::string part = "reduction:";
+  const bool total = !text.starts_with(part);
+  const std::string value = total ? text : text.substr(part.size());
+  const auto first = value.find_first_not_of(' ');
+  const auto share = plain_share(first == std::string::npos ? "" : value.substr(first));
   if (!share || !(*share > 0 && *share < 1))
-    throw InputError(fmt::format("--accuracy: is \"{}\"; expected a fraction, as 0.01, or a percentage, as 1%", text));
-  return *share;
+    throw InputError(
+        fmt::format("--accuracy: is \"{}\"; expected a fraction, as 0.01, a percentage, as 1%, or reduction:1%", text));
+  return {*share, total};
 }
 
 int read_integer(Document& document, const Value& value, const Key& key) {

@@ -8,9 +8,13 @@ def cases(Case, run, case, nothing, kept):
     return [
         *(Case(f"accuracy of {word}", ["run", "scene.yaml", "-o", "out", "--accuracy", word], 2,
                (f'--accuracy: is "{word}"; expected a fraction, as 0.01',), lines=1, check=nothing)
-          for word in ("0", "1", "-1%", "nan", "abc", "200 %", "1%%", "1 % %")),
+          for word in ("0", "1", "-1%", "nan", "abc", "200 %", "1%%", "1 % %", "reduction:", "reduction:0", "mesh:1%")),
         *case("accuracy of nothing", codes=2, lines=1, check=nothing, changes={"accuracy": "0 %"},
               says=('accuracy: is "0 %"', "0 < value < 1")),
+        *case("accuracy of an unknown part", codes=2, lines=2, check=nothing, changes={"accuracy": {"reductoin": "1 %"}},
+              says=("reductoin: unknown key", "accuracy.reduction: is missing")),
+        *case("accuracy of no reduction", codes=2, lines=1, check=nothing, changes={"accuracy": {"reduction": 0}},
+              says=("accuracy.reduction: is 0", "0 < value < 1")),
         *case("accuracy and tolerance", codes=2, lines=1, check=nothing,
               changes={"accuracy": 0.01, "motion.tolerance": 1e-4}, says=("cannot be combined with motion.tolerance",)),
         *case("accuracy without probes", codes=2, lines=1, check=nothing, changes={"accuracy": 0.01, "probes": None},

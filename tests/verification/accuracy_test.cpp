@@ -55,7 +55,7 @@ TEST_CASE("accuracy: the selected model satisfies the required error, and report
     std::size_t columns = 0;
     double motion = 0;
     for (const double accuracy : {0.05, 0.01, 0.002}) {
-      app::Chosen chosen = app::choose(scene, accuracy, PETSC_COMM_WORLD);
+      app::Chosen chosen = app::choose(scene, {accuracy, false}, PETSC_COMM_WORLD);
       const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
       const double error = app::worst_error(result.series, full);
       INFO(scene.bodies[0].name << ", asked " << accuracy << ", supported " << chosen.supported << ", true " << error
@@ -88,7 +88,7 @@ motion: {end: 0.1, step: 1e-3}
 probes: {middle: {at: rod.middle, quantity: deflection})yaml" +
                                               probes + "}\n",
                                           "scene"),
-                       0.01, PETSC_COMM_WORLD);
+                       {0.01, false}, PETSC_COMM_WORLD);
   };
   const app::Chosen one = chosen(""), two = chosen(", turn: {at: rod.middle, quantity: rotation}");
   CHECK(two.selection.count() == one.selection.count());
@@ -99,7 +99,7 @@ probes: {middle: {at: rod.middle, quantity: deflection})yaml" +
 TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
   for (const auto& [text, accuracy] : {std::pair{pendulum, 0.01}, std::pair{plate, 0.05}}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");
-    app::Chosen chosen = app::choose(scene, accuracy, PETSC_COMM_WORLD);
+    app::Chosen chosen = app::choose(scene, {accuracy, false}, PETSC_COMM_WORLD);
     REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
@@ -114,7 +114,7 @@ TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
 
 TEST_CASE("accuracy: residual responses are written to the file of a reduced body") {
   const scene::Scene scene = scene::parse_scene(plate, "scene");
-  app::Chosen chosen = app::choose(scene, 0.01, PETSC_COMM_WORLD);
+  app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
   REQUIRE(chosen.pool->has_responses(chosen.selection));
   const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
   const Scratch folder;
@@ -141,7 +141,7 @@ motion: {end: 0.5, step: 1e-3}
 probes: {tip: {at: arm.end}}
 )yaml";
   const auto chosen = [&](const std::string& stiffness) {
-    return app::choose(scene::parse_scene(fill(arm, {{"EI", stiffness}}), "scene"), 0.01, PETSC_COMM_WORLD);
+    return app::choose(scene::parse_scene(fill(arm, {{"EI", stiffness}}), "scene"), {0.01, false}, PETSC_COMM_WORLD);
   };
   CHECK(chosen("1e5").selection.count() == 0);
   const app::Chosen soft = chosen("1");
@@ -163,7 +163,7 @@ probes: {tip: {at: beam.end}}
 )yaml";
   for (const Words& words : {Words{{"frames", "2"}, {"modes", "4"}}, Words{{"frames", "1"}, {"modes", "1"}}}) {
     const scene::Scene scene = scene::parse_scene(fill(text, words), "scene");
-    app::Chosen chosen = app::choose(scene, 0.002, PETSC_COMM_WORLD);
+    app::Chosen chosen = app::choose(scene, {0.002, false}, PETSC_COMM_WORLD);
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     const double error = app::worst_error(result.series, truth(scene));
     INFO(words[0].second << " frames: supported " << chosen.supported << ", true " << error);
@@ -200,7 +200,7 @@ motion: {end: 0.2, step: 1e-3}
 probes: {tip: {at: rod.end}}
 )yaml";
   for (const auto& [text, accuracy] : {std::pair{arm, 0.01}, std::pair{rod, 0.02}}) {
-    app::Chosen chosen = app::choose(scene::parse_scene(text, "scene"), accuracy, PETSC_COMM_WORLD);
+    app::Chosen chosen = app::choose(scene::parse_scene(text, "scene"), {accuracy, false}, PETSC_COMM_WORLD);
     REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
@@ -247,7 +247,7 @@ probes: {tip: {at: rod.end}}
             {"nu", ", nu: 0.3"}};
   for (const Words& words : {plane, space}) {
     const scene::Scene scene = scene::parse_scene(fill(stretched, words), "scene");
-    app::Chosen chosen = app::choose(scene, 0.02, PETSC_COMM_WORLD);
+    app::Chosen chosen = app::choose(scene, {0.02, false}, PETSC_COMM_WORLD);
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     CHECK(chosen.within());
     CHECK(app::worst_error(result.series, truth(scene)) <= 0.02);
@@ -256,7 +256,8 @@ probes: {tip: {at: rod.end}}
 
 TEST_CASE("accuracy: refuses scenes without an estimate") {
   const auto refused = [](const std::string& text, const std::string& phrase) {
-    CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), 0.01, PETSC_COMM_WORLD), Catch::Contains(phrase));
+    CHECK_THROWS_WITH(app::choose(scene::parse_scene(text, "scene"), {0.01, false}, PETSC_COMM_WORLD),
+                      Catch::Contains(phrase));
   };
   refused(pendulum.substr(0, pendulum.find("probes")), "there are none");
   refused(pendulum + "events: {off: {unlock: hinge, at: 0.1}}\n", "events change the joints");
@@ -275,7 +276,7 @@ motion: {end: 1, step: 1e-2}
 probes: {tip: {at: beam.end}}
 )yaml",
                                                 "scene");
-  app::Chosen chosen = app::choose(scene, 0.01, PETSC_COMM_WORLD);
+  app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
   CHECK(chosen.within());
   app::RunPlan plan;
   plan.quiet = true, plan.measured = true;

@@ -264,6 +264,12 @@ struct Event {
   Where where;
 };
 
+/// A required maximum of the relative errors of the probes, for which floe chooses the model.
+struct Accuracy {
+  double share = 0;
+  bool total = true;  ///< of the total error; false: of reduction and step
+};
+
 /// A scene: plain data, checked, all numbers finite. Nothing is built yet.
 struct Scene {
   std::string file;
@@ -279,7 +285,7 @@ struct Scene {
                                                    0.0};  ///< of t [m/s2]: axes of the world go with the ground
   bool share_frames = true;  ///< in space: bodies that are fixed to a rigid one have its frame
   Motion motion;
-  std::optional<double> accuracy;  ///< maximum relative error of the probes: floe chooses the model
+  std::optional<Accuracy> accuracy;
   std::vector<Probe> probes;
   std::vector<Event> events;
 };
@@ -290,8 +296,8 @@ Scene read_scene(const std::string& path);
 /// The same from text; `name` stands for the file in messages.
 Scene parse_scene(const std::string& text, const std::string& name);
 
-/// A share of one from `0.01` or `1 %`, above 0 and below 1. @throws InputError  anything else
-double accuracy_of(const std::string& text);
+/// From `0.01` or `1 %` (total), `reduction: 1 %`; above 0 and below 1. @throws InputError  anything else
+Accuracy accuracy_of(const std::string& text);
 
 /// The reference of the grammar, printed by `floe schema`: every key with type, unit, default, range, text.
 std::string schema_reference();

@@ -34,6 +34,7 @@ enum class Type {
   parameters,
   section,
   modes,
+  accuracy,
   frame,
   named_sections
 };
@@ -57,8 +58,8 @@ struct Key {
   Range range = {};
   std::vector<std::string> choices = {};  ///< of Type::choice
   std::vector<std::string> kinds = {};    ///< the values of the section's `type` to which the key applies; empty: all
-  std::string section = {};               ///< of Type::section, modes, frame, named_sections: the section that it holds
-  int dimension = 0;                      ///< 2 or 3: only in scenes of the plane, or in space
+  std::string section = {};  ///< of Type::section, modes, accuracy, frame, named_sections: the section that it holds
+  int dimension = 0;         ///< 2 or 3: only in scenes of the plane, or in space
 };
 
 /// The keys that may stand together in one mapping.

@@ -235,3 +235,27 @@ joints:
   CHECK_FALSE(limits.width);
   CHECK_FALSE(scene.joints[0].limits);
 }
+
+TEST_CASE("accuracy: of the total, or of the reduction alone") {
+  const auto read = [](const std::string& accuracy) {
+    return parse_scene("accuracy: " + accuracy + R"yaml(
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+motion: {end: 1, step: 1e-3}
+probes: {tip: {at: rod.end}}
+)yaml",
+                       "scene")
+        .accuracy;
+  };
+  CHECK(read("1 %")->share == Approx(0.01));
+  CHECK(read("1 %")->total);
+  CHECK(read("{reduction: 2 %}")->share == Approx(0.02));
+  CHECK_FALSE(read("{reduction: 2 %}")->total);
+  CHECK_THROWS_WITH(read("{reduce: 2 %}"), Catch::Contains("reduction"));
+  CHECK_THROWS_WITH(read("{reduction: 200 %}"), Catch::Contains("0 < value < 1"));
+  CHECK(accuracy_of("reduction: 1%").share == Approx(0.01));
+  CHECK_FALSE(accuracy_of("reduction:1%").total);
+  CHECK(accuracy_of("0.01").total);
+}

@@ -1,0 +1,292 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+
+#include "choose.h"
+#include "compare_table.h"
+#include "discretisation.h"
+#include "exact_motion.h"
+#include "floe/assess/budget.h"
+#include "floe/math/rounded.h"
+#include "interruption.h"
+#include "refined.h"
+
+namespace floe::app {
+
+namespace {
+
+constexpr double impossible = std::numeric_limits<double>::infinity();
+constexpr double of_discretisation = 2. / 3;  // of the accuracy, for frames, elements and strains
+constexpr double most_seconds = 60;           // of one simulation in formulation cfr
+constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
+
+/// What is chosen before the reduced model: frames, elements, strains.
+class TotalSearch {
+ public:
+  TotalSearch(const scene::Scene& scene, double accuracy, MPI_Comm comm)
+      : scene_(scene), accuracy_(accuracy), comm_(comm), chosen_(discretisation_of(scene)) {}
+
+  Chosen result() {
+    estimate_before();
+    exact_ = exact_motion(scene_, accuracy_, most_seconds, comm_);
+    if (!exact_.none.empty()) return without_exact();
+    decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
+           fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
+    if (!exact_.mesh_refined) note_imported();
+    full_order() ? choose_frames_and_elements() : choose_elements();
+    explain_discretisation();
+    const scene::Scene scene = discretised(scene_, chosen_);
+    return finished(choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error}));
+  }
+
+ private:
+  void decide(std::string what, std::string choice, std::string reason) {
+    decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
+  }
+
+  /// The budget of the scene's own model; without one the choice goes on.
+  void estimate_before() {
+    RunPlan plan;
+    plan.quiet = true, plan.check_range = false, plan.estimate = true;
+    try {
+      before_ = run(scene_, scene::Formulation::vm_md, comm_, std::nullopt, plan).summary["estimate"];
+    } catch (const std::runtime_error& fault) {  // on all ranks
+      if (Interruption::happened(comm_)) throw;
+      const std::string text = fault.what();
+      before_ = {{"none", text.substr(0, text.find('\n'))}};
+    }
+  }
+
+  std::string mesh_words() const {
+    if (!exact_.mesh_refined) return "";
+    return fmt::format("elements 1/{} as long, ", 1 << (exact_.of_mesh.size() - 1));
+  }
+  std::string step_words() const { return fmt::format("1/{} as long, extrapolated", 1 << exact_.halved_steps); }
+
+  void note_imported() {
+    std::vector<std::string> names;
+    for (const scene::Body& body : scene_.bodies)
+      if (!body.rigid && body.mesh.file) names.push_back(body.name);
+    unbounded_.push_back({"mesh", fmt::format("floe does not refine imported meshes (body {}); compare with a mesh of "
+                                              "elements half as long, whose error is a quarter",
+                                              fmt::join(names, ", "))});
+  }
+
+  /// Whether full-order models of all flexible bodies are cheap: lines.
+  bool full_order() const {
+    int elements = 0;
+    for (const scene::Body& body : scene_.bodies) {
+      if (body.rigid) continue;
+      if (!generated(body) || body.mesh.plate) return false;
+      for (const int one : body.mesh.elements) elements += one;
+    }
+    return elements <= most_elements;
+  }
+
+  /// Error of a full-order model, in the scene's own steps.
+  double error_of(const Discretisation& bodies) {
+    for (const auto& [known, error] : errors_)
+      if (known == bodies) return error;
+    double error = impossible;
+    try {
+      error =
+          worst_error(quiet_motion(discretised(scene_, bodies), scene::Formulation::nlffr, comm_), exact_.in_own_steps);
+    } catch (const std::runtime_error&) {  // on all ranks
+      if (Interruption::happened(comm_)) throw;
+    }
+    if (!std::isfinite(error)) error = impossible;
+    errors_.push_back({bodies, error});
+    return error;
+  }
+
+  Discretisation with_elements(Discretisation bodies) const {
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (generated(scene_.bodies[b])) bodies[b].elements *= 2;
+    return bodies;
+  }
+
+  /// Twice the frames of one body, or of all (-1), with elements to divide; the same where there is nothing to divide.
+  Discretisation with_frames(Discretisation bodies, int only) const {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      if ((only >= 0 && static_cast<int>(b) != only) || !divisible(scene_, scene_.bodies[b])) continue;
+      if (bodies[b].frames * 2 > most_frames) continue;
+      bodies[b].frames *= 2;
+      const auto fits = [&] {
+        const int count = scene_.bodies[b].mesh.elements[0] * bodies[b].elements;
+        return count % bodies[b].frames == 0 && count >= 2 * bodies[b].frames;
+      };
+      while (!fits() && bodies[b].elements < most_times) ++bodies[b].elements;
+      if (!fits()) bodies[b].frames /= 2;
+    }
+    return bodies;
+  }
+
+  Discretisation with_strains(Discretisation bodies, fem::Strains strains) const {
+    if (scene_.dimension == 3)
+      for (std::size_t b = 0; b < bodies.size(); ++b)
+        if (generated(scene_.bodies[b])) bodies[b].strains = strains;
+    return bodies;
+  }
+
+  /// Each time what reduces the error most: frames, elements or strains.
+  void choose_frames_and_elements() {
+    const double wanted = of_discretisation * accuracy_;
+    double error = error_of(chosen_);
+    while (error > wanted) {
+      Discretisation best = chosen_;
+      double least = error;
+      std::vector<Discretisation> all = {with_frames(chosen_, -1), with_strains(chosen_, fem::Strains::second_order)};
+      if (chosen_.empty() || times() < most_times) all.push_back(with_elements(chosen_));
+      for (const Discretisation& one : all)
+        if (!(one == chosen_) && error_of(one) < least) best = one, least = error_of(one);
+      if (least > 0.9 * error) break;
+      chosen_ = best, error = least;
+    }
+    if (error <= wanted) spare_frames(wanted);
+  }
+
+  int times() const {
+    int greatest = 1;
+    for (const Discretised& one : chosen_) greatest = std::max(greatest, one.elements);
+    return greatest;
+  }
+
+  /// Bodies that need no more frames than they had.
+  void spare_frames(double wanted) {
+    if (scene_.bodies.size() == 1) return;
+    for (std::size_t b = 0; b < chosen_.size(); ++b) {
+      if (chosen_[b].frames == scene_.bodies[b].frames) continue;
+      Discretisation less = chosen_;
+      less[b].frames = scene_.bodies[b].frames;
+      if (error_of(less) <= wanted) chosen_ = less;
+    }
+  }
+
+  /// Where full order is expensive: elements by what meshes do to formulation cfr.
+  void choose_elements() {
+    const double wanted = of_discretisation * accuracy_;
+    int halvings = 0;
+    while (halvings + 1 < static_cast<int>(exact_.of_mesh.size()) && exact_.of_mesh[halvings] > wanted) ++halvings;
+    for (std::size_t b = 0; b < chosen_.size(); ++b)
+      if (generated(scene_.bodies[b])) chosen_[b].elements = 1 << halvings;
+    for (std::size_t h = 0; h < exact_.of_mesh.size(); ++h)
+      tried_.push_back(fmt::format("{}: {}", h == 0 ? "as given" : fmt::format("{} times as many", 1 << h),
+                                   math::percent(exact_.of_mesh[h])));
+  }
+
+  std::string words(const Discretisation& bodies) const {
+    std::vector<std::string> all;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const scene::Body& body = scene_.bodies[b];
+      if (!generated(body)) continue;
+      std::vector<int> counts = body.mesh.elements;
+      if (body.mesh.plate) counts = {body.mesh.plate->elements[0], body.mesh.plate->elements[1]};
+      for (int& count : counts) count *= bodies[b].elements;
+      std::string one = fmt::format("{}{} elements", scene_.bodies.size() > 1 ? body.name + ": " : "",
+                                    fmt::join(counts, body.mesh.plate ? "x" : "+"));
+      if (body.mesh.segments.size() == 1)
+        one += fmt::format(" in {} frame{}", bodies[b].frames, bodies[b].frames > 1 ? "s" : "");
+      if (bodies[b].strains)
+        one += *bodies[b].strains == fem::Strains::second_order ? ", strains second_order" : ", strains von_karman";
+      all.push_back(one);
+    }
+    return fmt::format("{}", fmt::join(all, "; "));
+  }
+
+  void explain_discretisation() {
+    for (const auto& [bodies, error] : errors_)
+      tried_.push_back(fmt::format("{}: {}", words(bodies), std::isfinite(error) ? math::percent(error) : "fails"));
+    const std::string choice = words(chosen_);
+    if (!choice.empty())
+      decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));
+    for (const scene::Body& body : scene_.bodies)
+      if (generated(body) && body.mesh.segments.size() == 1 && !divisible(scene_, body))
+        decide("  " + body.name, fmt::format("{} frames", body.frames),
+               "not divided: a probe is a deflection from its floating frame, or it has an interface");
+  }
+
+  /// Reduction, step and mesh alone: the mesh by the reduced model on finer ones.
+  Chosen without_exact() {
+    unbounded_.push_back({"model", exact_.none});
+    double of_mesh = 0;
+    if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                    [](const scene::Body& body) { return !body.rigid && body.mesh.file.has_value(); }))
+      note_imported();
+    if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), generated)) of_mesh = refine_mesh();
+    const scene::Scene scene = discretised(scene_, chosen_);
+    return finished(choose_within(scene, accuracy_, comm_, {true, nullptr, of_mesh}));
+  }
+
+  /// Doubles elements until a third of the accuracy is left to the mesh. @return what is left
+  double refine_mesh() {
+    const double wanted = accuracy_ / 3;
+    RunPlan plan;
+    plan.quiet = true, plan.check_range = false;
+    double left = 0;
+    try {
+      std::clock_t begin = std::clock();
+      RunResult coarse = run(at_equal_times(scene_), scene::Formulation::vm_md, comm_, std::nullopt, plan);
+      for (int halving = 0; halving < 3; ++halving) {
+        const Discretisation finer = with_elements(chosen_);
+        double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        MPI_Bcast(&took, 1, MPI_DOUBLE, 0, comm_);
+        if (4 * took > most_seconds) {
+          if (halving == 0)
+            unbounded_.push_back({"mesh", fmt::format("the reduction of the refined mesh would take "
+                                                      "about {:.2g} s (limit {:.2g} s)",
+                                                      4 * took, most_seconds)});
+          break;
+        }
+        begin = std::clock();
+        RunResult fine =
+            run(at_equal_times(discretised(scene_, finer)), scene::Formulation::vm_md, comm_, std::nullopt, plan);
+        const double change = worst_error(coarse.series, fine.series);
+        left = 4. / 3 * change;
+        tried_.push_back(fmt::format("{}: {}", words(chosen_), math::percent(left)));
+        if (left <= wanted) break;
+        chosen_ = finer, left = change / 3;
+        coarse = std::move(fine);
+        if (left <= wanted) break;
+      }
+    } catch (const std::runtime_error& fault) {  // on all ranks
+      if (Interruption::happened(comm_)) throw;
+      const std::string text = fault.what();
+      unbounded_.push_back({"mesh", "on a finer mesh: " + text.substr(0, text.find('\n'))});
+    }
+    if (!tried_.empty())
+      decide("elements", words(chosen_), fmt::format("error of the mesh, {}", fmt::join(tried_, "; ")));
+    return left;
+  }
+
+  Chosen finished(Chosen chosen) {
+    chosen.total = true;
+    chosen.unbounded = unbounded_;
+    chosen.before = before_;
+    chosen.decisions.insert(chosen.decisions.begin(), decisions_.begin(), decisions_.end());
+    return chosen;
+  }
+
+  const scene::Scene& scene_;
+  double accuracy_;
+  MPI_Comm comm_;
+  Discretisation chosen_;
+  ExactMotion exact_;
+  nlohmann::ordered_json before_;
+  std::vector<std::pair<Discretisation, double>> errors_;
+  std::vector<std::string> tried_;
+  std::vector<std::pair<std::string, std::string>> unbounded_;
+  std::vector<Decision> decisions_;
+};
+
+}  // namespace
+
+Chosen choose_total(const scene::Scene& scene, double accuracy, MPI_Comm comm) {
+  return TotalSearch(scene, accuracy, comm).result();
+}
+
+}  // namespace floe::app

@@ -1,0 +1,82 @@
+#include "discretisation.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+namespace floe::app {
+
+using scene::Body;
+using scene::Probe;
+using scene::Scene;
+
+namespace {
+
+void write_elements(YAML::Node mesh, const Body& body, int times) {
+  const auto several = [&](const auto& counts) {
+    YAML::Node list(YAML::NodeType::Sequence);
+    for (const int elements : counts) list.push_back(elements * times);
+    return list;
+  };
+  for (const char* kind : {"line", "polyline", "segments", "plate"}) {
+    if (!mesh[kind].IsDefined()) continue;
+    if (body.mesh.plate)
+      mesh[kind]["elements"] = several(body.mesh.plate->elements);
+    else if (std::string(kind) == "line")
+      mesh[kind]["elements"] = body.mesh.elements[0] * times;
+    else
+      mesh[kind]["elements"] = several(body.mesh.elements);
+  }
+}
+
+void write_frames(YAML::Node node, const Body& body, int frames) {
+  node["frames"] = frames;
+  YAML::Node reduction(YAML::NodeType::Map);
+  if (node["reduction"].IsDefined() && node["reduction"].IsMap()) reduction = YAML::Clone(node["reduction"]);
+  for (const char* key : {"derivatives", "columns", "interface", "modes"}) reduction.remove(key);
+  const int whole = body.reduction.modes.count * body.frames;
+  YAML::Node modes(YAML::NodeType::Map);
+  modes["count"] = std::max(2, (whole + frames - 1) / frames + (whole % frames != 0 ? 1 : 0));
+  modes["of"] = body.reduction.modes.of == scene::ModesSpec::Of::joints ? "joints" : "frame";
+  reduction["modes"] = modes;
+  node["reduction"] = reduction;
+}
+
+}  // namespace
+
+bool generated(const Body& body) { return !body.rigid && !body.reduced && !body.mesh.file; }
+
+bool divisible(const Scene& scene, const Body& body) {
+  if (!generated(body) || body.mesh.segments.size() != 1 || !body.reduction.interface.empty()) return false;
+  return std::none_of(scene.probes.begin(), scene.probes.end(), [&](const Probe& probe) {
+    return probe.quantity == Probe::Quantity::deflection && probe.at.body == body.name &&
+           (scene.dimension == 3 || body.frame.kind == scene::FrameSpec::Kind::mean_axis);
+  });
+}
+
+Discretisation discretisation_of(const Scene& scene) {
+  Discretisation all;
+  for (const Body& body : scene.bodies) all.push_back({body.frames, 1, {}});
+  return all;
+}
+
+Scene discretised(const Scene& scene, const Discretisation& bodies) {
+  if (bodies == discretisation_of(scene)) return scene;
+  YAML::Node root = YAML::Load(scene.text);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Body& body = scene.bodies[b];
+    YAML::Node node = root["bodies"][body.name];
+    if (bodies[b].elements != 1) write_elements(node["mesh"], body, bodies[b].elements);
+    if (bodies[b].frames != body.frames) write_frames(node, body, bodies[b].frames);
+    if (bodies[b].strains)
+      node["strains"] = *bodies[b].strains == fem::Strains::second_order ? "second_order" : "von_karman";
+  }
+  YAML::Emitter out;
+  out << root;
+  Scene other = scene::parse_scene(out.c_str(), scene.file);
+  other.accuracy = scene.accuracy;
+  return other;
+}
+
+}  // namespace floe::app

@@ -1,0 +1,33 @@
+#pragma once
+#include <vector>
+
+#include "floe/scene/scene.h"
+
+namespace floe::app {
+
+/// What a choice for the total error changes of a body beside its reduced model.
+struct Discretised {
+  int frames = 1;
+  int elements = 1;                          ///< times as many as the scene has, along each edge
+  std::optional<fem::Strains> strains = {};  ///< absent: as the scene has them
+  bool operator==(const Discretised&) const = default;
+};
+
+/// Of each body; those that are rigid or from files do not change.
+using Discretisation = std::vector<Discretised>;
+
+/// Whether a body is flexible, and its mesh is generated.
+bool generated(const scene::Body& body);
+/// Whether it is one straight line whose floating frame may be divided: in space none of its probes is a deflection, in
+/// the plane no deflection is from mean axes.
+bool divisible(const scene::Scene& scene, const scene::Body& body);
+
+Discretisation discretisation_of(const scene::Scene& scene);
+
+/// The scene with other frames, elements and strains, as text and read again. A body in more frames has fewer modes in
+/// each: count (old frames)/(new frames), at least two and one more where that is no whole number; derivatives and
+/// columns that the scene lists are not among its words.
+/// @throws InputError  the scene does not read that way
+scene::Scene discretised(const scene::Scene& scene, const Discretisation& bodies);
+
+}  // namespace floe::app

@@ -1,0 +1,156 @@
+#include "exact_motion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <optional>
+
+#include "compare_table.h"
+#include "floe/assess/budget.h"
+#include "floe/petsc/error.h"
+#include "floe/petsc/together.h"
+#include "interruption.h"
+#include "refined.h"
+
+namespace floe::app {
+
+namespace {
+
+constexpr int halvings_at_most = 4, first_steps = 30;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+int elements_of(const scene::Scene& scene) {
+  int count = 0;
+  for (const scene::Body& body : scene.bodies) {
+    for (const int elements : body.mesh.elements) count += elements;
+    if (body.mesh.plate) count += 2 * body.mesh.plate->elements[0] * body.mesh.plate->elements[1];
+    if (body.mesh.file) count += 1000000;  // by all ranks together
+  }
+  return count;
+}
+
+/// RunResult::motion_seconds is processor time.
+RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm) {
+  RunPlan plan;
+  plan.quiet = true, plan.check_range = false, plan.until = until;
+  RunResult result;
+  const std::clock_t begin = std::clock();
+  const std::string why = petsc::failed_together(comm, [&] {
+    const MPI_Comm on = elements_of(scene) <= 2000 ? PETSC_COMM_SELF : comm;
+    assembly::Model model = assembly::build(scene, formulation, on);
+    result = move(scene, model, 0, on, std::nullopt, plan);
+  });
+  if (Interruption::happened(comm)) throw RunError("interrupted");
+  if (!why.empty()) throw RunError(why);
+  const double end = until.value_or(scene.motion.end);
+  if (std::abs(result.end - end) > 2 * scene.motion.step)
+    throw RunError(fmt::format("the simulation ends at t = {:.4g} s", result.end));
+  result.motion_seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  MPI_Bcast(&result.motion_seconds, 1, MPI_DOUBLE, 0, comm);
+  return result;
+}
+
+/// y += factor (a - b)
+void add(Series& y, double factor, const Series& a, const Series& b) {
+  const std::size_t count = std::min({y.values.size(), a.values.size(), b.values.size()});
+  y.t.resize(count), y.values.resize(count), y.energy.resize(std::min(count, y.energy.size()));
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < y.values[i].size(); ++c) y.values[i][c] += factor * (a.values[i][c] - b.values[i][c]);
+}
+
+class Refinement {
+ public:
+  Refinement(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm)
+      : scene_(at_equal_times(scene)), accuracy_(accuracy), most_(most), comm_(comm) {}
+
+  ExactMotion result() {
+    ExactMotion exact;
+    try {
+      refine(exact);
+    } catch (const std::runtime_error& fault) {  // on all ranks
+      if (Interruption::happened(comm_)) throw;
+      exact.none = "formulation cfr: " + first_line(fault.what());
+    }
+    return exact;
+  }
+
+ private:
+  void refine(ExactMotion& exact) {
+    const double steps = scene_.motion.end / scene_.motion.step;
+    if (steps > 2 * first_steps) {
+      const RunResult first = moved(scene_, scene::Formulation::cfr, first_steps * scene_.motion.step, comm_);
+      const double whole = first.motion_seconds * steps / first_steps;
+      if (whole > most_) {
+        exact.none = fmt::format("formulation cfr would take about {:.2g} s (limit {:.2g} s)", whole, most_);
+        return;
+      }
+    }
+    const RunResult own = moved(scene_, scene::Formulation::cfr, std::nullopt, comm_);
+    exact.mesh_refined = std::none_of(scene_.bodies.begin(), scene_.bodies.end(),
+                                      [](const scene::Body& body) { return body.mesh.file.has_value(); });
+    const double of_mesh = exact.mesh_refined ? limit(own, true, exact.in_own_steps, exact) : 0;
+    if (!exact.mesh_refined) exact.in_own_steps = own.series;
+    Series limit_of_steps;
+    const double of_step = limit(own, false, limit_of_steps, exact);
+    exact.series = exact.in_own_steps;
+    add(exact.series, 1, limit_of_steps, own.series);
+    exact.error = std::hypot(of_mesh, of_step);
+  }
+
+  /// y(0, dt) or y(h, 0). @return what is left of its error
+  double limit(const RunResult& own, bool mesh, Series& limit, ExactMotion& exact) {
+    std::vector<Series> all{own.series};
+    double took = own.motion_seconds, before = 0, left = 0;
+    limit = own.series;
+    for (int halving = 1; halving <= halvings_at_most; ++halving) {
+      scene::Scene finer = scene_;
+      if (mesh) assess::scale_meshes(finer, 1 << halving);
+      if (!mesh) finer.motion.step /= 1 << halving;
+      const double growth = mesh && plates() ? 5 : 2;
+      if (growth * took > most_) {
+        if (halving == 1)
+          throw RunError(fmt::format("{} halved would take about {:.2g} s (limit {:.2g} s)",
+                                     mesh ? "its mesh" : "its step", growth * took, most_));
+        break;
+      }
+      const RunResult one = moved(finer, scene::Formulation::cfr, std::nullopt, comm_);
+      took = one.motion_seconds;
+      const double change = worst_error(all.back(), one.series);
+      const bool ordered = before > 0 && change < 0.4 * before;
+      limit = one.series;
+      if (halving == 1 || ordered) add(limit, 1. / 3, one.series, all.back());
+      left = halving == 1 ? change / 3 : ordered ? change / 12 : change;
+      all.push_back(one.series);
+      if (!mesh) exact.halved_steps = halving;
+      if (left <= 0.1 * accuracy_) break;
+      before = change;
+    }
+    if (mesh)
+      for (const Series& one : all) exact.of_mesh.push_back(worst_error(one, limit));
+    return left;
+  }
+
+  bool plates() const {
+    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
+                       [](const scene::Body& body) { return body.mesh.plate.has_value(); });
+  }
+
+  scene::Scene scene_;
+  double accuracy_, most_;
+  MPI_Comm comm_;
+};
+
+}  // namespace
+
+ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm) {
+  return Refinement(scene, accuracy, most, comm).result();
+}
+
+Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
+  return moved(at_equal_times(scene), formulation, std::nullopt, comm).series;
+}
+
+}  // namespace floe::app

@@ -1,0 +1,34 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "run.h"
+
+namespace floe::app {
+
+/// What a total accuracy is measured against: formulation cfr, elements and steps halved until little changes.
+///
+///   y = y(h, dt) + [y(0, dt) - y(h, dt)] + [y(h, 0) - y(h, dt)]
+///
+/// y(0, dt), y(h, 0) by Richardson's extrapolation (order 2). What is left of each direction: a third of what the last
+/// halving changed where there is one halving, a twelfth where two of them show the order, all of it where they show a
+/// lower one.
+struct ExactMotion {
+  std::string none;             ///< why there is none; empty: there is one
+  Series series;                ///< y
+  Series in_own_steps;          ///< y(0, dt)
+  double error = 0;             ///< of `series`, of the worst probe
+  std::vector<double> of_mesh;  ///< what meshes do: of the scene's, and of each halved one, of the worst probe
+  int halved_steps = 0;         ///< how often
+  bool mesh_refined = true;     ///< false: a mesh is imported, of which the error is not known
+};
+
+/// @param accuracy  that is asked for: halvings end where the error is below a tenth of it, or would take too long
+/// @param most      processor time of one simulation [s]
+/// Collective: up to 2000 elements every rank moves its own copy.
+ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm);
+
+/// Simulates a full-order model quietly: @throws InputError, RunError on every rank. Collective.
+Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm);
+
+}  // namespace floe::app

@@ -1,0 +1,94 @@
+#include <catch2/catch.hpp>
+
+#include "../../src/app/choose.h"
+#include "../../src/app/compare_table.h"
+#include "../../src/app/discretisation.h"
+#include "../../src/app/error_budget.h"
+#include "scene_motion.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+const std::string cantilever = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [100, 0], elements: $elements}}
+    section: {A: 70, I: 585$more}
+    material: {E: 16000, rho: 0.0078}
+    frame: {type: $kind}
+    frames: $frames
+    reduction: {modes: {count: 6, alone: 12}, derivatives: [[1, 1], [1, 2], [4, 4]]}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "$F*sin(9.5*t)"]}}
+motion: {end: 0.6, step: $step, output: 4e-3}
+probes: {tip: {at: beam.end}, middle: {at: beam.middle, quantity: deflection}}
+)yaml";
+
+scene::Scene scene_of(Words words) {
+  const Words defaults{{"elements", "8"}, {"more", ""},  {"kind", "pinned"},
+                       {"frames", "1"},   {"F", "4000"}, {"step", "4e-3"}};
+  for (const auto& one : defaults)
+    if (std::none_of(words.begin(), words.end(), [&](const auto& other) { return other.first == one.first; }))
+      words.push_back(one);
+  return scene::parse_scene(fill(cantilever, words), "scene");
+}
+
+app::RunResult moved(const scene::Scene& scene, Formulation formulation) {
+  app::RunPlan plan;
+  plan.quiet = true, plan.check_range = false;
+  return app::run(scene, formulation, PETSC_COMM_SELF, std::nullopt, plan);
+}
+
+}  // namespace
+
+TEST_CASE("total accuracy: the selected model is as close to geometrically exact beams as required") {
+  const app::Series exact = moved(scene_of({{"elements", "48"}, {"step", "1e-3"}}), Formulation::cfr).series;
+  const double own = app::worst_error(moved(scene_of({}), Formulation::vm_md).series, exact);
+  CHECK(own > 0.02);
+  for (const double share : {0.05, 0.01}) {
+    app::Chosen chosen = app::choose(scene_of({}), {share, true}, PETSC_COMM_WORLD);
+    app::RunPlan plan;
+    plan.quiet = true, plan.check_range = false;
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, plan);
+    const double error = app::worst_error(result.series, exact);
+    INFO("asked " << share << ", supported " << chosen.supported << ", true " << error);
+    CHECK(chosen.total);
+    CHECK(chosen.unbounded.empty());
+    CHECK(chosen.within());
+    CHECK(error < 1.2 * share);
+    CHECK(chosen.supported > 0.5 * error);
+    CHECK(chosen.supported < 3 * error + 0.1 * share);
+    CHECK(chosen.scene.bodies[0].frames >= (share < 0.02 ? 2 : 1));
+    CHECK(chosen.before["total"]["probes"]["middle"].get<double>() == Approx(own).epsilon(0.1));  // the worst one
+    const app::RunResult again = moved(scene::parse_scene(chosen.scene.text, "written"), Formulation::vm_md);
+    CHECK(app::worst_error(again.series, result.series) < 1e-8);
+  }
+}
+
+TEST_CASE("total accuracy: parts that cannot be bounded are named, the others are bounded") {
+  const app::Chosen chosen = app::choose(scene_of({{"more", ", GA: 1e5"}}), {0.02, true}, PETSC_COMM_WORLD);
+  REQUIRE(chosen.unbounded.size() == 1);
+  CHECK(chosen.unbounded[0].first == "model");
+  CHECK_THAT(chosen.unbounded[0].second, Catch::Contains("formulation cfr"));
+  CHECK(chosen.within());
+  CHECK(chosen.before["total"]["missing"]["tip"].dump() == "[\"model\"]");
+  CHECK_THAT(app::budget_words(chosen.before, 0.6), Catch::Contains("* total without the model error"));
+  CHECK(std::any_of(chosen.decisions.begin(), chosen.decisions.end(),
+                    [](const app::Decision& one) { return one.what == "elements"; }));
+}
+
+TEST_CASE("discretised scenes: frames, elements and strains as text") {
+  const scene::Scene scene = scene_of({});
+  app::Discretisation bodies = app::discretisation_of(scene);
+  REQUIRE(bodies.size() == 1);
+  CHECK(app::divisible(scene, scene.bodies[0]));
+  bodies[0] = {4, 2, {}};
+  const scene::Scene other = app::discretised(scene, bodies);
+  CHECK(other.bodies[0].frames == 4);
+  CHECK(other.bodies[0].mesh.elements[0] == 16);
+  CHECK(other.bodies[0].reduction.modes.count == 3);  // of 6 in one frame
+  CHECK(other.bodies[0].reduction.derivatives.choice == scene::DerivativesSpec::Choice::all);
+  CHECK_FALSE(app::divisible(scene_of({{"kind", "mean-axis"}}), scene_of({{"kind", "mean-axis"}}).bodies[0]));
+}
