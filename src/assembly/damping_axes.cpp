@@ -92,13 +92,49 @@ AccompanyingAxes::Row zero_row(std::size_t elastic) {
 
 void set_part(AccompanyingAxes::Row& row, Index part, const Matrix3d& B) { row.B.col(part) = B.reshaped(); }
 
-std::vector<std::unique_ptr<AccompanyingAxes>> one_term(const DampedWhole& whole, const dynamics::MovingAxes& axes,
-                                                        const std::vector<int>& elastic, int multipliers,
-                                                        std::vector<AccompanyingAxes::Row> rows) {
-  std::vector<std::unique_ptr<AccompanyingAxes>> terms;
-  if (!rows.empty())
-    terms.push_back(std::make_unique<AccompanyingAxes>(axes, elastic, whole.f, multipliers, std::move(rows)));
-  return terms;
+std::vector<AccompanyingAxes::Row> rows_of(const DampedWhole& whole, const CarriedMass& mass) {
+  const body::Inertia& in = mass.inertia;
+  const Index d = in.dimension(), k = in.coordinates();
+  Vector3d s0 = Vector3d::Zero();
+  Matrix3d C0 = Matrix3d::Zero();
+  Matrix3Xd S = Matrix3Xd::Zero(3, k);
+  s0.head(d) = in.s0, C0.topLeftCorner(d, d) = in.C0, S.topRows(d) = in.S;
+  std::vector<AccompanyingAxes::Row> rows;
+  for (Index j = 0; j < whole.free.cols(); ++j) {
+    const Vector3d t = whole.free.col(j).head<3>(), w = whole.free.col(j).tail<3>() / whole.length;
+    AccompanyingAxes::Row row = zero_row(mass.elastic.size());
+    row.b = in.m * t + w.cross(in.m * mass.X + mass.A0 * s0);
+    set_part(row, 0, t * s0.transpose() + skew(w) * (mass.X * s0.transpose() + mass.A0 * C0));
+    for (Index e = 0; e < k; ++e) {
+      Matrix3d h = Matrix3d::Zero();
+      for (Index a = 0; a < d; ++a)
+        for (Index b = 0; b < d; ++b) h(a, b) = in.h[a][b][e];
+      set_part(row, 1 + e, t * S.col(e).transpose() + skew(w) * (mass.X * S.col(e).transpose() + mass.A0 * h));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<AccompanyingAxes::Row> rows_of(const DampedWhole& whole, const HeldPlace& place, int dofs_per_node) {
+  std::vector<AccompanyingAxes::Row> rows;
+  for (Index j = 0; j < whole.seen.cols(); ++j) {
+    AccompanyingAxes::Row sum = zero_row(place.elastic.size());
+    for (int dof : place.dofs) {
+      const Direction direction(dof, place.A0, dofs_per_node);
+      AccompanyingAxes::Row row = zero_row(place.elastic.size());
+      const Matrix3d W = 0.5 * whole.length * skew(direction.e) * place.A0;
+      if (!direction.rotation) row.b = direction.e;
+      set_part(row, 0, direction.rotation ? W : Matrix3d(direction.e * place.x.transpose()));
+      for (Index e = 0; e < static_cast<Index>(place.elastic.size()); ++e)
+        set_part(row, 1 + e,
+                 direction.rotation ? Matrix3d(-W * skew(place.psi.col(e)))
+                                    : Matrix3d(direction.e * place.S.col(e).transpose()));
+      sum += row * direction.on(place.X + place.A0 * place.x, whole.length).dot(whole.seen.col(j));
+    }
+    rows.push_back(std::move(sum));
+  }
+  return rows;
 }
 
 }  // namespace
@@ -153,51 +189,24 @@ std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, cons
   return all;
 }
 
-std::vector<std::unique_ptr<AccompanyingAxes>> conditions(const DampedWhole& whole, const CarriedMass& mass) {
-  const body::Inertia& in = mass.inertia;
-  const Index d = in.dimension(), k = in.coordinates();
-  Vector3d s0 = Vector3d::Zero();
-  Matrix3d C0 = Matrix3d::Zero();
-  Matrix3Xd S = Matrix3Xd::Zero(3, k);
-  s0.head(d) = in.s0, C0.topLeftCorner(d, d) = in.C0, S.topRows(d) = in.S;
-  std::vector<AccompanyingAxes::Row> rows;
-  for (Index j = 0; j < whole.free.cols(); ++j) {
-    const Vector3d t = whole.free.col(j).head<3>(), w = whole.free.col(j).tail<3>() / whole.length;
-    AccompanyingAxes::Row row = zero_row(mass.elastic.size());
-    row.b = in.m * t + w.cross(in.m * mass.X + mass.A0 * s0);
-    set_part(row, 0, t * s0.transpose() + skew(w) * (mass.X * s0.transpose() + mass.A0 * C0));
-    for (Index e = 0; e < k; ++e) {
-      Matrix3d h = Matrix3d::Zero();
-      for (Index a = 0; a < d; ++a)
-        for (Index b = 0; b < d; ++b) h(a, b) = in.h[a][b][e];
-      set_part(row, 1 + e, t * S.col(e).transpose() + skew(w) * (mass.X * S.col(e).transpose() + mass.A0 * h));
-    }
-    rows.push_back(std::move(row));
+std::vector<std::unique_ptr<AccompanyingAxes>> conditions(const DampedWhole& whole, int dofs_per_node,
+                                                          const std::function<std::vector<CarriedMass>(int)>& masses,
+                                                          const std::function<std::vector<HeldPlace>(int)>& places) {
+  std::vector<std::unique_ptr<AccompanyingAxes>> terms;
+  for (int b : whole.bodies) {
+    for (const CarriedMass& mass : masses(b))
+      if (whole.free.cols() > 0 && !whole.fixed) {
+        const int first = whole.multipliers + static_cast<int>(whole.seen.cols());
+        terms.push_back(
+            std::make_unique<AccompanyingAxes>(mass.axes, mass.elastic, whole.f, first, rows_of(whole, mass)));
+      }
+    if (whole.fixed || whole.seen.cols() == 0) continue;
+    for (const HeldPlace& place : places(b))
+      if (!place.dofs.empty())
+        terms.push_back(std::make_unique<AccompanyingAxes>(place.axes, place.elastic, whole.f, whole.multipliers,
+                                                           rows_of(whole, place, dofs_per_node)));
   }
-  return one_term(whole, mass.axes, mass.elastic, whole.multipliers + static_cast<int>(whole.seen.cols()),
-                  std::move(rows));
-}
-
-std::vector<std::unique_ptr<AccompanyingAxes>> conditions(const DampedWhole& whole, const HeldPlace& place,
-                                                          int dofs_per_node) {
-  std::vector<AccompanyingAxes::Row> rows;
-  for (Index j = 0; j < whole.seen.cols() && !place.dofs.empty(); ++j) {
-    AccompanyingAxes::Row sum = zero_row(place.elastic.size());
-    for (int dof : place.dofs) {
-      const Direction direction(dof, place.A0, dofs_per_node);
-      AccompanyingAxes::Row row = zero_row(place.elastic.size());
-      const Matrix3d W = 0.5 * whole.length * skew(direction.e) * place.A0;
-      if (!direction.rotation) row.b = direction.e;
-      set_part(row, 0, direction.rotation ? W : Matrix3d(direction.e * place.x.transpose()));
-      for (Index e = 0; e < static_cast<Index>(place.elastic.size()); ++e)
-        set_part(row, 1 + e,
-                 direction.rotation ? Matrix3d(-W * skew(place.psi.col(e)))
-                                    : Matrix3d(direction.e * place.S.col(e).transpose()));
-      sum += row * direction.on(place.X + place.A0 * place.x, whole.length).dot(whole.seen.col(j));
-    }
-    rows.push_back(std::move(sum));
-  }
-  return one_term(whole, place.axes, place.elastic, whole.multipliers, std::move(rows));
+  return terms;
 }
 
 JointMultipliers unknowns_of(const DampedWhole& whole) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "floe/assembly/model.h"
@@ -63,10 +64,12 @@ Eigen::Vector3d undeformed_origin(const PlannedBody& body);
 /// @param still  of each body: whether its frame is fixed to the ground
 std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, const std::vector<bool>& still);
 
-/// The rows of f that a mass or a held place adds to; none where these are none.
-std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> conditions(const DampedWhole& whole, const CarriedMass& mass);
-std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> conditions(const DampedWhole& whole, const HeldPlace& place,
-                                                                    int dofs_per_node);
+/// The rows of f that the masses and the held places of all bodies add to; none where the ground holds the whole.
+/// @param masses  adds the dampers of a body's masses to the model, and returns the masses
+/// @param places  of a body
+std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> conditions(
+    const DampedWhole& whole, int dofs_per_node, const std::function<std::vector<CarriedMass>(int)>& masses,
+    const std::function<std::vector<HeldPlace>(int)>& places);
 
 /// f and its multipliers, as rows of a joint: what models of the same scene have in common.
 JointMultipliers unknowns_of(const DampedWhole& whole);

@@ -146,16 +146,8 @@ std::vector<HeldPlace> PlanarAssembly::held_places(const DampedWhole& whole, int
 }
 
 void PlanarAssembly::add_damping(const DampedWhole& whole, Model& model) {
-  std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> rows;
-  const auto take = [&](std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> more) {
-    for (auto& term : more) rows.push_back(std::move(term));
-  };
-  for (int b : whole.bodies) {
-    for (const CarriedMass& mass : add_masses(whole, b))
-      if (!whole.fixed) take(conditions(whole, mass));
-    if (whole.fixed) continue;
-    for (const HeldPlace& place : held_places(whole, b)) take(conditions(whole, place, 3));
-  }
+  auto rows = conditions(
+      whole, 3, [&](int b) { return add_masses(whole, b); }, [&](int b) { return held_places(whole, b); });
   if (whole.fixed) return;
   start_damping(whole, rows, model);
   for (auto& term : rows) terms_.push_back(std::move(term));

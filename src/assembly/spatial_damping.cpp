@@ -119,16 +119,8 @@ std::vector<HeldPlace> SpatialAssembly::held_places(const DampedWhole& whole, in
 }
 
 void SpatialAssembly::add_damping(const DampedWhole& whole, Model& model) {
-  std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> rows;
-  const auto take = [&](std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> more) {
-    for (auto& term : more) rows.push_back(std::move(term));
-  };
-  for (int b : whole.bodies) {
-    for (const CarriedMass& mass : add_masses(whole, b))
-      if (!whole.fixed) take(conditions(whole, mass));
-    if (whole.fixed) continue;
-    for (const HeldPlace& place : held_places(whole, b)) take(conditions(whole, place, 6));
-  }
+  auto rows = conditions(
+      whole, 6, [&](int b) { return add_masses(whole, b); }, [&](int b) { return held_places(whole, b); });
   if (whole.fixed) return;
   const dynamics::System layout(coordinates_, {});
   Eigen::VectorXd v;
