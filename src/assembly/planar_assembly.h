@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "connections.h"
 #include "damping_axes.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/reference/full_order.h"
@@ -43,6 +44,7 @@ class PlanarAssembly {
   void set_shared(const std::vector<int>& local, const std::vector<double>& values, Vec into) const;
   void add_gravity(int body);
   void add_loads();
+  void connect(std::size_t joint, std::unique_ptr<dynamics::Connection> term);
   void add_joints(Model& model, const Eigen::VectorXd& q);
   void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
                  std::vector<ModelStop>& stops);
@@ -65,6 +67,7 @@ class PlanarAssembly {
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  Connections connections_;  // of the joints, among terms_
   std::map<std::string, JointLatches> latches_;
 };
 

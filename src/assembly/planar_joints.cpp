@@ -27,6 +27,11 @@ void PlanarAssembly::add_joints(Model& model, const Eigen::VectorXd& q) {
     petsc::agree(plan_.comm, add);
 }
 
+void PlanarAssembly::connect(std::size_t j, std::unique_ptr<dynamics::Connection> term) {
+  connections_[j].push_back(term.get());
+  terms_.push_back(std::move(term));
+}
+
 void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, const Eigen::VectorXd& q) {
   const Joint& joint = plan_.scene.joints[j];
   for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
@@ -46,38 +51,38 @@ void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, con
   const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
   switch (joint.kind) {
     case Joint::Kind::revolute:
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
-                                                         joint_rows_[j], latches.joint));
+      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
+                                                   joint_rows_[j], latches.joint));
       if (latches.lock)
-        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, latches.first_row,
-                                                           std::vector<int>{2}, latches.lock, true));
+        connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, latches.first_row,
+                                                     std::vector<int>{2}, latches.lock, true));
       break;
     case Joint::Kind::fixed:
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
-                                                         joint_rows_[j], latches.joint));
+      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
+                                                   joint_rows_[j], latches.joint));
       break;
     case Joint::Kind::driven:
-      terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1],
-                                                         dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)},
-                                                         multipliers, joint_rows_[j], latches.joint));
+      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1],
+                                                   dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)},
+                                                   multipliers, joint_rows_[j], latches.joint));
       break;
     case Joint::Kind::prismatic: {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
       const Eigen::Vector2d normal(-axis.y(), axis.x());
       const dynamics::Prismatic slide{turn(-y[0][2]) * normal, normal.dot(apart), offset};
-      terms_.push_back(
-          std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j], latches.joint));
+      connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j],
+                                                   latches.joint));
       if (latches.lock)
-        terms_.push_back(std::make_unique<dynamics::Joint>(places[0], places[1],
-                                                           dynamics::Prismatic{turn(-y[0][2]) * axis, 0, 0},
-                                                           latches.first_row, std::vector<int>{0}, latches.lock, true));
+        connect(
+            j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Prismatic{turn(-y[0][2]) * axis, 0, 0},
+                                                 latches.first_row, std::vector<int>{0}, latches.lock, true));
       break;
     }
     case Joint::Kind::spring:
-      terms_.push_back(std::make_unique<dynamics::Spring>(
-          places[0], places[1],
-          dynamics::SpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart.norm()),
-                                     joint.torsional_stiffness, joint.torsional_viscosity, offset}));
+      connect(j, std::make_unique<dynamics::Spring>(
+                     places[0], places[1],
+                     dynamics::SpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart.norm()),
+                                                joint.torsional_stiffness, joint.torsional_viscosity, offset}));
       break;
     default:  // those of space
       break;
@@ -98,7 +103,7 @@ void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& place
     auto stop = std::make_unique<dynamics::PlanarStop>(places[0], places[1], along, start,
                                                        law_of(*joint.limits, !slides, plan_.extent));
     term = stop.get();
-    terms_.push_back(std::move(stop));
+    connect(j, std::move(stop));
   }
   note_stops(joint, *joint.limits, term, stops);
 }

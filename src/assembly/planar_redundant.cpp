@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "connections.h"
 #include "floe/dynamics/marker.h"
 #include "independent_rows.h"
 
@@ -134,6 +135,10 @@ void leave_out(const Plan& plan, const HeldBody& held, int b, std::vector<std::v
   const std::vector<Eigen::Index> kept = independent_rows(gradient);
   if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
   check_left_out(plan, held, b, kept);
+  std::vector<int> joints;
+  for (const Eigen::Index row : undetermined_rows(gradient, kept))
+    if (const int joint = hold_of(held, row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
+  refuse_undetermined(plan.scene, joints);
   Eigen::Index first = 0;
   for (const HeldBody::Hold& hold : held.holds) {
     const Eigen::Index n = hold.directions.rows();

@@ -1,26 +1,49 @@
 #include <algorithm>
 #include <cmath>
 
+#include "connections.h"
 #include "floe/assembly/model.h"
 #include "floe/math/rotation.h"
 
 namespace floe::assembly {
 
+namespace {
+
+/// Unit, size and kind of a probe's columns, and what they are called in the plane and in space.
+struct Meaning {
+  std::string unit;
+  double scale;
+  ProbeColumn::Kind kind;
+  std::vector<std::string> plane, space;
+};
+
+Meaning meaning_of(Probe::Quantity quantity, double extent) {
+  using Kind = ProbeColumn::Kind;
+  const std::vector<std::string> xy{"x", "y"}, xyz{"x", "y", "z"}, z{"z"};
+  switch (quantity) {
+    case Probe::Quantity::rotation:
+      return {"rad", 1, Kind::place, {"angle"}, {"rx", "ry", "rz"}};
+    case Probe::Quantity::velocity:
+      return {"m/s", extent, Kind::rate, xy, xyz};
+    case Probe::Quantity::angular_velocity:
+      return {"rad/s", 1, Kind::rate, z, xyz};
+    case Probe::Quantity::force:
+      return {"N", 1, Kind::load, xy, xyz};
+    case Probe::Quantity::moment:
+      return {"N m", extent, Kind::load, z, xyz};
+    default:
+      return {"m", extent, Kind::place, xy, xyz};
+  }
+}
+
+}  // namespace
+
 std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
-    if (probe.spatial && probe.quantity == Probe::Quantity::rotation) {
-      for (const char* axis : {".rx", ".ry", ".rz"}) columns.push_back({probe.name + axis, "rad"});
-      continue;
-    }
-    if (probe.quantity == Probe::Quantity::rotation) {
-      columns.push_back({probe.name + ".angle", "rad"});
-      continue;
-    }
-    const std::string unit = probe.quantity == Probe::Quantity::velocity ? "m/s" : "m";
-    columns.push_back({probe.name + ".x", unit, model.extent});
-    columns.push_back({probe.name + ".y", unit, model.extent});
-    if (probe.spatial) columns.push_back({probe.name + ".z", unit, model.extent});
+    const Meaning meaning = meaning_of(probe.quantity, model.extent);
+    for (const std::string& component : probe.spatial ? meaning.space : meaning.plane)
+      columns.push_back({probe.name + "." + component, meaning.unit, meaning.scale, meaning.kind});
   }
   return columns;
 }
@@ -74,17 +97,34 @@ void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen
     at.velocity = Dt * (at.velocity - from.velocity - from.spin.cross(apart));
     at.p = Dt * apart;
     at.D = Dt * at.D;
+    at.spin = Dt * (at.spin - from.spin);
   }
   Eigen::Vector3d value = at.p;
   if (quantity == Probe::Quantity::displacement) value -= probe.start;
   if (quantity == Probe::Quantity::velocity) value = at.velocity;
   if (quantity == Probe::Quantity::rotation) value = rotation_vector(at.D);
+  if (quantity == Probe::Quantity::angular_velocity) value = at.spin;
   if (quantity == Probe::Quantity::deflection) value = probe.mesh * (at.c - probe.marker.x0);
   values.insert(values.end(), value.data(), value.data() + 3);
 }
 
-void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+/// What a joint exerts, in world axes or in those of the other place.
+void add_exerted(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                 std::vector<double>& values) {
+  const dynamics::Wrench wrench = exerted(probe.connections, t, q, v);
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (probe.relative_to) axes.topLeftCorner<2, 2>() = turn(placed(*probe.relative_to, q, v).y[2]);
+  if (probe.spatial && probe.spatial->relative_to) axes = placed(*probe.spatial->relative_to, q, v).D;
+  const bool force = probe.quantity == Probe::Quantity::force;
+  const Eigen::Vector3d parts = axes.transpose() * wrench.segment<3>(force ? 0 : 3);
+  const int first = !probe.spatial && !force ? 2 : 0, behind = !probe.spatial && force ? 2 : 3;
+  values.insert(values.end(), parts.data() + first, parts.data() + behind);
+}
+
+void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
+  if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
+    return add_exerted(probe, t, q, v, values);
   if (probe.spatial) return add_values(*probe.spatial, probe.quantity, q, v, values);
   Placed at = placed(probe.marker, q, v);
   Eigen::Vector3d start = probe.start;
@@ -111,6 +151,12 @@ void add_values(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::
     case Probe::Quantity::rotation:
       values.push_back(at.y[2] - start[2]);
       break;
+    case Probe::Quantity::angular_velocity:
+      values.push_back(at.yd[2]);
+      break;
+    case Probe::Quantity::force:
+    case Probe::Quantity::moment:
+      break;  // add_exerted
     case Probe::Quantity::deflection: {
       if (!probe.frame.empty()) {
         const Eigen::Vector2d u = deflection_from_nodes(probe, q, v, at.y);
@@ -148,7 +194,7 @@ std::vector<double> attitudes(const Model& model, Vec U) {
   return all;
 }
 
-std::vector<double> probe_values(const Model& model, double, Vec U, Vec V) {
+std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V) {
   static thread_local Eigen::VectorXd q, v;
   model.system->gather(U, q);
   model.system->gather(V, v);
@@ -158,7 +204,7 @@ std::vector<double> probe_values(const Model& model, double, Vec U, Vec V) {
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
   if (rank == size - 1)
-    for (const ModelProbe& probe : model.probes) add_values(probe, q, v, values);
+    for (const ModelProbe& probe : model.probes) add_values(probe, t, q, v, values);
   if (size > 1) {
     values.resize(probe_columns(model).size());
     MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);

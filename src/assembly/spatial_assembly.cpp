@@ -46,11 +46,20 @@ Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
   return Eigen::Vector3d(p[0], p[1], p[2]) + attitude_of_mesh(body) * x;
 }
 
+/// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations.
+bool is_held_by_measured(const Plan& plan, int b) {
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if (const Anchor* place = held_place(plan, j);
+        place && place->body == b && is_measured(plan.scene, plan.scene.joints[j].name))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 int clamp_of(const Plan& plan, int b) {
   const PlannedBody& body = plan.bodies[b];
-  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped) return -1;
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || is_held_by_measured(plan, b)) return -1;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const auto& [first, second] = plan.joints[j];
     const Joint& joint = plan.scene.joints[j];
@@ -69,6 +78,7 @@ bool has_fixed_frame(const Plan& plan, int b) {
   const PlannedBody& body = plan.bodies[b];
   const fem::Conditions& conditions = body.frame.conditions;
   if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || body.spec.rigid || body.spec.reduced) return false;
+  if (is_held_by_measured(plan, b)) return false;
   bool firm = false;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Joint& joint = plan.scene.joints[j];

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "connections.h"
 #include "damping_axes.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/dynamics/spatial_joint.h"
@@ -73,6 +74,7 @@ class SpatialAssembly {
   void add_loads();
   void add_pressure(const Load& load, int body);
   void add_joints(Model& model);
+  void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
   void add_spring(int joint, const PlacedJoint& placed);
   void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
@@ -99,6 +101,7 @@ class SpatialAssembly {
   std::vector<int> multipliers_;                                       // of each joint, the first
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  Connections connections_;  // of the joints, among terms_
   std::map<std::string, JointLatches> latches_;
 };
 

@@ -104,6 +104,11 @@ SpatialAssembly::PlacedJoint SpatialAssembly::place(int j) {
   return placed;
 }
 
+void SpatialAssembly::connect(int j, std::unique_ptr<dynamics::Connection> term) {
+  connections_[static_cast<std::size_t>(j)].push_back(term.get());
+  terms_.push_back(std::move(term));
+}
+
 void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
   const Joint& joint = plan_.scene.joints[j];
   if (joint.kind == Kind::bushing) {
@@ -115,7 +120,7 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
     const SpatialPose from = start_of(placed.places[0]), to = start_of(placed.places[1]);
     bushing.rest = from.D.transpose() * (to.p - from.p);
     bushing.name = joint.name;
-    terms_.push_back(std::make_unique<dynamics::SpatialBushing>(placed.places[0], placed.places[1], bushing));
+    connect(j, std::make_unique<dynamics::SpatialBushing>(placed.places[0], placed.places[1], bushing));
     return;
   }
   const double apart = (start_of(placed.places[1]).p - start_of(placed.places[0]).p).norm();
@@ -124,21 +129,21 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
         fmt::format("{}: the places of spring {} coincide at the start, which leaves undefined the direction of its "
                     "force; expected length: 0, or places apart",
                     joint.where.text(), joint.name));
-  terms_.push_back(std::make_unique<dynamics::SpatialSpring>(
-      placed.places[0], placed.places[1],
-      dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
-                                        joint.torsional_stiffness, joint.torsional_viscosity, 0}));
+  connect(j, std::make_unique<dynamics::SpatialSpring>(
+                 placed.places[0], placed.places[1],
+                 dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
+                                                   joint.torsional_stiffness, joint.torsional_viscosity, 0}));
 }
 
 void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
   const auto found = latches_.find(plan_.scene.joints[j].name);
   const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
-  terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                            multipliers_[j], standing, plan_.extent, latches.joint));
+  connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
+                                                      multipliers_[j], standing, plan_.extent, latches.joint));
   if (latches.lock)
-    terms_.push_back(std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
-                                                              dynamics::lock_of(placed.constraint), latches.first_row,
-                                                              latches.lock, true));
+    connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
+                                                        dynamics::lock_of(placed.constraint), latches.first_row,
+                                                        latches.lock, true));
   for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
     terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
 }
@@ -154,7 +159,7 @@ void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<Mo
       auto stop = std::make_unique<dynamics::SpatialStop>(placed.places[0], placed.places[1], of, start,
                                                           law_of(limits, of == Of::turn, plan_.extent));
       term = stop.get();
-      terms_.push_back(std::move(stop));
+      connect(j, std::move(stop));
     }
     note_stops(joint, limits, term, stops);
   };

@@ -198,8 +198,15 @@ void SpatialAssembly::add_probes(Model& model) {
       probe.start = start_of(probe.marker).p;
       if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
     }
-    model.probes.push_back(
-        {spec.name, spec.quantity, {}, {}, {}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), std::move(probe)});
+    model.probes.push_back({spec.name,
+                            spec.quantity,
+                            {},
+                            {},
+                            {},
+                            Eigen::Vector3d::Zero(),
+                            Eigen::Vector3d::Zero(),
+                            std::move(probe),
+                            measured(connections_, plan_.scene, spec)});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "connections.h"
 #include "floe/math/rotation.h"
 #include "independent_rows.h"
 
@@ -177,7 +178,13 @@ std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
   MatrixXd gradient;
   values(VectorXd::Map(start_.data(), static_cast<Index>(start_.size())), 0, &gradient);
   const std::vector<Index> kept = independent_rows(gradient, 1e-3);
-  if (static_cast<Index>(kept.size()) < gradient.rows()) check_left_out(kept);
+  if (static_cast<Index>(kept.size()) < gradient.rows()) {
+    check_left_out(kept);
+    std::vector<int> joints;
+    for (const Index row : undetermined_rows(gradient, kept))
+      if (const int joint = entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
+    refuse_undetermined(plan_.scene, joints);
+  }
   Index first = 0;
   for (const Entry& entry : entries_) {
     auto& rows = all.emplace_back();

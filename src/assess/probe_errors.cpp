@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace floe::assess {
 
@@ -24,19 +25,19 @@ std::string probe_of(const ProbeColumn& column) { return column.name.substr(0, c
 std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, const std::vector<double>& sizes,
                                     double duration) {
   const std::vector<std::size_t> probe = numbers_of(columns);
-  const auto rate = [](const ProbeColumn& column) { return column.unit == "m/s"; };
-  double moved = 0, fastest = 0;
+  using Kind = ProbeColumn::Kind;
+  std::map<Kind, double> most;  // of each kind, relative to the scales
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double size = sizes[probe[i]];
-    rate(columns[i]) ? fastest = std::max(fastest, size) : moved = std::max(moved, size / columns[i].scale);
+    double& one = most[columns[i].kind];
+    one = std::max(one, sizes[probe[i]] / columns[i].scale);
   }
-  const double part = std::max(1e-10, 1e-7 * std::min(moved, 1.0));
+  const double part = std::max(1e-10, 1e-7 * std::min(most[Kind::place], 1.0));
   std::vector<double> references = sizes;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const double least = rate(columns[i])
-                             ? std::max(1e-7 * fastest, part * columns[i].scale / (duration > 0 ? duration : 1))
-                             : part * columns[i].scale;
-    references[probe[i]] = std::max(references[probe[i]], least);
+    const Kind kind = columns[i].kind;
+    double least = kind == Kind::place ? part : 1e-7 * most[kind];
+    if (kind == Kind::rate) least = std::max(least, part / (duration > 0 ? duration : 1));
+    references[probe[i]] = std::max(references[probe[i]], least * columns[i].scale);
   }
   return references;
 }

@@ -128,6 +128,13 @@ void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   for (std::size_t i = 0; i < standing_.size(); ++i) r[multiplier_ + i] += e.C[standing_[i]];
 }
 
+Wrench Joint::on_second(const Motion& motion) const {
+  if (!holds()) return Wrench::Zero();
+  const Eigen::Vector3d lambda = multipliers(motion);
+  pair_.evaluate(motion, wanted(motion));
+  return on_second_place(std::visit(Evaluate{motion, pair_, lambda}, constraint_).gradient.transpose() * lambda);
+}
+
 void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (!holds()) return add_open_tangent(multiplier_, static_cast<int>(standing_.size()), J);
   const Eigen::Vector3d lambda = multipliers(motion);

@@ -4,6 +4,10 @@
 
 namespace floe::dynamics {
 
+Wrench on_second_place(const Vector6& wrench) {
+  return (Wrench() << -wrench[3], -wrench[4], 0, 0, 0, -wrench[5]).finished();
+}
+
 MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second(std::move(other)) {
   where_first = place_all(first.coordinates, coordinates);
   where_second = place_all(second.coordinates, coordinates);

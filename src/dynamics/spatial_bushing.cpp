@@ -107,6 +107,12 @@ void SpatialBushing::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.add(wrench_of(s, inner(properties_, s)), r);
 }
 
+Wrench SpatialBushing::on_second(const Motion& motion) const {
+  pair_.evaluate(motion);
+  const Strain s = strain(pair_, properties_, nearest_);
+  return -wrench_of(s, inner(properties_, s)).tail<6>();
+}
+
 void SpatialBushing::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   pair_.evaluate(motion);
   const Strain s = strain(pair_, properties_, nearest_);

@@ -134,6 +134,16 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.add(wrench, r);
 }
 
+Wrench SpatialJoint::on_second(const Motion& motion) const {
+  if (!holds()) return Wrench::Zero();
+  pair_.evaluate(motion, Extent::place);
+  const SeenPair seen(pair_, constraint_.angle, motion);
+  Wrench wrench = Wrench::Zero();
+  for (int i = 0; i < rows(constraint_); ++i)
+    wrench -= motion.q[multiplier_ + i] * evaluate(constraint_.rows[i], seen).gradient.tail<6>();
+  return wrench;
+}
+
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);

@@ -82,6 +82,11 @@ void SpatialSpring::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.add(wrench_of(properties_, pair_, nearest_), r);
 }
 
+Wrench SpatialSpring::on_second(const Motion& motion) const {
+  pair_.evaluate(motion);
+  return -wrench_of(properties_, pair_, nearest_).tail<6>();
+}
+
 void SpatialSpring::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   pair_.evaluate(motion);
   Matrix12 Y = Matrix12::Zero(), Yd = Matrix12::Zero();

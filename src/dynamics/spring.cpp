@@ -46,6 +46,12 @@ void Spring::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pair_.add(wrench_of(properties_, line(y, yd), y, yd), r);
 }
 
+Wrench Spring::on_second(const Motion& motion) const {
+  pair_.evaluate(motion);
+  const Vector6 y = pair_.y(), yd = pair_.yd();
+  return on_second_place(wrench_of(properties_, line(y, yd), y, yd));
+}
+
 void Spring::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   pair_.evaluate(motion);
   const Vector6 y = pair_.y(), yd = pair_.yd();

@@ -58,6 +58,11 @@ void PlanarStop::residual(const Motion& motion, Eigen::VectorXd& r) const {
   if (stop.force != 0) pair_.add(stop.force * seen.gradient, r);
 }
 
+Wrench PlanarStop::on_second(const Motion& motion) const {
+  const Seen seen = see(motion);
+  return on_second_place(law().at(seen.x, seen.rate).force * seen.gradient);
+}
+
 void PlanarStop::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   const Seen seen = see(motion);
   const StopLaw::Value stop = law().at(seen.x, seen.rate);
@@ -116,6 +121,11 @@ void SpatialStop::residual(const Motion& motion, Eigen::VectorXd& r) const {
   const Seen seen = see(motion);
   const StopLaw::Value stop = law().at(seen.x, seen.rate);
   if (stop.force != 0) pair_.add(stop.force * seen.gradient, r);
+}
+
+Wrench SpatialStop::on_second(const Motion& motion) const {
+  const Seen seen = see(motion);
+  return -law().at(seen.x, seen.rate).force * seen.gradient.tail<6>();
 }
 
 void SpatialStop::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {

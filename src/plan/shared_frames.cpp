@@ -58,8 +58,8 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
   };
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
-    if (joint.kind != Joint::Kind::fixed || joint.edges == Joint::Edges::mean || is_unlocked(scene, joint.name))
-      continue;
+    if (joint.kind != Joint::Kind::fixed || joint.edges == Joint::Edges::mean) continue;
+    if (is_unlocked(scene, joint.name) || is_measured(scene, joint.name)) continue;
     int a = index_of(scene, joint.first), b = index_of(scene, joint.second);
     if (a < 0 || b < 0 || a == b) continue;
     const auto attempt = [&](int guest, const Place& at, int host) {

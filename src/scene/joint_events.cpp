@@ -14,4 +14,9 @@ bool is_switched(const Scene& scene, const std::string& joint) {
                      [&](const Event& event) { return event.kind != Event::Kind::stop && event.joint == joint; });
 }
 
+bool is_measured(const Scene& scene, const std::string& joint) {
+  return std::any_of(scene.probes.begin(), scene.probes.end(),
+                     [&](const Probe& probe) { return !joint.empty() && probe.joint == joint; });
+}
+
 }  // namespace floe::scene

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -9,19 +8,6 @@ namespace floe::scene {
 namespace {
 
 using JointKind = Joint::Kind;
-
-/// Notes where not exactly one of the keys is given. @return  it, or empty
-std::string one_of(Document& document, const Reading& event, const std::vector<std::string>& keys) {
-  std::vector<std::string> given;
-  for (const std::string& key : keys)
-    if (event.given(key)) given.push_back(key);
-  if (given.size() == 1) return given.front();
-  document.fault(event.where(),
-                 given.empty() ? fmt::format("has none of {}", fmt::join(keys, ", "))
-                               : fmt::format("has {} together", fmt::join(given, " and ")),
-                 "exactly one of " + fmt::format("{}", fmt::join(keys, ", ")));
-  return "";
-}
 
 /// Whether a lock has rows to hold: in the plane hinges and slides, in space all that leave something free and whose
 /// free motions are those of one place's axes.
@@ -58,8 +44,8 @@ Event read_event(Document& document, const std::string& name, const Value& value
   event.where = value.where;
   Reading reading(document, value, "event");
   if (!value.node.IsMap()) return event;
-  const std::string what = one_of(document, reading, {"unlock", "lock", "stop"});
-  const std::string when = one_of(document, reading, {"at", "when", "probe"});
+  const std::string what = reading.one_of({"unlock", "lock", "stop"});
+  const std::string when = reading.one_of({"at", "when", "probe"});
   if (what == "unlock") event.kind = Event::Kind::unlock;
   if (what == "lock") event.kind = Event::Kind::lock;
   if (what == "unlock" || what == "lock") event.joint = reading.text(what);

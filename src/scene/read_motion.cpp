@@ -32,26 +32,4 @@ Motion read_motion(Document& document, const Value& value) {
   return motion;
 }
 
-Probe read_probe(Document& document, const std::string& name, const Value& value) {
-  using Quantity = Probe::Quantity;
-  Probe probe;
-  probe.name = name;
-  probe.where = value.where;
-  Reading reading(document, value, "probe");
-  if (!value.node.IsMap()) return probe;
-  if (const auto at = reading.value("at")) probe.at = read_place(document, *at, reading.key("at"));
-  if (const auto from = reading.value("relative_to"))
-    probe.relative_to = read_place(document, *from, reading.key("relative_to"));
-  probe.quantity = reading.choice<Quantity>("quantity", {{"position", Quantity::position},
-                                                         {"displacement", Quantity::displacement},
-                                                         {"deflection", Quantity::deflection},
-                                                         {"velocity", Quantity::velocity},
-                                                         {"rotation", Quantity::rotation}});
-  if (probe.relative_to && probe.quantity == Quantity::deflection)
-    document.fault(reading.where("relative_to"),
-                   "does not apply to a deflection, which is measured in the body's frame",
-                   "another quantity, or none");
-  return probe;
-}
-
 }  // namespace floe::scene

@@ -120,6 +120,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
     document.fault(reading.where("accuracy"), "cannot be combined with motion.tolerance: it selects the step",
                    "one of them");
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
+  place_probes(document, scene);
   scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {
     document.fault(reading.where("bodies"), "is empty", "at least one body");

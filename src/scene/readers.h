@@ -25,6 +25,8 @@ Load read_load(Document& document, const std::string& name, const Value& value);
 Motion read_motion(Document& document, const Value& value);
 Event read_event(Document& document, const std::string& name, const Value& value);
 Probe read_probe(Document& document, const std::string& name, const Value& value);
+/// The places of probes of joints. Joints must have been read.
+void place_probes(Document& document, Scene& scene);
 void read_parameters(Document& document, const Value& value);
 
 /// `beam.end`, `ground` or {body: beam, node: [x, y]} (in space [x, y, z]); whether they exist is checked once all

@@ -126,6 +126,18 @@ Point Reading::turning(const std::string& name) {
   return {0, 0, number(name)};
 }
 
+std::string Reading::one_of(const std::vector<std::string>& keys) {
+  std::vector<std::string> found;
+  for (const std::string& key : keys)
+    if (given(key)) found.push_back(key);
+  if (found.size() == 1) return found.front();
+  document_.fault(where_,
+                  found.empty() ? fmt::format("has none of {}", fmt::join(keys, ", "))
+                                : fmt::format("has {} together", fmt::join(found, " and ")),
+                  "exactly one of " + fmt::format("{}", fmt::join(keys, ", ")));
+  return "";
+}
+
 std::array<double, 3> Reading::three(const std::string& name) {
   std::array<double, 3> all{};
   const auto found = value(name);

@@ -20,6 +20,8 @@ class Reading {
 
   const Where& where() const { return where_; }
   bool given(const std::string& key) const { return values_.count(key) > 0; }
+  /// The one that is given of these keys; a fault and empty where it is none or several.
+  std::string one_of(const std::vector<std::string>& keys);
   /// Fixes the section's type: keys that do not apply to it are faults when given.
   void set_kind(const std::string& kind);
 

@@ -148,16 +148,24 @@ const SchemaSection motion_section{
 
 const SchemaSection probe_section{
     "probe",
-    "A quantity recorded at a place, named by its key.",
+    "A quantity recorded at a place or of a joint, named by its key. Exactly one of at, joint.",
     "at: beam.end\nquantity: displacement",
     {
-        {"at", Type::place, "", required, "place where the quantity is recorded"},
-        choice("quantity", "displacement",
-               "position, displacement since the start, velocity: in world axes; deflection: relative to the floating "
-               "frame; rotation: of the section (in spatial scenes a rotation vector of length at most pi)",
-               {"position", "displacement", "deflection", "velocity", "rotation"}),
+        {"at", Type::place, "", "", "place where the quantity is recorded"},
+        {"joint", Type::text, "", "",
+         "instead: name of a joint, spring or bushing, whose force or moment on its second place is recorded, end "
+         "stops "
+         "included (joint reactions, drive moments)"},
+        choice(
+            "quantity", "",
+            "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
+            "to the floating frame; rotation: of the section (in spatial scenes a rotation vector of length at most "
+            "pi); force, moment (about the second place): of a joint, in world axes. Absent: displacement, of a "
+            "joint force",
+            {"position", "displacement", "deflection", "velocity", "rotation", "angular_velocity", "force", "moment"}),
         {"relative_to", Type::place, "", "",
-         "reference place; components in axes that rotate with its section; absent: world"},
+         "reference place; components in axes that rotate with its section; absent: world. Of a joint, the axes alone "
+         "are those of the place"},
     }};
 
 const SchemaSection event_section{

@@ -36,8 +36,9 @@ struct Context {
   std::function<MotionState()> state = {};
   std::function<void(double, Vec, Vec)> between = {};
   std::unique_ptr<Crossings> crossings = {};
-  std::vector<double> happened = {};  ///< of each event
-  bool observed = false;              ///< the instant that TS begins with, before a kink
+  std::vector<double> happened = {};    ///< of each event
+  bool observed = false;                ///< the instant that TS begins with, before a kink
+  petsc::VecHandle accelerations = {};  ///< of the start, until the integrator takes them over
 };
 
 PetscErrorCode residual(TS, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* context) {
@@ -57,7 +58,12 @@ PetscErrorCode tangent(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, 
 
 PetscErrorCode start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
   auto& c = *static_cast<Context*>(context);
-  return c.guard.run([&] { consistent_start(c.system, t, U, V, A); });
+  return c.guard.run([&] {
+    if (const petsc::VecHandle known = std::move(c.accelerations))
+      check(VecCopy(known, A));
+    else
+      consistent_start(c.system, t, U, V, A);
+  });
 }
 
 PetscErrorCode rebase(TS, Vec U, void* context) {
@@ -351,6 +357,24 @@ bool act(TS ts, const Integration& how, Context& context, double nominal) {
   return !stopped;
 }
 
+/// Multipliers of the start into the solution, so that the first instant has them. Where they cannot be found, the
+/// first step says why.
+void find_start(TS ts, Context& context) {
+  double t = 0;
+  Vec U = nullptr, V = nullptr;
+  check(TSGetTime(ts, &t));
+  check(TS2GetSolution(ts, &U, &V));
+  petsc::VecHandle A = context.system.create_vector();
+  int found = 1;
+  try {
+    consistent_start(context.system, t, U, V, A);
+  } catch (const RunError&) {
+    found = 0;
+  }
+  check(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MIN, context.system.comm()));
+  if (found) context.accelerations = std::move(A);
+}
+
 /// From event to event, to the end. Returns whether an event ended the motion before.
 bool go(TS ts, const Integration& how, Context& context, double nominal) {
   double t = 0;
@@ -358,6 +382,9 @@ bool go(TS ts, const Integration& how, Context& context, double nominal) {
     if (!act(ts, how, context, nominal)) return true;
     check(TSGetTime(ts, &t));
     if (t >= context.end * (1 - 1e-12)) return false;
+    PetscInt steps = 0;
+    check(TSGetStepNumber(ts, &steps));
+    if (steps == 0 && context.state && !how.from) find_start(ts, context);
     if (context.crossings) context.crossings->begin(ts);
     const double stop = next_stop(context);
     double step = 0;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floe/dynamics/connection.h"
 #include "floe/dynamics/event.h"
 #include "floe/dynamics/joints.h"
 #include "floe/dynamics/spatial_marker.h"
@@ -72,7 +73,9 @@ struct ModelProbe {
   std::optional<dynamics::Marker> relative_to;
   std::vector<dynamics::Marker> frame;  ///< deflection of corotational and split bodies: nodes that define the frame
   Eigen::Vector3d start, start_relative;
-  std::optional<SpatialProbe> spatial = {};           ///< in space; the rest stands for the plane
+  std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
+  /// Of a joint: its terms, which are the system's; on its last rank.
+  std::vector<const dynamics::Connection*> connections = {};
   Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();  ///< of the place in the axes of this frame, from its origin
 };
 
@@ -155,6 +158,7 @@ std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const
 struct ProbeColumn {
   std::string name, unit;
   double scale = 1;  ///< beside which its values are small or not: the scene's extent [m], 1 rad
+  enum class Kind { place, rate, load } kind = Kind::place;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.

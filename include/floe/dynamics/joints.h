@@ -3,6 +3,7 @@
 #include <string>
 #include <variant>
 
+#include "floe/dynamics/connection.h"
 #include "floe/dynamics/event.h"
 #include "floe/dynamics/marker_pair.h"
 #include "floe/dynamics/time_function.h"
@@ -30,7 +31,7 @@ int rows(const Constraint& constraint);
 /// Constraint rows at a level with multipliers: r_y += C_y' lambda, r_lambda = C (or its time derivatives).
 ///
 /// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
-class Joint final : public Term {
+class Joint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
@@ -43,6 +44,7 @@ class Joint final : public Term {
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Wrench on_second(const Motion& motion) const override;
   /// The force of a revolute or a clamp, with the second place's frame (or the first's, where that has none).
   void add_corotated(std::vector<Corotated>& corotated) const override;
   void begin_step(const Motion& motion) override;
@@ -69,13 +71,14 @@ struct SpringProperties {
   double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
 };
 /// See SpringProperties.
-class Spring final : public Term {
+class Spring final : public Connection {
  public:
   Spring(Marker first, Marker second, SpringProperties properties);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
+  Wrench on_second(const Motion& motion) const override;
 
  private:
   mutable MarkerPair pair_;

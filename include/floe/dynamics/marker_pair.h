@@ -1,10 +1,14 @@
 #pragma once
+#include "floe/dynamics/connection.h"
 #include "floe/dynamics/marker.h"
 
 namespace floe::dynamics {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// What of `wrench`, of both places as rows of the equations of motion have it, acts on the second place.
+Wrench on_second_place(const Vector6& wrench);
 
 /// Two markers, of two bodies or of one, seen through their poses y = (x_1, y_1, angle_1, x_2, y_2, angle_2).
 ///

@@ -63,7 +63,7 @@ SpatialConstraint lock_of(const SpatialConstraint& joint);
 ///
 /// Positive multipliers pull the second place against the directions of C. Both places may belong to one body.
 /// Residual and tangent throw RunError where the places of a Separation coincide: no direction holds them apart.
-class SpatialJoint final : public Term {
+class SpatialJoint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
@@ -78,6 +78,7 @@ class SpatialJoint final : public Term {
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
+  Wrench on_second(const Motion& motion) const override;
   /// Axes that Products keep parallel have to point the same way, and rows that are left out to vanish: up to 1e-3 of
   /// a radian and of the length unit.
   Standing standing(const Motion& motion) const override;

@@ -7,8 +7,6 @@
 
 namespace floe::dynamics {
 
-/// A force and a moment, in world axes unless said otherwise.
-using Wrench = Eigen::Matrix<double, 6, 1>;
 using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A place of a body in space, as joints and loads see it: its position and its axes as functions of the coordinates.

@@ -1,8 +1,8 @@
 #pragma once
 #include <array>
 
+#include "floe/dynamics/connection.h"
 #include "floe/dynamics/spatial_marker.h"
-#include "floe/dynamics/term.h"
 
 namespace floe::dynamics {
 

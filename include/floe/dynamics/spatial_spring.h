@@ -21,13 +21,14 @@ struct SpatialSpringProperties {
   double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
 };
 /// See SpatialSpringProperties.
-class SpatialSpring final : public Term {
+class SpatialSpring final : public Connection {
  public:
   SpatialSpring(SpatialMarker first, SpatialMarker second, SpatialSpringProperties properties);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
+  Wrench on_second(const Motion& motion) const override;
   /// Counts turns: from now on phi is the twist nearest to the present one; before the first call, nearest to `angle`.
   ///
   /// Positions know phi only up to whole turns, and a term is a function of its motion: so the turns are counted once
@@ -55,13 +56,14 @@ struct BushingProperties {
   std::string name = {};                           ///< for messages
 };
 /// See BushingProperties.
-class SpatialBushing final : public Term {
+class SpatialBushing final : public Connection {
  public:
   SpatialBushing(SpatialMarker first, SpatialMarker second, BushingProperties properties);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
+  Wrench on_second(const Motion& motion) const override;
   /// Takes rho over. @throws RunError  it is more than 0.8 of a turn, and carries a moment
   void begin_step(const Motion& motion) override;
   void save(std::vector<double>& carried) const override {

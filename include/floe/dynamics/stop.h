@@ -26,7 +26,7 @@ struct StopLaw {
 };
 
 /// Stops of a joint's free coordinate, in the plane or in space.
-class Stop : public Term {
+class Stop : public Connection {
  public:
   explicit Stop(StopLaw law) : law_(law) {}
   const StopLaw& law() const { return law_; }
@@ -48,6 +48,7 @@ class PlanarStop final : public Stop {
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
+  Wrench on_second(const Motion& motion) const override;
   double position(const Motion& motion) const override;
   double rate(const Motion& motion) const override;
 
@@ -69,6 +70,7 @@ class SpatialStop final : public Stop {
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
+  Wrench on_second(const Motion& motion) const override;
   double position(const Motion& motion) const override;
   double rate(const Motion& motion) const override;
   /// Counts turns, as SpatialSpring does.

@@ -5,6 +5,9 @@
 
 namespace floe::dynamics {
 
+/// A force and a moment, in world axes unless said otherwise.
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
 /// Which time derivative of the constraints the multiplier rows hold: C, dC/dt or d2C/dt2.
 enum class ConstraintLevel { position, velocity, acceleration };
 

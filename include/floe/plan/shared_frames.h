@@ -19,7 +19,8 @@ struct SharedFrame {
 /// nothing is said of one with shells); of two rigid bodies the later one is the guest. Guests of guests have the first
 /// one's frame. These keep their frames, and their joints' rows: a body that the ground holds in a joint of its own;
 /// whose start does not fit the rigid one's velocity; whose joint holds the mean of an edge, or is unlocked by an
-/// event; that comes from a file, or is fixed to one that does. None shares with share_frames: false.
+/// event or measured by a probe; that comes from a file, or is fixed to one that does. None shares with share_frames:
+/// false.
 std::vector<SharedFrame> shared_frames(const Scene& scene);
 
 /// Whether the default frame of a body in space is clamped where a joint clamps it: of shells, of meshes from files and

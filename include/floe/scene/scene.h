@@ -242,11 +242,21 @@ struct Motion {
   Where where;
 };
 
-/// What is recorded at a place.
+/// What is recorded at a place, or of a joint.
 struct Probe {
   std::string name;
-  Place at;
-  enum class Quantity { position, displacement, deflection, velocity, rotation } quantity = Quantity::displacement;
+  Place at;           ///< of a joint: its second place, or the first where the second is the ground
+  std::string joint;  ///< instead of a place: what this joint exerts on its second place
+  enum class Quantity {
+    position,
+    displacement,
+    deflection,
+    velocity,
+    rotation,
+    angular_velocity,
+    force,
+    moment,
+  } quantity = Quantity::displacement;
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
   std::vector<Place> chord;          ///< of a split body, deflection: from the line through these two places
   Where where;

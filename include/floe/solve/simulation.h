@@ -26,8 +26,8 @@ struct Integration {
 struct Instant {
   double t;       ///< [s]
   PetscInt step;  ///< 0 at the start
-  Vec U, V;
-  Vec A;  ///< null at step 0 (the first step finds it) and with other types of TS than generalized-alpha
+  Vec U, V;       ///< U with multipliers, at the start those of consistent accelerations
+  Vec A;          ///< null at step 0 and with other types of TS than generalized-alpha
   bool last;
   /// All that the motion goes on from here with; null with other types of TS than generalized-alpha. Rank-local.
   const std::function<MotionState()>* state = nullptr;

@@ -9,8 +9,10 @@ using namespace floe::assess;
 
 namespace {
 
-const std::vector<ProbeColumn> columns = {
-    {"tip.x", "m", 10}, {"tip.y", "m", 10}, {"middle.angle", "rad", 1}, {"tip_speed.x", "m/s", 10}};
+const std::vector<ProbeColumn> columns = {{"tip.x", "m", 10},
+                                          {"tip.y", "m", 10},
+                                          {"middle.angle", "rad", 1},
+                                          {"tip_speed.x", "m/s", 10, ProbeColumn::Kind::rate}};
 
 }  // namespace
 
