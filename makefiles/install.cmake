@@ -49,5 +49,5 @@ set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_NAME floe-dev)
 set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_FLOE-DEV_PACKAGE_DEPENDS "floe (= ${PROJECT_VERSION}), g++, pkg-config, libpetsc-real3.18-dev, \
 libslepc-real3.18-dev, libmetis-dev, libhdf5-openmpi-dev, libopenmpi-dev, libeigen3-dev, libyaml-cpp-dev, \
-libmuparser-dev, libcli11-dev, libfmt-dev, nlohmann-json3-dev")
+libcli11-dev, libfmt-dev, nlohmann-json3-dev")
 include(CPack)

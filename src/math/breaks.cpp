@@ -18,7 +18,7 @@ struct Sample {
 
 Sample sample(const Expression& f, double t) {
   Sample at{t, {}, {}, {}};
-  at.jet = f({t, 0, 0}, at.switches);
+  at.jet = f(std::array{t}, at.switches);
   for (const Jet& s : at.switches) at.signs.push_back(s.value > 0 ? 1 : s.value < 0 ? -1 : 0);
   return at;
 }
@@ -57,7 +57,7 @@ class Search {
       before = found_.at.back().before;
       found_.at.pop_back();
     }
-    found_.at.push_back({before, after, values(f_({before, 0, 0})), values(f_({after, 0, 0}))});
+    found_.at.push_back({before, after, values(f_(std::array{before})), values(f_(std::array{after}))});
   }
 
   const Expression& f_;

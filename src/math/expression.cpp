@@ -1,229 +1,61 @@
 #include "expression.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <cstdlib>
-#include <functional>
+#include <charconv>
 #include <numbers>
-#include <optional>
+
+#include "function.h"
+#include "functions.h"
 
 namespace floe::math {
 
-using Arguments = std::vector<Jet>;
-using Operation = std::function<Jet(const Arguments&)>;
-using Switches = std::function<void(const Arguments&, std::vector<Jet>&)>;
 using NodePointer = std::shared_ptr<const Expression::Node>;
 
 struct Expression::Node {
-  Operation operation;     // none: a number or a variable
+  Operation operation;     // none: a number, a variable or a function of the scene
   Switches switches = {};  // none: smooth wherever it is finite
   std::vector<NodePointer> children;
   double number = 0;
   int variable = -1;
   bool choice = false;  // children: condition, then, else; only the one that is taken is looked at
+  std::shared_ptr<const Function> function = nullptr;  // of its child
 
-  Jet evaluate(const std::vector<double>& variables, std::vector<Jet>* seen) const {
+  Jet evaluate(std::span<const Jet> variables, std::vector<Jet>* seen) const {
     if (choice) {
       const Jet condition = children[0]->evaluate(variables, seen);
       if (seen) seen->push_back(condition);
       return children[condition.value != 0 ? 1 : 2]->evaluate(variables, seen);
     }
-    if (!operation) return variable < 0 ? Jet{number} : Jet{variables[variable], variable == 0 ? 1.0 : 0.0, 0};
-    Arguments arguments;
-    for (const NodePointer& child : children) arguments.push_back(child->evaluate(variables, seen));
-    if (seen && switches) switches(arguments, *seen);
-    return operation(arguments);
+    if (function) return (*function)(children[0]->evaluate(variables, seen), seen);
+    if (!operation) return variable < 0 ? Jet{number} : variables[static_cast<std::size_t>(variable)];
+    constexpr std::size_t few = 4;
+    if (children.size() > few) {
+      std::vector<Jet> arguments;
+      for (const NodePointer& child : children) arguments.push_back(child->evaluate(variables, seen));
+      return apply(arguments, seen);
+    }
+    std::array<Jet, few> arguments;
+    for (std::size_t i = 0; i < children.size(); ++i) arguments[i] = children[i]->evaluate(variables, seen);
+    return apply({arguments.data(), children.size()}, seen);
   }
   bool has_switches() const {
-    return choice || switches || std::any_of(children.begin(), children.end(), [](const NodePointer& child) {
-             return child->has_switches();
-           });
+    return choice || switches || (function && function->has_switches()) ||
+           std::any_of(children.begin(), children.end(),
+                       [](const NodePointer& child) { return child->has_switches(); });
+  }
+
+ private:
+  Jet apply(Arguments arguments, std::vector<Jet>* seen) const {
+    if (seen && switches) switches(arguments, *seen);
+    return operation(arguments);
   }
 };
 
 namespace {
-
-struct Unknown {};
-
-/// A function of one argument with its derivatives.
-Operation of_one(double (*f)(double), double (*df)(double), double (*ddf)(double)) {
-  return [=](const Arguments& a) {
-    const double x = a.at(0).value;
-    return a[0].constant() ? Jet{f(x)} : chain(a[0], f(x), df(x), ddf(x));
-  };
-}
-
-double zero(double) { return 0; }
-
-/// A function that is constant in pieces.
-Operation steps(double (*f)(double)) { return of_one(f, zero, zero); }
-
-Jet extreme(const Arguments& a, bool greatest) {
-  const auto less = [](const Jet& one, const Jet& two) { return one.value < two.value; };
-  return greatest ? *std::max_element(a.begin(), a.end(), less) : *std::min_element(a.begin(), a.end(), less);
-}
-
-Jet sum(const Arguments& a) {
-  Jet s;
-  for (const Jet& term : a) s = s + term;
-  return s;
-}
-
-struct Function {
-  Operation operation;
-  int arguments = 1;  // 0: one or more
-  Switches switches = {};
-};
-
-/// Of functions with a kink or a jump at 0.
-void by_value(const Arguments& a, std::vector<Jet>& switches) { switches.push_back(a[0]); }
-
-/// Of those with an end at 0: also where the argument touches 0.
-void by_sign(const Arguments& a, std::vector<Jet>& switches) {
-  switches.push_back(a[0]);
-  switches.push_back({a[0].first, a[0].second, 0});
-}
-
-/// Of ramp and pulse.
-void between_two(const Arguments& a, std::vector<Jet>& switches) {
-  switches.insert(switches.end(), {a[0] - a[1], a[0] - a[2]});
-}
-
-/// Of min and max: each pair.
-void by_order(const Arguments& a, std::vector<Jet>& switches) {
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t j = i + 1; j < a.size(); ++j) switches.push_back(a[i] - a[j]);
-}
-
-/// Of a power: none of a whole exponent >= 0.
-void by_base(const Arguments& a, std::vector<Jet>& switches) {
-  if (!a[1].constant() || a[1].value < 0 || a[1].value != std::floor(a[1].value)) by_sign(a, switches);
-}
-
-/// Of asin and the like, which end at -1 and 1.
-void by_ends(const Arguments& a, std::vector<Jet>& switches) {
-  switches.push_back(Jet{1} - a[0] * a[0]);
-  switches.push_back({a[0].first, a[0].second, 0});
-}
-
-const std::map<std::string, Function>& functions() {
-  using D = double;
-  static const std::map<std::string, Function> all{
-      {"sin", {of_one(std::sin, std::cos, [](D x) { return -std::sin(x); })}},
-      {"cos",
-       {of_one(
-           std::cos, [](D x) { return -std::sin(x); }, [](D x) { return -std::cos(x); })}},
-      {"tan",
-       {of_one(
-           std::tan, [](D x) { return 1 + std::pow(std::tan(x), 2); },
-           [](D x) { return 2 * std::tan(x) * (1 + std::pow(std::tan(x), 2)); })}},
-      {"asin",
-       {of_one(
-            std::asin, [](D x) { return 1 / std::sqrt(1 - x * x); }, [](D x) { return x / std::pow(1 - x * x, 1.5); }),
-        1, by_ends}},
-      {"acos",
-       {of_one(
-            std::acos, [](D x) { return -1 / std::sqrt(1 - x * x); },
-            [](D x) { return -x / std::pow(1 - x * x, 1.5); }),
-        1, by_ends}},
-      {"atan",
-       {of_one(
-           std::atan, [](D x) { return 1 / (1 + x * x); }, [](D x) { return -2 * x / std::pow(1 + x * x, 2); })}},
-      {"sinh", {of_one(std::sinh, std::cosh, std::sinh)}},
-      {"cosh", {of_one(std::cosh, std::sinh, std::cosh)}},
-      {"tanh",
-       {of_one(
-           std::tanh, [](D x) { return 1 - std::pow(std::tanh(x), 2); },
-           [](D x) { return -2 * std::tanh(x) * (1 - std::pow(std::tanh(x), 2)); })}},
-      {"asinh",
-       {of_one(
-           std::asinh, [](D x) { return 1 / std::sqrt(1 + x * x); },
-           [](D x) { return -x / std::pow(1 + x * x, 1.5); })}},
-      {"acosh",
-       {of_one(
-           std::acosh, [](D x) { return 1 / std::sqrt(x * x - 1); },
-           [](D x) { return -x / std::pow(x * x - 1, 1.5); })}},
-      {"atanh",
-       {of_one(
-           std::atanh, [](D x) { return 1 / (1 - x * x); }, [](D x) { return 2 * x / std::pow(1 - x * x, 2); })}},
-      {"exp", {of_one(std::exp, std::exp, std::exp)}},
-      {"ln",
-       {of_one(
-           std::log, [](D x) { return 1 / x; }, [](D x) { return -1 / (x * x); })}},
-      {"log",
-       {of_one(
-           std::log, [](D x) { return 1 / x; }, [](D x) { return -1 / (x * x); })}},
-      {"log2",
-       {of_one(
-           std::log2, [](D x) { return std::numbers::log2e / x; },
-           [](D x) { return -std::numbers::log2e / (x * x); })}},
-      {"log10",
-       {of_one(
-           std::log10, [](D x) { return std::numbers::log10e / x; },
-           [](D x) { return -std::numbers::log10e / (x * x); })}},
-      {"sqrt",
-       {of_one(
-            std::sqrt, [](D x) { return 0.5 / std::sqrt(x); }, [](D x) { return -0.25 / (x * std::sqrt(x)); }),
-        1, by_sign}},
-      {"abs",
-       {of_one(
-            std::fabs, [](D x) { return x < 0   ? -1.0
-                                        : x > 0 ? 1.0
-                                                : 0.0; }, zero),
-        1, by_value}},
-      {"sign", {steps([](D x) { return x < 0   ? -1.0
-                                       : x > 0 ? 1.0
-                                               : 0.0; }), 1, by_value}},
-      {"rint",
-       {steps([](D x) { return std::floor(x + 0.5); }), 1,
-        [](const Arguments& a, std::vector<Jet>& switches) {  // x = k + 1/2
-          const double y = std::numbers::pi * a[0].value;
-          switches.push_back(chain(a[0], std::cos(y), -std::numbers::pi * std::sin(y), 0));
-        }}},
-      {"atan2",
-       {[](const Arguments& a) {
-          Jet angle = Jet{std::atan2(a[0].value, a[1].value)};
-          const Jet square = a[0] * a[0] + a[1] * a[1];
-          const Jet &y = a[0], &x = a[1];
-          // (x y' - y x') / (x^2 + y^2), and its derivative
-          const double top = x.value * y.first - y.value * x.first, change = x.value * y.second - y.value * x.second;
-          if (y.constant() && x.constant()) return angle;
-          angle.first = top / square.value;
-          angle.second = (change - angle.first * square.first) / square.value;
-          return angle;
-        },
-        2,
-        [](const Arguments& a, std::vector<Jet>& switches) {  // the cut along the negative axis
-          switches.push_back(a[1]);
-          if (a[1].value < 0) switches.push_back(a[0]);
-        }}},
-      {"min", {[](const Arguments& a) { return extreme(a, false); }, 0, by_order}},
-      {"max", {[](const Arguments& a) { return extreme(a, true); }, 0, by_order}},
-      {"sum", {sum, 0}},
-      {"avg", {[](const Arguments& a) { return sum(a) / Jet{static_cast<double>(a.size())}; }, 0}},
-      {"triangle",
-       {[](const Arguments& a) {
-          const Jet &t = a[0], &rise = a[1], &fall = a[2];
-          if (t.value < 0 || t.value >= rise.value + fall.value) return Jet{};
-          return t.value < rise.value ? t / rise : (rise + fall - t) / fall;
-        },
-        3,
-        [](const Arguments& a, std::vector<Jet>& switches) {
-          switches.insert(switches.end(), {a[0], a[0] - a[1], a[0] - a[1] - a[2]});
-        }}},
-      {"ramp",
-       {[](const Arguments& a) {
-          if (a[0].value < a[1].value) return Jet{0};
-          if (a[0].value >= a[2].value) return Jet{1};
-          return (a[0] - a[1]) / (a[2] - a[1]);
-        },
-        3, between_two}},
-      {"pulse",
-       {[](const Arguments& a) { return Jet{a[1].value <= a[0].value && a[0].value < a[2].value ? 1.0 : 0.0}; }, 3,
-        between_two}},
-  };
-  return all;
-}  // NOLINT(clang-analyzer-cplusplus.NewDeleteLeaks): they are static
 
 NodePointer make(Operation operation, std::vector<NodePointer> children, Switches switches = {}) {
   auto node = std::make_shared<Expression::Node>();
@@ -233,21 +65,31 @@ NodePointer make(Operation operation, std::vector<NodePointer> children, Switche
 
 /// Of a comparison.
 NodePointer comparing(std::function<bool(double, double)> holds, const NodePointer& left, const NodePointer& right) {
-  return make([holds = std::move(holds)](const Arguments& a) { return Jet{holds(a[0].value, a[1].value) ? 1.0 : 0.0}; },
-              {left, right}, [](const Arguments& a, std::vector<Jet>& switches) { switches.push_back(a[0] - a[1]); });
+  return make([holds = std::move(holds)](Arguments a) { return Jet{holds(a[0].value, a[1].value) ? 1.0 : 0.0}; },
+              {left, right}, [](Arguments a, std::vector<Jet>& switches) { switches.push_back(a[0] - a[1]); });
 }
 
 Operation compared(std::function<bool(double, double)> holds) {
-  return [holds = std::move(holds)](const Arguments& a) { return Jet{holds(a[0].value, a[1].value) ? 1.0 : 0.0}; };
+  return [holds = std::move(holds)](Arguments a) { return Jet{holds(a[0].value, a[1].value) ? 1.0 : 0.0}; };
 }
 
 /// By recursive descent, a level for each precedence.
 struct Reader {
   const std::string& text;
   const std::vector<std::string>& variables;
-  const std::map<std::string, double>& constants;
+  const Names& names;
   std::size_t at = 0;
+  bool constant = true;
 
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw FormulaError(fmt::format("\"{}\" does not parse: {}", text, why));
+  }
+  [[noreturn]] void refuse_rest() const {
+    if (at >= text.size()) refuse("it ends where a number, a name or \"(\" is expected");
+    if (text[at] == '=' && text.compare(at, 2, "==") != 0)
+      throw FormulaError(fmt::format("\"{}\" assigns at character {}; compare with ==", text, at + 1));
+    refuse(fmt::format("unexpected \"{}\" at character {}", text[at], at + 1));
+  }
   void skip_blanks() {
     while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at]))) ++at;
   }
@@ -257,8 +99,17 @@ struct Reader {
     at += word.size();
     return true;
   }
-  void expect(const std::string& word) {
-    if (!take(word)) throw Unknown{};
+  void expect(const std::string& word, const std::string& what) {
+    if (take(word)) return;
+    if (at >= text.size()) refuse("missing " + what);
+    refuse_rest();
+  }
+  NodePointer whole() {
+    NodePointer root = choice();
+    skip_blanks();
+    if (at == text.size()) return root;
+    if (text[at] == ',') throw FormulaError(fmt::format("\"{}\" is more than one formula", text));
+    refuse_rest();
   }
 
   NodePointer choice() {
@@ -266,7 +117,7 @@ struct Reader {
     if (!take("?")) return condition;
     auto node = std::make_shared<Expression::Node>();
     const NodePointer yes = choice();
-    expect(":");
+    expect(":", "\":\" of the condition");
     node->choice = true, node->children = {condition, yes, choice()};
     return node;
   }
@@ -304,9 +155,9 @@ struct Reader {
     NodePointer left = product();
     for (;;) {
       if (take("+"))
-        left = make([](const Arguments& a) { return a[0] + a[1]; }, {left, product()});
+        left = make([](Arguments a) { return a[0] + a[1]; }, {left, product()});
       else if (take("-"))
-        left = make([](const Arguments& a) { return a[0] - a[1]; }, {left, product()});
+        left = make([](Arguments a) { return a[0] - a[1]; }, {left, product()});
       else
         return left;
     }
@@ -315,37 +166,38 @@ struct Reader {
     NodePointer left = signed_power();
     for (;;) {
       if (take("*"))
-        left = make([](const Arguments& a) { return a[0] * a[1]; }, {left, signed_power()});
+        left = make([](Arguments a) { return a[0] * a[1]; }, {left, signed_power()});
       else if (take("/"))
-        left = make([](const Arguments& a) { return a[0] / a[1]; }, {left, signed_power()});
+        left = make([](Arguments a) { return a[0] / a[1]; }, {left, signed_power()});
       else
         return left;
     }
   }
   NodePointer signed_power() {
-    if (take("-")) return make([](const Arguments& a) { return -a[0]; }, {signed_power()});
+    if (take("-")) return make([](Arguments a) { return -a[0]; }, {signed_power()});
     if (take("+")) return signed_power();
     NodePointer base = primary();
     if (!take("^")) return base;
-    return make([](const Arguments& a) { return power(a[0], a[1]); }, {base, signed_power()}, by_base);
+    return make([](Arguments a) { return power(a[0], a[1]); }, {base, signed_power()}, power_switches);
   }
   NodePointer primary() {
     skip_blanks();
-    if (at >= text.size()) throw Unknown{};
     if (take("(")) {
       NodePointer inner = choice();
-      expect(")");
+      expect(")", "parenthesis");
       return inner;
     }
-    if (std::isdigit(static_cast<unsigned char>(text[at])) || text[at] == '.') return number();
-    return named();
+    if (at >= text.size()) refuse_rest();
+    const auto first = static_cast<unsigned char>(text[at]);
+    if (std::isdigit(first) || first == '.') return number();
+    if (std::isalpha(first) || first == '_') return named();
+    refuse_rest();
   }
   NodePointer number() {
-    char* end = nullptr;
     auto node = std::make_shared<Expression::Node>();
-    node->number = std::strtod(text.c_str() + at, &end);
-    if (end == text.c_str() + at) throw Unknown{};
-    at = static_cast<std::size_t>(end - text.c_str());
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), node->number);
+    if (error != std::errc()) refuse(fmt::format("no number at character {}", at + 1));
+    at = static_cast<std::size_t>(end - text.data());
     return node;
   }
   NodePointer named() {
@@ -353,45 +205,60 @@ struct Reader {
     while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
     const std::string name = text.substr(start, at - start);
     auto node = std::make_shared<Expression::Node>();
-    const auto variable = std::find(variables.begin(), variables.end(), name);
-    if (variable != variables.end()) return node->variable = static_cast<int>(variable - variables.begin()), node;
-    if (const auto known = constants.find(name); known != constants.end()) return node->number = known->second, node;
+    if (const auto variable = std::find(variables.begin(), variables.end(), name); variable != variables.end()) {
+      constant = false;
+      return node->variable = static_cast<int>(variable - variables.begin()), node;
+    }
+    if (const auto known = names.numbers.find(name); known != names.numbers.end())
+      return node->number = known->second, node;
     if (name == "pi") return node->number = std::numbers::pi, node;
     if (name == "e") return node->number = std::numbers::e, node;
-    const auto function = functions().find(name);
-    if (function == functions().end()) throw Unknown{};
-    return make(function->second.operation, arguments(function->second.arguments), function->second.switches);
+    if (const auto own = names.functions.find(name); own != names.functions.end())
+      return node->children = arguments(name, 1), node->function = own->second, node;
+    const auto function = known_functions().find(name);
+    if (function == known_functions().end())
+      throw FormulaError(fmt::format("\"{}\" at character {} of \"{}\" is unknown", name, start + 1, text), name);
+    return make(function->second.operation, arguments(name, function->second.arguments), function->second.switches);
   }
-  std::vector<NodePointer> arguments(int count) {
+  std::vector<NodePointer> arguments(const std::string& function, int count) {
     std::vector<NodePointer> all;
-    expect("(");
+    expect("(", fmt::format("\"(\" after {}", function));
     do all.push_back(choice());
     while (take(","));
-    expect(")");
-    if (count > 0 && static_cast<int>(all.size()) != count) throw Unknown{};
+    expect(")", "parenthesis");
+    if (count > 0 && static_cast<int>(all.size()) != count)
+      refuse(fmt::format("{} has {} arguments, not {}", function, count, all.size()));
     return all;
   }
 };
 
-}  // namespace
-
-std::shared_ptr<const Expression> Expression::read(const std::string& text, const std::vector<std::string>& variables,
-                                                   const std::map<std::string, double>& constants) {
-  try {
-    Reader reader{text, variables, constants};
-    auto expression = std::make_shared<Expression>();
-    expression->root_ = reader.choice();
-    reader.skip_blanks();
-    if (reader.at != text.size()) return nullptr;
-    return expression;
-  } catch (const Unknown&) {
-    return nullptr;
-  }
+/// The variables, of which the first varies.
+std::array<Jet, 3> jets(std::span<const double> variables, bool varies) {
+  std::array<Jet, 3> all;
+  for (std::size_t i = 0; i < std::min(variables.size(), all.size()); ++i)
+    all[i] = {variables[i], varies && i == 0 ? 1.0 : 0.0, 0};
+  return all;
 }
 
-Jet Expression::operator()(const std::vector<double>& variables) const { return root_->evaluate(variables, nullptr); }
-Jet Expression::operator()(const std::vector<double>& variables, std::vector<Jet>& switches) const {
-  return root_->evaluate(variables, &switches);
+}  // namespace
+
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables, const Names& names) {
+  Reader reader{text, variables, names};
+  root_ = reader.whole();
+  constant_ = reader.constant;
+}
+
+double Expression::value(std::span<const double> variables) const {
+  return root_->evaluate(jets(variables, false), nullptr).value;
+}
+Jet Expression::operator()(std::span<const double> variables) const {
+  return root_->evaluate(jets(variables, true), nullptr);
+}
+Jet Expression::operator()(std::span<const double> variables, std::vector<Jet>& switches) const {
+  return root_->evaluate(jets(variables, true), &switches);
+}
+Jet Expression::operator()(const Jet& variable, std::vector<Jet>* switches) const {
+  return root_->evaluate({&variable, 1}, switches);
 }
 bool Expression::has_switches() const { return root_->has_switches(); }
 

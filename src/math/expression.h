@@ -1,9 +1,10 @@
 #pragma once
-#include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "floe/math/formula.h"
 #include "jet.h"
 
 namespace floe::math {
@@ -15,22 +16,27 @@ namespace floe::math {
 /// min(a, b), x of abs(x) and of sqrt(x)): the derivatives can jump or be infinite only where one of them changes its
 /// sign.
 ///
-/// Reads what muParser reads: numbers, names, + - * / ^ (to the right), comparisons, && ||, c ? a : b, functions.
+/// Numbers, names, + - * / ^ (to the right), comparisons, && ||, c ? a : b, functions.
 class Expression {
  public:
   struct Node;
-  /// @return  nothing where the text has something that this does not know
-  static std::shared_ptr<const Expression> read(const std::string& text, const std::vector<std::string>& variables,
-                                                const std::map<std::string, double>& constants);
+  /// @throws FormulaError
+  Expression(const std::string& text, const std::vector<std::string>& variables, const Names& names);
+  double value(std::span<const double> variables) const;
   /// By the first of the variables.
-  Jet operator()(const std::vector<double>& variables) const;
+  Jet operator()(std::span<const double> variables) const;
   /// Appends the switches, of the branches that are taken alone: their number may change where one of them does.
-  Jet operator()(const std::vector<double>& variables, std::vector<Jet>& switches) const;
+  Jet operator()(std::span<const double> variables, std::vector<Jet>& switches) const;
+  /// The same at an argument that varies itself.
+  Jet operator()(const Jet& variable, std::vector<Jet>* switches) const;
   /// Whether there is any.
   bool has_switches() const;
+  /// Mentions none of its variables.
+  bool constant() const { return constant_; }
 
  private:
   std::shared_ptr<const Node> root_;
+  bool constant_ = true;
 };
 
 }  // namespace floe::math

@@ -23,7 +23,7 @@ struct Value {
 class Document {
  public:
   std::string file;
-  std::map<std::string, double> parameters;
+  math::Names names;  ///< that formulas may use: parameters and functions so far
   int dimension = 2;  ///< of the scene: how many coordinates a point has
 
   /// A reduced body's file, read once. @throws InputError

@@ -16,20 +16,27 @@ bool identifier(const std::string& name) {
 
 }  // namespace
 
-void read_parameters(Document& document, const Value& value) {
-  const Key& key = schema_section("scene").key("parameters");
+bool check_name(Document& document, const Where& where, const std::string& name) {
   auto reserved = math::formula_names();
   for (const char* variable : {"t", "x", "y", "z"}) reserved.push_back(variable);
+  if (!identifier(name))
+    document.fault(where, "is not a valid name in formulas", "letters, digits and _, not starting with a digit");
+  else if (std::count(reserved.begin(), reserved.end(), name))
+    document.fault(where, "is reserved in formulas", "another name");
+  else if (document.names.numbers.count(name))
+    document.fault(where, "is a parameter", "another name");
+  else
+    return true;
+  return false;
+}
+
+void read_parameters(Document& document, const Value& value) {
+  const Key& key = schema_section("scene").key("parameters");
   for (const auto& entry : read_mapping(document, value, describe(key))) {
-    if (!identifier(entry.name)) {
-      document.fault(entry.where, "is not a valid parameter name", "letters, digits and _, not starting with a digit");
-    } else if (std::count(reserved.begin(), reserved.end(), entry.name)) {
-      document.fault(entry.where, "is reserved in formulas", "another name");
-    } else {
-      // After a fault the name is known all the same: its uses are no faults of their own.
-      const double number = read_number(document, entry.value, key);
-      document.parameters[entry.name] = std::isnan(number) ? 1 : number;
-    }
+    if (!check_name(document, entry.where, entry.name)) continue;
+    // After a fault the name is known all the same: its uses are no faults of their own.
+    const double number = read_number(document, entry.value, key);
+    document.names.numbers[entry.name] = std::isnan(number) ? 1 : number;
   }
 }
 

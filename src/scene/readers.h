@@ -28,6 +28,9 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
 /// The places of probes of joints. Joints must have been read.
 void place_probes(Document& document, Scene& scene);
 void read_parameters(Document& document, const Value& value);
+void read_functions(Document& document, const Value& value);
+/// Whether formulas may know a parameter or function by this name; else a fault.
+bool check_name(Document& document, const Where& where, const std::string& name);
 
 /// `beam.end`, `ground` or {body: beam, node: [x, y]} (in space [x, y, z]); whether they exist is checked once all
 /// bodies are read.

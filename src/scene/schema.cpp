@@ -30,6 +30,10 @@ const SchemaSection scene_section{
         {"title", Type::text, "", "", "title of results and pictures; absent: the name of the file"},
         {"parameters", Type::parameters, "", "",
          "named numbers that all numbers and formulas may use; a parameter may use those defined above it"},
+        part("functions", Type::functions, "",
+             "named functions that formulas may call, as gust(t): each a formula of t or a table; a function may call "
+             "those defined above it",
+             "table"),
         {"gravity", Type::formulas, "m/s2", "", "acceleration of gravity in world axes; absent: zero"},
         part("ground", Type::section, "", "prescribed motion of the ground; absent: fixed", "ground"),
         {"share_frames", Type::flag, "", "true",
@@ -60,6 +64,26 @@ const SchemaSection accuracy_section{
          {0, 1, true, true}},
     }};
 
+const SchemaSection table_section{
+    "table",
+    "A function given at points, named by its key: either t and values, or file. Before the first point it has the "
+    "first "
+    "value, behind the last point the last value.",
+    "file: gust.csv\ncolumn: 3\ninterpolation: cubic",
+    {
+        {"t", Type::numbers, "", "", "arguments of the points, ascending"},
+        {"values", Type::numbers, "", "", "values of the points"},
+        {"file", Type::text, "", "",
+         "text file (CSV) beside the scene: columns of numbers apart by commas, semicolons or blanks; lines that begin "
+         "with # and a header are skipped"},
+        {"t_column", Type::integer, "", "1", "column of the arguments, from 1", counts},
+        {"column", Type::integer, "", "2", "column of the values, from 1", counts},
+        choice("interpolation", "linear",
+               "linear; cubic: monotone between the points, with a continuous first derivative (for drives)",
+               {"linear", "cubic"}),
+        {"periodic", Type::flag, "", "false", "repeated beyond its ends"},
+    }};
+
 const SchemaSection ground_section{
     "ground",
     "Translational base excitation. The world axes move with the ground: positions and velocities are relative to it, "
@@ -73,7 +97,7 @@ const SchemaSection ground_section{
 
 const std::vector<SchemaSection>& schema() {
   static const std::vector<SchemaSection> all = [] {
-    std::vector<SchemaSection> sections{scene_section, accuracy_section, ground_section};
+    std::vector<SchemaSection> sections{scene_section, accuracy_section, table_section, ground_section};
     for (const auto* part : {&body_sections(), &mechanism_sections(), &spatial_sections()})
       sections.insert(sections.end(), part->begin(), part->end());
     return sections;

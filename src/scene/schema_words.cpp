@@ -93,6 +93,8 @@ std::string describe(const Key& key, int dimension) {
       return "the name of a body";
     case Type::parameters:
       return "a mapping NAME: number";
+    case Type::functions:
+      return fmt::format("a mapping NAME: formula of t, or mapping with the keys of `{}`", key.section);
     case Type::section:
       return fmt::format("a mapping with the keys of `{}`", key.section);
     case Type::modes:
@@ -127,8 +129,8 @@ std::string schema_reference() {
       "A scene is a YAML file. Every number may be given as a formula of the parameters (\"pi/2\", L/20).\nFormulas "
       "may contain pi, e, + - * / ^, comparisons, `condition ? a : b`, sin, cos, exp, sqrt, abs, min, max and so "
       "on,\n"
-      "triangle(t, rise, fall), ramp(t, from, to) and pulse(t, from, to); in a list, quote a formula that has a "
-      "comma.\n"
+      "triangle(t, rise, fall), ramp(t, from, to), smooth(t, from, to), pulse(t, from, to) and the scene's functions; "
+      "in a\nlist, quote a formula that has a comma.\n"
       "Names consist of letters, digits, _ and -. Units are SI here; any consistent set of units may be used.\n";
   for (const SchemaSection& section : schema()) {
     out += fmt::format("\n{}\n{}\n{}\n", section.name, std::string(section.name.size(), '-'), section.text);

@@ -35,7 +35,8 @@ std::optional<double> plain_number(std::string text) {
 
 std::vector<std::string> names_known(const Document& document, const std::vector<std::string>& variables) {
   std::vector<std::string> names = variables;
-  for (const auto& parameter : document.parameters) names.push_back(parameter.first);
+  for (const auto& parameter : document.names.numbers) names.push_back(parameter.first);
+  for (const auto& function : document.names.functions) names.push_back(function.first);
   for (const auto& name : math::formula_names()) names.push_back(name);
   return names;
 }
@@ -78,7 +79,7 @@ math::Formula read_formula(Document& document, const Value& value, const Key& ke
     return NAN;
   }
   try {
-    return math::Formula(text, variables, document.parameters);
+    return math::Formula(text, variables, document.names);
   } catch (const math::FormulaError& error) {
     document.fault(value.where, error.what(), expected, error.unknown, names_known(document, variables));
     return NAN;

@@ -1,13 +1,16 @@
 #pragma once
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace floe::math {
 
 class Expression;
+class Function;
 
 /// A formula does not parse, names something unknown, or yields NaN or infinity. what() says which and where in the
 /// text.
@@ -18,24 +21,30 @@ class FormulaError : public std::runtime_error {
   std::string unknown;  ///< the name that is neither variable, constant nor function; empty for other faults
 };
 
-/// A real function of named variables, read from text as `2500*sin(9.5*t)`; evaluated by muParser. Copies share the
-/// parser.
+/// What formulas may call by name beside their variables, and beside pi, e and the functions of formula_names().
+struct Names {
+  std::map<std::string, double> numbers;                             ///< the scene's parameters
+  std::map<std::string, std::shared_ptr<const Function>> functions;  ///< of one argument
+  Names() = default;
+  Names(std::initializer_list<std::pair<const std::string, double>> some) : numbers(some) {}
+};
+
+/// A real function of named variables, read from text as `2500*sin(9.5*t)`. Copies share the tree that it is.
 ///
-/// Beyond muParser's functions (sin, exp, sqrt, min, ..., and `condition ? a : b`) it knows
+/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp ln log (natural) log2 log10 sqrt
+/// abs sign rint min max sum avg, and
 ///   triangle(t, rise, fall)  0 -> 1 over `rise`, 1 -> 0 over `fall`, else 0
 ///   ramp(t, from, to)        0 before `from`, linear, 1 after `to`
+///   smooth(t, from, to)      the same by 6 x^5 - 15 x^4 + 10 x^3: with its first two derivatives 0 at both ends
 ///   pulse(t, from, to)       1 for from <= t < to, else 0
-/// Not thread-safe. Source: https://beltoforion.de/en/muparser
 class Formula {
  public:
   /// The constant 0.
   Formula() : Formula(0.0) {}
   Formula(double constant);  // NOLINT: a number is a formula
   /// @param variables  in the order of the arguments of operator(), at most three
-  /// @param constants  named numbers (the scene's parameters); pi and e are always known
   /// @throws FormulaError
-  Formula(const std::string& text, const std::vector<std::string>& variables,
-          const std::map<std::string, double>& constants);
+  Formula(const std::string& text, const std::vector<std::string>& variables, const Names& names);
 
   /// @throws FormulaError when the value is not finite (its text names the formula and the arguments)
   double operator()(double first = 0, double second = 0, double third = 0) const;
@@ -47,19 +56,34 @@ class Formula {
   double second_derivative(double first, double second = 0) const;
 
   /// Mentions none of its variables.
-  bool constant() const;
-  const std::string& text() const;
-  /// The formula as a tree, for breaks(); null where it has no derivatives, and of a number.
-  const Expression* expression() const;
+  bool constant() const { return !tree_; }
+  const std::string& text() const { return text_; }
+  /// The formula as a tree, for breaks(); null where it is constant.
+  const Expression* expression() const { return tree_.get(); }
 
  private:
   double finite(double value, const char* what, double first, double second, double third = 0) const;
-  const Expression& tree() const;
-  struct Parser;
-  std::shared_ptr<Parser> parser_;
+  std::string text_;
+  std::vector<std::string> variables_;
+  double value_ = 0;  // of a constant
+  std::shared_ptr<const Expression> tree_;
 };
 
 /// The names that every formula knows: pi, e and the functions. Sorted.
 std::vector<std::string> formula_names();
+
+/// A formula of one variable as a function that other formulas may call.
+std::shared_ptr<const Function> function_of(const Formula& formula);
+
+/// A function given at points.
+struct Table {
+  std::vector<double> x, y;  ///< x ascending, at least two
+  /// cubic: Fritsch and Carlson's, which is monotone where the points are and has a continuous first derivative
+  /// (SIAM J. Numer. Anal. 17, 1980).
+  enum class Interpolation { linear, cubic } interpolation = Interpolation::linear;
+  /// Repeated beyond its ends, with the period x_last - x_first; else the first and the last value go on.
+  bool periodic = false;
+};
+std::shared_ptr<const Function> function_of(Table table);
 
 }  // namespace floe::math

@@ -32,6 +32,7 @@ enum class Type {
   own_places,
   body,
   parameters,
+  functions,
   section,
   modes,
   accuracy,

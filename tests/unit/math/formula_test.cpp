@@ -54,7 +54,7 @@ TEST_CASE("a number is a formula, and constants know that they are constant") {
   CHECK(Formula("2*L", of_t, {{"L", 3}}).derivative(1) == 0);
 }
 
-TEST_CASE("copies share their parser and disturb each other's values not") {
+TEST_CASE("copies share their tree and disturb each other's values not") {
   const Formula a("t^2", of_t, {}), b = a;
   CHECK(a(3) == 9);
   CHECK(b(4) == 16);
@@ -68,6 +68,11 @@ TEST_CASE("what is wrong with a formula is said") {
   CHECK_THAT(complaint("F*sinn(t)"), Contains("\"sinn\" at character 3"));
   CHECK_THAT(complaint("1, 2"), Contains("more than one formula"));
   CHECK_THAT(complaint("t=3"), Contains("assigns at character 2"));
+  CHECK_THAT(complaint("sin(1, 2)"), Contains("sin has 1 arguments, not 2"));
+  CHECK_THAT(complaint("sin + 1"), Contains("unexpected \"+\" at character 5"));
+  CHECK_THAT(complaint("2t"), Contains("unexpected \"t\" at character 2"));
+  CHECK_THAT(complaint("0x10"), Contains("unexpected \"x\""));
+  CHECK_THAT(complaint("t > 1 ? 2"), Contains("missing \":\""));
   CHECK_THAT(complaint("1/0"), Contains("infinite"));
   CHECK_THAT(complaint("sqrt(t-1)"), Contains("not a number at t = 0"));
   CHECK_THAT(complaint("log(0*t-1)"), Contains("not a number"));
@@ -125,9 +130,9 @@ TEST_CASE("derivatives of every function and operator agree with differences") {
                                  "t <= 2 == 1 ? 1e-1*t : .5",
                                  "(t > 5 ? 1 : t > 0.2 ? t^2 : 0)"};
   const std::map<std::string, std::string> arguments{
-      {"atan2", "(t, 2 - t)"},   {"acosh", "(1 + t)"},        {"min", "(t, 3*t, 1 + t)"},
-      {"max", "(t, 3*t)"},       {"sum", "(t, t^2, 1)"},      {"avg", "(t, t^2, 1)"},
-      {"triangle", "(t, 1, 2)"}, {"ramp", "(t, 0.1, t + 2)"}, {"pulse", "(t, 0, 2)"}};
+      {"atan2", "(t, 2 - t)"}, {"acosh", "(1 + t)"},       {"min", "(t, 3*t, 1 + t)"}, {"max", "(t, 3*t)"},
+      {"sum", "(t, t^2, 1)"},  {"avg", "(t, t^2, 1)"},     {"triangle", "(t, 1, 2)"},  {"ramp", "(t, 0.1, t + 2)"},
+      {"pulse", "(t, 0, 2)"},  {"smooth", "(t, 0.1, 1.3)"}};
   for (const std::string& name : floe::math::formula_names()) {
     if (name == "pi" || name == "e") continue;
     const auto found = arguments.find(name);
@@ -141,4 +146,50 @@ TEST_CASE("derivatives of every function and operator agree with differences") {
     CHECK(f.derivative(t) == Approx((after - before) / (2 * h)).epsilon(1e-6).margin(1e-6));
     CHECK(f.second_derivative(t) == Approx((after - 2 * here + before) / (h * h)).epsilon(1e-5).margin(1e-5));
   }
+}
+
+TEST_CASE("a smooth step begins and ends without speed and acceleration") {
+  const Formula f("3*smooth(t, 1, 3)", of_t, {});
+  CHECK(f(0.5) == 0);
+  CHECK(f(1.5) == Approx(3 * (10 - 15 * 0.25 + 6 * 0.0625) / 64));
+  CHECK(f(2) == Approx(1.5));
+  CHECK(f(4) == 3);
+  for (const double t : {1 + 1e-9, 3 - 1e-9}) {
+    CHECK(std::abs(f.derivative(t)) < 1e-15);
+    CHECK(std::abs(f.second_derivative(t)) < 1e-7);
+  }
+}
+
+TEST_CASE("functions of the scene: formulas and tables, with the chain rule") {
+  using floe::math::function_of;
+  using floe::math::Table;
+  floe::math::Names names{{"w", 2}};
+  names.functions["wave"] = function_of(Formula("sin(w*t)", of_t, names));
+  names.functions["twice"] = function_of(Formula("wave(wave(t))", of_t, names));
+  names.functions["line"] = function_of(Table{{0, 1, 3}, {0, 2, 0}});
+  names.functions["cubic"] = function_of(Table{{0, 1, 2, 3}, {0, 1, 8, 27}, Table::Interpolation::cubic});
+  names.functions["hill"] = function_of(Table{{0, 1, 2}, {0, 1, 0}, Table::Interpolation::cubic, true});
+  const auto f = [&](const std::string& text) { return Formula(text, of_t, names); };
+  CHECK(f("wave(3*t)").second_derivative(0.2) == Approx(-36 * std::sin(1.2)));
+  CHECK(f("twice(t)").derivative(0.3) == Approx(4 * std::cos(2 * 0.3) * std::cos(2 * std::sin(0.6))));
+  CHECK(f("line(t)")(-1) == 0);
+  CHECK(f("line(2*t)")(0.25) == 1);
+  CHECK(f("line(2*t)").derivative(0.25) == 4);
+  CHECK(f("line(t)")(2) == 1);
+  CHECK(f("line(t)").derivative(2) == -1);
+  CHECK(f("line(t)")(7) == 0);
+  // monotone: between 0 and 27, through the points, slopes as differences have them
+  double last = -1;
+  for (double t = 0; t <= 3; t += 0.01) {
+    CHECK(f("cubic(t)")(t) >= last);
+    last = f("cubic(t)")(t);
+    if (std::abs(t - std::round(t)) < 1e-3 || t < 0.02) continue;
+    const double h = 1e-5, difference = (f("cubic(t)")(t + h) - f("cubic(t)")(t - h)) / (2 * h);
+    CHECK(f("cubic(t)").derivative(t) == Approx(difference).epsilon(1e-6).margin(1e-6));
+  }
+  CHECK(f("cubic(t)")(2) == Approx(8));
+  CHECK(f("hill(t)")(5.5) == Approx(f("hill(t)")(1.5)));
+  CHECK(f("hill(t)")(-0.5) == Approx(0.5));
+  CHECK(f("hill(t)").derivative(7) == Approx(0).margin(1e-12));
+  CHECK_THROWS_WITH(f("line(t, 2)"), Contains("line has 1 arguments, not 2"));
 }

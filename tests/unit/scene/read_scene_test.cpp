@@ -1,4 +1,10 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "floe/scene/places.h"
 #include "floe/scene/scene.h"
@@ -258,4 +264,28 @@ probes: {tip: {at: rod.end}}
   CHECK(accuracy_of("reduction: 1%").share == Approx(0.01));
   CHECK_FALSE(accuracy_of("reduction:1%").total);
   CHECK(accuracy_of("0.01").total);
+}
+
+TEST_CASE("functions of a scene: formulas and tables, from the scene and from a file") {
+  const std::filesystem::path scratch =
+      std::filesystem::temp_directory_path() / fmt::format("floe-functions-{}", getpid());
+  std::filesystem::create_directories(scratch);
+  std::ofstream(scratch / "gust.csv") << "# station 3\nt [s]; ignored; gust\n0; 7; 1\n\n0.5; 7; +2e0\n1 , 8, 4\r\n";
+  const std::string text = R"yaml(
+parameters: {F: 10}
+functions:
+  start: smooth(t, 0, 1)
+  gust: {file: gust.csv, column: 3}
+  both: F*gust(t)*start(t)
+bodies: {beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}, section: {EA: 1e4, EI: 10, rhoA: 1}}}
+loads: {tip: {type: force, at: beam.end, force: [0, both(t)]}}
+motion: {end: 2, step: 0.1}
+)yaml";
+  const Scene scene = parse_scene(text, (scratch / "scene.yaml").string());
+  const auto& force = scene.loads[0].force[1];
+  CHECK(force(0.5) == Approx(10 * 2 * 0.5));
+  CHECK(force(0.75) == Approx(10 * 3 * (6 * std::pow(0.75, 5) - 15 * std::pow(0.75, 4) + 10 * std::pow(0.75, 3))));
+  CHECK(force(2) == 40);
+  CHECK(force.derivative(1.5) == 0);
+  std::filesystem::remove_all(scratch);
 }
