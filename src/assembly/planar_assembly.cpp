@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "begin_motion.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/floating_body.h"
 #include "floe/petsc/values.h"
@@ -265,7 +266,7 @@ Model PlanarAssembly::model() {
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));
-  model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
+  begin_motion(plan_.scene, model);
   return model;
 }
 

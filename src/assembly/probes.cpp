@@ -66,7 +66,7 @@ Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Ei
 /// Displacement of a place from the frame that nodes of the body define: through nodes a and b (pinned), or along the
 /// section at a (clamped).
 Eigen::Vector2d deflection_from_nodes(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                        const Eigen::Vector3d& y) {
+                                      const Eigen::Vector3d& y) {
   const Eigen::Vector3d a = placed(probe.frame[0], q, v).y, b = placed(probe.frame[1], q, v).y;
   const bool pinned = probe.frame[0].x != probe.frame[1].x;
   const double angle = pinned ? std::atan2(b.y() - a.y(), b.x() - a.x()) : a[2];

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "begin_motion.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/held_body.h"
@@ -421,7 +422,7 @@ Model SpatialAssembly::model() {
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
-  model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
+  begin_motion(plan_.scene, model);
   return model;
 }
 

@@ -15,6 +15,8 @@ Motion read_motion(Document& document, const Value& value) {
   motion.tolerance = reading.optional_number("tolerance");
   motion.every = reading.integer("every");
   motion.output = reading.optional_number("output");
+  motion.start = reading.choice<Motion::Start>(
+      "start", {{"given", Motion::Start::given}, {"equilibrium", Motion::Start::equilibrium}});
   if (motion.output && reading.given("every"))
     document.fault(reading.where("every"), "cannot be combined with output, which is independent of the steps",
                    "one of them");
@@ -30,6 +32,20 @@ Motion read_motion(Document& document, const Value& value) {
     document.fault(reading.where("output"), fmt::format("is {}", *motion.output),
                    fmt::format("at least 1/{} of step, {}", most_between, motion.step / most_between));
   return motion;
+}
+
+void check_start(Document& document, const Scene& scene) {
+  if (scene.motion.start != Motion::Start::equilibrium) return;
+  for (const Body& body : scene.bodies) {
+    const InitialSpec& initial = body.initial;
+    const bool moves = initial.velocity != Point{} || initial.angular_velocity != Point{} || initial.deformation_rate ||
+                       initial.spatial_deformation_rate;
+    if (!moves) continue;
+    Where where = scene.motion.where;
+    where.key += ".start";
+    document.fault(where, fmt::format("is equilibrium, and body {} has an initial velocity", body.name),
+                   "start: given, or bodies at rest");
+  }
 }
 
 }  // namespace floe::scene

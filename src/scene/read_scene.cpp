@@ -122,6 +122,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
                    "one of them");
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
   place_probes(document, scene);
+  check_start(document, scene);
   scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {
     document.fault(reading.where("bodies"), "is empty", "at least one body");

@@ -23,6 +23,8 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
 Joint read_joint(Document& document, const std::string& name, const Value& value);
 Load read_load(Document& document, const std::string& name, const Value& value);
 Motion read_motion(Document& document, const Value& value);
+/// A start at rest against the initial states of the bodies.
+void check_start(Document& document, const Scene& scene);
 Event read_event(Document& document, const std::string& name, const Value& value);
 Probe read_probe(Document& document, const std::string& name, const Value& value);
 /// The places of probes of joints. Joints must have been read.

@@ -139,6 +139,11 @@ const SchemaSection motion_section{
          "",
          "relative error per step for adaptive steps; absent: constant steps",
          {0, 1, true, true}},
+        choice("start", "given",
+               "given: from the initial states of the bodies; equilibrium: from the static equilibrium under the loads "
+               "and "
+               "drives at t = 0 that is found from there, at rest (drives give their speeds)",
+               {"given", "equilibrium"}),
         {"every", Type::integer, "", "1", "store every n-th step", counts},
         {"output", Type::number, "s", "",
          "store at multiples of this time instead, interpolated between steps by the integrator's cubic polynomials; "

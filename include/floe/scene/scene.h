@@ -239,6 +239,8 @@ struct Motion {
   std::optional<double> tolerance;  ///< adaptive step, relative
   int every = 1;                    ///< store each so many steps
   std::optional<double> output;     ///< instead: at multiples of this time, between steps by interpolation [s]
+  /// From the bodies' initial states, or from the static equilibrium under loads and drives at t = 0.
+  enum class Start { given, equilibrium } start = Start::given;
   Where where;
 };
 
