@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff extremes petsc-options sanitize valgrind install package \
+.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online tradeoff totals extremes petsc-options sanitize valgrind install package \
 	manual api verification format format-check lint coverage fuzz mutate setup-manual setup-maintain
 all: build
 
@@ -44,6 +44,9 @@ check64:
 
 tradeoff: build
 	@bash makefiles/tradeoff.sh $(BUILD)
+
+totals: build
+	@bash makefiles/totals.sh $(BUILD)
 
 extremes: build
 	@bash makefiles/extremes.sh $(BUILD)

@@ -1,0 +1,6 @@
+#!/usr/bin/env bash
+# make totals: estimated, required and true total errors; writes docs/totals.md.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source makefiles/mpi_environment.sh
+exec /usr/bin/python3 tests/benchmark/totals.py --floe "${1:-build}/floe" "${@:2}"
