@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 
+#include "error_budget.h"
 #include "estimate_words.h"
 #include "floe/output/progress.h"
 #include "floe/output/table.h"
@@ -28,6 +30,8 @@ scene::Scene in_steps(scene::Scene scene, const LoadSteps& load) {
   scene.motion.tolerance.reset();
   return scene;
 }
+
+double seconds_since(std::clock_t begin) { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 /// Says once from which t on the equilibria give way, or that nobody looks.
 void warn_of_instability(const assembly::Model& model, double t, RunResult& result) {
@@ -76,16 +80,6 @@ std::string start_of_table(const assembly::Model& model, const LoadSteps& load, 
   return "";
 }
 
-/// A table of the probes' errors; empty: there are none.
-std::string probes_estimate(const RunResult& result) {
-  if (!result.estimate.none.empty() || result.estimate.probes.empty()) return "";
-  output::Table table;
-  table.columns = {{"probe", ""}, {"estimated error", "%", 2}};
-  for (const auto& [probe, error] : result.summary["estimate"]["probes"].items())
-    table.rows.push_back({probe, 100 * error.get<double>()});
-  return "\n" + output::to_text(table);
-}
-
 }  // namespace
 
 RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
@@ -93,12 +87,14 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   const scene::Scene scene = in_steps(given, load);
   RunResult result;
   const double begin = MPI_Wtime();
+  const std::clock_t clock = std::clock();
   assembly::Model model = [&] {
     const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
     return assembly::build(scene, formulation, comm, true);
   }();
   check(VecSet(model.V, 0));
   result.offline_seconds = MPI_Wtime() - begin;
+  const double offline = seconds_since(clock);
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
@@ -110,6 +106,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   std::exception_ptr fault;
   std::string why;
   const double started = MPI_Wtime();
+  const std::clock_t search = std::clock();
   try {
     const Interruption interruption;
     output::Progress progress(comm, 0, load.at);
@@ -135,10 +132,11 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   } catch (const std::exception& error) {
     fault = std::current_exception(), why = error.what();
   }
-  report.seconds = MPI_Wtime() - started;
+  report.seconds = MPI_Wtime() - started, report.processor_seconds = seconds_since(search);
   result.steps = report.steps, result.end = report.end, result.motion_seconds = report.seconds - recorder.seconds();
   recorder.finish(report, why, !fault);
   if (fault) std::rethrow_exception(fault);
+  nlohmann::ordered_json budget;
   try {
     const std::string unchecked = petsc::failed_together(
         comm, [&] { result.out_of_range = assess::shapes_out_of_range(model, kept.states(), comm); });
@@ -149,12 +147,17 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
       result.estimate = assess::estimate_error_at_rest(
           model, kept.states(),
           assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
+      solve::Integration how;
+      how.end = load.at, how.step = scene.motion.step;
+      if (scene::is_reduced(formulation))
+        budget = error_budget({scene, model, {}, how, report.steps, report.processor_seconds, offline, comm, true},
+                              kept, result);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());
     throw;
   }
-  recorder.conclude();
+  recorder.conclude(budget);
   return result;
 }
 
@@ -187,7 +190,8 @@ void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Com
   if (shown < result.series.columns.size())
     fmt::print("{} more columns of the table are in {}\n", result.series.columns.size() - shown,
                folder.probes().string());
-  if (estimate) fmt::print("{}{}", probes_estimate(result), estimate_words(result.estimate));
+  if (estimate)
+    fmt::print("{}{}", budget_words(result.summary["estimate"], result.end), estimate_words(result.estimate));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

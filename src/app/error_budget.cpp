@@ -86,7 +86,8 @@ std::string model_advice(const assess::FinishedMotion& motion, const assess::Err
 std::string advice(int part, const assess::FinishedMotion& motion, const assess::ErrorPart& model, double error) {
   switch (part) {
     case 0:
-      return "take more modes or derivatives (reduction), or select them: --accuracy reduction:1%";
+      return motion.at_rest ? "take more modes or derivatives (reduction)"
+                            : "take more modes or derivatives (reduction), or select them: --accuracy reduction:1%";
     case 1:
       return model_advice(motion, model);
     case 2:
@@ -141,6 +142,15 @@ std::string missing_words(const ordered_json& total) {
   return words;
 }
 
+/// In a summary's estimate; that of the reduction is the estimate itself.
+ordered_json part_in(const ordered_json& estimate, const std::string& name) {
+  return name == "reduction" ? estimate : estimate.value(name, ordered_json());
+}
+/// Not of equilibria: a step.
+bool has_part(const ordered_json& estimate, const std::string& name) {
+  return name == "reduction" || estimate.contains(name);
+}
+
 output::Cell cell_of(const ordered_json& part, const std::string& probe) {
   if (!part.is_object() || !part.contains("probes") || !part["probes"].contains(probe)) return "-";
   const ordered_json& error = part["probes"][probe];
@@ -162,11 +172,12 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   ordered_json j;
   j["model"] = part_of(motion, model);
   j["mesh"] = part_of(motion, mesh);
-  j["step"] = step_part(motion, kept, allowed, step);
+  if (!motion.at_rest) j["step"] = step_part(motion, kept, allowed, step);
+  const int count = motion.at_rest ? 3 : 4;
   std::vector<const assess::ErrorPart*> known, beside;
   const assess::ErrorPart* all[] = {&reduction, &model, &mesh, &step};
   ordered_json names = ordered_json::array();
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < count; ++i) {
     if (!all[i]->none.empty()) continue;
     const bool unsigned_one = all[i] == &mesh && model.none.empty() && !model.apart;
     (unsigned_one ? beside : known).push_back(all[i]);
@@ -178,7 +189,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   j["total"]["parts"] = names;
   for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
     ordered_json lacks = ordered_json::array();
-    for (int i = all_rigid(motion.scene) ? 3 : 0; i < 4; ++i)
+    for (int i = all_rigid(motion.scene) ? 3 : 0; i < count; ++i)
       if (!all[i]->none.empty() || std::isnan(all[i]->probes[p])) lacks.push_back(parts[i]);
     if (!lacks.empty()) j["total"]["missing"][motion.model.probes[p].name] = lacks;
   }
@@ -199,7 +210,7 @@ std::string budget_line(const ordered_json& estimate) {
     if (worst.empty() || size(error) > size(total["probes"][worst])) worst = probe;
   std::vector<std::string> all;
   for (const char* name : parts) {
-    const ordered_json part = std::string(name) == "reduction" ? estimate : estimate.value(name, ordered_json());
+    const ordered_json part = part_in(estimate, name);
     const bool known = part.is_object() && part.contains("probes") && part["probes"].contains(worst);
     all.push_back(fmt::format("{} {}", name, known ? words(part["probes"][worst]) : "not known"));
   }
@@ -211,15 +222,17 @@ std::string budget_words(const ordered_json& estimate, double end) {
   const bool has_total = estimate.contains("total") && estimate["total"].contains("probes");
   output::Table table;
   table.columns = {{"estimated error", ""}};
-  for (const char* name : parts) table.columns.push_back({name, "%", 2});
+  for (const char* name : parts)
+    if (has_part(estimate, name)) table.columns.push_back({name, "%", 2});
   table.columns.push_back({"total", "%", 2});
   if (has_total)
     for (const auto& [probe, error] : estimate["total"]["probes"].items()) {
       const output::Cell total = cell_of(estimate["total"], probe);
       const bool lacks = estimate["total"].contains("missing") && estimate["total"]["missing"].contains(probe);
-      table.rows.push_back({probe, cell_of(estimate, probe), cell_of(estimate.value("model", ordered_json()), probe),
-                            cell_of(estimate.value("mesh", ordered_json()), probe),
-                            cell_of(estimate.value("step", ordered_json()), probe), lacks ? marked(total) : total});
+      std::vector<output::Cell>& row = table.rows.emplace_back(1, probe);
+      for (const char* name : parts)
+        if (has_part(estimate, name)) row.push_back(cell_of(part_in(estimate, name), probe));
+      row.push_back(lacks ? marked(total) : total);
     }
   std::string words = has_total ? "\n" + output::to_text(table) + missing_words(estimate["total"]) : "";
   for (const char* name : {"model", "mesh", "step"}) {

@@ -7,10 +7,10 @@
 
 namespace floe::app {
 
-/// The parts of the error of a finished reduced motion beside that of the reduction, and the total, for the summary's
-/// `estimate`: step, model, mesh, total; each with the relative errors of the probes, or why there is none; `largest`:
-/// where a part is above 1 %, the largest one, and what makes it smaller, also as a warning of the result. Collective;
-/// a fault within a part only leaves that part out.
+/// The parts of the error of a finished reduced motion (of equilibria without a step) beside that of the reduction, and
+/// the total, for the summary's `estimate`: step, model, mesh, total; each with the relative errors of the probes, or
+/// why there is none; `largest`: where a part is above 1 %, the largest one, and what makes it smaller, also as a
+/// warning of the result. Collective; a fault within a part only leaves that part out.
 nlohmann::ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
                                     RunResult& result);
 

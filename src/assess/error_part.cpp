@@ -109,13 +109,16 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
 
 ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
                        const solve::Integration& how, const std::vector<double>& times, const Enough& enough) {
-  const auto looks = [](const solve::Instant& instant) {
-    return instant.step <= looked_at || instant.step % look_every == 0;
+  const auto looks = [&](const solve::Instant& instant) {
+    return motion.at_rest || instant.step <= looked_at || instant.step % look_every == 0;
+  };
+  const auto history_of = [&](const std::function<bool(const solve::Instant&)>& ends) {
+    return motion.at_rest ? equilibrium_history(model, how, times, ends)
+                          : probe_history(scene, model, how, times, ends);
   };
   if (!is_reduced(model.formulation) && !alone(motion))
-    return probe_history(scene, model, how, times, [&](const solve::Instant& instant) {
-      return enough && looks(instant) && enough(instant, time.spent());
-    });
+    return history_of(
+        [&](const solve::Instant& instant) { return enough && looks(instant) && enough(instant, time.spent()); });
   bool failed = false;  // a rank, as all know
   const auto look = [&](bool here) {
     double all[2] = {here ? 1. : 0., petsc::first_rank(motion.comm) ? time.spent_here() : 0};
@@ -126,7 +129,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, cons
   ProbeHistory history;
   std::exception_ptr fault;
   try {
-    history = probe_history(scene, model, how, times, [&](const solve::Instant& instant) {
+    history = history_of([&](const solve::Instant& instant) {
       if (!looks(instant)) return false;
       const double spent = look(false);
       return failed || (enough && enough(instant, spent));
@@ -139,6 +142,8 @@ ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, cons
   if (failed) share_fault(motion.comm, told ? nullptr : fault, history);
   return history;
 }
+
+bool can_lengthen(const FinishedMotion& motion) { return !motion.at_rest && !motion.how.tolerance; }
 
 Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double times, double end,
                 ErrorPart& part) {

@@ -33,9 +33,12 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
 using Enough = std::function<bool(const solve::Instant& instant, double spent)>;
 inline constexpr PetscInt looked_at = 50, look_every = 32;
 
-/// The probes of a model that built() made, or of the motion's own. Where every rank has its own copy, one that fails
-/// stops all of them when they look at the time next: they have as many values, and the reason
-/// (ProbeHistory::stopped) is that of the first one that failed. Collective.
+/// Whether longer steps save time: not of equilibria, nor where a tolerance sets the step.
+bool can_lengthen(const FinishedMotion& motion);
+
+/// The probes of a model that built() made, or of the motion's own: simulated, or its equilibria. Where every rank has
+/// its own copy, one that fails stops all of them when they look at the time next: they have as many values, and the
+/// reason (ProbeHistory::stopped) is that of the first one that failed. Collective.
 ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
                        const solve::Integration& how, const std::vector<double>& times, const Enough& enough = {});
 

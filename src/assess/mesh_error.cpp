@@ -40,7 +40,7 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowa
   const Model model = built(motion, other, motion.model.formulation);
   int step = 1;
   const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
-  if (!motion.how.tolerance)
+  if (can_lengthen(motion))
     while (needs() > time.left() && step < 4) step *= 2;
   double end = motion.how.end;
   if (const double share = time.left() / needs(); share < 1) end *= std::max(share, least_share);
@@ -74,6 +74,8 @@ ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& o
   if (!part.none.empty()) return part;
   if (const std::vector<std::string> imported = meshed_bodies(motion.scene, true); !imported.empty())
     part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));
+  for (const Body& body : motion.scene.bodies)
+    if (body.reduced) part.notes.push_back(fmt::format("body {} comes from a file without its mesh", body.name));
   const Allowance time(motion.comm, allowed);
   fill_in(motion, part, [&] { estimate(motion, own, time, allowed, part); });
   part.seconds = time.spent();

@@ -176,7 +176,7 @@ class ModelError {
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
     return compared(motion_, own_.columns, simulated(motion_, time_, scene, model, how, own_.t),
-                    "the motion on " + words(thinning), part_);
+                    "the reduced model on " + words(thinning), part_);
   }
 
   bool can_scale(double mesh) const {
@@ -202,7 +202,7 @@ class ModelError {
     std::vector<Thinning> all;
     for (const int mesh : plates() ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
       for (const int step : {1, 2, 4})
-        if (mesh * step > 1 && can_scale(mesh) && (step == 1 || !motion_.how.tolerance))
+        if (mesh * step > 1 && can_scale(mesh) && (step == 1 || can_lengthen(motion_)))
           all.push_back({static_cast<double>(mesh), step});
     until_ = motion_.how.end;
     for (const Thinning& one : all)

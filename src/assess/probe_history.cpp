@@ -1,8 +1,14 @@
 #include "probe_history.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "floe/error.h"
+#include "floe/solve/branch.h"
+#include "floe/solve/start.h"
 
 namespace floe::assess {
 
@@ -36,6 +42,36 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
     solve::simulate(*model.system, how, model.U, model.V, observe);
   } catch (const solve::MotionStopped& stopped) {
     if (!history.enough) history.stopped = stopped.what();
+  }
+  return history;
+}
+
+ProbeHistory equilibrium_history(const Model& model, const solve::Integration& how, const std::vector<double>& times,
+                                 const std::function<bool(const solve::Instant&)>& enough) {
+  ProbeHistory history;
+  petsc::check(VecSet(model.V, 0));
+  const auto steps = static_cast<PetscInt>(std::floor(how.end / how.step * (1 + 1e-9)));
+  try {
+    try {
+      solve::equilibrium(*model.system, 0, model.U, model.V, true);
+    } catch (const solve::NothingHolds&) {  // the first load does
+    }
+    for (PetscInt step = 1; step <= steps && !history.enough; ++step) {
+      const double t = how.step * static_cast<double>(step);
+      solve::follow_equilibrium(*model.system, history.reached, t, how.end / 1000, model.U, model.V,
+                                [](const solve::BranchJump&, Vec, Vec) {});
+      history.reached = t;
+      const auto at = std::lower_bound(times.begin(), times.end(), t - 1e-6 * how.step);
+      if (at != times.end() && *at < t + 1e-6 * how.step) {
+        history.values.resize(
+            static_cast<std::size_t>(at - times.begin()),
+            std::vector<double>(probe_columns(model).size(), std::numeric_limits<double>::quiet_NaN()));
+        history.values.push_back(probe_values(model, t, model.U, model.V));
+      }
+      history.enough = enough && enough({t, step, model.U, model.V, nullptr, step == steps});
+    }
+  } catch (const RunError& fault) {
+    history.stopped = fmt::format("the equilibria end at t = {:.6g}: {}", history.reached, fault.what());
   }
   return history;
 }

@@ -51,4 +51,8 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
                            const std::vector<double>& times,
                            const std::function<bool(const solve::Instant&)>& enough = {});
 
+/// The same of equilibria from t = 0 on, `how.step` apart. @throws InputError; what else fails ends them (`stopped`)
+ProbeHistory equilibrium_history(const Model& model, const solve::Integration& how, const std::vector<double>& times,
+                                 const std::function<bool(const solve::Instant&)>& enough = {});
+
 }  // namespace floe::assess

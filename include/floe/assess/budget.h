@@ -31,7 +31,7 @@ struct ErrorPart {
   std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, better model less this one
 };
 
-/// A finished motion of a reduced model.
+/// A finished motion of a reduced model, or its equilibria under loads that grow with t, `how.step` apart.
 struct FinishedMotion {
   const Scene& scene;
   const Model& model;  ///< its vectors are overwritten
@@ -41,9 +41,11 @@ struct FinishedMotion {
   double seconds = 0;             ///< processor time of the motion
   double offline = 0;             ///< processor time of building the model
   MPI_Comm comm = MPI_COMM_NULL;  ///< of the offline stage
+  bool at_rest = false;           ///< equilibria; `start` is not used
 };
 
-/// The error of strains and floating frames: geometrically exact (corotational) elements are simulated,
+/// The error of strains and floating frames: geometrically exact (corotational) elements are simulated, or brought to
+/// equilibrium,
 ///
 ///   e_model = (y_cfr - y) - e_reduction - e_mesh      at every instant, of every probe column
 ///

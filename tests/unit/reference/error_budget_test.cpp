@@ -197,6 +197,63 @@ TEST_CASE("error budget: the model contains the mesh where the mesh error covers
   CHECK_FALSE(model().apart);
 }
 
+// End load F L^2/(EI) = 2 at t = 1: the tip moves by half the length, where one pinned frame is in error.
+TEST_CASE("error budget: equilibria have parts for model and mesh") {
+  const std::string beam = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [2, 0], elements: $elements}}
+    section: {EA: 4e4, EI: 3, rhoA: 1}
+    reduction: {modes: 4, derivatives: all}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "1.5*t"]}}
+probes: {tip: {at: beam.end}}
+)yaml";
+  const int steps = 4;
+  const auto equilibria = [&](const assembly::Model& model, const auto& at) {
+    for (int i = 1; i <= steps; ++i) {
+      const double t = double(i) / steps;
+      solve::equilibrium(*model.system, t, model.U, model.V);
+      at(solve::Instant{t, i, model.U, model.V, model.V, i == steps});
+    }
+  };
+  const scene::Scene scene = scene::parse_scene(fill(beam, {{"elements", "4"}}), "scene");
+  Estimated one{{assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD, true), {}, {}, {}, {}}, {}};
+  History exact{
+      assembly::build(scene::parse_scene(fill(beam, {{"elements", "32"}}), "scene"), Formulation::cfr, PETSC_COMM_SELF),
+      {},
+      {},
+      {},
+      {}};
+  const assembly::Model& model = one.history.model;
+  assess::KeptMotion kept(model);
+  equilibria(model, [&](const solve::Instant& at) {
+    store(one.history, at.t, at.U, at.V);
+    kept.keep(at);
+  });
+  equilibria(exact.model, [&](const solve::Instant& at) { store(exact, at.t, at.U, at.V); });
+  one.estimate = assess::estimate_error_at_rest(model, kept.states(), 100);
+  const assess::ProbeSeries own = assess::probe_series(model, kept, one.estimate);
+  const assess::MotionStart start;
+  solve::Integration how;
+  how.end = 1, how.step = 1. / steps;
+  const assess::FinishedMotion motion{scene, model, start, how, steps, 0.1, 0.1, PETSC_COMM_WORLD, true};
+  const assess::ErrorPart mesh = assess::estimate_mesh_error(motion, own, 100),
+                          part = assess::estimate_model_error(motion, own, one.estimate, mesh, 100);
+  CHECK(mesh.none == "");
+  CHECK(part.none == "");
+  CHECK(part.apart);
+  CHECK(mesh.until == 1);
+  assess::ErrorPart reduction;
+  reduction.probes = one.estimate.probes, reduction.t = one.estimate.t, reduction.errors = one.estimate.errors;
+  const double total = assess::total_error(own, {&reduction, &mesh, &part}).at(0),
+               error = vector_error(one.history, exact, "tip");
+  INFO(fmt::format("reduction {:.3g}, mesh {:.3g}, model {:.3g}, total {:.3g}, true {:.3g}", reduction.probes[0],
+                   mesh.probes[0], part.probes[0], total, error));
+  CHECK(error > 0.005);
+  CHECK(total == Approx(error).epsilon(0.2));
+}
+
 // Every rank has its own copy of small models; what fails on one of them must not leave the others waiting.
 TEST_CASE("error budget: a fault of one rank is that of all ranks") {
   const std::string good = fill(cantilever, {{"elements", "8"}, {"step", "4e-3"}});
