@@ -228,13 +228,16 @@ void add_sweep(CLI::App& app, Arguments& given, Work& work) {
       ->allow_extra_args(false);
   command->add_flag("--together", given.together,
                     "vary all together, the i-th value of each, instead of every combination");
+  command->add_flag("--estimate", given.estimate,
+                    "estimate the total error of each member, as run does; each takes the time of several");
   add_folder(command, given);
   command->callback([&given, &work] {
     work = [&given] {
       const scene::Formulation formulation = scene::formulation_of(given.formulation);
       std::vector<Varied> varied;
       for (const std::string& text : given.varied) varied.push_back(parse_varied(text));
-      sweep(given.scene, formulation, varied, given.together, PETSC_COMM_WORLD, new_folder(given, "sweep"));
+      sweep(given.scene, formulation, varied, given.together, given.estimate, PETSC_COMM_WORLD,
+            new_folder(given, "sweep"));
     };
   });
 }

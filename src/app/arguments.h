@@ -22,8 +22,8 @@ struct Arguments {
   int steps = 10, frequencies = 0;
   CampbellRequest campbell;
   TradeoffRequest tradeoff;
-  bool formulation_given = false, together = false, force = false, no_reference_error = false, no_estimate = false,
-       markdown = false;
+  bool formulation_given = false, together = false, estimate = false, force = false, no_reference_error = false,
+       no_estimate = false, markdown = false;
 };
 
 /// Adds run, compare, tradeoff, static, campbell, sweep, modes, reduce, info, check and schema.

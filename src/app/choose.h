@@ -46,8 +46,8 @@ struct Chosen {
 /// moved. Collective; the same on all ranks.
 ///
 /// For the total error the reference is formulation cfr on a fine mesh in fine steps (exact_motion.h), and floating
-/// frames, elements and strains are chosen before: the coarsest that leave less than two thirds of the accuracy. Where that
-/// is not to be had, it is the error of reduction, step and mesh, and the rest is named (Chosen::unbounded).
+/// frames, elements and strains are chosen before: the coarsest that leave less than two thirds of the accuracy. Where
+/// that is not to be had, it is the error of reduction, step and mesh, and the rest is named (Chosen::unbounded).
 Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm);
 
 /// What models are measured against.

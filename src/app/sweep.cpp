@@ -26,7 +26,38 @@ struct Plan {
   std::string file, text;
   scene::Formulation formulation;
   std::vector<std::vector<scene::Variation>> members;
+  bool estimate = false;
 };
+
+/// Of columns, without their components.
+std::vector<std::string> probes_of(const std::vector<assembly::ProbeColumn>& columns) {
+  std::vector<std::string> names;
+  for (const assembly::ProbeColumn& column : columns)
+    if (std::string name = column.name.substr(0, column.name.rfind('.')); names.empty() || names.back() != name)
+      names.push_back(std::move(name));
+  return names;
+}
+
+/// The total errors of a member; what they lack becomes a warning.
+void read_errors(const RunResult& result, Member& member) {
+  const ordered_json estimate = result.summary.value("estimate", ordered_json::object());
+  const ordered_json total = estimate.value("total", ordered_json::object());
+  for (const std::string& probe : probes_of(result.series.columns)) {
+    const bool known = total.contains("probes") && total["probes"].contains(probe);
+    member.errors.push_back(known ? total["probes"][probe].get<double>() : NAN);
+  }
+  if (total.contains("missing"))
+    for (const auto& [probe, parts] : total["missing"].items())
+      for (const auto& part : parts)
+        member.warnings.push_back(
+            fmt::format("estimated error of probe {} without the {} error", probe, part.get<std::string>()));
+  if (estimate.contains("none"))
+    member.warnings.push_back("no estimate of the reduction error: " + estimate["none"].get<std::string>());
+  for (const char* part : {"model", "mesh", "step"})
+    if (estimate.contains(part) && estimate[part].contains("none"))
+      member.warnings.push_back(
+          fmt::format("no estimate of the {} error: {}", part, estimate[part]["none"].get<std::string>()));
+}
 
 /// Keeps the last bodies that were reduced: members that differ in what acts on them share these.
 class Offline {
@@ -70,10 +101,14 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
   Member member;
   try {
     const scene::Scene scene = scene::parse_scene(plan.text, plan.file, plan.members[number]);
-    assembly::Model model = assembly::build_on(offline.bodies(plan, number, scene), scene);
     RunPlan quiet;
-    quiet.quiet = true;
-    const RunResult result = move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
+    quiet.quiet = true, quiet.estimate = plan.estimate;
+    const auto shared = [&] {
+      assembly::Model model = assembly::build_on(offline.bodies(plan, number, scene), scene);
+      return move(scene, model, 0, PETSC_COMM_SELF, std::nullopt, quiet);
+    };
+    const RunResult result =
+        plan.estimate ? run(scene, plan.formulation, PETSC_COMM_SELF, std::nullopt, quiet) : shared();
     member.steps = result.steps;
     member.end = result.end;
     for (std::size_t i = 0; i < result.series.t.size(); ++i) {
@@ -82,6 +117,7 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
     }
     measure(member, result.series.columns.size());
     member.warnings = result.warnings;
+    if (plan.estimate) read_errors(result, member);
   } catch (const RunError& error) {
     member = {.fault = error.what()};
   } catch (const InputError& error) {
@@ -93,9 +129,14 @@ Member move_member(const Plan& plan, std::size_t number, Offline& offline) {
 /// A member as numbers, the texts of its fault and of its warnings last, each ended by a zero.
 std::vector<double> packed(std::size_t number, const Member& member) {
   const std::size_t columns = member.rows.empty() ? 0 : member.rows.front().size();
-  std::vector<double> numbers{static_cast<double>(number), static_cast<double>(member.steps), member.end,
-                              static_cast<double>(member.rows.size()), static_cast<double>(columns)};
+  std::vector<double> numbers{static_cast<double>(number),
+                              static_cast<double>(member.steps),
+                              member.end,
+                              static_cast<double>(member.rows.size()),
+                              static_cast<double>(columns),
+                              static_cast<double>(member.errors.size())};
   for (const auto& row : member.rows) numbers.insert(numbers.end(), row.begin(), row.end());
+  numbers.insert(numbers.end(), member.errors.begin(), member.errors.end());
   const auto put = [&](const std::string& text) {
     for (const char c : text) numbers.push_back(static_cast<unsigned char>(c));
     numbers.push_back(0);
@@ -110,9 +151,12 @@ Member unpacked(const std::vector<double>& numbers, std::size_t& number) {
   Member member;
   member.steps = static_cast<PetscInt>(numbers[1]), member.end = numbers[2];
   const auto rows = static_cast<std::size_t>(numbers[3]), columns = static_cast<std::size_t>(numbers[4]);
-  auto next = numbers.begin() + 5;
+  const auto errors = static_cast<std::ptrdiff_t>(numbers[5]);
+  auto next = numbers.begin() + 6;
   for (std::size_t i = 0; i < rows; ++i, next += static_cast<std::ptrdiff_t>(columns))
     member.rows.emplace_back(next, next + static_cast<std::ptrdiff_t>(columns));
+  member.errors.assign(next, next + errors);
+  next += errors;
   std::vector<std::string> texts(1);
   for (; next != numbers.end(); ++next) {
     if (*next == 0)
@@ -192,12 +236,12 @@ class Collection {
   std::vector<MPI_Request> requests_;
 };
 
-Plan plan_of(const std::string& file, scene::Formulation formulation, const std::vector<Varied>& varied,
-             bool together) {
+Plan plan_of(const std::string& file, scene::Formulation formulation, const std::vector<Varied>& varied, bool together,
+             bool estimate) {
   if (!scene::is_reduced(formulation))
     throw InputError(fmt::format("--formulation {}: a sweep simulates reduced models; expected vm+md or vm",
                                  scene::name_of(formulation)));
-  Plan plan{file, scene::read_scene(file).text, formulation, members_of(varied, together)};
+  Plan plan{file, scene::read_scene(file).text, formulation, members_of(varied, together), estimate};
   const scene::Scene first = scene::parse_scene(plan.text, file, plan.members.front());  // are the paths there
   if (first.motion.end <= 0)
     throw InputError(file + ": motion: is missing; expected end time and time step, as `motion: {end: 3, step: 1e-3}`");
@@ -239,12 +283,12 @@ ordered_json summary_of(const Plan& plan, const std::vector<Varied>& varied, MPI
 namespace {
 
 void sweep_into(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-                bool together, MPI_Comm comm, const output::ResultFolder& folder) {
+                bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Plan plan;
-  petsc::agree(comm, [&] { plan = plan_of(scene_file, formulation, varied, together); });
+  petsc::agree(comm, [&] { plan = plan_of(scene_file, formulation, varied, together, estimate); });
   Offline offline;
   std::unique_ptr<SweepFile> file;
   output::remove_replaced(comm, folder);
@@ -252,8 +296,9 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
     if (rank != 0) return;
     std::vector<std::string> paths;
     for (const Varied& each : varied) paths.push_back(each.path);
-    file = std::make_unique<SweepFile>(folder, plan.text, summary_of(plan, varied, comm), paths,
-                                       columns_of(plan, offline));
+    const std::vector<assembly::ProbeColumn> columns = columns_of(plan, offline);
+    file = std::make_unique<SweepFile>(folder, plan.text, summary_of(plan, varied, comm), paths, columns,
+                                       estimate ? probes_of(columns) : std::vector<std::string>());
   });
   Collection collection(plan, comm, file.get());
   const Interruption interruption;
@@ -299,9 +344,9 @@ void sweep_into(const std::string& scene_file, scene::Formulation formulation, c
 }  // namespace
 
 void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-           bool together, MPI_Comm comm, const output::ResultFolder& folder) {
+           bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder) {
   try {
-    sweep_into(scene_file, formulation, varied, together, comm, folder);
+    sweep_into(scene_file, formulation, varied, together, estimate, comm, folder);
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;

@@ -30,6 +30,7 @@ struct Member {
   std::vector<std::vector<double>> rows = {};              ///< time and probes
   std::vector<double> greatest = {}, rms = {}, last = {};  ///< of each probe: greatest absolute value, over time; end
   std::vector<std::string> warnings = {};                  ///< what floe run would note
+  std::vector<double> errors = {};  ///< of each probe, where they are estimated: total (error_budget.h); NaN: none
 };
 
 /// A warning of some members: the same words for all of them, whatever numbers stand in it.
@@ -50,9 +51,10 @@ std::string words_of(const SweepWarning& warning);
 /// changes (scene::offline_inputs). A member that fails is told of and spares the others; what members warn of is told
 /// at the end, once for all that have it. Rank 0 writes members in their order into sweep.h5 and sweep.csv, as they
 /// come in: a sweep that is killed leaves whole files.
+/// @param estimate  the total error of each member, with the reduction of its bodies anew and the time budget of a run
 /// @throws InputError  before anything is moved: a path that the scene does not have, a folder in use
 /// @throws RunError    members failed, how many and the first reason; it was interrupted. Collective.
 void sweep(const std::string& scene_file, scene::Formulation formulation, const std::vector<Varied>& varied,
-           bool together, MPI_Comm comm, const output::ResultFolder& folder);
+           bool together, bool estimate, MPI_Comm comm, const output::ResultFolder& folder);
 
 }  // namespace floe::app

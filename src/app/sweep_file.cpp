@@ -25,8 +25,9 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 SweepFile::SweepFile(const output::ResultFolder& folder, const std::string& scene_text, ordered_json summary,
-                     const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns)
-    : folder_(folder), summary_(std::move(summary)), columns_(columns) {
+                     const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns,
+                     const std::vector<std::string>& estimated)
+    : folder_(folder), summary_(std::move(summary)), columns_(columns), estimated_(estimated.size()) {
   std::vector<std::string> of_member{"member"};
   of_member.insert(of_member.end(), paths.begin(), paths.end());
   for (const char* name : {"failed", "steps", "end [s]"}) of_member.push_back(name);
@@ -36,6 +37,7 @@ SweepFile::SweepFile(const output::ResultFolder& folder, const std::string& scen
       of_member.push_back(fmt::format("{} {} [{}]", which, column.name, column.unit));
     of_rows.push_back(fmt::format("{} [{}]", column.name, column.unit));
   }
+  for (const std::string& probe : estimated) of_member.push_back(fmt::format("estimated error {} [-]", probe));
   for (const std::string& name : of_member) table_ += (table_.empty() ? "" : ",") + cell(name);
   table_ += ",message\n";
   file_ = std::make_unique<output::ResultFile>(PETSC_COMM_SELF, folder_.sweep());
@@ -44,7 +46,8 @@ SweepFile::SweepFile(const output::ResultFolder& folder, const std::string& scen
   file_->add_series("members", static_cast<std::int64_t>(of_member.size()),
                     {"",
                      "one row per member: its number from 1, the varied values, whether it failed (1), steps, time "
-                     "reached, maximum absolute value, root mean square over time and last value of each probe"});
+                     "reached, maximum absolute value, root mean square over time and last value of each probe; where "
+                     "errors are estimated the relative total error of each probe"});
   file_->add_series("probes", static_cast<std::int64_t>(of_rows.size()),
                     {"", "all members in sequence: the member's number, time, probes"});
   file_->publish();
@@ -59,6 +62,7 @@ void SweepFile::add(const std::vector<scene::Variation>& variations, const Membe
   for (std::size_t c = 0; c < columns_.size(); ++c)
     for (const auto* values : {&member.greatest, &member.rms, &member.last})
       row.push_back(failed ? none : (*values)[c]);
+  for (std::size_t p = 0; p < estimated_; ++p) row.push_back(failed ? none : member.errors[p]);
   for (const std::vector<double>& instant : member.rows) {
     std::vector<double> numbers{static_cast<double>(members_)};
     numbers.insert(numbers.end(), instant.begin(), instant.end());

@@ -12,9 +12,11 @@ namespace floe::app {
 class SweepFile {
  public:
   /// @param paths    of what is varied
-  /// @param columns  of the probes, with units
+  /// @param columns    of the probes, with units
+  /// @param estimated  the probes whose errors are estimated
   SweepFile(const output::ResultFolder& folder, const std::string& scene_text, nlohmann::ordered_json summary,
-            const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns);
+            const std::vector<std::string>& paths, const std::vector<assembly::ProbeColumn>& columns,
+            const std::vector<std::string>& estimated);
   /// The next member. @throws RunError
   void add(const std::vector<scene::Variation>& variations, const Member& member);
   /// Brings sweep.csv and summary.json up to date. @throws RunError
@@ -31,6 +33,7 @@ class SweepFile {
   output::ResultFolder folder_;
   nlohmann::ordered_json summary_;
   std::vector<assembly::ProbeColumn> columns_;
+  std::size_t estimated_;
   std::unique_ptr<output::ResultFile> file_;
   std::string table_;  // of sweep.csv
   std::int64_t members_ = 0, failed_ = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "../../../src/app/campbell.h"
+#include "../../../src/app/run.h"
 #include "../../../src/app/sweep.h"
 #include "printed.h"
 
@@ -95,7 +96,7 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
 )yaml");
   const auto folder = own.results("out");
   const std::string said = printed([&] {
-    app::sweep(file, scene::Formulation::vm_md, {{"F", {3, -6}}, {"bodies.rod.section.rhoA", {3, 6}}}, false,
+    app::sweep(file, scene::Formulation::vm_md, {{"F", {3, -6}}, {"bodies.rod.section.rhoA", {3, 6}}}, false, false,
                PETSC_COMM_WORLD, folder);
   });
   const auto columns = columns_of(folder.sweep_table());
@@ -114,11 +115,43 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
   CHECK_THAT(said, Contains("4 members (0 failed)"));
   CHECK(nlohmann::json::parse(contents(folder.summary()))["status"] == "finished");
   const auto refused = [&](const std::vector<app::Varied>& what, scene::Formulation formulation) {
-    app::sweep(file, formulation, what, false, PETSC_COMM_WORLD, own.results("no"));
+    app::sweep(file, formulation, what, false, false, PETSC_COMM_WORLD, own.results("no"));
   };
   CHECK_THROWS_WITH(refused({{"G", {1}}}, scene::Formulation::vm_md), Contains("G"));
   CHECK_THROWS_WITH(refused({{"F", {1}}}, scene::Formulation::nlffr), Contains("nlffr"));
   CHECK_FALSE(std::filesystem::exists(own.path / "no"));
+}
+
+TEST_CASE("sweep: the total error of each member is that of its run") {
+  const OwnFolder own;
+  const std::string text = R"yaml(
+parameters: {F: 1}
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 6}}
+    section: {EA: 1e5, EI: 5, rhoA: 1}
+    reduction: {modes: 3}
+joints: {clamp: {type: fixed, between: [ground, rod.start]}}
+loads: {tip: {type: force, at: rod.end, force: [0, "F*sin(5*t)"]}}
+motion: {end: 0.4, step: 4e-3}
+probes: {tip: {at: rod.end}, turn: {at: rod.end, quantity: rotation}}
+)yaml";
+  const std::string file = own.write("scene.yaml", text);
+  const auto folder = own.results("out");
+  printed([&] { app::sweep(file, scene::Formulation::vm_md, {{"F", {1, 8}}}, false, true, PETSC_COMM_WORLD, folder); });
+  const auto columns = columns_of(folder.sweep_table());
+  app::RunPlan plan;
+  plan.quiet = true, plan.estimate = true;
+  for (std::size_t m = 0; m < 2; ++m) {
+    const scene::Scene member = scene::parse_scene(text, "scene", {{"F", m == 0 ? 1. : 8.}});
+    const auto total = app::run(member, scene::Formulation::vm_md, PETSC_COMM_SELF, std::nullopt, plan)
+                           .summary["estimate"]["total"]["probes"];
+    for (const std::string probe : {"tip", "turn"}) {
+      const double error = number(columns.at("estimated error " + probe + " [-]")[m]);
+      CHECK(error > 0);
+      CHECK(error == Approx(total[probe].get<double>()).epsilon(1e-6));
+    }
+  }
 }
 
 // A rigid rod of length L hinged at the distance e from the axis lags at omega = Omega sqrt(3 e / 2 L).
