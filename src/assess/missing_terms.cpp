@@ -147,7 +147,7 @@ std::string words(const BodyReport& body, const Found& found) {
   if (found.what == "coupling")
     return fmt::format(
         "body {}: second-order coupling of bending and torsion changes the stiffness {} by {} (limit 5 %), and "
-        "is not in von Karman's strains: too {}; take strains: second_order, or several frames (frames: N)",
+        "is not in von Karman's strains: too {}; use strains: second_order, or several frames (frames: N)",
         body.name, of, number, too);
   if (found.what == "arms")
     return fmt::format(

@@ -132,7 +132,7 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
   block.each_line(part.skipped, part.count, [&](Where where, std::string_view line) {
     split_fields(line, fields);
     const auto found = fields.empty() ? std::nullopt : number<long long>(fields[0]);
-    const long long label = found ? *found : 0;
+    const long long label = found.value_or(0);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     const auto given = std::count(line.begin(), line.end(), ',');  // of coordinates, also empty ones
     bool good = found && given >= 2 && fields.size() <= most_of_node;
