@@ -30,9 +30,11 @@ Eigen::Matrix<double, 6, 1> motion(const double* dofs, int dimension, const Eige
 output::ShapeGrid grid_of(const PlannedBody& body, const BodyFields& fields) {
   output::ShapeGrid grid;
   grid.name = body.spec.name;
-  grid.nodes = body.structure.mesh.node_count, grid.cells = body.structure.mesh.cell_count;
+  grid.nodes = body.structure.mesh.node_count;
   for (const reduction::ColumnOrigin& origin : fields.origins) grid.fields.push_back(label_of(origin));
   grid.shapes = mesh_copy(body);
+  grid.cells = static_cast<std::int64_t>(grid.shapes.cells.size());
+  MPI_Allreduce(MPI_IN_PLACE, &grid.cells, 1, MPI_INT64_T, MPI_SUM, body.structure.mesh.comm);
   grid.shapes.dofs_per_node = 6;
   const Eigen::Isometry3d frame = frame_in_mesh(body);
   for (Eigen::Vector3d& x : grid.shapes.positions) x = frame * x;

@@ -143,8 +143,8 @@ void PlanarAssembly::add_body_terms(int b) {
       for (int d = 0; d < 3; ++d) coordinates.push_back(slot.nodes->of_local_node(node) + d);
     const fem::BeamSection& section = std::get<fem::BeamSection>(s.sections[cell.part]);
     auto beam = std::make_unique<reference::CorotationalBeam>(
-        coordinates, undeformed_place(body, s.mesh.positions[cell.corner[0]]),
-        undeformed_place(body, s.mesh.positions[cell.corner[1]]),
+        coordinates, undeformed_place(body, s.mesh.positions[cell.place[0]]),
+        undeformed_place(body, s.mesh.positions[cell.place[1]]),
         reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, damping.stiffness},
         gravity);
     if (!weight.constant())

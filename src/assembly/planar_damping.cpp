@@ -81,7 +81,7 @@ std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, in
       continue;
     }
     const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
-    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.corner[0]], s.mesh.positions[cell.corner[1]]},
+    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]},
                           along = ends[1] - ends[0];
     std::vector<MovingAxes> nodes;
     std::vector<int> coordinates;

@@ -167,7 +167,7 @@ void SpatialAssembly::add_corotated_force(const Load& load, const Anchor& place)
 void SpatialAssembly::add_corotated_pressure(const Load& load, int b, const fem::Mesh::Cell& cell) {
   const PlannedBody& body = plan_.bodies[b];
   const std::vector<SpatialMarker> places = slots_[b].corotated->places(cell);
-  const auto X = [&](int corner) { return body.structure.mesh.positions[cell.corner[corner]]; };
+  const auto X = [&](int corner) { return body.structure.mesh.positions[cell.place[corner]]; };
   const auto add = [&](const std::array<int, 3>& at, double share) {
     const Vector3d area = 0.5 * (body.attitude * (X(at[1]) - X(at[0])).cross(X(at[2]) - X(at[0])));
     terms_.push_back(std::make_unique<reference::FacetPressure>(
@@ -175,6 +175,13 @@ void SpatialAssembly::add_corotated_pressure(const Load& load, int b, const fem:
         [p = load.pressure](double t) { return p(t); }, share, load.follower ? nullptr : &area));
   };
   if (cell.kind == fem::CellKind::triangle) return add({0, 1, 2}, 1);
+  if (mesh::is_quadratic(cell.kind)) {  // facets between the nodes
+    const int n = static_cast<int>(cell.corners().size());
+    for (int i = 0; i < n; ++i) add({i, n + i, n + (i + n - 1) % n}, 1);
+    if (n == 3) return add({3, 4, 5}, 1);
+    for (const auto& [a, b, c] : fem::quadrilateral_triangles) add({n + a, n + b, n + c}, 0.5);
+    return;
+  }
   for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
 }
 

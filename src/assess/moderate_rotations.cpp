@@ -25,10 +25,10 @@ double bending_stiffness(const fem::Section& section) {
 constexpr int numbers = 13;  // of an element on its way between ranks
 
 std::array<double, numbers> packed(const fem::Structure& structure, const fem::Mesh::Cell& cell,
-                                   const Eigen::VectorXd& local) {
+                                   const std::array<int, 2>& ends, const Eigen::VectorXd& local) {
   const fem::Mesh& mesh = structure.mesh;
-  const int a = cell.moved[0], b = cell.moved[1], n = structure.dofs_per_node;
-  const Vector3d along = mesh.positions[cell.corner[1]] - mesh.positions[cell.corner[0]];
+  const int a = cell.moved[ends[0]], b = cell.moved[ends[1]], n = structure.dofs_per_node;
+  const Vector3d along = mesh.positions[cell.place[ends[1]]] - mesh.positions[cell.place[ends[0]]];
   const auto turn = [&](int node) {
     return n == 3 ? Vector3d(0, 0, local[3 * node + 2]) : Vector3d(local.segment<3>(6 * node + 3));
   };
@@ -264,12 +264,16 @@ std::vector<BentElement> bent_elements(const fem::Structure& structure, Vec defo
   std::vector<double> own;
   int shells = 0;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
-    if (cell.kind != fem::CellKind::line) {
+    if (!mesh::is_line(cell.kind)) {
       shells = shells || cell.kind != fem::CellKind::point;
       continue;
     }
-    const auto values = packed(structure, cell, local);
-    if (cell.moved[0] != cell.moved[1] && values[3] > 0) own.insert(own.end(), values.begin(), values.end());
+    using Ends = std::vector<std::array<int, 2>>;
+    for (const auto& ends : mesh::is_quadratic(cell.kind) ? Ends{{0, 2}, {2, 1}} : Ends{{0, 1}}) {
+      const auto values = packed(structure, cell, ends, local);
+      if (cell.moved[ends[0]] != cell.moved[ends[1]] && values[3] > 0)
+        own.insert(own.end(), values.begin(), values.end());
+    }
   }
   const MPI_Comm comm = structure.mesh.comm;
   MPI_Allreduce(MPI_IN_PLACE, &shells, 1, MPI_INT, MPI_MAX, comm);

@@ -50,7 +50,7 @@ petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& co
     Eigen::MatrixXd Ae = matrix_of(cell);
     largest = std::max(largest, Ae.diagonal().cwiseAbs().maxCoeff());
     hold(structure, conditions, structure.cell_dofs(cell), Ae);
-    PetscInt nodes[8];
+    PetscInt nodes[2 * mesh::most_nodes];
     PetscInt count = 0;
     for (int node : cell.nodes()) nodes[count++] = structure.mesh.global_node(node);
     check(MatSetValuesBlocked(A, count, nodes, count, nodes, Ae.data(), ADD_VALUES));  // symmetric: either major

@@ -9,6 +9,8 @@
 
 #include "floe/error.h"
 #include "floe/fem/point_mass.h"
+#include "floe/fem/quadratic_beam.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/fem/shell.h"
 #include "floe/fem/spatial_beam_fixed.h"
 #include "floe/fem/transform.h"
@@ -22,37 +24,49 @@ struct Corners {
   const Mesh& mesh;
   const Mesh::Cell& cell;
   MembraneStrain strain;
-  const Eigen::Vector3d& operator[](int i) const { return mesh.positions[cell.corner[i]]; }
-  Eigen::Vector2d planar(int i) const { return mesh.positions[cell.corner[i]].head<2>(); }
+  const Eigen::Vector3d& operator[](int i) const { return mesh.positions[cell.place[i]]; }
+  Eigen::Vector2d planar(int i) const { return mesh.positions[cell.place[i]].head<2>(); }
   TriangleNodes triangle() const { return {(*this)[0], (*this)[1], (*this)[2]}; }
   QuadrilateralNodes quadrilateral() const { return {(*this)[0], (*this)[1], (*this)[2], (*this)[3]}; }
   bool three() const { return cell.kind == CellKind::triangle; }
+  bool quadratic() const { return mesh::is_quadratic(cell.kind); }
+  std::vector<Eigen::Vector3d> all() const {
+    std::vector<Eigen::Vector3d> x;
+    for (const int node : cell.places()) x.push_back(mesh.positions[node]);
+    return x;
+  }
 };
 
 BeamPlace place_of(const Corners& at, const SpatialBeam& beam) { return {at[0], at[1], beam.orientation}; }
+BeamCurve curve_of(const Corners& at, const SpatialBeam& beam) { return {at[0], at[1], at[2], beam.orientation}; }
 
 ElementMaps maps_of(const Corners& at, const BeamSection& section) {
   return planar_beam(at.planar(0), at.planar(1), section, at.strain);
 }
 ElementMaps maps_of(const Corners& at, const SpatialBeam& beam) {
+  if (at.quadratic()) return quadratic_beam(curve_of(at, beam), beam.section, beam.strain);
   return spatial_beam(place_of(at, beam), beam.section, beam.strain);
 }
 ElementMaps maps_of(const Corners& at, const ShellSection& section) {
+  if (at.quadratic()) return quadratic_shell(at.all(), section);
   return at.three() ? shell_triangle(at.triangle(), section) : shell_quadrilateral(at.quadrilateral(), section);
 }
 ElementMaps maps_of(const Corners& at, const PointMass& point) {
   return point_mass(at[0], point.mass, point.inertia, point.offset);
 }
 
-template <class Section>
-Eigen::MatrixXd matrix_of(const Corners& at, const Section& section, double k, double m) {
-  const ElementMaps maps = maps_of(at, section);
+Eigen::MatrixXd sums_of(const ElementMaps& maps, double k, double m) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(maps.bending.rows(), maps.bending.cols());
   if (k != 0) A += k * maps.stiffness();
   if (m != 0) A += m * maps.mass_matrix();
   return A;
 }
+template <class Section>
+Eigen::MatrixXd matrix_of(const Corners& at, const Section& section, double k, double m) {
+  return sums_of(maps_of(at, section), k, m);
+}
 Eigen::MatrixXd matrix_of(const Corners& at, const SpatialBeam& beam, double k, double m) {
+  if (at.quadratic()) return sums_of(quadratic_beam(curve_of(at, beam), beam.section, beam.strain), k, m);
   Matrix12 A = Matrix12::Zero();
   if (k != 0) A += k * stiffness(fixed_spatial_beam(place_of(at, beam), beam.section, beam.strain.wagner));
   if (m != 0) A += m * spatial_beam_mass(place_of(at, beam), beam.section);
@@ -65,6 +79,7 @@ Eigen::MatrixXd matrix_of(const Corners& at, const ShellSection& section, double
     if (m != 0) A += m * mass(nodes, section);
     return Eigen::MatrixXd(A);
   };
+  if (at.quadratic()) return sums_of(quadratic_shell(at.all(), section), k, m);
   if (at.three())
     return sum(Eigen::Matrix<double, 18, 18>(), shell_triangle_stiffness, shell_triangle_mass, at.triangle());
   return sum(Eigen::Matrix<double, 24, 24>(), shell_quadrilateral_stiffness, shell_quadrilateral_mass,
@@ -75,10 +90,16 @@ std::vector<body::MassPoint> line_of(const Corners& at, const BeamSection& secti
   return planar_beam_line(at.planar(0), at.planar(1), section);
 }
 std::vector<body::MassPoint> line_of(const Corners& at, const SpatialBeam& beam) {
+  if (at.quadratic()) return quadratic_beam_line(curve_of(at, beam));
   return spatial_beam_line(place_of(at, beam), beam.section);
 }
 std::vector<body::MassPoint> line_of(const Corners& at, const ShellSection&) {
   std::vector<body::MassPoint> points;
+  if (at.quadratic()) {
+    for (const CurvedPoint& point : quadratic_shell_surface(at.all()))
+      points.push_back({point.at.area, point.at.x, point.at.N});
+    return points;
+  }
   for (const SurfacePoint& point :
        at.three() ? shell_triangle_surface(at.triangle()) : shell_quadrilateral_surface(at.quadrilateral()))
     points.push_back({point.area, point.x, point.N});
@@ -86,10 +107,27 @@ std::vector<body::MassPoint> line_of(const Corners& at, const ShellSection&) {
 }
 std::vector<body::MassPoint> line_of(const Corners&, const PointMass&) { return {}; }
 
+/// Elements of second order, by their place where they cannot be.
+template <class Make>
+void check_curved(const Corners& at, Make&& make) {
+  try {
+    make();
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("{}, the one at ({:.6g}, {:.6g}, {:.6g})", error.what(), at[0].x(), at[0].y(), at[0].z()));
+  }
+}
 void check_of(const Corners&, const BeamSection&) {}
-void check_of(const Corners& at, const SpatialBeam& beam) { element_axes(place_of(at, beam)); }
+void check_of(const Corners& at, const SpatialBeam& beam) {
+  if (at.quadratic())
+    check_curved(at, [&] { quadratic_beam(curve_of(at, beam), beam.section, beam.strain); });
+  else
+    element_axes(place_of(at, beam));
+}
 void check_of(const Corners& at, const ShellSection& section) {
-  if (at.three())
+  if (at.quadratic())
+    check_curved(at, [&] { quadratic_shell(at.all(), section); });
+  else if (at.three())
     shell_triangle_strain(at.triangle(), section);
   else
     for (const auto& corner : quadrilateral_triangles)
@@ -98,16 +136,14 @@ void check_of(const Corners& at, const ShellSection& section) {
 void check_of(const Corners& at, const PointMass& point) { maps_of(at, point); }
 
 bool belongs(CellKind kind, const BeamSection&) { return kind == CellKind::line; }
-bool belongs(CellKind kind, const SpatialBeam&) { return kind == CellKind::line; }
-bool belongs(CellKind kind, const ShellSection&) {
-  return kind == CellKind::triangle || kind == CellKind::quadrilateral;
-}
+bool belongs(CellKind kind, const SpatialBeam&) { return mesh::is_line(kind); }
+bool belongs(CellKind kind, const ShellSection&) { return mesh::is_shell(kind); }
 bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; }
 
 }  // namespace
 
 Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
-  const auto corners = cell.corners(), nodes = cell.nodes();
+  const auto corners = cell.places(), nodes = cell.nodes();
   const Eigen::Index n = mesh.dimension == 2 ? 3 : 6, size = n * static_cast<Eigen::Index>(nodes.size());
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n * static_cast<Eigen::Index>(corners.size()), size);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -132,7 +168,7 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
 
 std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell) {
   std::vector<RigidArm> arms;
-  const auto corners = cell.corners(), nodes = cell.nodes();
+  const auto corners = cell.places(), nodes = cell.nodes();
   for (std::size_t i = 0; i < corners.size() && mesh.dimension == 3; ++i) {
     const std::size_t by = cell.line[i] >= 0 ? static_cast<std::size_t>(cell.line[i]) : i;
     const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[by]];
@@ -196,7 +232,7 @@ std::pair<Place, std::string> first_fault(const Structure& structure) {
     try {
       check_cell(structure, cell);
     } catch (const InputError& error) {
-      const Eigen::Vector3d& at = structure.mesh.positions[static_cast<std::size_t>(cell.corner[0])];
+      const Eigen::Vector3d& at = structure.mesh.positions[static_cast<std::size_t>(cell.place[0])];
       first = std::min(first, {{at.x(), at.y(), at.z()}, error.what()});
     }
   }

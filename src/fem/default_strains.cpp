@@ -64,7 +64,7 @@ std::string StrainsChoice::text() const {
 StrainsChoice default_strains(const Mesh& mesh, const std::vector<Section>& sections) {
   Surface surface;
   for (const Mesh::Cell& cell : mesh.cells) {
-    if (cell.kind == CellKind::line) surface.beams = true;
+    if (mesh::is_line(cell.kind)) surface.beams = true;
     const auto* shell = std::get_if<ShellSection>(&sections[cell.part]);
     if (!shell) continue;
     surface.thickness = std::max(surface.thickness, thickness_of(*shell));

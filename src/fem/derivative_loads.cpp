@@ -36,18 +36,20 @@ petsc::MatHandle derivative_loads(const Structure& structure, const FieldRows& f
   const petsc::Stage stage("derivatives' loads");
   const DofRanges ranges = dof_ranges(structure, fields);
   const Eigen::Index n = static_cast<Eigen::Index>(pairs.size());
-  FieldRows sums = FieldRows::Zero(structure.local_dofs(), n), slope(24, fields.cols()), stress(3, fields.cols());
-  PairTerms terms{FieldRows(3, n), FieldRows(24, n), false};
+  FieldRows sums = FieldRows::Zero(structure.local_dofs(), n), slope, stress(most_strains, fields.cols());
+  PairTerms terms{FieldRows(most_strains, n), {}, false};
   std::vector<PieceRows> pieces;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
     piece_rows(structure, cell, {.strain = true}, pieces);
     for (const PieceRows& piece : pieces)
       for (const StrainRows& point : piece.strain) {
+        const Eigen::Index strains = point.L.rows(), slopes = point.G.rows();
+        if (slope.rows() < slopes) slope.resize(slopes, fields.cols()), terms.pull.resize(slopes, n);
         if (multiply(structure, piece, point.G, fields, ranges, slope.data()).empty()) continue;
         terms.stressed = !multiply(structure, piece, point.L, fields, ranges, stress.data()).empty();
-        terms.strain.setZero(), terms.pull.setZero();
-        for (const StrainRows::Term& term : point.terms) add_term(term, point.L.rows(), slope, stress, pairs, terms);
-        terms.strain *= -1, terms.pull *= -1;
+        terms.strain.topRows(strains).setZero(), terms.pull.topRows(slopes).setZero();
+        for (const StrainRows::Term& term : point.terms) add_term(term, strains, slope, stress, pairs, terms);
+        terms.strain.topRows(strains) *= -1, terms.pull.topRows(slopes) *= -1;
         add_transposed(structure, piece, point.L, terms.strain.data(), sums);
         if (terms.stressed) add_transposed(structure, piece, point.G, terms.pull.data(), sums);
       }

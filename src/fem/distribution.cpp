@@ -15,7 +15,7 @@ struct Node {
 struct NewCell {
   CellKind kind;
   int part;
-  std::array<PetscInt, 4> nodes;  // new global numbers, -1 where unused
+  std::array<PetscInt, mesh::most_nodes> nodes;  // new global numbers, of the kind's number
 };
 
 /// Moves the nodes; numbers them on their new ranks in the order of their original numbers. Collective.
@@ -70,7 +70,7 @@ std::vector<NewCell> move_cells(const mesh::RawMesh& raw, const Mesh& mesh) {
   std::vector<NewCell> cells;
   std::size_t at = 0;
   for (const mesh::Cell& cell : raw.cells) {
-    NewCell moved{cell.kind, cell.part, {-1, -1, -1, -1}};
+    NewCell moved{cell.kind, cell.part, mesh::no_nodes<PetscInt>()};
     for (int i = 0; i < mesh::node_count(cell.kind); ++i)
       moved.nodes[i] = found[std::lower_bound(needed.begin(), needed.end(), originals[at++]) - needed.begin()];
     cells.push_back(moved);
@@ -148,7 +148,7 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector
   for (const NewCell& cell : cells) {
     Mesh::Cell own(cell.kind, cell.part, {});
     for (int i = 0; i < mesh::node_count(cell.kind); ++i) {
-      own.corner[i] = local(cell.nodes[i]);
+      own.place[i] = local(cell.nodes[i]);
       own.moved[i] = local(spins(links, cell.nodes[i]) ? cell.nodes[i] : mesh::leader_of(links, cell.nodes[i]));
     }
     for (int i = 0; i < mesh::node_count(cell.kind); ++i)

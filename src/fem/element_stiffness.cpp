@@ -1,6 +1,7 @@
 #include "floe/fem/element_stiffness.h"
 
 #include "floe/fem/field_rows.h"
+#include "floe/fem/pressure.h"
 
 namespace floe::fem {
 
@@ -44,14 +45,6 @@ double ElementStiffness::largest_diagonal() const {
   return largest_;
 }
 
-namespace {
-
-bool is_shell(const Mesh::Cell& cell) {
-  return cell.kind == CellKind::triangle || cell.kind == CellKind::quadrilateral;
-}
-
-}  // namespace
-
 template <class Sink>
 void ElementStiffness::each_line(const FieldRows& X, Sink&& sink) const {
   const Eigen::Index dofs = structure_.dofs_per_node;
@@ -77,8 +70,9 @@ void ElementStiffness::each_shell(const FieldRows& X, Sink&& sink) const {
   const DofRanges ranges = dof_ranges(structure_, X);
   std::vector<PieceRows> pieces;
   Strained strained;
-  FieldRows values(9, X.cols());
+  FieldRows values;
   const auto hand = [&](const PieceRows& piece, const SmallRows& rows) {
+    if (values.rows() < rows.rows()) values.resize(rows.rows(), X.cols());
     const ColumnRange range = fem::multiply(rows, strained, structure_.dofs_per_node, values.data());
     if (!range.empty()) sink(piece, rows, values.topRows(rows.rows()));
   };

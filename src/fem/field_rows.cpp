@@ -209,20 +209,39 @@ void add_transposed(const Structure& structure, const PieceRows& piece, const Sm
     }
 }
 
+namespace {
+
+/// How many rows of a strain's G are gradients, and how many of them are those of displacements in a flat body's plane.
+struct Gradients {
+  Eigen::Index count, in_plane;
+};
+Gradients gradients_of(const Mesh::Cell& cell, const StrainRows& point, bool flat) {
+  const Eigen::Index rows = point.G.rows(), all = cell.kind == CellKind::line3       ? 3
+                                                  : cell.kind == CellKind::triangle6 ? 27
+                                                                                     : 6;
+  const bool more = mesh::is_quadratic(cell.kind) && rows > all;  // rotations and their gradients behind them
+  const Eigen::Index count = more ? all : rows;
+  return {count, flat && count == all ? 2 * count / 3 : 0};
+}
+
+}  // namespace
+
 Slopes slopes(const Structure& structure, const FieldRows& fields) {
   const DofRanges ranges = dof_ranges(structure, fields);
   Slopes sums{Eigen::VectorXd::Zero(fields.cols()), Eigen::VectorXd::Zero(fields.cols()), 0};
   const bool flat = flat_body(structure);
-  FieldRows values(24, fields.cols());
+  FieldRows values;
   std::vector<PieceRows> pieces;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
     piece_rows(structure, cell, {.strain = true}, pieces);
     for (const PieceRows& piece : pieces)
       for (const StrainRows& point : piece.strain) {
+        if (values.rows() < point.G.rows()) values.resize(point.G.rows(), fields.cols());
         const ColumnRange range = multiply(structure, piece, point.G, fields, ranges, values.data());
         sums.measure += point.weight;
-        for (Eigen::Index g = 0; g < point.G.rows(); ++g) {
-          Eigen::VectorXd& sum = flat && point.G.rows() == 6 && g < 4 ? sums.in_plane : sums.across;
+        const Gradients gradients = gradients_of(cell, point, flat);
+        for (Eigen::Index g = 0; g < gradients.count; ++g) {
+          Eigen::VectorXd& sum = g < gradients.in_plane ? sums.in_plane : sums.across;
           for (int j = range.begin; j < range.end; ++j) sum[j] += point.weight * values(g, j) * values(g, j);
         }
       }

@@ -28,8 +28,7 @@ bool everywhere(MPI_Comm comm, bool here) {
 bool uncoupled_shells(const Structure& structure) {
   bool yes = structure.dimension() == 3;
   for (const Mesh::Cell& cell : structure.mesh.cells)
-    yes = yes && (cell.kind == CellKind::triangle || cell.kind == CellKind::quadrilateral) &&
-          uncoupled(structure.sections[cell.part]);
+    yes = yes && mesh::is_shell(cell.kind) && uncoupled(structure.sections[cell.part]);
   return everywhere(structure.mesh.comm, yes);
 }
 
@@ -38,8 +37,8 @@ Vector3d area(const Structure& structure, const Vector3d& up) {
   Vector3d sum = Vector3d::Zero();
   const auto& at = structure.mesh.positions;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
-    const Vector3d& first = at[cell.corner[0]];
-    const Vector3d normal = (at[cell.corner[1]] - first).cross(at[cell.corner[2]] - first);
+    const Vector3d& first = at[cell.place[0]];
+    const Vector3d normal = (at[cell.place[1]] - first).cross(at[cell.place[2]] - first);
     sum += normal.dot(up) < 0 ? Vector3d(-normal) : normal;
   }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
@@ -54,7 +53,7 @@ Vector3d one_normal(const Structure& structure) {
   Vector3d normal = Vector3d::Zero();
   if (!structure.mesh.cells.empty()) {
     lowest = rank;
-    const auto& corner = structure.mesh.cells[0].corner;
+    const auto& corner = structure.mesh.cells[0].place;
     const auto& at = structure.mesh.positions;
     normal = (at[corner[1]] - at[corner[0]]).cross(at[corner[2]] - at[corner[0]]);
   }

@@ -82,7 +82,7 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments) {
       mesh.positions[local(node)] = x;
   for (const Element& element : mine)
     mesh.cells.emplace_back(CellKind::line, element.part,
-                            std::array<int, 4>{local(element.nodes[0]), local(element.nodes[1])});
+                            Mesh::Cell::Nodes{local(element.nodes[0]), local(element.nodes[1])});
   return mesh;
 }
 

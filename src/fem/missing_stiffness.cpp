@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "assemble_cells.h"
-#include "floe/fem/shell.h"
+#include "floe/fem/quadratic_beam.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/fem/spatial_beam_fixed.h"
 #include "shell_triangle.h"
 #include "spatial_beam_fields.h"
@@ -22,7 +23,7 @@ void each_triangle(const Structure& structure, const Mesh::Cell& cell, Act&& act
     TriangleNodes nodes;
     std::array<int, 18> dofs{};
     for (int i = 0; i < 3; ++i) {
-      nodes[i] = structure.mesh.positions[cell.corner[of[i]]];
+      nodes[i] = structure.mesh.positions[cell.place[of[i]]];
       for (int d = 0; d < 6; ++d) dofs[6 * i + d] = 6 * of[i] + d;
     }
     act(share, dofs, nodes);
@@ -37,9 +38,28 @@ Vector3d membrane_force(const ShellStrain& at, const VectorXd& q) {
   return at.D * (at.L * q + Vector3d(slope[0] * slope[0] / 2, slope[1] * slope[1] / 2, slope[0] * slope[1]));
 }
 
+/// Of second-order strains at von Karman's forces, less what those have themselves.
+MatrixXd curved_in_plane(const Structure& structure, const Mesh::Cell& cell, ShellSection section, const VectorXd& q) {
+  std::vector<Vector3d> x;
+  for (const int node : cell.places()) x.push_back(structure.mesh.positions[node]);
+  const ElementMaps known = quadratic_shell(x, section);
+  section.strains = Strains::second_order;
+  const ElementMaps all = quadratic_shell(x, section);
+  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  for (std::size_t i = 0; i < quadratic_membrane_points(x.size()); ++i) {
+    const StrainPoint &at = known.membrane[i], &full = all.membrane[i];
+    const VectorXd slope = at.G * q, stress = at.weight * at.D * (at.L * q + 0.5 * at.bilinear(slope, slope));
+    for (std::size_t s = 0; s < at.P.size(); ++s)
+      A += stress[static_cast<Eigen::Index>(s)] *
+           (full.G.transpose() * full.P[s] * full.G - at.G.transpose() * at.P[s] * at.G);
+  }
+  return A;
+}
+
 MatrixXd in_plane(const Structure& structure, const Mesh::Cell& cell, const ShellSection& section, const VectorXd& q) {
   MatrixXd A = MatrixXd::Zero(q.size(), q.size());
   if (section.strains == Strains::second_order) return A;
+  if (mesh::is_quadratic(cell.kind)) return curved_in_plane(structure, cell, section, q);
   each_triangle(structure, cell, [&](double share, const std::array<int, 18>& dofs, const TriangleNodes& nodes) {
     const shell::Geometry g = shell::geometry(nodes, section.axis);
     const ShellStrain at = shell_triangle_strain(nodes, section);
@@ -60,7 +80,7 @@ void add_product(Matrix12& A, double c, const spatial::Row12& a, const spatial::
 }
 
 BeamPlace place_of(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam) {
-  return {structure.mesh.positions[cell.corner[0]], structure.mesh.positions[cell.corner[1]], beam.orientation};
+  return {structure.mesh.positions[cell.place[0]], structure.mesh.positions[cell.place[1]], beam.orientation};
 }
 
 /// 2 S per length on the element's own dofs, at one station.
@@ -87,7 +107,18 @@ Matrix12 coupling_at(double s, const spatial::BeamFrame& frame, const SpatialBea
   return A;
 }
 
-MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, const SpatialBeam& beam, const VectorXd& q) {
+/// Tangent of second-order strains less that of von Karman's, without the changes of eps.
+MatrixXd curved_coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBeam beam, const VectorXd& q) {
+  const auto& at = structure.mesh.positions;
+  const BeamCurve curve{at[cell.place[0]], at[cell.place[1]], at[cell.place[2]], beam.orientation};
+  beam.section.EA = std::numeric_limits<double>::min();
+  beam.strain.wagner = false, beam.strain.strains = Strains::second_order;
+  const ElementMaps maps = quadratic_beam(curve, beam.section, beam.strain);
+  return maps.tangent(q) - maps.stiffness();
+}
+
+MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBeam beam, const VectorXd& q) {
+  if (cell.kind == CellKind::line3) return curved_coupling(structure, cell, beam, q);
   const BeamPlace place = place_of(structure, cell, beam);
   const spatial::BeamFrame frame = spatial::beam_frame(place, beam.section);
   Eigen::Matrix<double, 12, 12> to_own = Matrix12::Zero();
@@ -106,17 +137,22 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, const Spat
   return to_own.transpose() * A * to_own;
 }
 
-/// A mass at an arm from the corner of a cell.
+/// A mass at an arm from a node of a cell.
 struct Lump {
   double mass;
   Vector3d arm;
 };
 
-/// What goes with each corner of a cell.
-Lump lump_of(const Structure& structure, const Mesh::Cell& cell) {
-  const auto at = [&](int corner) -> const Vector3d& { return structure.mesh.positions[cell.corner[corner]]; };
+/// What goes with a node of a cell.
+Lump lump_of(const Structure& structure, const Mesh::Cell& cell, int node) {
+  const auto at = [&](int corner) -> const Vector3d& { return structure.mesh.positions[cell.place[corner]]; };
   const Section& section = structure.sections[cell.part];
   if (const auto* beam = std::get_if<SpatialBeam>(&section)) {
+    if (cell.kind == CellKind::line3) {
+      const BeamShare share =
+          quadratic_beam_shares({at(0), at(1), at(2), beam->orientation})[static_cast<std::size_t>(node)];
+      return {beam->section.rhoA * share.length, share.axes.rightCols<2>() * beam->section.centroid};
+    }
     const spatial::BeamFrame frame = spatial::beam_frame(place_of(structure, cell, *beam), beam->section);
     return {beam->section.rhoA * frame.length / 2, frame.axes.rightCols<2>() * frame.C};
   }
@@ -124,6 +160,11 @@ Lump lump_of(const Structure& structure, const Mesh::Cell& cell) {
   const auto* shell = std::get_if<ShellSection>(&section);
   if (!shell) return {0, Vector3d::Zero()};
   const auto corners = static_cast<int>(cell.corners().size());
+  if (mesh::is_quadratic(cell.kind)) {
+    std::vector<Vector3d> x;
+    for (const int place : cell.places()) x.push_back(structure.mesh.positions[place]);
+    return {shell->mass * quadratic_shell_shares(x)[static_cast<std::size_t>(node)].area, Vector3d::Zero()};
+  }
   const Vector3d area = (at(2) - at(0)).cross(corners == 4 ? at(3) - at(1) : at(0) - at(1)) / 2;
   return {shell->mass * area.norm() / corners, Vector3d::Zero()};
 }
@@ -131,10 +172,10 @@ Lump lump_of(const Structure& structure, const Mesh::Cell& cell) {
 /// S of MissingStiffness::arms, twice, of the masses of a cell on the dofs of its nodes.
 MatrixXd arms(const Structure& structure, const Mesh::Cell& cell, const Vector3d& spin) {
   MatrixXd A = MatrixXd::Zero(6 * cell.moving, 6 * cell.moving);
-  const auto corners = cell.corners();
+  const auto corners = cell.places();
   for (int i = 0; i < static_cast<int>(corners.size()); ++i) {
     const int by = cell.line[i] >= 0 ? cell.line[i] : i;
-    const Lump lump = lump_of(structure, cell);
+    const Lump lump = lump_of(structure, cell, i);
     const Vector3d X = structure.mesh.positions[corners[i]] + lump.arm,
                    c = X - structure.mesh.positions[cell.moved[by]],
                    across = spin.squaredNorm() * X - spin * spin.dot(X);

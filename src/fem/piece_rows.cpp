@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floe/fem/flat_body.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/fem/transform.h"
 #include "shell_triangle.h"
 
@@ -60,37 +61,80 @@ PieceRows::Spin spin_of(const Structure& structure, int node, int at) {
   return {at, in_plane.normalized(), flat->axes.transpose() * slot};
 }
 
-/// Cells on one or two nodes, from their maps.
+/// Adds a strain, or where none of it is of second order rows of bending.
+/// @param measure  the weight, where the strain is of the membrane
+void add_strain(const StrainPoint& point, double measure, bool linear_apart, PieceParts parts, PieceRows& piece) {
+  const bool linear = linear_apart && point.G.rows() == 0;
+  if (!(linear ? parts.bending : parts.strain)) return;
+  const Eigen::MatrixXd half = std::sqrt(point.weight) * root(point.D);
+  if (!linear) return piece.strain.push_back({half * point.L, point.G, measure, terms_of(point, half)});
+  const Eigen::Index before = piece.bending.rows();
+  piece.bending.conservativeResize(before + point.L.rows(), point.L.cols());
+  piece.bending.bottomRows(point.L.rows()) = half * point.L;
+}
+
+/// The maps of a cell of one that is flat, in the plane's axes: what moves in the plane and what moves out of it have
+/// nothing in common to the bit where the cell follows nobody.
+ElementMaps in_plane(const FlatBody& flat, const Structure& structure, const Mesh::Cell& cell) {
+  if (!cell.follows()) {
+    std::vector<Eigen::Vector3d> x;
+    for (const int node : cell.places()) x.push_back(flat.positions[node]);
+    return quadratic_shell(x, std::get<ShellSection>(flat.sections[cell.part]));
+  }
+  ElementMaps maps = structure.maps(cell);
+  const auto dofs = static_cast<Eigen::Index>(6 * cell.nodes().size());
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(dofs, dofs);
+  for (Eigen::Index i = 0; i < dofs; i += 3) T.block<3, 3>(i, i) = flat.axes;
+  maps = transformed(maps, T);
+  for (body::MassPoint& point : maps.mass)
+    point.x = flat.axes.transpose() * point.x, point.N = flat.axes.transpose() * point.N;
+  return maps;
+}
+
+/// Mass points as samples; of a shell two of a pair, one below its centre of mass and one above, as sample and pair.
+void add_masses(const std::vector<body::MassPoint>& points, bool pairs, std::vector<MassRows>& out) {
+  for (std::size_t i = 0; i < points.size(); i += pairs ? 2 : 1) {
+    const body::MassPoint &one = points[i], &two = points[pairs ? i + 1 : i];
+    out.push_back({one.mass, false, Eigen::Vector3d::Zero(), {}});
+    MassRows& sample = out.back();
+    sample.N.setZero(3, one.N.cols());
+    sample.N.topRows(one.N.rows()) = pairs ? Eigen::MatrixXd((one.N + two.N) / 2) : one.N;
+    sample.x.head(one.x.size()) = pairs ? Eigen::VectorXd((one.x + two.x) / 2) : one.x;
+    if (!pairs) continue;
+    sample.mass = 2 * one.mass;
+    out.push_back({2 * one.mass, true, Eigen::Vector3d((two.x - one.x) / 2), (two.N - one.N) / 2});
+  }
+}
+
+/// Points, lines and shells of second order, from their maps.
 void generic_piece(const Structure& structure, const Mesh::Cell& cell, PieceParts parts, PieceRows& piece) {
+  const FlatBody* flat = mesh::is_shell(cell.kind) ? flat_body(structure) : nullptr;
   piece.nodes = 0;
   for (int node : cell.nodes()) piece.node[piece.nodes++] = node;
-  for (int i = 0; i < static_cast<int>(cell.corners().size()); ++i)
-    if (cell.line[i] >= 0) piece.spins.push_back(spin_of(structure, cell.corner[i], i));
+  for (int i = 0; i < static_cast<int>(cell.places().size()); ++i)
+    if (cell.line[i] >= 0) piece.spins.push_back(spin_of(structure, cell.place[i], i));
   if (parts.bending || parts.strain || parts.mass) {
-    const ElementMaps maps = structure.maps(cell);
-    if (parts.bending) piece.bending = root(maps.bending);
-    for (const StrainPoint& point : maps.membrane) {
-      if (!parts.strain) break;
-      const Eigen::MatrixXd half = std::sqrt(point.weight) * root(point.D);
-      piece.strain.push_back({half * point.L, point.G, point.weight, terms_of(point, half)});
+    const ElementMaps maps = flat ? in_plane(*flat, structure, cell) : structure.maps(cell);
+    const bool shell = mesh::is_shell(cell.kind);
+    if (parts.bending && !shell) piece.bending = root(maps.bending);
+    for (std::size_t i = 0; i < maps.membrane.size(); ++i) {
+      const bool measured = !shell || i < quadratic_membrane_points(cell.places().size());
+      add_strain(maps.membrane[i], measured ? maps.membrane[i].weight : 0, shell, parts, piece);
     }
-    for (const body::MassPoint& point : maps.mass) {
-      if (!parts.mass) break;
-      piece.mass.push_back({point.mass, false, Eigen::Vector3d::Zero(), {}});
-      piece.mass.back().N.setZero(3, point.N.cols());
-      piece.mass.back().N.topRows(point.N.rows()) = point.N;
-      piece.mass.back().x.head(point.x.size()) = point.x;
-    }
+    const auto* section = std::get_if<ShellSection>(&structure.sections[cell.part]);
+    if (parts.mass) add_masses(maps.mass, section && section->mass_radius > 0, piece.mass);
     for (const body::RotatingMass& mass : maps.rotary)
       if (parts.mass) piece.rotary.push_back({mass.moments, mass.turn});
   }
   if (!parts.line) return;
-  for (const body::MassPoint& point : structure.line(cell)) {
-    piece.line.push_back({point.mass, false, Eigen::Vector3d::Zero(), {}});
-    piece.line.back().N.setZero(3, point.N.cols());
-    piece.line.back().N.topRows(point.N.rows()) = point.N;
-    piece.line.back().x.head(point.x.size()) = point.x;
-  }
+  std::vector<body::MassPoint> line = structure.line(cell);
+  if (flat)
+    for (body::MassPoint& point : line) {
+      point.x = flat->axes.transpose() * point.x, point.N = flat->axes.transpose() * point.N;
+      for (Eigen::Index i = 0; i < point.N.cols(); i += 3)
+        point.N.middleCols<3>(i) = (point.N.middleCols<3>(i) * flat->axes).eval();
+    }
+  add_masses(line, false, piece.line);
 }
 
 void bend(const shell::Geometry& g, const shell::Deformations& d, double share, SmallRows& bending) {
@@ -275,7 +319,7 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
   }
   for (int i = 0; i < 3; ++i) {
     if (cell.line[of[i]] < 0) continue;
-    const int node = cell.corner[of[i]], leader = cell.moved[cell.line[of[i]]];
+    const int node = cell.place[of[i]], leader = cell.moved[cell.line[of[i]]];
     spin_about(at[node] - at[leader], leader, spin_of(structure, node, i), second_order, piece);
   }
 }
@@ -288,7 +332,7 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
     piece.bending.resize(0, 0), piece.strain.clear(), piece.mass.clear(), piece.rotary.clear(), piece.line.clear(),
         piece.spins.clear();
   if (parts.strain && is_second_order(structure, cell)) parts.bending = true;
-  const auto& c = cell.corner;
+  const auto& c = cell.place;
   if (cell.kind == CellKind::triangle) {
     triangle_piece(structure, {c[0], c[1], c[2]}, 1, cell.part, parts, pieces[0]);
   } else if (cell.kind == CellKind::quadrilateral) {
@@ -299,7 +343,7 @@ void piece_rows(const Structure& structure, const Mesh::Cell& cell, PieceParts p
   } else {
     generic_piece(structure, cell, parts, pieces[0]);
   }
-  if (!cell.follows() || cell.kind == CellKind::point || cell.kind == CellKind::line) return;
+  if (!cell.follows() || !mesh::is_shell(cell.kind) || mesh::is_quadratic(cell.kind)) return;
   if (cell.kind == CellKind::triangle) return follow(structure, cell, {0, 1, 2}, pieces[0]);
   for (int k = 0; k < 4; ++k) follow(structure, cell, quadrilateral_triangles[k], pieces[k]);
 }

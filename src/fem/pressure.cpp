@@ -1,7 +1,7 @@
 #include "floe/fem/pressure.h"
 
 #include "cells.h"
-#include "floe/fem/shell.h"
+#include "floe/fem/quadratic_shell.h"
 
 namespace floe::fem {
 namespace {
@@ -22,11 +22,26 @@ Eigen::MatrixXd tilt(const std::array<Vector3d, 4>& x, const std::array<int, 3>&
 
 }  // namespace
 
-bool is_shell(const Mesh::Cell& cell) {
-  return cell.kind == CellKind::triangle || cell.kind == CellKind::quadrilateral;
+bool is_shell(const Mesh::Cell& cell) { return mesh::is_shell(cell.kind); }
+
+namespace {
+
+body::Pressure curved_pressure(const Structure& structure, const Mesh::Cell& cell) {
+  std::vector<Vector3d> x;
+  for (const int node : cell.places()) x.push_back(structure.mesh.positions[node]);
+  body::Pressure own(6 * static_cast<Eigen::Index>(x.size()));
+  for (const CurvedPoint& point : quadratic_shell_surface(x))
+    own.add(point.at.area, point.at.x, point.at.normal, point.at.N, point.tilt);
+  return own;
 }
 
+}  // namespace
+
 body::Pressure pressure(const Structure& structure, const Mesh::Cell& cell) {
+  if (mesh::is_quadratic(cell.kind)) {
+    const body::Pressure own = curved_pressure(structure, cell);
+    return cell.follows() ? body::projected(own, following(structure.mesh, cell)) : own;
+  }
   std::array<Vector3d, 4> x;
   const auto corners = cell.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) x[i] = structure.mesh.positions[corners[i]];

@@ -29,7 +29,7 @@ Eigen::VectorXd sags(const Structure& structure, const FieldRows& fields) {
   Eigen::ArrayXXd most = Eigen::ArrayXXd::Zero(fields.cols(), 2);  // sag, displacement
   for_each_field(structure, fields, [&](Eigen::Index j, const double* values) {
     for (const Mesh::Cell& cell : structure.mesh.cells)
-      if (is_shell(cell) && !cell.follows())
+      if (is_shell(cell) && !mesh::is_quadratic(cell.kind) && !cell.follows())
         most(j, 0) = std::max(most(j, 0), greatest_sag(structure.mesh, cell, values));
     for (std::size_t i = 0; i < structure.mesh.positions.size(); ++i)
       most(j, 1) = std::max(most(j, 1), Eigen::Map<const Eigen::Vector3d>(values + 6 * i).norm());

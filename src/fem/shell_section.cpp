@@ -62,11 +62,12 @@ ShellMaterial isotropic(double E, double nu, double density) {
 ShellSection shell_section(const std::vector<Ply>& plies, double offset, const Eigen::Vector3d& axis) {
   require(!plies.empty(), "a shell needs a ply");
   require(std::isfinite(offset) && axis.allFinite(), "a shell's offset and axis must be finite");
-  double thickness = 0;
+  double thickness = 0, shear = 0;
   bool directed = false;
   for (const Ply& ply : plies) {
     check(ply);
     thickness += ply.thickness;
+    shear += 5. / 6 * ply.material.G12 * ply.thickness;
     directed = directed || !is_isotropic(ply.material);
   }
   require(!directed || axis.norm() > 0, "an orthotropic shell needs an axis");
@@ -89,6 +90,7 @@ ShellSection shell_section(const std::vector<Ply>& plies, double offset, const E
   const Eigen::Matrix3d C = A.inverse() * B, Ds = D - B * C;
   section.coupling = C + offset * Eigen::Matrix3d::Identity();
   section.bending = (Ds + Ds.transpose()) / 2;
+  section.shear = shear;
   section.higher_order = higher_order(A);
   section.mass = mass;
   const double centre = mass > 0 ? first / mass : 0;

@@ -7,15 +7,7 @@
 namespace floe::fem {
 using namespace spatial;
 
-namespace {
-
-struct SectionPoint {
-  double share;         // of the mass
-  Eigen::Vector2d arm;  // [y, z] from the centroid
-};
-
-/// Points with the section's mass, centre and second moments.
-std::vector<SectionPoint> section_points(const SpatialBeamSection& section) {
+std::vector<SectionPoint> spatial::section_points(const SpatialBeamSection& section) {
   if (section.rhoA == 0) return {};
   Eigen::Matrix2d second;
   second << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
@@ -33,6 +25,8 @@ std::vector<SectionPoint> section_points(const SpatialBeamSection& section) {
   }
   return points;
 }
+
+namespace {
 
 body::MassPoint sample(double mass, double s, const Eigen::Vector2d& arm, const BeamPlace& place,
                        const BeamFrame& frame) {

@@ -75,6 +75,13 @@ SectionMotion section_motion(double s, const BeamFrame& frame);
 /// (kappa_z, -kappa_y) of the element, and their odd parts.
 std::vector<StrainPoint> second_order_strains(const BeamFrame& frame, const SpatialBeamSection& section, bool wagner);
 
+/// Points with the section's mass, centre and second moments.
+struct SectionPoint {
+  double share;         ///< of the mass
+  Eigen::Vector2d arm;  ///< [y, z] from the centroid
+};
+std::vector<SectionPoint> section_points(const SpatialBeamSection& section);
+
 /// Rows on own dofs -> rows on body dofs.
 template <int rows>
 Eigen::Matrix<double, rows, 12> to_body(const Eigen::Matrix<double, rows, 12>& own, const BeamFrame& frame) {

@@ -66,7 +66,7 @@ void fill(Numbered& result, const FileMesh& file, const Translation& used, const
   auto& mesh = result.mesh;
   mesh.cells.reserve(file.cells.size());
   for (const auto& from : file.cells) {
-    Cell cell{from.kind, {-1, -1, -1, -1}, from.part};
+    Cell cell{from.kind, no_nodes<PetscInt>(), from.part};
     for (int i = 0; i < node_count(from.kind); ++i) cell.nodes[i] = number(from.nodes[i]);
     mesh.cells.push_back(cell);
     mesh.cell_labels.push_back(from.label);

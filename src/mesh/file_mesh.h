@@ -9,8 +9,14 @@ struct FileCell {
   long long label;
   CellKind kind;
   int part;
-  std::array<long long, 4> nodes;  // of the kind's number
+  std::array<long long, most_nodes> nodes;  // of the kind's number
   Where where;
+  FileCell(long long l, CellKind k, int p, const std::array<long long, most_nodes>& n, Where w)
+      : label(l), kind(k), part(p), nodes(n), where(w) {}
+  FileCell(long long l, CellKind k, int p, const std::array<long long, 4>& corners, Where w)
+      : FileCell(l, k, p, no_nodes<long long>(), w) {
+    std::copy(corners.begin(), corners.end(), nodes.begin());
+  }
 };
 
 /// A node set in the labels of its file.

@@ -18,8 +18,13 @@ void refuse_too_many(const GmshStructure& structure, Faults& faults) {
     faults.add({0, 1}, "more than " + std::to_string(most) + " nodes or elements");
 }
 
-std::vector<std::string> notices_of(const std::string& path, long long left_out, PetscInt dropped) {
+std::vector<std::string> notices_of(const std::string& path, long long left_out, long long without_middle,
+                                    PetscInt dropped) {
   std::vector<std::string> notices;
+  if (without_middle > 0)
+    notices.push_back(path + ": " + std::to_string(without_middle) +
+                      " quadrilaterals of 9 nodes are read as those of 8, without the nodes in their middles");
+  dropped -= static_cast<PetscInt>(without_middle);
   if (left_out > 0)
     notices.push_back(path + ": " + std::to_string(left_out) + " elements in no physical group are ignored");
   if (dropped > 0) notices.push_back(path + ": " + std::to_string(dropped) + " nodes that no element uses are ignored");
@@ -34,7 +39,7 @@ GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std
   MPI_Comm_size(comm, &ranks);
   std::unique_ptr<Faults> faults;
   FileMesh file;
-  long long left_out = 0;
+  long long left_out = 0, without_middle = 0;
   petsc::agree(comm, [&] {
     const MappedFile mapped(path);
     const GmshStructure structure = gmsh_structure(mapped);
@@ -43,7 +48,7 @@ GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std
     refuse_too_many(structure, *faults);
     const GmshSelection selection = select_parts(structure, wanted_parts, *faults);
     if (faults->any()) return;
-    left_out = selection.left_out;
+    left_out = selection.left_out, without_middle = selection.without_middle;
     file.parts = selection.parts;
     read_nodes(structure, share_of(static_cast<PetscInt>(structure.node_count), rank, ranks), file, *faults);
     read_elements(structure, selection, rank, ranks, file, *faults);
@@ -51,7 +56,7 @@ GmshFile read_gmsh(MPI_Comm comm, const std::string& path, const std::vector<std
   faults->throw_together(comm);
   Numbered numbered = number_labels(comm, std::move(file), *faults);
   numbered.mesh.source = path;
-  return {std::move(numbered.mesh), notices_of(path, left_out, numbered.dropped)};
+  return {std::move(numbered.mesh), notices_of(path, left_out, without_middle, numbered.dropped)};
 }
 
 }  // namespace floe::mesh

@@ -61,10 +61,13 @@ void make_part(const GmshStructure& structure, GmshSelection& selection, const s
       faults.add(block.begin.where(place), "these elements belong to two parts, " +
                                                in_quotes(selection.parts[selection.uses[b].part]) + " and " +
                                                in_quotes(name) + ": specify one of them");
-    if (block.type > 3)
-      faults.add(block.begin.where(place), "part " + in_quotes(name) + " has elements of type " +
-                                               std::to_string(block.type) + " (" + gmsh_type(block.type)->name +
-                                               "); lines of 2, triangles of 3 and quadrilaterals of 4 nodes are read");
+    if (gmsh_type(block.type)->kind == CellKind::point)
+      faults.add(block.begin.where(place),
+                 "part " + in_quotes(name) + " has elements of type " + std::to_string(block.type) + " (" +
+                     gmsh_type(block.type)->name +
+                     "); lines of 2 and 3, triangles of 3 and 6, quadrilaterals of 4, 8 and 9 nodes are "
+                     "read");
+    if (block.type == gmsh_nine_nodes) selection.without_middle += block.count;
     selection.uses[b].part = part;
   }
 }

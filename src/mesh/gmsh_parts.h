@@ -11,8 +11,9 @@ struct GmshUse {
 
 struct GmshSelection {
   std::vector<std::string> parts, places;
-  std::vector<GmshUse> uses;  // of each element block
-  long long left_out = 0;     // elements of the parts' dimension that are in no group
+  std::vector<GmshUse> uses;     // of each element block
+  long long left_out = 0;        // elements of the parts' dimension that are in no group
+  long long without_middle = 0;  // quadrilaterals of nine nodes
 };
 
 /// Chooses the blocks that become parts and places; see read_gmsh. Rank-local.

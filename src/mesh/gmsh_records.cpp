@@ -8,7 +8,7 @@
 namespace floe::mesh {
 namespace {
 
-constexpr int most_nodes = 125;
+constexpr int most_gmsh_nodes = 125;
 
 std::string_view next_record(GmshCursor& cursor, Where& where) {
   where = cursor.where(cursor.at);
@@ -96,7 +96,7 @@ void read_block(const GmshElementBlock& block, const GmshUse& use, Window part, 
   pass(cursor, part.skipped,
        static_cast<long long>(cursor.label_width) * (block.before + 1 + block.skipped + type.nodes));
   const std::string what = "an element number and " + std::to_string(type.nodes) + " nodes (" + type.name + ")";
-  long long record[3 + 1 + 2 + gmsh_most_tags + most_nodes];
+  long long record[3 + 1 + 2 + gmsh_most_tags + most_gmsh_nodes];
   std::vector<long long> used;
   for (long long i = 0; i < part.count; ++i) {
     Where where;
@@ -105,8 +105,8 @@ void read_block(const GmshElementBlock& block, const GmshUse& use, Window part, 
     const long long* labels = record + block.before;
     const long long* nodes = labels + 1 + block.skipped;
     if (use.part >= 0) {
-      FileCell cell{labels[0], static_cast<CellKind>(block.type - 1), use.part, {-1, -1, -1, -1}, where};
-      std::copy(nodes, nodes + type.nodes, cell.nodes.begin());
+      FileCell cell{labels[0], type.kind, use.part, no_nodes<long long>(), where};
+      std::copy_n(nodes, node_count(type.kind), cell.nodes.begin());  // of nine without the one in the middle
       mesh.cells.push_back(cell);
     }
     if (!use.places.empty()) used.insert(used.end(), nodes, nodes + type.nodes);

@@ -1,6 +1,7 @@
 #pragma once
 #include <map>
 
+#include "floe/mesh/raw_mesh.h"
 #include "gmsh_cursor.h"
 
 namespace floe::mesh {
@@ -44,9 +45,11 @@ GmshStructure gmsh_structure(const MappedFile& file);
 struct GmshType {
   const char* name;
   int nodes;
+  CellKind kind = CellKind::point;  // of lines and shells that are read
 };
 
-constexpr int gmsh_most_tags = 100;  // of an element of format 2
+constexpr int gmsh_most_tags = 100;        // of an element of format 2
+constexpr long long gmsh_nine_nodes = 10;  // type of quadrilaterals
 
 /// Name and number of nodes of an element type; nullptr where the format has no such number.
 const GmshType* gmsh_type(long long type);

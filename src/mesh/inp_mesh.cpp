@@ -6,22 +6,27 @@
 namespace floe::mesh {
 namespace {
 
-const std::map<std::string, int>& element_nodes() {
-  static const std::map<std::string, int> nodes{{"B31", 2},   {"B33", 2}, {"S3", 3},  {"S3R", 3},
-                                                {"STRI3", 3}, {"S4", 4},  {"S4R", 4}, {"MASS", 1}};
-  return nodes;
+const std::map<std::string, CellKind>& element_kinds() {
+  using enum CellKind;
+  static const std::map<std::string, CellKind> kinds{
+      {"B31", line},          {"B32", line3},          {"B32R", line3},       {"B33", line},          {"S3", triangle},
+      {"S3R", triangle},      {"STRI3", triangle},     {"S4", quadrilateral}, {"S4R", quadrilateral}, {"S6", triangle6},
+      {"S8", quadrilateral8}, {"S8R", quadrilateral8}, {"MASS", point}};
+  return kinds;
 }
 
 // Types that differ from one that is read in integration or formulation only.
 const std::map<std::string, std::string>& twins() {
-  static const std::map<std::string, std::string> all{{"B31H", "B31"}, {"B31R", "B31"}, {"B33H", "B33"}, {"S4R5", "S4"},
-                                                      {"S4RS", "S4"},  {"S4RSW", "S4"}, {"S3RS", "S3"}};
+  static const std::map<std::string, std::string> all{
+      {"B31H", "B31"}, {"B31R", "B31"}, {"B33H", "B33"}, {"S4R5", "S4"},   {"S4RS", "S4"},
+      {"S4RSW", "S4"}, {"S3RS", "S3"},  {"B32H", "B32"}, {"STRI65", "S6"}, {"S8R5", "S8R"}};
   return all;
 }
 
 struct ElementType {
   int nodes = 0;       // of a record; 0: the type is unknown
   bool other = false;  // neither beam, shell nor mass
+  CellKind kind = CellKind::point;
 };
 
 // Nodes of solids, membranes, trusses, springs, ...: mostly the number that follows the family; 0: none of them.
@@ -47,9 +52,10 @@ ElementType type_of(const InpBlock& block) {
   if (given == block.parameters.end()) return {};
   std::string type = upper(given->second);
   if (const auto twin = twins().find(type); twin != twins().end()) type = twin->second;
-  if (const auto found = element_nodes().find(type); found != element_nodes().end()) return {found->second, false};
+  if (const auto found = element_kinds().find(type); found != element_kinds().end())
+    return {node_count(found->second), false, found->second};
   const int nodes = nodes_of_other(type);
-  return {nodes, nodes > 0};
+  return {nodes, nodes > 0, CellKind::point};
 }
 
 int nodes_of(const InpBlock& block) { return type_of(block).nodes; }
@@ -95,6 +101,7 @@ bool add_element(const std::vector<std::string_view>& fields, InpElement element
     if (!label) return false;
     (i ? element.node_labels[i - 1] : element.label) = *label;
   }
+  if (element.kind == CellKind::line3) std::swap(element.node_labels[1], element.node_labels[2]);  // ends first
   reading.elements.push_back(element);
   return true;
 }
@@ -152,14 +159,14 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
 
 void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading) {
   const std::string type = required(block, "TYPE", reading);
-  const auto [nodes, other] = type_of(block);
+  const auto [nodes, other, kind] = type_of(block);
   const auto& ignored = reading.request.ignore;
   const bool left_out = std::any_of(ignored.begin(), ignored.end(), [&](const std::string& name) {
     return !type.empty() && upper(name) == upper(type);
   });
   if ((!nodes || (other && !left_out)) && !type.empty()) {
     std::vector<std::string> known;
-    for (const auto& [name, unused] : element_nodes()) known.push_back(name);
+    for (const auto& [name, unused] : element_kinds()) known.push_back(name);
     reading.faults.add(block.where, "elements of type " + in_quotes(type) + " are not read (" + listed(known) +
                                         " are)" + (other ? "; to leave them out: file: {ignore: [" + type + "]}" : ""));
   }
@@ -179,7 +186,8 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
   const Window part = window(shares.elements_before, records, shares.elements);
   shares.elements_before += records;
   std::vector<std::string_view> fields, more;
-  InpElement element{0, nodes, set, -1, {-1, -1, -1, -1}, {}};
+  InpElement element{0, nodes, set, -1, no_nodes<long long>(), {}};
+  element.kind = kind;
   long long line_of_record = 0;
   block.each_line(part.skipped * lines, part.count * lines, [&](Where where, std::string_view line) {
     if (line_of_record == 0) element.where = where;

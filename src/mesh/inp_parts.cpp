@@ -7,8 +7,8 @@ namespace floe::mesh {
 namespace {
 
 bool fits(const InpElement& element, InpUse::Kind kind) {
-  if (element.nodes == 1) return kind == InpUse::mass;
-  return kind == InpUse::scene || kind == (element.nodes == 2 ? InpUse::beam : InpUse::shell);
+  if (element.kind == CellKind::point) return kind == InpUse::mass;
+  return kind == InpUse::scene || kind == (is_line(element.kind) ? InpUse::beam : InpUse::shell);
 }
 
 void assign(InpElement& element, int use, const InpReading& reading) {
@@ -22,15 +22,17 @@ void assign(InpElement& element, int use, const InpReading& reading) {
 }
 
 void refuse_unused(const InpElement& element, InpReading& reading) {
-  static const char* const needs[] = {"", "*MASS", "*BEAM SECTION", "*SHELL SECTION", "*SHELL SECTION"};
+  const std::string needed = element.kind == CellKind::point ? "*MASS"
+                             : is_line(element.kind)         ? "*BEAM SECTION"
+                                                             : "*SHELL SECTION";
   if (element.other_use >= 0)
-    return reading.faults.add(
-        element.where, "element " + std::to_string(element.label) + " needs a " + needs[element.nodes] + ", set " +
-                           in_quotes(reading.uses[element.other_use].set) + " has another section");
+    return reading.faults.add(element.where, "element " + std::to_string(element.label) + " needs a " + needed +
+                                                 ", set " + in_quotes(reading.uses[element.other_use].set) +
+                                                 " has another section");
   const bool by_scene = element.nodes > 1 && (reading.request.section || !reading.request.parts.empty());
   if (!by_scene)
-    reading.faults.add(element.where, "element " + std::to_string(element.label) +
-                                          " has no section: it is in no set of a " + needs[element.nodes]);
+    reading.faults.add(element.where,
+                       "element " + std::to_string(element.label) + " has no section: it is in no set of a " + needed);
 }
 
 /// Sections by which earlier ones of the same elements do not hold. Collective.
@@ -114,8 +116,7 @@ void assign_sections(MPI_Comm comm, InpReading& reading) {
       const int part = element.use >= 0  ? part_of[element.use]
                        : element.set < 0 ? without.back()
                                          : without[element.set];
-      mesh.cells.push_back(
-          {element.label, static_cast<CellKind>(element.nodes - 2), part, element.node_labels, element.where});
+      mesh.cells.push_back({element.label, element.kind, part, element.node_labels, element.where});
     }
   }
 }

@@ -35,10 +35,11 @@ struct InpElement {
   int nodes;  // 1: a mass; 0: one of another kind, which is left out
   int set;    // of *ELEMENT, ELSET=; -1: none
   int use;    // number in InpReading::uses; -1: none yet
-  std::array<long long, 4> node_labels;
+  std::array<long long, most_nodes> node_labels;
   Where where;
   int other_use = -1;  // one that does not fit its kind
   bool again = false;  // has two uses that fit, of which the later holds
+  CellKind kind = CellKind::point;
 };
 
 /// An element set that a section, *MASS or the scene names.

@@ -6,18 +6,18 @@
 namespace floe::mesh {
 namespace {
 
-/// Which nodes of an element a face has: all, or those of the edge 1, 2, ... of a shell. CalculiX numbers the faces of
-/// a shell NEG, POS (1, 2) and its edges from 3 on, Abaqus names edges E1, E2, ....
+/// Which nodes of an element a face has: all, or those of the edge 1, 2, ... of a shell, with the middle one. CalculiX
+/// numbers the faces of a shell NEG, POS (1, 2) and its edges from 3 on, Abaqus names edges E1, E2, ....
 std::vector<int> nodes_of_face(const InpElement& element, const std::string& face) {
-  const int corners = element.nodes;
+  const int corners = element.nodes == 0 ? 0 : corner_count(element.kind);
   int edge = 0;
   if (corners > 2 && face.size() == 2 && face[1] >= '1' && face[1] <= '6') {
     if (face[0] == 'E') edge = face[1] - '0';
     if (face[0] == 'S') edge = face[1] - '2';
   }
   std::vector<int> nodes;
-  for (int i = 0; i < corners; ++i)
-    if (edge < 1 || i == edge - 1 || i == edge % corners) nodes.push_back(i);
+  for (int i = 0; i < element.nodes; ++i)
+    if (edge < 1 || i == edge - 1 || i == edge % corners || i == corners + edge - 1) nodes.push_back(i);
   return nodes;
 }
 

@@ -44,9 +44,9 @@ std::string element(long long label) { return "element " + std::to_string(label)
 
 std::string shape_fault(const Cell& cell, const Corners& corners) {
   constexpr double flat = 1e-12;
-  const int n = node_count(cell.kind);
+  const int all = node_count(cell.kind), n = corner_count(cell.kind);
   if (cell.kind == CellKind::point) return "";
-  for (int i = 0; i < n; ++i)
+  for (int i = 0; i < all; ++i)
     for (int j = 0; j < i; ++j)
       if (cell.nodes[i] == cell.nodes[j]) return " has the same node twice";
   const auto edge = [&](int i) {
@@ -54,9 +54,8 @@ std::string shape_fault(const Cell& cell, const Corners& corners) {
   };
   double longest = 0;
   for (int i = 0; i < n; ++i) longest = std::max(longest, edge(i).norm());
-  if (cell.kind == CellKind::line) return longest > 0 ? "" : " has no length";
-  if (cell.kind == CellKind::triangle)
-    return edge(0).cross(edge(1)).norm() / 2 > flat * longest * longest ? "" : " has no area";
+  if (is_line(cell.kind)) return longest > 0 ? "" : " has no length";
+  if (n == 3) return edge(0).cross(edge(1)).norm() / 2 > flat * longest * longest ? "" : " has no area";
   const Eigen::Vector3d normal = (edge(0) + edge(1)).cross(edge(1) + edge(2));
   if (!(normal.norm() / 2 > flat * longest * longest)) return " has no area";
   for (int i = 0; i < n; ++i)
@@ -81,7 +80,7 @@ void check_shapes(const RawMesh& mesh, Faults& faults) {
 }
 
 struct Key {
-  std::array<PetscInt, 4> nodes;  // ascending, -1 first
+  std::array<PetscInt, most_nodes> nodes;  // ascending, -1 first
   PetscInt cell;
   long long label;
   auto operator<=>(const Key&) const = default;
@@ -93,11 +92,12 @@ void check_duplicates(const RawMesh& mesh, Faults& faults) {
   std::vector<Key> keys;
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
     if (mesh.cells[i].kind == CellKind::point) continue;  // masses on one node add up
-    Key key{mesh.cells[i].nodes, mesh.first_cell + static_cast<PetscInt>(i), mesh.cell_labels[i]};
+    Key key{no_nodes<PetscInt>(), mesh.first_cell + static_cast<PetscInt>(i), mesh.cell_labels[i]};
+    std::copy_n(mesh.cells[i].nodes.begin(), node_count(mesh.cells[i].kind), key.nodes.begin());
     std::sort(key.nodes.begin(), key.nodes.end());
     keys.push_back(key);
   }
-  auto mine = scatter(mesh.comm, keys, [&](const Key& key) { return key.nodes[3] % ranks; }).values;
+  auto mine = scatter(mesh.comm, keys, [&](const Key& key) { return key.nodes.back() % ranks; }).values;
   std::sort(mine.begin(), mine.end());
   for (std::size_t i = 1; i < mine.size(); ++i)
     if (mine[i].nodes == mine[i - 1].nodes)
@@ -118,7 +118,7 @@ PetscInt opposite_edges(const RawMesh& mesh, std::array<long long, 2>& sample) {
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
     const auto& cell = mesh.cells[i];
-    const int n = node_count(cell.kind);
+    const int n = corner_count(cell.kind);
     for (int k = 0; n > 2 && k < n; ++k) {
       const PetscInt a = cell.nodes[k], b = cell.nodes[(k + 1) % n];
       edges.push_back({std::min(a, b), std::max(a, b), a < b, mesh.cell_labels[i]});

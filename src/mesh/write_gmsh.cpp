@@ -39,8 +39,21 @@ class GmshNumbers {
   bool binary_;
 };
 
-int dimension_of(CellKind kind) { return std::min(node_count(kind) - 1, 2); }
-int type_of(CellKind kind) { return kind == CellKind::point ? 15 : node_count(kind) - 1; }
+int dimension_of(CellKind kind) { return std::min(corner_count(kind) - 1, 2); }
+int type_of(CellKind kind) {
+  switch (kind) {
+    case CellKind::point:
+      return 15;
+    case CellKind::line3:
+      return 8;
+    case CellKind::triangle6:
+      return 9;
+    case CellKind::quadrilateral8:
+      return 16;
+    default:
+      return node_count(kind) - 1;
+  }
+}
 
 // Consecutive cells of one part and kind.
 struct Run {

@@ -2,21 +2,32 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <numeric>
+
 namespace floe::plan {
 namespace {
 
-output::ReducedShapes::Kind vtk_kind(fem::CellKind kind) {
-  using Kind = output::ReducedShapes::Kind;
+/// Nodes of what stands for an element in pictures: itself, or between the nodes of one of second order several.
+std::vector<std::vector<int>> pictured(fem::CellKind kind) {
   switch (kind) {
-    case fem::CellKind::point:
-      return Kind::vertex;
-    case fem::CellKind::line:
-      return Kind::line;
-    case fem::CellKind::triangle:
-      return Kind::triangle;
+    case fem::CellKind::line3:
+      return {{0, 2}, {2, 1}};
+    case fem::CellKind::triangle6:
+      return {{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}};
+    case fem::CellKind::quadrilateral8:
+      return {{0, 4, 7}, {1, 5, 4}, {2, 6, 5}, {3, 7, 6}, {4, 5, 6, 7}};
     default:
-      return Kind::quadrilateral;
+      std::vector<int> all(static_cast<std::size_t>(mesh::node_count(kind)));
+      std::iota(all.begin(), all.end(), 0);
+      return {all};
   }
+}
+
+output::ReducedShapes::Kind vtk_kind(std::size_t nodes) {
+  using Kind = output::ReducedShapes::Kind;
+  constexpr std::array<Kind, 4> kinds{Kind::vertex, Kind::line, Kind::triangle, Kind::quadrilateral};
+  return kinds[nodes - 1];
 }
 
 }  // namespace
@@ -41,9 +52,11 @@ output::ReducedShapes mesh_copy(const PlannedBody& body) {
     shapes.positions.push_back(mesh.positions[i]);
   }
   for (const fem::Mesh::Cell& cell : mesh.cells) {
-    output::ReducedShapes::Cell copy{vtk_kind(cell.kind), cell.part, {-1, -1, -1, -1}};
-    for (std::size_t i = 0; i < cell.corners().size(); ++i) copy.nodes[i] = mesh.original_node(cell.corners()[i]);
-    shapes.cells.push_back(copy);
+    for (const std::vector<int>& nodes : pictured(cell.kind)) {
+      output::ReducedShapes::Cell copy{vtk_kind(nodes.size()), cell.part, {-1, -1, -1, -1}};
+      for (std::size_t i = 0; i < nodes.size(); ++i) copy.nodes[i] = mesh.original_node(cell.place[nodes[i]]);
+      shapes.cells.push_back(copy);
+    }
   }
   shapes.parts = body.parts;
   if (shapes.parts.empty())

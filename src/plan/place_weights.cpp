@@ -1,7 +1,10 @@
 #include "floe/plan/place_weights.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "floe/fem/pressure.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/math/rotation.h"
 #include "floe/mesh/exchange.h"
 
@@ -21,7 +24,7 @@ class Set {
     return at != index_.end() && at->first == node ? at->second : -1;
   }
   bool contains(const fem::Mesh::Cell& cell) const {
-    const auto corners = cell.corners();
+    const auto corners = cell.places();
     return std::all_of(corners.begin(), corners.end(), [&](int corner) { return of(corner) >= 0; });
   }
   std::size_t size() const { return index_.size(); }
@@ -31,9 +34,7 @@ class Set {
   std::vector<std::pair<PetscInt, int>> index_;  // ascending
 };
 
-bool is_shell(const fem::Mesh::Cell& cell) {
-  return cell.kind == fem::CellKind::triangle || cell.kind == fem::CellKind::quadrilateral;
-}
+using fem::is_shell;
 
 using Weights = std::vector<reduction::WeightedNode>;
 
@@ -52,8 +53,13 @@ Weights area_weights(const fem::Mesh& mesh, const Set& set) {
   };
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     if (!is_shell(cell) || !set.contains(cell)) continue;
-    const auto& k = cell.corner;
-    if (cell.kind == fem::CellKind::triangle)
+    const auto& k = cell.place;
+    if (mesh::is_quadratic(cell.kind)) {
+      std::vector<Eigen::Vector3d> x;
+      for (const int node : cell.places()) x.push_back(mesh.positions[node]);
+      const std::vector<fem::NodeShare> shares = fem::quadratic_shell_shares(x);
+      for (std::size_t i = 0; i < shares.size(); ++i) areas[set.of(k[i])] += shares[i].area;
+    } else if (cell.kind == fem::CellKind::triangle)
       add({k[0], k[1], k[2]}, 1);
     else
       for (const std::array<int, 3>& half : {std::array{k[0], k[1], k[2]}, std::array{k[0], k[2], k[3]},
@@ -69,10 +75,25 @@ Weights area_weights(const fem::Mesh& mesh, const Set& set) {
 /// An edge of an element between two nodes of the place, by their indices there, first < second.
 struct Edge {
   int first, second;
-  double along[3];   // from the first to the second
-  double across[3];  // of a shell: in its plane, unit vector
-  int beam, inside;  // of a beam; of a shell element that belongs to the place as a whole
+  double along[3];               // from the first to the second
+  double across[3];              // of a shell: in its plane, unit vector
+  int beam, inside;              // of a beam; of a shell element that belongs to the place as a whole
+  int middle = -1;               // index of the node between, of elements of second order
+  double shares[3] = {0, 0, 0};  // integrals of its quadratic functions: of the first, the second, the one between
 };
+
+/// Nodes `a`, `b` and `between` of an element of second order.
+void set_curve(const fem::Mesh& mesh, const Set& set, int a, int b, int between, Edge& edge) {
+  if (set.of(a) > set.of(b)) std::swap(a, b);
+  edge.middle = set.of(between);
+  const Eigen::Vector3d X[3] = {mesh.positions[a], mesh.positions[b], mesh.positions[between]};
+  const double end = std::sqrt(0.6);
+  for (const auto& [r, weight] : {std::pair(-end, 5. / 9), {0., 8. / 9}, {end, 5. / 9}}) {
+    const double N[3] = {r * (r - 1) / 2, r * (r + 1) / 2, 1 - r * r};
+    const double length = ((r - 0.5) * X[0] + (r + 0.5) * X[1] - 2 * r * X[2]).norm();
+    for (int i = 0; i < 3; ++i) edge.shares[i] += weight * length * N[i];
+  }
+}
 
 Edge edge_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, const Set& set, int a, int b) {
   if (set.of(a) > set.of(b)) std::swap(a, b);
@@ -80,7 +101,7 @@ Edge edge_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, const Set& set,
   const Eigen::Vector3d along = at(b) - at(a);
   Eigen::Vector3d across = Eigen::Vector3d::Zero();
   if (is_shell(cell)) {
-    const auto& k = cell.corner;
+    const auto& k = cell.place;
     across = (at(k[1]) - at(k[0])).cross(at(k[2]) - at(k[0])).cross(along).normalized();
   }
   return {set.of(a),
@@ -97,9 +118,13 @@ std::vector<Edge> edges_within(const fem::Mesh& mesh, const Set& set) {
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     const auto corners = cell.corners();
     if (corners.size() < 2) continue;
-    for (std::size_t i = 0; i < (is_shell(cell) ? corners.size() : 1); ++i)
-      if (const int a = corners[i], b = corners[(i + 1) % corners.size()]; set.of(a) >= 0 && set.of(b) >= 0)
-        mine.push_back(edge_of(mesh, cell, set, a, b));
+    for (std::size_t i = 0; i < (is_shell(cell) ? corners.size() : 1); ++i) {
+      const int a = corners[i], b = corners[(i + 1) % corners.size()];
+      const int between = mesh::is_quadratic(cell.kind) ? cell.places()[corners.size() + i] : -1;
+      if (set.of(a) < 0 || set.of(b) < 0 || (between >= 0 && set.of(between) < 0)) continue;
+      mine.push_back(edge_of(mesh, cell, set, a, b));
+      if (between >= 0) set_curve(mesh, set, a, b, between, mine.back());
+    }
   }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
@@ -133,6 +158,12 @@ Weights edge_weights(const fem::Mesh& mesh, const Set& set) {
     const auto shells = std::count_if(begin, end, [](const Edge& edge) { return edge.beam == 0; });
     const bool inside = std::any_of(begin, end, [](const Edge& edge) { return edge.inside != 0; });
     if (shells < end - begin || !inside || shells == 1) {
+      if (begin->middle >= 0) {
+        weights[begin->first].weight += begin->shares[0], weights[begin->second].weight += begin->shares[1];
+        weights[begin->middle].weight += begin->shares[2];
+        begin = end;
+        continue;
+      }
       const double half = Eigen::Vector3d(begin->along[0], begin->along[1], begin->along[2]).norm() / 2;
       const Eigen::Matrix3d arm = arm_of(begin, end);
       weights[begin->first].weight += half, weights[begin->second].weight += half;

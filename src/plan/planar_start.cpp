@@ -30,7 +30,7 @@ Samples undeformed(const PlannedBody& body) {
     axis.values.push_back(body.frame_origin + A * mesh.positions[i].head<2>());
   for (const auto& cell : mesh.cells) {
     const Eigen::Vector2d along =
-        A * (mesh.positions[cell.corner[1]] - mesh.positions[cell.corner[0]]).head<2>().normalized();
+        A * (mesh.positions[cell.place[1]] - mesh.positions[cell.place[0]]).head<2>().normalized();
     axis.slopes.push_back({along, along});
   }
   return axis;
@@ -59,7 +59,7 @@ Samples sampled(const PlannedBody& body, const Samples& axis, const Formulas& fo
     try {
       for (const Eigen::Vector2d& X : axis.values) field.values.push_back(value(X));
       for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-        const auto& nodes = mesh.cells[c].corner;
+        const auto& nodes = mesh.cells[c].place;
         CellEnds& slopes = field.slopes.emplace_back();
         const double h = 1e-4 * (mesh.positions[nodes[1]] - mesh.positions[nodes[0]]).norm();
         for (int i = 0; i < 2; ++i) {
@@ -83,8 +83,8 @@ petsc::VecHandle nodal(const fem::Structure& structure, Displacement displacemen
   Eigen::VectorXd local = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.positions.size()));
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     for (int i = 0; i < 2; ++i) {
-      local[3 * mesh.cells[c].corner[i]] += 1;
-      local[3 * mesh.cells[c].corner[i] + 2] += rotation(c, i);
+      local[3 * mesh.cells[c].place[i]] += 1;
+      local[3 * mesh.cells[c].place[i] + 2] += rotation(c, i);
     }
   }
   petsc::VecHandle vector = fem::field(structure);

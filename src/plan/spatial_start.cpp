@@ -1,6 +1,8 @@
 #include "floe/plan/spatial_start.h"
 
 #include "floe/error.h"
+#include "floe/fem/quadratic_beam.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/values.h"
@@ -47,8 +49,14 @@ struct Corner {
   Moved deformed, rate;
 };
 
-Matrix3d directions_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, const Matrix3d& A) {
-  const auto at = [&](int i) { return mesh.positions[cell.corner[i]]; };
+/// @param node  of the cell, where an element of second order is curved
+Matrix3d directions_of(const fem::Mesh& mesh, const fem::Mesh::Cell& cell, std::size_t node, const Matrix3d& A) {
+  const auto at = [&](int i) { return mesh.positions[cell.place[i]]; };
+  if (mesh::is_quadratic(cell.kind)) {
+    std::vector<Vector3d> x;
+    for (const int place : cell.places()) x.push_back(mesh.positions[place]);
+    return A * (mesh::is_line(cell.kind) ? fem::curve_axes(x)[node] : fem::surface_axes(x)[node]);
+  }
   const Vector3d along = (at(1) - at(0)).normalized();
   Matrix3d D;
   D.col(0) = along;
@@ -86,12 +94,13 @@ struct Shape {
     }
     for (const auto& cell : mesh.cells) {
       if (cell.kind == fem::CellKind::point) continue;
-      const bool shell = cell.kind != fem::CellKind::line;
-      const double h = 1e-4 * (mesh.positions[cell.corner[1]] - mesh.positions[cell.corner[0]]).norm();
+      const bool shell = mesh::is_shell(cell.kind);
+      const double h = 1e-4 * (mesh.positions[cell.place[1]] - mesh.positions[cell.place[0]]).norm();
       Vector3d middle = Vector3d::Zero();
       for (int i : cell.corners()) middle += in_mesh(i) / static_cast<double>(cell.corners().size());
-      for (int i : cell.corners()) {
-        Corner c{i, shell, directions_of(mesh, cell, body.axes), node[i], node_rate[i]};
+      for (std::size_t n = 0; n < cell.places().size(); ++n) {
+        const int i = cell.places()[n];
+        Corner c{i, shell, directions_of(mesh, cell, n, body.axes), node[i], node_rate[i]};
         for (int k = 0; k < (shell ? 2 : 1); ++k) {
           const double inward = c.cell.col(k).dot(middle - in_mesh(i)) < 0 ? -1 : 1;
           c.deformed.directions.col(k) = c.cell.col(k) + slope(d, in_mesh(i), c.cell.col(k), inward, h);

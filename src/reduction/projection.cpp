@@ -82,16 +82,15 @@ class StrainStack {
       : V_(V),
         sloped_(sloped),
         qr_(V.cols() + pairs),
-        linear_(3, V.cols()),
-        slope_(24, V.cols()),
-        steep_(24, V.cols()),
-        bilinear_(3, pairs) {}
+        linear_(fem::most_strains, V.cols()),
+        bilinear_(fem::most_strains, pairs) {}
   /// @param strained  V for L
   void add(const fem::Structure& structure, const fem::PieceRows& piece, const fem::StrainRows& point,
            const fem::Strained& strained, const fem::DofRanges& ranges) {
     const Eigen::Index s = point.L.rows(), g = point.G.rows(), k = V_.cols();
     fem::multiply(point.L, strained, structure.dofs_per_node, linear_.data());
-    bilinear_.setZero();
+    bilinear_.topRows(s).setZero();
+    if (slope_.rows() < g) slope_.resize(g, k), steep_.resize(g, k);
     if (!fem::multiply(structure, piece, point.G, V_, ranges, slope_.data()).empty() && bilinear_.cols() > 0) {
       for (std::size_t i = 0; i < sloped_.size(); ++i)
         steep_.col(static_cast<Eigen::Index>(i)).head(g) = slope_.col(sloped_[i]).head(g);

@@ -36,7 +36,7 @@ struct Cells {
 };
 
 Vector3d direction(const fem::Mesh& mesh, const fem::Mesh::Cell& cell) {
-  const auto at = [&](int corner) { return mesh.positions[cell.corner[corner]]; };
+  const auto at = [&](int corner) { return mesh.positions[cell.place[corner]]; };
   const Vector3d along = at(1) - at(0);
   return cell.corners().size() < 3 ? along : Vector3d(along.cross(at(2) - at(0)));
 }
@@ -47,7 +47,7 @@ Cells cells_of(const fem::Structure& structure) {
   Matrix3d directions = Matrix3d::Zero();
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     if (cell.corners().size() < 2) continue;
-    const double h = (mesh.positions[cell.corner[1]] - mesh.positions[cell.corner[0]]).norm(),
+    const double h = (mesh.positions[cell.place[1]] - mesh.positions[cell.place[0]]).norm(),
                  r = std::visit(RadiusOfGyration(), structure.sections[cell.part]);
     if (r / h < least[0]) least[0] = r / h, least[1] = r;
     const Vector3d d = direction(mesh, cell).normalized();

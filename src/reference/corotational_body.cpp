@@ -189,8 +189,8 @@ SpatialMarker CorotationalBody::place(PetscInt node) const {
 std::vector<SpatialMarker> CorotationalBody::places(const fem::Mesh::Cell& cell) const {
   const fem::Mesh& mesh = structure_.mesh;
   std::vector<SpatialMarker> all;
-  for (std::size_t i = 0; i < cell.corners().size(); ++i) {
-    const int mover = cell.moved[i], corner = cell.corner[i];
+  for (std::size_t i = 0; i < cell.places().size(); ++i) {
+    const int mover = cell.moved[i], corner = cell.place[i];
     SpatialMarker at = place(mesh.global_node(mover));
     at.x0 += mesh.positions[corner] - mesh.positions[mover];
     all.push_back(std::move(at));
@@ -209,8 +209,8 @@ bool one_frame(const std::vector<SpatialMarker>& places) {
 
 void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const {
   const fem::Mesh& mesh = structure_.mesh;
-  const auto add = [&](std::vector<SpatialMarker> places, const std::vector<Vector3d>& X, const fem::ElementMaps& maps,
-                       double share) {
+  const auto add = [&](fem::CellKind kind, std::vector<SpatialMarker> places, const std::vector<Vector3d>& X,
+                       const fem::ElementMaps& maps, double share) {
     if (one_frame(places)) return;
     Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(X.size()));
     for (std::size_t i = 0; i < X.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = X[i];
@@ -218,22 +218,24 @@ void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_pt
     // A triangle keeps its corners in its plane: its slopes are zero, and it is linear in its own axes.
     const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(dofs, dofs);
     body::Elasticity elasticity = fem::elasticity(maps, all);
-    if (X.size() == 3) elasticity = body::linearised(elasticity);
+    if (kind == fem::CellKind::triangle) elasticity = body::linearised(elasticity);
     elasticity.bending *= share, elasticity.F *= std::sqrt(share);
-    terms.push_back(std::make_unique<CorotationalElement>(std::move(places), x, std::move(elasticity), viscosity));
+    terms.push_back(
+        std::make_unique<CorotationalElement>(kind, std::move(places), x, std::move(elasticity), viscosity));
   };
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     if (cell.kind == fem::CellKind::point) continue;
     const std::vector<SpatialMarker> places = this->places(cell);
     std::vector<Vector3d> X;
-    for (int corner : cell.corners()) X.push_back(mesh.positions[corner]);
+    for (int corner : cell.places()) X.push_back(mesh.positions[corner]);
     if (cell.kind != fem::CellKind::quadrilateral) {
-      add(places, X, structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.corner)), 1);
+      add(cell.kind, places, X, structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.place)), 1);
       continue;
     }
     const auto& section = std::get<fem::ShellSection>(structure_.sections[cell.part]);
     for (const auto& [a, b, c] : fem::quadrilateral_triangles)
-      add({places[a], places[b], places[c]}, {X[a], X[b], X[c]}, fem::shell_triangle({X[a], X[b], X[c]}, section), 0.5);
+      add(fem::CellKind::triangle, {places[a], places[b], places[c]}, {X[a], X[b], X[c]},
+          fem::shell_triangle({X[a], X[b], X[c]}, section), 0.5);
   }
 }
 
@@ -288,7 +290,7 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   for (const fem::Mesh::Cell& cell : mesh.cells)
     if (cell.kind != fem::CellKind::point)
       stiffest = std::max(
-          stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 1, 0).diagonal().maxCoeff());
+          stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.place), 1, 0).diagonal().maxCoeff());
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     if (start_.contains(mesh.first_node + i)) continue;

@@ -22,12 +22,12 @@ using math::skew;
 namespace {
 
 /// Gamma, rotations and displacements over a length both of order one.
-MatrixXd conditions_of(const Eigen::Matrix3Xd& X) {
+MatrixXd conditions_of(bool line, const Eigen::Matrix3Xd& X) {
   const Index n = X.cols();
   MatrixXd G = MatrixXd::Zero(3, 6 * n);
   const Vector3d first = X.col(1) - X.col(0);
   if (!(first.norm() > 0)) throw InputError("a corotational element has two places that coincide");
-  if (n == 2) {
+  if (line) {
     const Vector3d t = first.normalized(), a = t.unitOrthogonal(), b = t.cross(a);
     G.block<1, 3>(0, 6) = a.transpose() / first.norm(), G.block<1, 3>(0, 0) = -G.block<1, 3>(0, 6);
     G.block<1, 3>(1, 6) = b.transpose() / first.norm(), G.block<1, 3>(1, 0) = -G.block<1, 3>(1, 6);
@@ -38,6 +38,10 @@ MatrixXd conditions_of(const Eigen::Matrix3Xd& X) {
   const double size = std::max(first.norm(), second.norm());
   if (!(normal.norm() > 1e-12 * size * size)) throw InputError("a corotational triangle has its places on a line");
   const Vector3d z = normal.normalized(), C = X.rowwise().mean();
+  if (n > 3) {
+    for (Index i = 0; i < n; ++i) G.block<3, 3>(0, 6 * i) = skew(Vector3d(X.col(i) - C)) / (size * size);
+    return G;
+  }
   for (Index i = 1; i < 3; ++i) {
     G.block<1, 3>(i - 1, 6 * i) = z.transpose() / size;
     G.block<1, 3>(i - 1, 0) = -z.transpose() / size;
@@ -57,12 +61,13 @@ Matrix3d triad(const Vector3d& first, const Vector3d& second) {
 
 }  // namespace
 
-CorotationalElement::CorotationalElement(std::vector<dynamics::SpatialMarker> places, Eigen::Matrix3Xd X,
-                                         body::Elasticity elasticity, double viscosity)
-    : X_(std::move(X)),
+CorotationalElement::CorotationalElement(fem::CellKind kind, std::vector<dynamics::SpatialMarker> places,
+                                         Eigen::Matrix3Xd X, body::Elasticity elasticity, double viscosity)
+    : line_(mesh::is_line(kind)),
+      X_(std::move(X)),
       elasticity_(std::move(elasticity)),
       viscosity_(viscosity),
-      conditions_(conditions_of(X_)),
+      conditions_(conditions_of(line_, X_)),
       places_(std::move(places)),
       r_(3, X_.cols()),
       n_(3, X_.cols()),
@@ -74,7 +79,7 @@ CorotationalElement::CorotationalElement(std::vector<dynamics::SpatialMarker> pl
 
 Eigen::Quaterniond CorotationalElement::guess() const {
   const Vector3d first = places_[1].p - places_[0].p;
-  if (places_.size() == 3) {
+  if (!line_) {
     const Matrix3d now = triad(first, places_[2].p - places_[0].p);
     return Eigen::Quaterniond(now * triad(X_.col(1) - X_.col(0), X_.col(2) - X_.col(0)).transpose());
   }
@@ -183,7 +188,7 @@ CorotationalElement::Square CorotationalElement::by_places(const Square& K, cons
     rates -= (W_ * (R_ * rates)).eval();
     df += C * rates;
   }
-  std::array<Matrix3d, 3> bent;  // d(T n)/dtheta
+  std::array<Matrix3d, mesh::most_nodes> bent;  // d(T n)/dtheta
   Matrix3x turned = W_.transpose() * df;
   for (Index i = 0; i < X_.cols(); ++i) {
     bent[i] = rotation_tangent_derivative(d_.segment<3>(6 * i + 3), n_.col(i));

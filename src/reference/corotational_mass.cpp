@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "floe/fem/shell.h"
+#include "floe/fem/quadratic_beam.h"
+#include "floe/fem/quadratic_shell.h"
 
 namespace floe::reference {
 namespace {
@@ -16,9 +17,10 @@ struct Carry {
   const fem::Structure& structure;
   const fem::Mesh::Cell& cell;
   Density density;
-  const Vector3d& at(int i) const { return structure.mesh.positions[cell.corner[i]]; }
+  const Vector3d& at(int i) const { return structure.mesh.positions[cell.place[i]]; }
 
   std::vector<CarriedMass> operator()(const fem::SpatialBeam& beam) const {
+    if (mesh::is_quadratic(cell.kind)) return of_curve(beam);
     const Vector3d along = at(1) - at(0), arm = (0.5 - 0.5 / std::sqrt(3.0)) * along;
     const double half = along.norm() / 2;
     if (density == Density::line) return {{0, half, arm, none}, {1, half, -arm, none}};
@@ -30,7 +32,40 @@ struct Carry {
     const Matrix3d spread = half * E * second * E.transpose();
     return {{0, half * s.rhoA, off + arm, spread}, {1, half * s.rhoA, off - arm, spread}};
   }
+  std::vector<CarriedMass> of_curve(const fem::SpatialBeam& beam) const {
+    const fem::SpatialBeamSection& s = beam.section;
+    Matrix3d second = Matrix3d::Zero();
+    second.bottomRightCorner<2, 2>() << s.rhoIz, s.rhoIyz, s.rhoIyz, s.rhoIy;
+    std::vector<CarriedMass> all;
+    for (const fem::BeamShare& own : fem::quadratic_beam_shares({at(0), at(1), at(2), beam.orientation})) {
+      const int node = static_cast<int>(all.size());
+      const Vector3d arm = own.centre - at(node);
+      if (density == Density::line)
+        all.push_back({node, own.length, arm, none});
+      else
+        all.push_back({node, own.length * s.rhoA, arm + own.axes.rightCols<2>() * s.centroid,
+                       s.rhoA * own.spread + own.length * own.axes * second * own.axes.transpose()});
+    }
+    return all;
+  }
+  std::vector<CarriedMass> of_surface(const fem::ShellSection& section) const {
+    std::vector<Vector3d> x;
+    for (const int node : cell.places()) x.push_back(structure.mesh.positions[node]);
+    std::vector<CarriedMass> all;
+    for (const fem::NodeShare& own : fem::quadratic_shell_shares(x)) {
+      const int node = static_cast<int>(all.size());
+      const Vector3d arm = own.centre - at(node), z = own.normal;
+      const double mass = section.mass * own.area, r = section.mass_radius;
+      if (density == Density::line)
+        all.push_back({node, own.area, arm, none});
+      else
+        all.push_back(
+            {node, mass, arm + section.mass_centre * z, section.mass * own.spread + mass * r * r * z * z.transpose()});
+    }
+    return all;
+  }
   std::vector<CarriedMass> operator()(const fem::ShellSection& section) const {
+    if (mesh::is_quadratic(cell.kind)) return of_surface(section);
     std::vector<CarriedMass> all;
     if (cell.kind == fem::CellKind::triangle) {
       add_triangle(section, {0, 1, 2}, 1, all);

@@ -141,7 +141,7 @@ dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates&
 std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes) {
   std::vector<dynamics::Marker> markers;
   for (const auto& cell : structure.mesh.cells) {
-    const double length = (structure.mesh.positions[cell.corner[1]] - structure.mesh.positions[cell.corner[0]]).norm();
+    const double length = (structure.mesh.positions[cell.place[1]] - structure.mesh.positions[cell.place[0]]).norm();
     for (int node : cell.nodes()) {
       dynamics::Marker marker;
       const int first = nodes.of_local_node(node);

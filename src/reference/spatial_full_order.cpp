@@ -62,13 +62,13 @@ body::Inertia inertia_of(const fem::Structure& structure, const fem::Mesh::Cell&
 }  // namespace
 
 Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell, Eigen::MatrixXd M) {
-  if (cell.kind != fem::CellKind::triangle && cell.kind != fem::CellKind::quadrilateral) return M;
-  const auto at = [&](int i) { return structure.mesh.positions[cell.corner[i]]; };
+  if (!mesh::is_shell(cell.kind)) return M;
+  const auto at = [&](int i) { return structure.mesh.positions[cell.place[i]]; };
   const Eigen::Vector3d n = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
   const Eigen::MatrixXd own =  // of its corners, whomever they follow
-      cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.corner), 0, 1) : M;
+      cell.follows() ? structure.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.place), 0, 1) : M;
   const Eigen::MatrixXd T = cell.follows() ? fem::following(structure.mesh, cell) : Eigen::MatrixXd();
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.corners().size()); ++i) {
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(cell.places().size()); ++i) {
     const double lacking = 0.5 * own.block<3, 3>(6 * i + 3, 6 * i + 3).trace();
     if (!cell.follows()) {
       M.block<3, 3>(6 * i + 3, 6 * i + 3) += lacking * n * n.transpose();

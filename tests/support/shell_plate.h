@@ -2,8 +2,9 @@
 #include <Eigen/Sparse>
 #include <cmath>
 #include <functional>
+#include <map>
 
-#include "floe/fem/shell.h"
+#include "floe/fem/quadratic_shell.h"
 #include "random.h"
 
 /// A flat rectangle of shell elements with a small assembler of its own: what convergence of the elements is measured
@@ -16,7 +17,7 @@ enum class Cells { triangles, crossed, quadrilaterals };  ///< one diagonal, dia
 
 struct Plate {
   std::vector<Eigen::Vector3d> nodes;
-  std::vector<std::vector<int>> cells;  ///< three or four nodes
+  std::vector<std::vector<int>> cells;  ///< three or four nodes, or six or eight of second order
   std::vector<bool> held;               ///< per dof
 
   int dofs() const { return 6 * static_cast<int>(nodes.size()); }
@@ -60,12 +61,56 @@ inline Plate plate(double a, double b, int nx, int ny, Cells cells, double disto
   return p;
 }
 
+/// n x m elements of second order on the image of the unit square, all nodes on it. @param at  (u, v) -> position
+inline Plate curved_plate(int n, int m, bool triangles, const std::function<Eigen::Vector3d(double, double)>& at) {
+  Plate p;
+  std::map<std::pair<int, int>, int> numbers;
+  const auto node = [&](int i, int j) {
+    const auto [found, made] = numbers.try_emplace({i, j}, static_cast<int>(p.nodes.size()));
+    if (made) p.nodes.push_back(at(i / (2. * n), j / (2. * m)));
+    return found->second;
+  };
+  for (int a = 0; a < 2 * n; a += 2)
+    for (int b = 0; b < 2 * m; b += 2) {
+      const int c[4] = {node(a, b), node(a + 2, b), node(a + 2, b + 2), node(a, b + 2)};
+      const int e[4] = {node(a + 1, b), node(a + 2, b + 1), node(a + 1, b + 2), node(a, b + 1)};
+      if (!triangles) {
+        p.cells.push_back({c[0], c[1], c[2], c[3], e[0], e[1], e[2], e[3]});
+        continue;
+      }
+      const int middle = node(a + 1, b + 1);
+      p.cells.push_back({c[0], c[1], c[2], e[0], e[1], middle});
+      p.cells.push_back({c[0], c[2], c[3], middle, e[2], e[3]});
+    }
+  p.held.assign(p.dofs(), false);
+  return p;
+}
+
+/// Middle nodes into the middles of their chords.
+inline void straighten(Plate& p) {
+  for (const auto& c : p.cells)
+    for (std::size_t i = 0, n = c.size() / 2; i < n; ++i)
+      p.nodes[c[n + i]] = (p.nodes[c[i]] + p.nodes[c[(i + 1) % n]]) / 2;
+}
+
+inline std::vector<Eigen::Vector3d> nodes_of(const Plate& p, const std::vector<int>& c) {
+  std::vector<Eigen::Vector3d> x;
+  for (const int node : c) x.push_back(p.nodes[node]);
+  return x;
+}
+
 inline fem::ElementMaps maps_of(const Plate& p, const std::vector<int>& c, const fem::ShellSection& section) {
+  if (c.size() > 4) return fem::quadratic_shell(nodes_of(p, c), section);
   if (c.size() == 3) return fem::shell_triangle({p.nodes[c[0]], p.nodes[c[1]], p.nodes[c[2]]}, section);
   return fem::shell_quadrilateral({p.nodes[c[0]], p.nodes[c[1]], p.nodes[c[2]], p.nodes[c[3]]}, section);
 }
 
 inline std::vector<fem::SurfacePoint> surface_of(const Plate& p, const std::vector<int>& c) {
+  if (c.size() > 4) {
+    std::vector<fem::SurfacePoint> points;
+    for (const fem::CurvedPoint& point : fem::quadratic_shell_surface(nodes_of(p, c))) points.push_back(point.at);
+    return points;
+  }
   if (c.size() == 3) return fem::shell_triangle_surface({p.nodes[c[0]], p.nodes[c[1]], p.nodes[c[2]]});
   return fem::shell_quadrilateral_surface({p.nodes[c[0]], p.nodes[c[1]], p.nodes[c[2]], p.nodes[c[3]]});
 }

@@ -1,7 +1,10 @@
 #pragma once
+#include <functional>
+#include <map>
 #include <numeric>
 
 #include "floe/generate/generate.h"
+#include "floe/mesh/exchange.h"
 #include "floe/mesh/partition.h"
 #include "floe/mesh/pieces.h"
 #include "random.h"
@@ -63,6 +66,56 @@ inline mesh::RawMesh mixed_mesh(MPI_Comm comm) {
   return raw;
 }
 
+/// The same mesh with elements of second order: nodes in the middles of edges follow the others, and lie off the chords
+/// where `curved` says so of the chord's middle. Collective.
+inline mesh::RawMesh second_order(const mesh::RawMesh& raw,
+                                  const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& curved) {
+  const auto of_all = [&](const auto& mine) {
+    std::decay_t<decltype(mine)> copies;
+    for (int r = 0; r < size_of(raw.comm); ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+    return mesh::exchange(raw.comm, copies, std::vector<int>(size_of(raw.comm), static_cast<int>(mine.size()))).values;
+  };
+  std::vector<std::array<double, 3>> mine;
+  for (const Eigen::Vector3d& x : raw.positions) mine.push_back({x[0], x[1], x[2]});
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& x : of_all(mine)) positions.emplace_back(x[0], x[1], x[2]);
+  std::vector<mesh::Cell> cells = of_all(raw.cells);
+  std::map<std::pair<PetscInt, PetscInt>, PetscInt> middles;
+  for (mesh::Cell& cell : cells) {
+    const int n = mesh::corner_count(cell.kind);
+    if (n < 2) continue;
+    for (int i = 0; i < (n == 2 ? 1 : n); ++i) {
+      const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % n];
+      const auto [at, made] = middles.try_emplace(std::minmax(a, b), static_cast<PetscInt>(positions.size()));
+      if (made) positions.push_back(curved((positions[a] + positions[b]) / 2));
+      cell.nodes[n + i] = at->second;
+    }
+    cell.kind = static_cast<mesh::CellKind>(static_cast<int>(cell.kind) + 3);
+  }
+  int rank = 0;
+  MPI_Comm_rank(raw.comm, &rank);
+  mesh::RawMesh out = raw;
+  out.node_count = static_cast<PetscInt>(positions.size());
+  const mesh::Share nodes = mesh::share_of(out.node_count, rank, size_of(raw.comm)),
+                    elements = mesh::share_of(out.cell_count, rank, size_of(raw.comm));
+  out.first_node = nodes.first, out.first_cell = elements.first;
+  out.positions.assign(positions.begin() + nodes.first, positions.begin() + nodes.first + nodes.count);
+  out.cells.assign(cells.begin() + elements.first, cells.begin() + elements.first + elements.count);
+  out.node_labels.assign(out.positions.size(), 0), out.cell_labels.assign(out.cells.size(), 0);
+  return out;
+}
+
+enum class Order { first, second };
+
+/// The mixed mesh; of second order with edges off their chords but where its hinge lines are.
+inline mesh::RawMesh mixed_mesh(MPI_Comm comm, Order order) {
+  if (order == Order::first) return mixed_mesh(comm);
+  return second_order(mixed_mesh(comm), [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    if (std::hypot(x[0] - 1.8, x[2] - 0.6) < 1e-9 || std::hypot(x[0] + x[1] / 1.5 - 1, x[2]) < 1e-9) return x;
+    return x + 0.02 * Eigen::Vector3d(std::sin(9 * x.y() + x.x()), std::cos(7 * x.x()), std::sin(8 * x.x() + x.y()));
+  });
+}
+
 /// Sections of the mixed mesh: a soft shell, a layered one with coupling, an unsymmetric beam with strains of
 /// second order, a mass with an offset.
 /// @param strains  of the shells
@@ -76,23 +129,25 @@ inline std::vector<fem::Section> mixed_sections(fem::Strains strains = fem::Stra
   return {floor, ramp, beam, fem::PointMass{0.7, Eigen::Vector3d(0.03, 0.04, 0.05).asDiagonal(), {0.1, 0, 0.2}}};
 }
 
-inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman) {
-  return structure_of(mixed_mesh(comm), mixed_sections(strains), spread);
+inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman,
+                                      Order order = Order::first) {
+  return structure_of(mixed_mesh(comm, order), mixed_sections(strains), spread);
 }
 
 /// Nodes of the mixed mesh that follow others rigidly: two of the shells', and the one where the mast stands.
 inline std::vector<mesh::Follower> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
 
-inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman) {
-  const mesh::RawMesh raw = mixed_mesh(comm);
+inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman,
+                                       Order order = Order::first) {
+  const mesh::RawMesh raw = mixed_mesh(comm, order);
   return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(strains),
           fem::MembraneStrain::averaged};
 }
 
 /// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the
 /// floor; with links, each has a node in common with a piece.
-inline std::vector<mesh::Follower> mixed_lines(bool links) {
-  const mesh::RawMesh raw = mixed_mesh(PETSC_COMM_SELF);
+inline std::vector<mesh::Follower> mixed_lines(bool links, Order order = Order::first) {
+  const mesh::RawMesh raw = mixed_mesh(PETSC_COMM_SELF, order);
   const auto on = [&](auto&& where) {
     std::vector<PetscInt> nodes;
     for (PetscInt i = 0; i < raw.node_count; ++i)
@@ -106,9 +161,9 @@ inline std::vector<mesh::Follower> mixed_lines(bool links) {
                             {-2 / length, 3 / length, 0}}});
 }
 inline fem::Structure hinged_structure(MPI_Comm comm, Spread spread, bool links,
-                                       fem::Strains strains = fem::Strains::von_karman) {
-  const mesh::RawMesh raw = mixed_mesh(comm);
-  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links)), mixed_sections(strains),
+                                       fem::Strains strains = fem::Strains::von_karman, Order order = Order::first) {
+  const mesh::RawMesh raw = mixed_mesh(comm, order);
+  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links, order)), mixed_sections(strains),
           fem::MembraneStrain::averaged};
 }
 

@@ -36,20 +36,23 @@ struct Mesh {
   struct Cell {
     CellKind kind = CellKind::line;
     int part = 0;
-    std::array<int, 4> corner{};  ///< local nodes where it is; as many as the kind has
+    using Nodes = std::array<int, mesh::most_nodes>;
+    Nodes place{};  ///< local nodes where it is; as many as the kind has
     /// Local nodes that move them: the same, or those that they follow; then leaders of those that turn by themselves.
-    std::array<int, 8> moved{};
-    int moving = 0;                           ///< how many
-    std::array<int, 4> line{-1, -1, -1, -1};  ///< of each corner on a line hinge: where in `moved` its leader is
+    std::array<int, 2 * mesh::most_nodes> moved{};
+    int moving = 0;                      ///< how many
+    Nodes line = mesh::no_nodes<int>();  ///< of each node on a line hinge: where in `moved` its leader is
     Cell() = default;
-    Cell(CellKind k, int p, std::array<int, 4> c) : kind(k), part(p), corner(c), moving(mesh::node_count(k)) {
-      std::copy(c.begin(), c.end(), moved.begin());
+    Cell(CellKind k, int p, const Nodes& at) : kind(k), part(p), place(at), moving(mesh::node_count(k)) {
+      std::copy(at.begin(), at.end(), moved.begin());
     }
     /// Local nodes whose dofs the element acts on.
     std::span<const int> nodes() const { return {moved.data(), static_cast<std::size_t>(moving)}; }
-    std::span<const int> corners() const { return {corner.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
-    bool follows() const { return spins() || !std::equal(corners().begin(), corners().end(), moved.begin()); }
-    bool spins() const { return line != std::array<int, 4>{-1, -1, -1, -1}; }
+    /// Local nodes where it is: corners, then middles of edges.
+    std::span<const int> places() const { return {place.data(), static_cast<std::size_t>(mesh::node_count(kind))}; }
+    std::span<const int> corners() const { return places().first(static_cast<std::size_t>(mesh::corner_count(kind))); }
+    bool follows() const { return spins() || !std::equal(places().begin(), places().end(), moved.begin()); }
+    bool spins() const { return line != mesh::no_nodes<int>(); }
   };
   /// An owned node that follows another one rigidly: local numbers.
   struct Follower {

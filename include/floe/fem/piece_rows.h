@@ -6,8 +6,9 @@
 
 namespace floe::fem {
 
-/// A small matrix without heap; rows are on the dofs of a piece, in the order of its nodes.
-using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 24, 36>;
+/// Rows on the dofs of a piece, in the order of its nodes.
+using SmallRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+inline constexpr int most_strains = 10;  ///< of a point
 
 /// A strain point with its weight and stiffness in the rows: U = 1/2 |eps|^2, eps(q) = L q + 1/2 e(q, q),
 ///
@@ -20,7 +21,7 @@ struct StrainRows {
   /// A product of two slopes in the strain: C of slopes p and q.
   struct Term {
     int p, q;  ///< p <= q
-    std::array<double, 3> C;
+    std::array<double, most_strains> C;
   };
   std::vector<Term> terms;  ///< C, of each row
 };
@@ -31,18 +32,18 @@ struct MassRows {
   double mass;
   bool pair;
   Eigen::Vector3d x;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> N;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> N;
 };
 
 /// Mass that rotates rigidly, as body::RotatingMass.
 struct RotaryRows {
   Eigen::Matrix3d moments;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor, 3, 36> turn;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> turn;
 };
 
 /// An element or, of a quadrilateral, one of its triangles: what products of many columns are made of.
 struct PieceRows {
-  std::array<int, 6> node{};  ///< local: the corners, or what moves them; then leaders of line hinges
+  std::array<int, 2 * mesh::most_nodes> node{};  ///< local: its nodes, or what moves them; then leaders of line hinges
   int nodes = 0;
   /// Nodes that rotate by themselves about a line hinge: their rotation is axis (slot . dofs), nothing else of them
   /// counts.
@@ -51,8 +52,7 @@ struct PieceRows {
     Eigen::Vector3d axis, slot;
   };
   std::vector<Spin> spins;
-  SmallRows
-      bending;  ///< U_b = 1/2 |bending q|^2; none with strains of second order: they are strains then
+  SmallRows bending;  ///< U_b = 1/2 |bending q|^2; none with strains of second order: they are strains then
   std::vector<StrainRows> strain;
   std::vector<MassRows> mass;
   std::vector<RotaryRows> rotary;  ///< made with mass

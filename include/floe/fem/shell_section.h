@@ -29,12 +29,15 @@ struct Ply {
 ///
 ///   2 U = (eps + C kappa)' A (eps + C kappa) + kappa' D* kappa,   C = A^-1 B,   D* = D - B A^-1 B.
 ///
+/// `shear` is 5/6 sum G12 h of the layers (G13 = G23 = G12).
+///
 /// D* and the radius of inertia do not depend on the plane of reference, so that no digits cancel for a thin shell far
 /// from it.
 struct ShellSection {
   Eigen::Matrix3d A;         ///< membrane [N/m]
   Eigen::Matrix3d coupling;  ///< C [m]
   Eigen::Matrix3d bending;   ///< D* [N m]
+  double shear;              ///< transverse, of both directions [N/m]; elements of second order alone shear
   double higher_order;       ///< beta_0 of the membrane triangle
   double mass;               ///< [kg/m2]
   double mass_centre;        ///< its height above the plane of the nodes [m]

@@ -8,15 +8,40 @@
 
 namespace floe::mesh {
 
-enum class CellKind : signed char { point = -1, line, triangle, quadrilateral };
+/// The last three are of second order: their nodes are the corners and then the middles of the edges, from each corner
+/// to the next.
+enum class CellKind : signed char { point = -1, line, triangle, quadrilateral, line3, triangle6, quadrilateral8 };
 
-/// Nodes of an element: 1 to 4.
-constexpr int node_count(CellKind kind) { return static_cast<int>(kind) + 2; }
+constexpr bool is_quadratic(CellKind kind) { return kind >= CellKind::line3; }
+constexpr bool is_line(CellKind kind) { return kind == CellKind::line || kind == CellKind::line3; }
+constexpr bool is_shell(CellKind kind) { return kind != CellKind::point && !is_line(kind); }
 
-/// A straight-sided element: its nodes in the order of the file, and the part that it belongs to.
+/// Corners of an element: 1 to 4.
+constexpr int corner_count(CellKind kind) { return static_cast<int>(kind) + (is_quadratic(kind) ? -1 : 2); }
+
+/// Nodes of an element: 1 to 8.
+constexpr int node_count(CellKind kind) {
+  return kind == CellKind::line3 ? 3 : is_quadratic(kind) ? 2 * corner_count(kind) : corner_count(kind);
+}
+inline constexpr int most_nodes = 8;
+
+/// The kind with the nodes at the corners alone.
+constexpr CellKind first_order(CellKind kind) {
+  return is_quadratic(kind) ? static_cast<CellKind>(static_cast<int>(kind) - 3) : kind;
+}
+
+/// Numbers of an element's nodes; those beyond its kind's number are -1.
+template <class Number>
+constexpr std::array<Number, most_nodes> no_nodes() {
+  std::array<Number, most_nodes> nodes{};
+  nodes.fill(-1);
+  return nodes;
+}
+
+/// An element: its nodes, and the part that it belongs to.
 struct Cell {
   CellKind kind;
-  std::array<PetscInt, 4> nodes;  // global; -1 where unused
+  std::array<PetscInt, most_nodes> nodes;  // global; -1 where unused
   int part;
 };
 

@@ -1,12 +1,14 @@
 #pragma once
 #include "floe/body/elasticity.h"
 #include "floe/body/viscosity.h"
+#include "floe/fem/mesh.h"
 #include "floe/reference/spatial_places.h"
 
 namespace floe::reference {
 
 /// An elastic element in space that floats in a frame of its own: a beam between two places, a triangle of shell
-/// between three. Each place is carried by the rigid frame of a node, finite rotations included.
+/// between three, or either of second order. Each place is carried by the rigid frame of a node, finite rotations
+/// included.
 ///
 /// Places i: position p_i, axes D_i (world), X_i in body axes; undeformed D_i = Q for a rotation Q of the body. With Q
 /// the element's rotation from body axes,
@@ -14,8 +16,9 @@ namespace floe::reference {
 ///   d = (u_i, theta_i),   u_i = Q'(p_i - p_1) - (X_i - X_1),   exp(~theta_i) = Q' D_i,   U = U_e(d),   Gamma d = 0
 ///
 /// where U_e is the energy of the finite element as fem has it, and three conditions linear in d say what Q is: of a
-/// beam its chord along X_2 - X_1 and no mean twist; of a triangle its corners in its plane and no turn of them in the
-/// mean, sum (X_i - C) x u_i = 0. They do not depend on the order of the places. Rigid motions cost nothing, exactly.
+/// beam the chord of its ends along X_2 - X_1 and no mean twist of these; of a triangle its corners in its plane and no
+/// turn of them in the mean, sum (X_i - C) x u_i = 0; of elements with more places all three of these sums. Rigid
+/// motions cost nothing, exactly.
 ///
 /// Q is found by Newton's method; with the multipliers of Gamma the energy is stationary in Q, so that
 ///
@@ -31,13 +34,14 @@ namespace floe::reference {
 /// Sources: Rankin, Nour-Omid 1988, Comput. Struct. 30; Felippa, Haugen 2005, Comput. Methods Appl. Mech. Eng. 194.
 class CorotationalElement final : public dynamics::Term {
  public:
-  /// @param places      two or three, framed; x0 and D0 are those of the place in its node's frame
+  /// @param kind        of the element: first order triangles and beams, or those of second order
+  /// @param places      of its nodes, framed; x0 and D0 are those of the place in its node's frame
   /// @param X           the places undeformed, 3 x n, body axes [m]
   /// @param elasticity  of the element, 6n displacements and rotation vectors in body axes
   /// @param viscosity   beta of Kelvin-Voigt damping [s]
   /// @throws InputError  two places that coincide, three on a line
-  CorotationalElement(std::vector<dynamics::SpatialMarker> places, Eigen::Matrix3Xd X, body::Elasticity elasticity,
-                      double viscosity = 0);
+  CorotationalElement(fem::CellKind kind, std::vector<dynamics::SpatialMarker> places, Eigen::Matrix3Xd X,
+                      body::Elasticity elasticity, double viscosity = 0);
 
   const std::vector<int>& coordinates() const override { return places_.coordinates(); }
   void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
@@ -45,9 +49,10 @@ class CorotationalElement final : public dynamics::Term {
   dynamics::Energy energy(const dynamics::Motion& motion) const override;
 
  private:
-  using Matrix3x = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 18>;
-  using Matrixx3 = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 18, 3>;
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 18, 18>;
+  static constexpr int most = 6 * mesh::most_nodes;
+  using Matrix3x = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, most>;
+  using Matrixx3 = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most, 3>;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
   Eigen::Index size() const { return 6 * X_.cols(); }
   void see(const dynamics::Motion& motion, dynamics::Extent extent) const;
   Eigen::Quaterniond guess() const;
@@ -57,6 +62,7 @@ class CorotationalElement final : public dynamics::Term {
   Square of_places() const;  ///< d on (Q'dp, Q'dphi) at fixed Q
   Square by_places(const Square& stiffness, const Square& rate_stiffness) const;
 
+  bool line_;
   Eigen::Matrix3Xd X_;
   body::Elasticity elasticity_;
   double viscosity_;
@@ -67,9 +73,9 @@ class CorotationalElement final : public dynamics::Term {
   mutable Eigen::VectorXd d_, rate_, f_, wrenches_;
   mutable Eigen::MatrixXd K_, C_, Y_, Yd_;
   mutable Eigen::Matrix3d Q_;
-  mutable Eigen::Matrix3Xd r_;                // Q'(p_i - p_1)
-  mutable std::array<Eigen::Matrix3d, 3> H_;  // T(theta_i)'^-1
-  mutable Eigen::Matrix3Xd n_;                // moments T^-1 m_i
+  mutable Eigen::Matrix3Xd r_;                               // Q'(p_i - p_1)
+  mutable std::array<Eigen::Matrix3d, mesh::most_nodes> H_;  // T(theta_i)'^-1
+  mutable Eigen::Matrix3Xd n_;                               // moments T^-1 m_i
   mutable Matrixx3 W_;
   mutable Matrix3x R_;
   mutable Eigen::Vector3d spin_;                 // of Q, in its own axes

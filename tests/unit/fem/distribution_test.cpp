@@ -84,7 +84,7 @@ TEST_CASE(
   CHECK(found == expected);
   std::set<int> touched;
   for (const auto& cell : mesh.cells) {
-    CHECK(cell.corner[0] < mesh.owned_nodes);
+    CHECK(cell.place[0] < mesh.owned_nodes);
     touched.insert(cell.nodes().begin(), cell.nodes().end());
   }
   for (std::size_t i = 0; i < mesh.foreign.size(); ++i) {

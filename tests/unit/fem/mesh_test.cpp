@@ -29,7 +29,7 @@ std::vector<int> all_cells(const fem::Mesh& mesh) {
   const PetscInt n = mesh.node_count;
   std::vector<int> count(static_cast<std::size_t>(n * n * 3), 0);
   for (const auto& cell : mesh.cells)
-    ++count[(mesh.global_node(cell.corner[0]) * n + mesh.global_node(cell.corner[1])) * 3 + cell.part];
+    ++count[(mesh.global_node(cell.place[0]) * n + mesh.global_node(cell.place[1])) * 3 + cell.part];
   MPI_Allreduce(MPI_IN_PLACE, count.data(), static_cast<int>(count.size()), MPI_INT, MPI_SUM, mesh.comm);
   return count;
 }

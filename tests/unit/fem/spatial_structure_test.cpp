@@ -64,9 +64,11 @@ VectorXd element_product(const fem::Structure& s, Eigen::MatrixXd (fem::ElementM
 
 TEST_CASE("K and M of a mixed mesh are the sums over its elements, on any partition") {
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::last);
-  const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, spread),
-                       alone = testing::mixed_structure(PETSC_COMM_SELF, Spread::last);
-  REQUIRE(s.dofs() == 6 * 21);
+  const auto order = GENERATE(testing::Order::first, testing::Order::second);
+  const auto strains = fem::Strains::von_karman;
+  const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, spread, strains, order),
+                       alone = testing::mixed_structure(PETSC_COMM_SELF, Spread::last, strains, order);
+  if (order == testing::Order::first) REQUIRE(s.dofs() == 6 * 21);
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {});
   for (unsigned seed : {51u, 52u, 53u}) {
     const VectorXd x = Random(seed).vector(s.dofs());
@@ -120,8 +122,10 @@ TEST_CASE("six rigid motions bring no force and carry mass, first and second mom
 
 TEST_CASE("stiffness derivatives of a mixed mesh: the same on any partition, symmetric, one by one or many") {
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
-  const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, spread),
-                       alone = testing::mixed_structure(PETSC_COMM_SELF, Spread::last);
+  const auto order = GENERATE(testing::Order::first, testing::Order::second);
+  const auto strains = GENERATE(fem::Strains::von_karman, fem::Strains::second_order);
+  const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, spread, strains, order),
+                       alone = testing::mixed_structure(PETSC_COMM_SELF, Spread::last, strains, order);
   const VectorXd a = Random(55).vector(s.dofs()), b = Random(56).vector(s.dofs());
   const auto derivative = [](const fem::Structure& of, const VectorXd& x, const VectorXd& y) {
     return testing::in_original_order(

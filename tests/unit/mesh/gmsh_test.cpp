@@ -82,8 +82,9 @@ TEST_CASE("every format holds the same grid") {
       CHECK(testing::labels_at(raw, "left") == std::vector<long long>{step, 7 * step, 13 * step, 19 * step});
       const auto cells = testing::of_all_ranks(raw.cells);
       REQUIRE(cells.size() == 15);
-      CHECK(cells[6].nodes == std::array<PetscInt, 4>{7, 8, 14, 13});  // second row, second square
-      CHECK(testing::of_all_ranks(raw.cell_labels)[6] == 10);          // after three lines
+      CHECK(cells[6].nodes ==
+            std::array<PetscInt, mesh::most_nodes>{7, 8, 14, 13, -1, -1, -1, -1});  // second row, second square
+      CHECK(testing::of_all_ranks(raw.cell_labels)[6] == 10);                       // after three lines
       CHECK(raw.positions.size() ==
             static_cast<std::size_t>(mesh::share_of(24, testing::this_rank(), testing::ranks()).count));
     }
@@ -95,6 +96,20 @@ TEST_CASE("line ends of Windows are accepted") {
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.insert(at, "\r");
   CHECK(read(written("windows.msh", text)).mesh.cell_count == 8);
 }
+
+namespace {
+
+/// Ten nodes and an element of some of them.
+std::string one_element(int type, const std::vector<int>& nodes) {
+  std::string text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10\n";
+  for (int i = 1; i <= 10; ++i)
+    text += std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i * i) + " 0\n";
+  text += "$EndNodes\n$Elements\n1\n1 " + std::to_string(type) + " 2 0 1";
+  for (const int node : nodes) text += " " + std::to_string(node);
+  return text + "\n$EndElements\n";
+}
+
+}  // namespace
 
 TEST_CASE("without physical groups all elements of the highest dimension are one part") {
   std::string text = gmsh_grid(2, 2, true);
@@ -109,6 +124,23 @@ TEST_CASE("parts that cannot be made are refused") {
   CHECK_THAT(testing::fault_of([&] { read(path, {"skim"}); }), Contains("'skim'") && Contains("did you mean skin?"));
   CHECK_THAT(testing::fault_of([&] { read(path, {"corner"}); }), Contains("no physical group 'corner' with curves"));
   CHECK_THAT(testing::fault_of([&] { read(path, {"skin", "skin"}); }), Contains("two parts"));
-  CHECK_THAT(testing::fault_of([&] { read(folder + "plate_second_order.msh"); }),
-             Contains("'skin'") && Contains("second-order triangle of 6 nodes"));
+  CHECK_THAT(testing::fault_of([&] {
+               read(written("third.msh", one_element(21, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10})));
+             }),
+             Contains("'mesh'") && Contains("third-order triangle of 10 nodes"));
+}
+
+TEST_CASE("elements of second order are read; of nine nodes without the one in the middle") {
+  const auto plate = read(folder + "plate_second_order.msh");
+  CHECK(testing::measure(plate.mesh, 0) == Approx(2.0));
+  for (const auto& cell : plate.mesh.cells) CHECK(cell.kind == mesh::CellKind::triangle6);
+  const auto line = testing::of_all_ranks(read(written("line.msh", one_element(8, {1, 3, 2}))).mesh.cells);
+  CHECK((line.at(0).kind == mesh::CellKind::line3 && line[0].nodes[1] == 2 && line[0].nodes[2] == 1));
+  const auto eight = read(written("eight.msh", one_element(16, {1, 2, 3, 4, 5, 6, 7, 8})));
+  CHECK(eight.notices.size() == 1);  // nodes without elements
+  const auto nine = read(written("nine.msh", one_element(10, {1, 2, 3, 4, 5, 6, 7, 8, 9})));
+  CHECK_THAT(nine.notices.at(0), Contains("1 quadrilaterals of 9 nodes are read as those of 8"));
+  CHECK(nine.mesh.node_count == 8);
+  const auto cells = testing::of_all_ranks(nine.mesh.cells);
+  CHECK((cells.at(0).kind == mesh::CellKind::quadrilateral8 && cells[0].nodes[7] == 7));
 }

@@ -32,11 +32,11 @@ TEST_CASE("the parts of the deck that these tests spoil are good") {
 
 TEST_CASE("keywords, parameters and types that are not read are told, all of them") {
   const std::string text = said(nodes + elements + section +
-                                "*ELEMNT, TYPE=S3\n3, 1, 2, 4\n*NSET, NST=a\n1\n*ELEMENT, TYPE=S8R\n"
-                                "9, 1, 2, 3, 4, 1, 2, 3, 4\n*SYSTEM\n1, 0\n*STEP\n*END\n");
+                                "*ELEMNT, TYPE=S3\n3, 1, 2, 4\n*NSET, NST=a\n1\n*ELEMENT, TYPE=S9R5\n"
+                                "9, 1, 2, 3, 4, 1, 2, 3, 4, 1\n*SYSTEM\n1, 0\n*STEP\n*END\n");
   CHECK_THAT(text, Contains("bad.inp:14: keyword '*ELEMNT' is not read, did you mean *ELEMENT?"));
   CHECK_THAT(text, Contains("bad.inp:16: parameter 'NST' of *NSET is unknown, did you mean NSET?"));
-  CHECK_THAT(text, Contains("bad.inp:18: elements of type 'S8R' are not read (B31, B33, MASS, S3,"));
+  CHECK_THAT(text, Contains("bad.inp:18: elements of type 'S9R5' are not read (B31, B32, B32R, B33, MASS, S3,"));
   CHECK_THAT(text, Contains("bad.inp:20: keyword '*SYSTEM' is not read"));
   CHECK_THAT(text, Contains("bad.inp:22: *STEP has no *END STEP"));
 }

@@ -63,6 +63,20 @@ TEST_CASE("surfaces of elements are places: faces and edges") {
   CHECK_THAT(said("*SURFACE, NAME=s\n77, S1\n"), Contains("links.inp:21: surface s names element 77"));
 }
 
+TEST_CASE("edges of shells of second order have their middle nodes") {
+  const auto file = mesh::read_inp(
+      PETSC_COMM_WORLD,
+      testing::written("curved_links.inp",
+                       "*NODE\n1, 0, 0\n2, 2, 0\n3, 2, 2\n4, 0, 2\n5, 1, 0\n6, 2, 1\n7, 1, 2\n8, 0, 1\n9, 3, 0\n"
+                       "10, 4, 0\n11, 3, 1\n*ELEMENT, TYPE=S8R, ELSET=Q\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+                       "*ELEMENT, TYPE=S6, ELSET=Q\n2, 2, 10, 3, 9, 11, 6\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n"
+                       "*SHELL SECTION, ELSET=Q, MATERIAL=M\n0.1\n*SURFACE, NAME=left\n1, S6\n"
+                       "*SURFACE, NAME=abaqus\n2, E2\n*SURFACE, NAME=face\n2, SNEG\n"));
+  CHECK(testing::labels_at(file.mesh, "left") == Labels{1, 4, 8});
+  CHECK(testing::labels_at(file.mesh, "abaqus") == Labels{3, 10, 11});
+  CHECK(testing::labels_at(file.mesh, "face") == Labels{2, 3, 6, 9, 10, 11});
+}
+
 TEST_CASE("*DISTRIBUTING is the mean of a place where its reference node carries nothing else") {
   const std::string coupling =
       "*SURFACE, NAME=edge\n2, S4\n*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=edge\n*DISTRIBUTING\n1, 3\n";

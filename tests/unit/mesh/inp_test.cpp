@@ -206,6 +206,28 @@ TEST_CASE("a circle of two diameters is an ellipse; keywords of a step may stand
   CHECK_THAT(file.notices.at(0), Contains("ellipse.inp:21: *STATIC is ignored: it is outside of a *STEP"));
 }
 
+TEST_CASE("elements of second order are read, of beams the ends before the middle") {
+  const std::string head =
+      "*NODE\n1, 0, 0\n2, 2, 0\n3, 2, 2\n4, 0, 2\n5, 1, 0\n6, 2, 1\n7, 1, 2\n8, 0, 1\n9, 3, 0\n10, 4, 0\n"
+      "11, 1, 1\n";
+  const auto file = read(testing::written(
+      "second.inp",
+      head + "*ELEMENT, TYPE=S8R, ELSET=Q\n1, 1, 2, 3, 4, 5, 6, 7,\n8\n*ELEMENT, TYPE=B32R, ELSET=L\n2, 2, 9, 10\n"
+             "*ELEMENT, TYPE=STRI65, ELSET=Q\n3, 1, 2, 3, 5, 6, 11\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0.3\n"
+             "*DENSITY\n1\n*SHELL SECTION, ELSET=Q, MATERIAL=M\n0.1\n*BEAM SECTION, ELSET=L, MATERIAL=M, "
+             "SECTION=RECT\n1, 1\n0, 0, 1\n"));
+  const auto cells = testing::of_all_ranks(file.mesh.cells);
+  REQUIRE(cells.size() == 3);
+  CHECK(cells[0].kind == mesh::CellKind::quadrilateral8);
+  CHECK(cells[0].nodes == std::array<PetscInt, mesh::most_nodes>{0, 1, 2, 3, 4, 5, 6, 7});
+  CHECK(cells[1].kind == mesh::CellKind::line3);
+  CHECK(cells[1].nodes[0] == 1);
+  CHECK(cells[1].nodes[1] == 9);
+  CHECK(cells[1].nodes[2] == 8);
+  CHECK(cells[2].kind == mesh::CellKind::triangle6);
+  CHECK_THAT(file.notices.at(0), Contains("elements of type STRI65 are read as S6"));
+}
+
 TEST_CASE("a scene may give sections to a deck without any, and leave out solids") {
   const std::string deck =
       "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n5, 0, 0, 1\n6, 2, 0\n7, 2, 1\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, "

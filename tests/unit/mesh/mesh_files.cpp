@@ -15,8 +15,8 @@ double measure(const mesh::RawMesh& raw, int part) {
   for (const auto& cell : raw.cells) {
     if (cell.part != part) continue;
     const Eigen::Vector3d a = at(cell.nodes[1]) - at(cell.nodes[0]);
-    if (cell.kind == mesh::CellKind::line) sum += a.norm();
-    for (int k = 2; k < mesh::node_count(cell.kind); ++k)
+    if (mesh::is_line(cell.kind)) sum += a.norm();
+    for (int k = 2; k < mesh::corner_count(cell.kind); ++k)
       sum += (at(cell.nodes[k - 1]) - at(cell.nodes[0])).cross(at(cell.nodes[k]) - at(cell.nodes[0])).norm() / 2;
   }
   MPI_Allreduce(&sum, &total, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);

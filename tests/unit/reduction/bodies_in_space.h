@@ -55,13 +55,21 @@ inline fem::Structure small_frame(MPI_Comm comm, Spread spread) {
 
 /// Small bodies of every kind of cell; flat and mixed ones whose shells have strains of second order, the latter with
 /// nodes that follow others.
-enum class What { triangles, quadrilaterals, beams, mixed, second_order, linked_second_order };
+/// `curved`: all elements of second order, linked with strains of second order; `curved_plate` a flat one.
+enum class What { triangles, quadrilaterals, beams, mixed, second_order, linked_second_order, curved, curved_plate };
 
 inline fem::Structure body_of(What what, MPI_Comm comm, Spread spread) {
   if (what == What::mixed) return mixed_structure(comm, spread);
   if (what == What::beams) return small_frame(comm, spread);
   if (what == What::second_order)
     return small_plate(comm, generate::ShellCells::quadrilaterals, spread, fem::Strains::second_order);
+  if (what == What::curved) return linked_structure(comm, spread, fem::Strains::second_order, Order::second);
+  if (what == What::curved_plate) {
+    generate::Plate plate{{0, 0, 0}, {1, 0, 0}, {0, 0.7, 0}, 2, 2};
+    plate.cells = generate::ShellCells::quadrilaterals;
+    const mesh::RawMesh raw = second_order(generate::plate(comm, plate), [](const Eigen::Vector3d& x) { return x; });
+    return structure_of(raw, {fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.02, 0}})}, spread);
+  }
   if (what == What::linked_second_order) return linked_structure(comm, spread, fem::Strains::second_order);
   return small_plate(
       comm, what == What::triangles ? generate::ShellCells::triangles : generate::ShellCells::quadrilaterals, spread);

@@ -37,7 +37,7 @@ VectorXd force_of(const body::Elasticity& e, const VectorXd& eta) {
 
 TEST_CASE("reduced energy and force of bodies in space equal the projected full ones") {
   const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed, What::second_order,
-                             What::linked_second_order);
+                             What::linked_second_order, What::curved, What::curved_plate);
   const Reduced r(what, PETSC_COMM_WORLD, Spread::shuffled, 3);
   CHECK(r.basis.columns > 3);
   const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
@@ -53,7 +53,7 @@ TEST_CASE("reduced energy and force of bodies in space equal the projected full 
 }
 
 TEST_CASE("reduced inertia constants of bodies in space are V' times those of the full body") {
-  const What what = GENERATE(What::quadrilaterals, What::mixed);
+  const What what = GENERATE(What::quadrilaterals, What::mixed, What::curved, What::curved_plate);
   const Reduced r(what, PETSC_COMM_WORLD, Spread::metis, 3);
   const fem::Structure& s = r.held.structure;
   const MatrixXd V = testing::columns_in_originals(s, r.basis), M = testing::dense(s, fem::mass(s, {}));

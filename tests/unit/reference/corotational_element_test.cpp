@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "floe/fem/shell.h"
+#include "floe/fem/quadratic_beam.h"
+#include "floe/fem/quadratic_shell.h"
 #include "floe/fem/spatial_beam.h"
 #include "floe/math/rotation.h"
 #include "spatial_terms.h"
@@ -19,15 +20,16 @@ using testing::State;
 
 namespace {
 
-/// A beam or a triangle, its body turned somehow at rest.
+/// An element, its body turned somehow at rest.
 struct Sample {
+  mesh::CellKind kind;
   Matrix3Xd X;
   body::Elasticity elasticity;
 };
 
 Sample beam() {
   Random random(901);
-  Sample s{Matrix3Xd(3, 2), {}};
+  Sample s{mesh::CellKind::line, Matrix3Xd(3, 2), {}};
   s.X.col(0) = random.vector(3), s.X.col(1) = s.X.col(0) + Vector3d(0.7, -0.4, 0.9);
   const fem::SpatialBeamSection section = fem::spatial_section(fem::rectangle(0.2, 0.3), {10, 4, 1});
   s.elasticity = fem::elasticity(fem::spatial_beam({s.X.col(0), s.X.col(1), {0.2, 1, 0.3}}, section, {}),
@@ -37,7 +39,7 @@ Sample beam() {
 
 Sample triangle() {
   Random random(902);
-  Sample s{Matrix3Xd(3, 3), {}};
+  Sample s{mesh::CellKind::triangle, Matrix3Xd(3, 3), {}};
   s.X.col(0) = random.vector(3);
   s.X.col(1) = s.X.col(0) + Vector3d(1, 0.2, 0.4), s.X.col(2) = s.X.col(0) + Vector3d(0.1, 0.8, -0.3);
   s.elasticity = fem::elasticity(fem::shell_triangle({s.X.col(0), s.X.col(1), s.X.col(2)},
@@ -45,6 +47,41 @@ Sample triangle() {
                                  Eigen::MatrixXd::Identity(18, 18));
   return s;
 }
+
+Sample curved_beam() {
+  Random random(908);
+  Sample s{mesh::CellKind::line3, Matrix3Xd(3, 3), {}};
+  s.X.col(0) = random.vector(3), s.X.col(1) = s.X.col(0) + Vector3d(0.7, -0.4, 0.9);
+  s.X.col(2) = s.X.col(0) + Vector3d(0.3, -0.1, 0.5);
+  fem::SpatialBeamStrain strain;
+  strain.strains = fem::Strains::second_order;
+  const fem::SpatialBeamSection section = fem::spatial_section(fem::rectangle(0.2, 0.3), {10, 4, 1});
+  s.elasticity =
+      fem::elasticity(fem::quadratic_beam({s.X.col(0), s.X.col(1), s.X.col(2), {0.2, 1, 0.3}}, section, strain),
+                      Eigen::MatrixXd::Identity(18, 18));
+  return s;
+}
+
+Sample curved_shell(mesh::CellKind kind) {
+  const int n = mesh::node_count(kind), corners = n / 2;
+  Random random(909);
+  const Vector3d from = random.vector(3);
+  const double pi = std::acos(-1.0);
+  std::vector<Vector3d> X(n);
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * pi * i / corners + 0.1 * i;
+    X[i] = from + Vector3d(std::cos(angle), 0.7 * std::sin(angle), 0.2 * std::cos(2 * angle));
+  }
+  for (int i = 0; i < corners; ++i) X[corners + i] = (X[i] + X[(i + 1) % corners]) / 2 + 0.05 * Vector3d(i, 1, 2 - i);
+  Sample s{kind, Matrix3Xd(3, n), {}};
+  for (int i = 0; i < n; ++i) s.X.col(i) = X[i];
+  fem::ShellSection section = fem::shell_section({{fem::isotropic(10, 0.3, 1), 0.1}});
+  section.strains = fem::Strains::second_order;
+  s.elasticity = fem::elasticity(fem::quadratic_shell(X, section), Eigen::MatrixXd::Identity(6 * n, 6 * n));
+  return s;
+}
+Sample six_nodes() { return curved_shell(mesh::CellKind::triangle6); }
+Sample eight_nodes() { return curved_shell(mesh::CellKind::quadrilateral8); }
 
 /// Places each on a frame of its own at the start Q; the last one on an arm; with `shared` the first two on one frame.
 std::vector<SpatialMarker> places(const Sample& sample, bool shared, const std::vector<Eigen::Quaterniond>& bases) {
@@ -86,7 +123,7 @@ State state_of(Random& random, const Near& near, Eigen::Index size) {
   return s;
 }
 
-const auto samples = {beam, triangle};
+const auto samples = {beam, triangle, curved_beam, six_nodes, eight_nodes};
 
 }  // namespace
 
@@ -97,7 +134,8 @@ TEST_CASE("corotational element in space: the tangent is the difference of the r
   Random random(903);
   for (int i = 0; i < 3; ++i) {
     const Near near(random, sample, 0.1);
-    const CorotationalElement element(places(sample, false, near.bases), sample.X, sample.elasticity, beta);
+    const CorotationalElement element(sample.kind, places(sample, false, near.bases), sample.X, sample.elasticity,
+                                      beta);
     CHECK(testing::tangent_error(element, state_of(random, near, 6 * sample.X.cols())) < 1e-8);
   }
 }
@@ -106,7 +144,7 @@ TEST_CASE("corotational element in space: two places on one frame", "[corotation
   const Sample sample = triangle();
   Random random(904);
   const Near near(random, sample, 0.1);
-  const CorotationalElement element(places(sample, true, near.bases), sample.X, sample.elasticity, 0.2);
+  const CorotationalElement element(sample.kind, places(sample, true, near.bases), sample.X, sample.elasticity, 0.2);
   State s(random, 12);
   s.q << near.q.head<6>(), near.q.tail<6>();
   CHECK(testing::tangent_error(element, s) < 1e-8);
@@ -118,7 +156,8 @@ TEST_CASE("corotational element in space: its forces are the gradient of its ene
   Random random(905);
   const Near near(random, sample, 0.1);
   const auto at = places(sample, false, near.bases);
-  const CorotationalElement elastic(at, sample.X, sample.elasticity), damped(at, sample.X, sample.elasticity, 0.4);
+  const CorotationalElement elastic(sample.kind, at, sample.X, sample.elasticity),
+      damped(sample.kind, at, sample.X, sample.elasticity, 0.4);
   const State s = state_of(random, near, 6 * sample.X.cols());
   const auto energy = [&](double t) {
     VectorXd q = s.q + t * s.v;
@@ -138,7 +177,7 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
   const auto sample = GENERATE(from_range(samples))();
   Random random(906);
   const Near rigid(random, sample, 0);
-  const CorotationalElement still(places(sample, false, rigid.bases), sample.X, sample.elasticity, 0.4);
+  const CorotationalElement still(sample.kind, places(sample, false, rigid.bases), sample.X, sample.elasticity, 0.4);
   State s = state_of(random, rigid, 6 * sample.X.cols());
   const Vector3d w = random.vector(3), v = random.vector(3);
   for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
@@ -148,7 +187,7 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
   CHECK(testing::rows_of(still, s).norm() < 1e-12);
 
   const Near near(random, sample, 0.1);
-  const CorotationalElement bent(places(sample, false, near.bases), sample.X, sample.elasticity);
+  const CorotationalElement bent(sample.kind, places(sample, false, near.bases), sample.X, sample.elasticity);
   State one = state_of(random, near, 6 * sample.X.cols()), other = one;
   const Eigen::Quaterniond turn = math::quaternion({1.3, -2.1, 0.8});
   std::vector<Eigen::Quaterniond> bases;
@@ -165,7 +204,7 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
   }
   CHECK(force.norm() < 1e-12 * loads.norm());
   CHECK(moment.norm() < 1e-11 * loads.norm());
-  const CorotationalElement turned(places(sample, false, bases), sample.X, sample.elasticity);
+  const CorotationalElement turned(sample.kind, places(sample, false, bases), sample.X, sample.elasticity);
   const VectorXd f = testing::rows_of(bent, one), g = testing::rows_of(turned, other);
   for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
     CHECK((g.segment<3>(6 * i) - turn * Vector3d(f.segment<3>(6 * i))).norm() < 1e-12 * f.norm());
@@ -183,7 +222,8 @@ TEST_CASE("corotational element in space: the order of the places does not matte
                                      Eigen::MatrixXd::Identity(18, 18));
   Near near(random, one, 0.1);
   auto at = places(one, false, near.bases);
-  const CorotationalElement a(at, one.X, one.elasticity), b({at[1], at[2], at[0]}, other.X, other.elasticity);
+  const CorotationalElement a(one.kind, at, one.X, one.elasticity),
+      b(one.kind, {at[1], at[2], at[0]}, other.X, other.elasticity);
   const VectorXd zero = VectorXd::Zero(18);
   VectorXd moved(18);
   moved << near.q.segment<6>(6), near.q.segment<6>(12), near.q.segment<6>(0);
