@@ -1,0 +1,254 @@
+#include <catch2/catch.hpp>
+
+#include "floe/assembly/body_properties.h"
+#include "floe/solve/branch.h"
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+using Eigen::Vector3d;
+
+// Bodies of S8R, S6 and B32R, read from decks.
+
+namespace {
+
+using Surface = std::function<Vector3d(double, double)>;
+
+std::string node_line(std::size_t label, const Vector3d& x) {
+  return fmt::format("{}, {:.17g}, {:.17g}, {:.17g}\n", label, x[0], x[1], x[2]);
+}
+
+/// n x m shells of second order on the image of the unit square, with its edges as node sets.
+std::string shells(bool triangles, int n, int m, double thickness, const std::string& material, const Surface& at) {
+  std::string nodes = "*NODE\n", elements = fmt::format("*ELEMENT, TYPE={}, ELSET=skin\n", triangles ? "S6" : "S8R"),
+              sets[4];
+  std::map<std::pair<int, int>, std::size_t> labels;
+  const auto node = [&](int i, int j) {
+    const auto [found, made] = labels.try_emplace({i, j}, labels.size() + 1);
+    if (made) nodes += node_line(found->second, at(i / (2. * n), j / (2. * m)));
+    return found->second;
+  };
+  int count = 0;
+  const auto element = [&](const std::vector<std::size_t>& of) {
+    elements += std::to_string(++count);
+    for (const std::size_t label : of) elements += ", " + std::to_string(label);
+    elements += "\n";
+  };
+  for (int a = 0; a < 2 * n; a += 2)
+    for (int b = 0; b < 2 * m; b += 2) {
+      const std::size_t c[] = {node(a, b), node(a + 2, b), node(a + 2, b + 2), node(a, b + 2)},
+                        e[] = {node(a + 1, b), node(a + 2, b + 1), node(a + 1, b + 2), node(a, b + 1)};
+      if (!triangles) {
+        element({c[0], c[1], c[2], c[3], e[0], e[1], e[2], e[3]});
+        continue;
+      }
+      const std::size_t middle = node(a + 1, b + 1);
+      element({c[0], c[1], c[2], e[0], e[1], middle});
+      element({c[0], c[2], c[3], middle, e[2], e[3]});
+    }
+  for (const auto& [place, label] : labels) {
+    const bool on[] = {place.first == 0, place.first == 2 * n, place.second == 0, place.second == 2 * m};
+    for (int i = 0; i < 4; ++i)
+      if (on[i]) sets[i] += std::to_string(label) + ",\n";
+  }
+  const char* names[] = {"left", "right", "bottom", "top"};
+  for (int i = 0; i < 4; ++i) elements += fmt::format("*NSET, NSET={}\n{}", names[i], sets[i]);
+  return nodes + elements + "*MATERIAL, NAME=m\n" + material +
+         fmt::format("*SHELL SECTION, ELSET=skin, MATERIAL=m\n{:.17g}\n", thickness);
+}
+
+Vector3d flat(double u, double v) { return {u, v, 0}; }
+
+/// n beams of three nodes along a curve, with its ends as node sets. @param section  lines of *BEAM GENERAL SECTION
+std::string beams(int n, const std::function<Vector3d(double)>& at, const std::string& section) {
+  std::string text = "*NODE\n";
+  for (int i = 0; i <= 2 * n; ++i) text += node_line(i + 1, at(i / (2. * n)));
+  text += "*ELEMENT, TYPE=B32R, ELSET=line\n";
+  for (int i = 0; i < n; ++i) text += fmt::format("{}, {}, {}, {}\n", i + 1, 2 * i + 1, 2 * i + 2, 2 * i + 3);
+  return text + fmt::format("*NSET, NSET=start\n1\n*NSET, NSET=end\n{}\n", 2 * n + 1) +
+         "*BEAM GENERAL SECTION, ELSET=line, DENSITY=1.\n" + section;
+}
+
+std::string triple(const Vector3d& v) { return fmt::format("{:.17g}, {:.17g}, {:.17g}", v[0], v[1], v[2]); }
+
+/// Of length 1, EI = GJ = 1, all but inextensible, clamped at its start.
+std::string unit_section(const Vector3d& orientation, double EA) {
+  return fmt::format("{:.17g}, 1., 0., 1., 1.\n{}\n1., 1.\n", EA, triple(orientation));
+}
+
+struct Deck {
+  Scratch scratch;
+  std::string path() const { return (scratch.path / "part.inp").string(); }
+  explicit Deck(const std::string& text) { write_text(path(), text); }
+};
+
+std::string clamped_beam(const Deck& deck, const std::string& load) {
+  return fill(R"yaml(
+bodies: {beam: {mesh: {file: {path: $path}}, reduction: {modes: 4}}}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {load: $load}
+probes: {tip: {at: beam.end, quantity: position}}
+)yaml",
+              {{"path", deck.path()}, {"load", load}});
+}
+
+std::string load(const char* type, const Vector3d& v) {
+  return fmt::format("{{type: {0}, at: beam.end, {0}: [\"{1:.17g}*t\", \"{2:.17g}*t\", \"{3:.17g}*t\"]}}", type, v[0],
+                     v[1], v[2]);
+}
+
+/// At the equilibrium that `floe static` follows from no load to t = 1.
+Vector3d tip_at_rest(const std::string& text, int steps) {
+  History at = history_of(text, Formulation::cfr);
+  for (int i = 1; i <= steps; ++i)
+    solve::follow_equilibrium(*at.model.system, double(i - 1) / steps, double(i) / steps, 1e-3, at.model.U, at.model.V,
+                              [](const solve::BranchJump&, Vec, Vec) {});
+  store(at, 1, at.model.U, at.model.V);
+  return {at["tip.x"].back(), at["tip.y"].back(), at["tip.z"].back()};
+}
+
+/// Side 1, D = 1, mass 1 per area, nu = 0.3. @param edges  `fixed` or `revolute`
+std::vector<double> plate_frequencies(bool triangles, double thickness, const std::string& edges, int n) {
+  const Deck deck(shells(
+      triangles, n, n, thickness,
+      fmt::format("*ELASTIC\n{:.17g}, 0.3\n*DENSITY\n{:.17g}\n", 12 * 0.91 / std::pow(thickness, 3), 1 / thickness),
+      flat));
+  std::string joints;
+  for (const char* side : {"left", "right", "bottom", "top"})
+    joints += fmt::format("{0}: {{type: {1}, between: [ground, p.{0}]}}, ", side, edges);
+  return omega_of(
+      fmt::format("bodies: {{p: {{mesh: {{file: {{path: {}}}}}, reduction: {{modes: 4}}}}}}\njoints: {{{}}}\n",
+                  deck.path(), joints));
+}
+
+}  // namespace
+
+// Closed form pi^2 (i^2 + j^2); clamped: Leissa 1973, J. Sound Vib. 31.
+TEST_CASE("plates of second order: frequencies of hinged and clamped plates, however thin") {
+  const bool triangles = GENERATE(false, true);
+  const double thickness = GENERATE(2e-3, 1e-4);
+  CAPTURE(triangles, thickness);
+  const double of_hinged[] = {2, 5, 5, 8}, of_clamped[] = {35.985, 73.394, 73.394, 108.22};
+  for (const auto& [edges, expected, factor] :
+       {std::tuple("revolute", of_hinged, M_PI * M_PI), {"fixed", of_clamped, 1.}}) {
+    const auto coarse = plate_frequencies(triangles, thickness, edges, 8),
+               fine = plate_frequencies(triangles, thickness, edges, 16);
+    for (int i = 0; i < 4; ++i) {
+      const double limit = factor * expected[i];
+      CHECK(fine.at(i) == Approx(limit).epsilon(triangles ? 2e-2 : 2e-3));
+      CHECK((4 * fine[i] - coarse.at(i)) / 3 == Approx(limit).epsilon(triangles ? 7e-3 : 2e-3));
+    }
+  }
+}
+
+// Converged independent computation, as in static_plate_test.
+TEST_CASE("clamped plate of second order under pressure: large static deflection") {
+  const bool triangles = GENERATE(false, true);
+  const int n = triangles ? 16 : 8;
+  const Deck deck(shells(triangles, n, n, 0.01, "*ELASTIC\n1e7, 0.3\n*DENSITY\n1.\n", flat));
+  const auto deflection = [&](double Q, Formulation formulation) {
+    return rest(fill(R"yaml(
+bodies: {p: {mesh: {file: {path: $path}}, reduction: {modes: {count: 24, alone: 24}}}}
+joints:
+  l: {type: fixed, between: [ground, p.left]}
+  r: {type: fixed, between: [ground, p.right]}
+  b: {type: fixed, between: [ground, p.bottom]}
+  t: {type: fixed, between: [ground, p.top]}
+loads: {load: {type: distributed, body: p, force: [0, 0, "$p*t"]}}
+probes: {centre: {at: {body: p, node: [0.5, 0.5, 0]}}}
+)yaml",
+                     {{"path", deck.path()}, {"p", number(Q * 1e7 * 1e-8)}}),
+                formulation, 4)["centre.z"]
+               .back() /
+           0.01;
+  };
+  for (const auto& [Q, w] : {std::pair{1., .013816}, {25., .326962}, {100., .937420}, {200., 1.364028}})
+    CHECK(deflection(Q, Formulation::nlffr) == Approx(w).epsilon(triangles ? 1.8e-2 : 5e-3));
+  CHECK(deflection(100, Formulation::vm_md) == Approx(.937420).epsilon(1e-2));
+  CHECK(deflection(100, Formulation::cfr) == Approx(.937420).epsilon(1e-2));
+}
+
+TEST_CASE("beams of second order: an end moment rolls them to circles, in any direction") {
+  const int i = GENERATE(0, 1);
+  const Vector3d along = (i ? Vector3d(1, 2, -2) : Vector3d(1, 0, 0)).normalized(),
+                 across = (i ? Vector3d(2, 1, 2) : Vector3d(0, 0, 1)).normalized();
+  const Deck deck(beams(
+      10, [&](double s) -> Vector3d { return s * along; }, unit_section(along.unitOrthogonal(), 1e6)));
+  const auto rolled = [&](double turns) {
+    return tip_at_rest(clamped_beam(deck, load("moment", 2 * M_PI * turns * along.cross(across))), 8);
+  };
+  CHECK((rolled(0.25) - 2 / M_PI * (along + across)).norm() < 2e-3);
+  CHECK((rolled(0.5) - 2 / M_PI * across).norm() < 4e-3);
+}
+
+// Mattiasson 1981, Int. J. Numer. Methods Eng. 17.
+TEST_CASE("beams of second order: the elastica under an end force") {
+  const Deck deck(beams(
+      16, [](double s) { return Vector3d(s, 0, 0); }, unit_section({0, 1, 0}, 1e6)));
+  for (const auto& [P, u, w] : {std::tuple{1., .05643, .30172}, {5., .38763, .71379}, {10., .55500, .81061}}) {
+    const Vector3d at = tip_at_rest(clamped_beam(deck, load("force", {0, 0, P})), 4);
+    CHECK(1 - at.x() == Approx(u).margin(5e-4));
+    CHECK(at.z() == Approx(w).margin(5e-4));
+    CHECK(std::abs(at.y()) < 1e-9);
+  }
+}
+
+// Bathe and Bolourchi 1979, Int. J. Numer. Methods Eng. 14; see corotational_space_test.
+TEST_CASE("beams of second order: the bend of 45 degrees, of curved elements") {
+  const auto arc = [](double s) {
+    const double angle = M_PI / 4 * s;
+    return Vector3d(100 * std::sin(angle), 100 * (1 - std::cos(angle)), 0);
+  };
+  const auto bend = [&](double P, int n) {
+    const Deck deck(
+        beams(n, arc, "1., 0.08333333333333333, 0., 0.08333333333333333, 0.16666666666666667\n0., 0., 1.\n1e7, 5e6\n"));
+    return tip_at_rest(clamped_beam(deck, load("force", {0, 0, P})), 4);
+  };
+  CHECK((bend(300, 8) - Vector3d(59.2, 22.5, 39.5)).cwiseAbs().maxCoeff() < 1);
+  CHECK((bend(600, 8) - Vector3d(47.2, 15.9, 53.4)).cwiseAbs().maxCoeff() < 0.5);
+  CHECK((bend(600, 4) - Vector3d(47.2, 15.9, 53.4)).cwiseAbs().maxCoeff() < 0.5);
+}
+
+// A strip of shells in `cfr` bent to a quarter and half of a circle.
+TEST_CASE("shells of second order: an end moment rolls a strip to a circle") {
+  const bool triangles = GENERATE(false, true);
+  const double h = GENERATE(0.1, 0.01), L = 10, EI = 1.2e6 * h * h * h / 12;
+  CAPTURE(triangles, h);
+  const Deck deck(shells(triangles, 10, 1, h, "*ELASTIC\n1.2e6, 0\n*DENSITY\n1.\n",
+                         [&](double u, double v) { return Vector3d(L * u, v, 0); }));
+  const auto rolled = [&](double turns) {
+    return tip_at_rest(fill(R"yaml(
+bodies: {p: {mesh: {file: {path: $path}}}}
+joints: {clamp: {type: fixed, between: [ground, p.left]}}
+loads: {load: {type: moment, at: p.right, moment: [0, "$M*t", 0]}}
+probes: {tip: {at: {body: p, node: [$L, 0.5, 0]}, quantity: position}}
+)yaml",
+                            {{"path", deck.path()}, {"L", number(L)}, {"M", number(-2 * M_PI * turns * EI / L)}}),
+                       8);
+  };
+  for (const double turns : {0.25, 0.5}) {
+    const double angle = 2 * M_PI * turns, r = L / angle;
+    CHECK((rolled(turns) - Vector3d(r * std::sin(angle), 0.5, r * (1 - std::cos(angle)))).norm() < 5e-3 * L);
+  }
+}
+
+TEST_CASE("mass, centre and inertia of bodies of second order") {
+  const bool triangles = GENERATE(false, true);
+  const double R = 0.5, a = 0.6, L = 1, h = 0.005, rho = 7800;
+  const Deck deck(shells(triangles, 12, 8, h, "*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7800.\n", [&](double u, double v) {
+    const double b = a * (2 * v - 1);
+    return Vector3d(L * u, R * std::sin(b), R * std::cos(b));
+  }));
+  const auto scene = scene::parse_scene("bodies: {p: {mesh: {file: {path: " + deck.path() + "}}}}\n", "scene");
+  const auto found = assembly::body_properties(scene, PETSC_COMM_WORLD, 0).at(0);
+  const double mass = rho * h * L * 2 * a * R, height = R * std::sin(a) / a, own = h * h / 12;
+  CHECK(found.mass == Approx(mass).epsilon(1e-6));
+  CHECK((found.centre - Vector3d(L / 2, 0, height)).norm() < 1e-6);
+  // int cos^2 over the arc; the thickness adds h^2/12 along the normals
+  const double c2 = (0.5 + std::sin(2 * a) / (4 * a)), yy = (R * R + own) * (1 - c2),
+               zz = (R * R + own) * c2 - height * height, xx = L * L / 12;
+  CHECK(found.inertia(0, 0) == Approx(mass * (yy + zz)).epsilon(1e-5));
+  CHECK(found.inertia(1, 1) == Approx(mass * (xx + zz)).epsilon(1e-5));
+  CHECK(found.inertia(2, 2) == Approx(mass * (xx + yy)).epsilon(1e-5));
+  CHECK(std::abs(found.inertia(0, 1)) + std::abs(found.inertia(0, 2)) + std::abs(found.inertia(1, 2)) < 1e-9 * mass);
+}
