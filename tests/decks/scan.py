@@ -1,11 +1,10 @@
 #!/usr/bin/python3
 """Which decks of a folder floe reads, and why it refuses the others: a table in Markdown.
 
-    tests/decks/scan.py FLOE FOLDER [--first-order] [--ignore-others] [--table PAGE]
+    tests/decks/scan.py FLOE FOLDER [--ignore-others] [--table PAGE]
 
 Decks with shells or beams count (.inp, .bdf, .nas, .dat; also .gz). Each is read by `floe modes` of a scene with one
-free body, two modes. --first-order replaces elements of second order by their corners: what remains are the refusals
-that do not come from elements. --ignore-others leaves out solids, springs and the like. --table writes a line for each
+free body, two modes. --ignore-others leaves out solids, springs and the like. --table writes a line for each
 deck between the marks `<!-- decks -->` and `<!-- end of decks -->` of a page: elements, read or why not, and the first
 frequency of the body without supports beside that of CalculiX (ccx) on its elements alone: without steps, supports,
 links and what floe ignores. There materials without *DENSITY have 1, in both programs."""
@@ -20,40 +19,12 @@ import tempfile
 
 SHELL_OR_BEAM = re.compile(r"(S\d|STRI|B3\d|B2\d)")
 NASTRAN = re.compile(r"^(CQUAD|CTRI|CBAR|CBEAM)", re.M)
-CORNERS = {"S8": ("S4", [0, 1, 2, 3]), "S8R": ("S4", [0, 1, 2, 3]), "S6": ("S3", [0, 1, 2]),
-           "B32": ("B31", [0, 2]), "B32R": ("B31", [0, 2]), "B32H": ("B31", [0, 2])}
-
-
 OTHERS = ("C3D4, C3D6, C3D8, C3D8R, C3D8I, C3D10, C3D15, C3D20, C3D20R, SPRINGA, SPRING1, SPRING2, DASHPOTA, GAPUNI, DCOUP3D, T3D2, "
           "D, M3D3, M3D4, CTETRA, CHEXA, CPENTA, CELAS1, CELAS2, CBUSH, CROD, CONROD, RBE3")
 
 
 def types_of(text):
     return set(re.findall(r"^\*ELEMENT\b.*?TYPE\s*=\s*([A-Z0-9]+)", text.upper(), re.M))
-
-
-def first_order(text):
-    """The deck with the corners of its elements of second order."""
-    lines, out, at = text.splitlines(), [], 0
-    while at < len(lines):
-        line = lines[at]
-        at += 1
-        kind = re.match(r"\*ELEMENT\b.*?TYPE\s*=\s*([A-Z0-9]+)", line.upper())
-        new = CORNERS.get(kind.group(1)) if kind else None
-        if not new:
-            out.append(line)
-            continue
-        out.append(re.sub(kind.group(1), new[0], line, count=1, flags=re.I))
-        data = ""
-        while at < len(lines) and (not lines[at].startswith("*") or lines[at].startswith("**")):
-            if not lines[at].startswith("**"):
-                data += " " + lines[at].strip() + ("" if lines[at].strip().endswith(",") else ",")
-            at += 1
-        numbers = [w for w in re.split(r"[\s,]+", data) if w]
-        count = 1 + {"S8": 8, "S8R": 8, "S6": 6}.get(kind.group(1), 3)
-        for i in range(0, len(numbers) - count + 1, count):
-            out.append(", ".join([numbers[i]] + [numbers[i + 1 + c] for c in new[1]]))
-    return "\n".join(out) + "\n"
 
 
 def reason_of(message):
@@ -193,8 +164,6 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
         for name, text in decks(folder):
-            if "--first-order" in flags:
-                text = first_order(text)
             deck = "deck" + pathlib.Path(name).suffix
             (scratch / deck).write_text(text)
             reason = read(floe, scratch, deck, "--ignore-others" in flags)
