@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 
 namespace floe::assembly {
 
@@ -23,17 +22,14 @@ std::vector<Eigen::Index> independent_rows(const Eigen::MatrixXd& G, double leas
 
 std::vector<Eigen::Index> undetermined_rows(const Eigen::MatrixXd& G, const std::vector<Eigen::Index>& kept) {
   std::vector<Eigen::Index> rows;
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> by_kept(G(kept, Eigen::all).transpose());
-  for (Eigen::Index i = 0; i < G.rows(); ++i) {
-    if (std::binary_search(kept.begin(), kept.end(), i)) continue;
-    rows.push_back(i);
-    if (kept.empty()) continue;
-    const Eigen::VectorXd share = by_kept.solve(G.row(i).transpose());
-    for (Eigen::Index k = 0; k < share.size(); ++k)
-      if (std::abs(share[k]) > 1e-6) rows.push_back(kept[static_cast<std::size_t>(k)]);
-  }
+  for (Eigen::Index i = 0; i < G.rows(); ++i)
+    if (!std::binary_search(kept.begin(), kept.end(), i)) rows.push_back(i);
+  if (rows.empty() || kept.empty()) return rows;
+  const Eigen::MatrixXd left_out = G(rows, Eigen::all), by = G(kept, Eigen::all);
+  const Eigen::MatrixXd share = by.transpose().completeOrthogonalDecomposition().solve(left_out.transpose());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (share.row(static_cast<Eigen::Index>(k)).cwiseAbs().maxCoeff() > 1e-6) rows.push_back(kept[k]);
   std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   return rows;
 }
 
