@@ -179,7 +179,7 @@ void SpatialAssembly::add_corotated_pressure(const Load& load, int b, const fem:
     const int n = static_cast<int>(cell.corners().size());
     for (int i = 0; i < n; ++i) add({i, n + i, n + (i + n - 1) % n}, 1);
     if (n == 3) return add({3, 4, 5}, 1);
-    for (const auto& [a, b, c] : fem::quadrilateral_triangles) add({n + a, n + b, n + c}, 0.5);
+    for (const auto& sides : fem::quadrilateral_triangles) add({n + sides[0], n + sides[1], n + sides[2]}, 0.5);
     return;
   }
   for (const auto& corners : fem::quadrilateral_triangles) add(corners, 0.5);
