@@ -74,7 +74,7 @@ TEST_CASE("reduced inertia constants of bodies in space are V' times those of th
     const MatrixXd found = in.h[b][c] - in.h[c][b], expected = rigid.col(3 + a).transpose() * M * V;
     CHECK((found.reshaped() - expected.reshaped()).cwiseAbs().maxCoeff() < 1e-10 * std::sqrt(mass(3 + a, 3 + a)));
   }
-  if (what == What::mixed) {  // W of the elements, by their own maps
+  if (what == What::mixed || what == What::curved) {  // W of the elements, by their own maps
     body::Inertia full(3, static_cast<int>(s.dofs()));
     full.allocate_rotary();
     for (const auto& cell : s.mesh.cells) {
