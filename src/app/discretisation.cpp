@@ -66,7 +66,7 @@ Scene discretised(const Scene& scene, const Discretisation& bodies) {
   YAML::Node root = YAML::Load(scene.text);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
-    YAML::Node node = root["bodies"][body.name];
+    YAML::Node node = root["bodies"][body.name] = YAML::Clone(root["bodies"][body.name]);  // it may be an alias
     if (bodies[b].elements != 1) write_elements(node["mesh"], body, bodies[b].elements);
     if (bodies[b].frames != body.frames) write_frames(node, body, bodies[b].frames);
     if (bodies[b].strains)

@@ -27,7 +27,7 @@ int elements_of(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies) {
     for (const int elements : body.mesh.elements) count += elements;
     if (body.mesh.plate) count += 2 * body.mesh.plate->elements[0] * body.mesh.plate->elements[1];
-    if (body.mesh.file) count += 1000000;  // by all ranks together
+    if (body.mesh.file && !body.rigid) count += 1000000;  // by all ranks together
   }
   return count;
 }
@@ -89,8 +89,9 @@ class Refinement {
       }
     }
     const RunResult own = moved(scene_, scene::Formulation::cfr, std::nullopt, comm_);
-    exact.mesh_refined = std::none_of(scene_.bodies.begin(), scene_.bodies.end(),
-                                      [](const scene::Body& body) { return body.mesh.file.has_value(); });
+    exact.mesh_refined = std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const scene::Body& body) {
+      return body.mesh.file.has_value() && !body.rigid;
+    });
     const double of_mesh = exact.mesh_refined ? limit(own, true, exact.in_own_steps, exact) : 0;
     if (!exact.mesh_refined) exact.in_own_steps = own.series;
     Series limit_of_steps;

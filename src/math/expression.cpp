@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdlib>
 #include <numbers>
 
 #include "function.h"
@@ -88,7 +89,9 @@ struct Reader {
     if (at >= text.size()) refuse("it ends where a number, a name or \"(\" is expected");
     if (text[at] == '=' && text.compare(at, 2, "==") != 0)
       throw FormulaError(fmt::format("\"{}\" assigns at character {}; compare with ==", text, at + 1));
-    refuse(fmt::format("unexpected \"{}\" at character {}", text[at], at + 1));
+    std::size_t end = at + 1;  // of the character, which may have several bytes
+    while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+    refuse(fmt::format("unexpected \"{}\" at character {}", text.substr(at, end - at), at + 1));
   }
   void skip_blanks() {
     while (at < text.size() && std::isspace(static_cast<unsigned char>(text[at]))) ++at;
@@ -196,7 +199,10 @@ struct Reader {
   NodePointer number() {
     auto node = std::make_shared<Expression::Node>();
     const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), node->number);
-    if (error != std::errc()) refuse(fmt::format("no number at character {}", at + 1));
+    if (error == std::errc::result_out_of_range)
+      node->number = std::strtod(text.substr(at, static_cast<std::size_t>(end - text.data()) - at).c_str(), nullptr);
+    else if (error != std::errc())
+      refuse(fmt::format("no number at character {}", at + 1));
     at = static_cast<std::size_t>(end - text.data());
     return node;
   }

@@ -181,7 +181,10 @@ const std::map<std::string, KnownFunction>& known_functions() {
           const Jet x = (a[0] - a[1]) / (a[2] - a[1]);
           return x * x * x * (x * (x * Jet{6} - Jet{15}) + Jet{10});
         },
-        3}},
+        3,
+        [](Arguments a, std::vector<Jet>& switches) {  // a jump, where it takes no time
+          if (!(a[1].value < a[2].value)) switches.push_back(a[0] - a[1]);
+        }}},
       {"pulse",
        {[](Arguments a) { return Jet{a[1].value <= a[0].value && a[0].value < a[2].value ? 1.0 : 0.0}; }, 3,
         between_two}},

@@ -62,17 +62,13 @@ class FunctionOfTable final : public Function {
     return chain(at, y[i] + s * (m + s * (c + s * d)), (m + s * (2 * c + s * 3 * d)) / width,
                  (2 * c + 6 * s * d) / (width * width));
   }
-  bool has_switches() const override { return linear() || !table_.periodic; }
+  bool has_switches() const override { return true; }
 
  private:
   bool linear() const { return table_.interpolation == Table::Interpolation::linear; }
-  /// Of linear pieces a quantity that changes its sign at every point; of cubic ones those of the ends.
+  /// A quantity that changes its sign at every point, where the first or the second derivative jumps.
   void add_switches(const Jet& at, std::size_t i, double periods, std::vector<Jet>& switches) const {
     const std::vector<double>& x = table_.x;
-    if (!linear()) {
-      if (!table_.periodic) switches.insert(switches.end(), {at - Jet{x.front()}, at - Jet{x.back()}});
-      return;
-    }
     const Jet left = at - Jet{x[i]}, right = Jet{x[i + 1]} - at;
     const bool first = at.value - x[i] < x[i + 1] - at.value;
     // within interval k (-1)^k times the distance to the nearer of its points

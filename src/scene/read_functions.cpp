@@ -10,24 +10,46 @@
 namespace floe::scene {
 namespace {
 
-/// The numbers of a line, apart by commas, semicolons or blanks; nothing where a word is no number.
-std::optional<std::vector<double>> numbers_of(const std::string& line) {
-  constexpr const char* between = ",; \t\r";
-  std::vector<double> numbers;
-  for (std::size_t at = line.find_first_not_of(between); at != std::string::npos;
-       at = line.find_first_not_of(between, at)) {
-    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
-    const char* first = line.data() + at + (line[at] == '+' ? 1 : 0);
-    double number = 0;
-    const auto [behind, error] = std::from_chars(first, line.data() + end, number);
-    if (error != std::errc() || behind != line.data() + end || !std::isfinite(number)) return {};
-    numbers.push_back(number);
-    at = end;
-  }
-  return numbers;
+/// What stands between the fields of a file: its first line of numbers tells.
+char separator_of(const std::string& line) {
+  for (const char separator : {';', ','})
+    if (line.find(separator) != std::string::npos) return separator;
+  return ' ';
 }
 
-/// Two columns of a file, whose lines may be empty, begin with # or, before the first numbers, be a header.
+/// The fields of a line without the blanks around them; between blanks none is empty.
+std::vector<std::string> fields_of(const std::string& line, char separator) {
+  constexpr const char* blanks = " \t\r";
+  std::vector<std::string> fields;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end =
+        std::min(separator == ' ' ? line.find_first_of(blanks, at) : line.find(separator, at), line.size());
+    const std::string field = line.substr(at, end - at);
+    const std::size_t first = field.find_first_not_of(blanks);
+    if (first != std::string::npos)
+      fields.push_back(field.substr(first, field.find_last_not_of(blanks) - first + 1));
+    else if (separator != ' ')
+      fields.emplace_back();
+    at = end + 1;
+  }
+  return fields;
+}
+
+std::optional<double> number_of(const std::string& field) {
+  const std::size_t first = field.starts_with("+") ? 1 : 0;
+  double number = 0;
+  const auto [behind, error] = std::from_chars(field.data() + first, field.data() + field.size(), number);
+  if (error != std::errc() || behind != field.data() + field.size() || !std::isfinite(number)) return {};
+  return number;
+}
+
+/// Whether a line may be the header: its first field begins like no number.
+bool is_header(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" \t\"");
+  return first != std::string::npos && std::string("+-.0123456789,;").find(line[first]) == std::string::npos;
+}
+
+/// Two columns of a file. Its lines may be empty or begin with #; the first of the others may be a header.
 math::Table read_columns(Document& document, const Where& where, const std::string& path, int of_t, int of_value) {
   const std::string name = in_quotes(path);
   math::Table table;
@@ -41,21 +63,33 @@ math::Table read_columns(Document& document, const Where& where, const std::stri
     return table;
   }
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  char separator = 0;
+  bool header = false;
+  for (int row = 1; std::getline(file, line); ++row) {
+    if (row == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);  // a mark of UTF-8
     const std::size_t start = line.find_first_not_of(" \t\r");
     if (start == std::string::npos || line[start] == '#') continue;
-    const auto numbers = numbers_of(line);
-    if (!numbers && table.x.empty()) continue;
-    if (!numbers) return fault(number, fmt::format("is {}", in_quotes(line)), "numbers");
-    const auto columns = static_cast<int>(numbers->size());
+    if (table.x.empty() && !header && is_header(line)) {
+      header = true;
+      continue;
+    }
+    if (separator == 0) separator = separator_of(line);
+    const std::vector<std::string> fields = fields_of(line, separator);
+    const auto columns = static_cast<int>(fields.size());
     if (columns < std::max(of_t, of_value))
-      return fault(number, fmt::format("has {} columns", columns),
-                   fmt::format("at least {}", std::max(of_t, of_value)));
-    const double t = (*numbers)[static_cast<std::size_t>(of_t - 1)];
-    if (!table.x.empty() && t <= table.x.back())
-      return fault(number, fmt::format("t is {} after {}", t, table.x.back()), "ascending values of t");
-    table.x.push_back(t);
-    table.y.push_back((*numbers)[static_cast<std::size_t>(of_value - 1)]);
+      return fault(row, fmt::format("has {} columns", columns), fmt::format("at least {}", std::max(of_t, of_value)));
+    double numbers[2] = {0, 0};
+    for (int i = 0; i < 2; ++i) {
+      const std::string& field = fields[static_cast<std::size_t>((i == 0 ? of_t : of_value) - 1)];
+      const auto number = number_of(field);
+      if (!number)
+        return fault(row, fmt::format("column {} is {}", i == 0 ? of_t : of_value, in_quotes(field)),
+                     "a number with a decimal point");
+      numbers[i] = *number;
+    }
+    if (!table.x.empty() && numbers[0] <= table.x.back())
+      return fault(row, fmt::format("t is {} after {}", numbers[0], table.x.back()), "ascending values of t");
+    table.x.push_back(numbers[0]), table.y.push_back(numbers[1]);
   }
   if (file.bad()) document.fault(where, name + " cannot be read");
   return table;
@@ -72,6 +106,8 @@ math::Table read_table(Document& document, const Value& value) {
     if (reading.given("t")) document.fault(reading.where("t"), "is given beside file", "t_column");
   } else {
     table.x = reading.numbers("t"), table.y = reading.numbers("values");
+    for (const char* key : {"t_column", "column"})
+      if (reading.given(key)) document.fault(reading.where(key), "is given beside values", "a column of a file");
     if (table.x.size() != table.y.size())
       document.fault(reading.where("values"), fmt::format("has length {}", table.y.size()),
                      fmt::format("as many values as t has, {}", table.x.size()));

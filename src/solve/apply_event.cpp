@@ -26,13 +26,13 @@ EventReport apply_event(const System& system, const Event& event, double t, Vec 
 
 EventReport pass(const System& system, const Kink& kink, Vec U, Vec V) {
   EventReport report{kink.name, kink.what, 0.5 * (kink.before + kink.after)};
-  if (kink.what.empty()) return report;
   const double before = system.energy(kink.after, U, V).kinetic;
-  try {
+  try {  // where they do not jump, too: what a step leaves of their error would come back in the multipliers
     consistent_velocities(system, kink.after, U, V);
   } catch (const RunError& error) {
-    throw RunError(kink.name + " (" + kink.what + "): " + error.what());
+    throw RunError(kink.what.empty() ? std::string(error.what()) : kink.name + " (" + kink.what + "): " + error.what());
   }
+  if (kink.what.empty()) return report;
   report.work = system.energy(kink.after, U, V).kinetic - before;
   return report;
 }

@@ -161,12 +161,14 @@ PetscErrorCode estimate_error(TS ts) {
 }  // namespace
 
 // Error of q in the step over rtol times the greatest distance of q from where the run began, both in the norm
-// sqrt(sum M_ii q_i^2): no unit and no atol enters. -1 (not known) while nothing has moved, and in the first step from
+// sqrt(sum M_ii q_i^2): no unit and no atol enters. The distance counts at least as 1e-9 of q: what moves less, as
+// about an equilibrium, moves by round-off. -1 (not known) while nothing has moved, and in the first step from
 // rest without a force, where the distance is of the size of the error whatever the step. The power of h in the
 // estimate is 3, which is what TSAdapt calls order (the scheme is of order 2).
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  double sums[2] = {0, 0};
+  constexpr PetscReal least = 1e-9;
+  double sums[3] = {0, 0, 0};
 
   PetscFunctionBegin;
   PetscCall(estimate_error(ts));
@@ -175,11 +177,12 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
     for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
       sums[0] += dynamic[i] * mass[i] * PetscSqr(e[i]);
       sums[1] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
+      sums[2] += dynamic[i] * mass[i] * PetscSqr(U1[i]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
   data->reach_tried = PetscSqrtReal(sums[1]);
-  const PetscReal reach = PetscMax(data->reach, data->reach_tried);
+  const PetscReal reach = PetscMax(PetscMax(data->reach, data->reach_tried), least * PetscSqrtReal(sums[2]));
   const bool known = reach > 0 && !data->from_rest;
   *error = known ? PetscSqrtReal(sums[0]) / (ts->rtol * reach) : -1;
   *order = 3;

@@ -274,3 +274,24 @@ probes:
     CHECK(testing::complaint(scene("none"), Formulation::nlffr).empty());
   }
 }
+
+TEST_CASE("a drive by a cubic table leaves no moment once it stands", "[verification]") {
+  const std::string text = R"yaml(
+functions:
+  stroke: {t: [0, 0.1003, 0.2], values: [0, 0.1, 0.1], interpolation: cubic}
+bodies:
+  rod: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {rhoA: 1}}
+joints:
+  motor: {type: driven, between: [ground, rod.start], angle: stroke(t)}
+motion: {end: 0.4, step: 0.01}
+probes:
+  m: {joint: motor, quantity: moment}
+)yaml";
+  const History history = move(text, Formulation::vm_md);
+  double largest = 0;
+  for (std::size_t i = 0; i < history.t.size(); ++i) {
+    largest = std::max(largest, std::abs(history["m.z"][i]));
+    if (history.t[i] > 0.105) CHECK(std::abs(history["m.z"][i]) < 1e-3);
+  }
+  CHECK(largest > 1);
+}

@@ -56,7 +56,8 @@ struct Kink {
   double before = 0, after = 0;  ///< [s]
   std::string name = {};
   /// Where velocities jump: `speed of the drive jumps from 0 to 5 rad/s`. They go to the nearest ones, in kinetic
-  /// energy, that the drives allow. Empty: they do not jump, and nothing is reported.
+  /// energy, that the drives allow. Empty: they do not jump, lose what violates the constraints' rates, and nothing is
+  /// reported.
   std::string what = {};
 };
 

@@ -78,7 +78,7 @@ TEST_CASE("breaks do not depend on the interval and the samples") {
   }
 }
 
-TEST_CASE("a linear table breaks at its points, a cubic one at its ends") {
+TEST_CASE("tables break at their points") {
   using floe::math::Table;
   floe::math::Names names;
   names.functions["line"] = floe::math::function_of(Table{{0.2, 0.5, 0.8}, {0, 1, 3}});
@@ -88,6 +88,8 @@ TEST_CASE("a linear table breaks at its points, a cubic one at its ends") {
   const auto in = [&](const std::string& text) { return floe::math::breaks(Formula(text, {"t"}, names), 0, 1, 1e-3); };
   check_at(in("line(t)"), {0.2, 0.5, 0.8});
   CHECK(in("line(t)").at[1].right[1] == Approx(2 / 0.3));
-  check_at(in("cubic(t)"), {0.2, 0.8});
+  check_at(in("cubic(t)"), {0.2, 0.5, 0.8});
+  check_at(in("smooth(t, 0.3, 0.6)"), {});
+  check_at(in("smooth(t, 0.3, 0.3)"), {0.3});
   check_at(in("saw(t + 0.05)"), {0.05, 0.25, 0.35, 0.45, 0.65, 0.75, 0.85});
 }

@@ -270,7 +270,7 @@ TEST_CASE("functions of a scene: formulas and tables, from the scene and from a 
   const std::filesystem::path scratch =
       std::filesystem::temp_directory_path() / fmt::format("floe-functions-{}", getpid());
   std::filesystem::create_directories(scratch);
-  std::ofstream(scratch / "gust.csv") << "# station 3\nt [s]; ignored; gust\n0; 7; 1\n\n0.5; 7; +2e0\n1 , 8, 4\r\n";
+  std::ofstream(scratch / "gust.csv") << "# station 3\nt [s]; ignored; gust\n0; 7; 1\n\n0.5; 7; +2e0\n1 ; 8; 4\r\n";
   const std::string text = R"yaml(
 parameters: {F: 10}
 functions:
@@ -287,5 +287,16 @@ motion: {end: 2, step: 0.1}
   CHECK(force(0.75) == Approx(10 * 3 * (6 * std::pow(0.75, 5) - 15 * std::pow(0.75, 4) + 10 * std::pow(0.75, 3))));
   CHECK(force(2) == 40);
   CHECK(force.derivative(1.5) == 0);
+  // a mark of UTF-8 is no header, and nothing that looks like data is skipped
+  const auto written = [&](const std::string& file) {
+    std::ofstream(scratch / "gust.csv") << file;
+    return parse_scene(text, (scratch / "scene.yaml").string()).loads[0].force[1](2);
+  };
+  CHECK(written("\xef\xbb\xbf"
+                "0, 1, 100\n1, 1, 200\n") == 2000);
+  CHECK_THROWS_WITH(written("0,5;1,2;3\n1,5;2,2;4\n"), Catch::Contains("line 1: column 1 is \"0,5\""));
+  CHECK_THROWS_WITH(written("t,a,b\n0,1,\n1,1,7\n"), Catch::Contains("line 2: column 3 is \"\""));
+  CHECK_THROWS_WITH(written("0,1,nan\n1,1,7\n"), Catch::Contains("line 1: column 3 is \"nan\""));
+  CHECK_THROWS_WITH(written("t b\nseconds m\n1 1 7\n"), Catch::Contains("line 2"));
   std::filesystem::remove_all(scratch);
 }
