@@ -47,7 +47,8 @@ struct ShellSection {
   std::vector<Ply> plies;
 };
 
-/// Dimensions: a b | radius, or half axes | outer radius, wall | a b t1 t2 t3 t4 | l h b1 b2 t1 t2 t3 | A I11 I12 I22 J.
+/// Dimensions: a b | radius, or half axes | outer radius, wall | a b t1 t2 t3 t4 | l h b1 b2 t1 t2 t3 | A I11 I12 I22
+/// J.
 enum class Profile { rectangle, circle, pipe, box, i_section, general };
 
 /// *BEAM SECTION or *BEAM GENERAL SECTION of a part.
