@@ -25,10 +25,6 @@ double greatest_of(const math::Formula& f, double end) {
   return greatest;
 }
 
-bool is_driven(const Joint& joint) {
-  return joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
-}
-
 const math::Formula& formula_of(const Joint& joint) {
   return joint.speed ? *joint.speed : joint.kind == Joint::Kind::driven ? joint.angle : joint.position;
 }
@@ -89,6 +85,8 @@ dynamics::TimeFunction as_written(const Joint& joint, const Motion& motion) {
 
 }  // namespace
 
+bool is_drive(Joint::Kind kind) { return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide; }
+
 bool jumps(const math::Breaks& all, const math::Break& at, int derivative) {
   const double jump = std::abs(at.right[derivative] - at.left[derivative]);
   const double change =
@@ -101,7 +99,7 @@ bool jumps(const math::Breaks& all, const math::Break& at, int derivative) {
 std::vector<DriveKink> drive_kinks(const Joint& joint, const Motion& motion, double end) {
   std::vector<DriveKink> kinks;
   if (std::isfinite(motion.end)) end = std::max(end, motion.end);
-  if (!is_driven(joint) || !(motion.step > 0) || !(end > 0)) return kinks;
+  if (!is_drive(joint.kind) || !(motion.step > 0) || !(end > 0)) return kinks;
   const math::Formula& f = formula_of(joint);
   const math::Breaks all = math::breaks(f, 0, end, std::min(motion.step, end / 1000));
   const int rate = joint.speed ? 0 : 1;  // which derivative of f it is

@@ -9,6 +9,9 @@
 namespace floe::assembly {
 using namespace scene;
 
+/// Whether joints of the kind prescribe an angle or a position.
+bool is_drive(Joint::Kind kind);
+
 /// Whether a derivative of f (0: f itself) differs on both sides of a break by more than round-off; not where it is no
 /// number.
 bool jumps(const math::Breaks& all, const math::Break& at, int derivative);

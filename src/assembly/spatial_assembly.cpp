@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "begin_motion.h"
+#include "drive.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/held_body.h"
@@ -27,19 +28,10 @@ using petsc::check;
 
 namespace {
 
-/// Whether a place of a body from a file has no motion in the body's frame.
-bool at_rest(const PlannedBody& body, const body::PlaceMap& map) {
-  const output::ReducedBodyFile& file = *body.spec.reduced->file;
-  const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
-  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
-}
-
 Eigen::Matrix3d attitude_of_mesh(const Body& body) {
   const Point& r = body.initial.rotation;
   return math::rotation({r[0], r[1], r[2]});
 }
-
-bool is_drive(Joint::Kind kind) { return kind == Joint::Kind::driven || kind == Joint::Kind::driven_slide; }
 
 /// Where a point of the undeformed mesh is at the start.
 Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
@@ -47,51 +39,7 @@ Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
   return Eigen::Vector3d(p[0], p[1], p[2]) + attitude_of_mesh(body) * x;
 }
 
-/// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations.
-bool is_held_by_measured(const Plan& plan, int b) {
-  for (std::size_t j = 0; j < plan.joints.size(); ++j)
-    if (const Anchor* place = held_place(plan, j);
-        place && place->body == b && is_measured(plan.scene, plan.scene.joints[j].name))
-      return true;
-  return false;
-}
-
 }  // namespace
-
-int clamp_of(const Plan& plan, int b) {
-  const PlannedBody& body = plan.bodies[b];
-  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || is_held_by_measured(plan, b)) return -1;
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    const auto& [first, second] = plan.joints[j];
-    const Joint& joint = plan.scene.joints[j];
-    if (joint.kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
-    if (is_unlocked(plan.scene, joint.name)) continue;
-    const Anchor& place = first.ground() ? second : first;
-    if (place.body != b) continue;
-    if (place.map ? at_rest(body, *place.map) : place.moved_by(body.frame.conditions.front() / 6))
-      return static_cast<int>(j);
-  }
-  return -1;
-}
-
-bool has_fixed_frame(const Plan& plan, int b) {
-  if (clamp_of(plan, b) >= 0) return true;
-  const PlannedBody& body = plan.bodies[b];
-  const fem::Conditions& conditions = body.frame.conditions;
-  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || body.spec.rigid || body.spec.reduced) return false;
-  if (is_held_by_measured(plan, b)) return false;
-  bool firm = false;
-  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    const Joint& joint = plan.scene.joints[j];
-    const Anchor* place = held_place(plan, j);
-    if (!place || place->body != b || !plan.joint_held[j]) continue;
-    if (std::none_of(conditions.begin(), conditions.end(), [&](PetscInt dof) { return place->moved_by(dof / 6); }))
-      continue;
-    if (is_drive(joint.kind) || is_switched(plan.scene, joint.name)) return false;
-    firm = true;
-  }
-  return firm && std::includes(body.held.begin(), body.held.end(), conditions.begin(), conditions.end());
-}
 
 SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced)
     : plan_(plan),

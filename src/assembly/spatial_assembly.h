@@ -3,6 +3,7 @@
 
 #include "connections.h"
 #include "damping_axes.h"
+#include "fixed_frames.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/dynamics/spatial_joint.h"
 #include "floe/reference/corotational_body.h"
@@ -104,13 +105,6 @@ class SpatialAssembly {
   Connections connections_;  // of the joints, among terms_
   std::map<std::string, JointLatches> latches_;
 };
-
-/// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.
-int clamp_of(const Plan& plan, int body);
-
-/// Whether the body's frame is fixed to the ground: by clamp_of, or because joints to the ground that neither move nor
-/// are switched hold the dofs of its conditions (fixed_rims, fix_frames).
-bool has_fixed_frame(const Plan& plan, int body);
 
 /// Rows that the kind of joint holds in space; none: a spring or bushing.
 int spatial_rows(Joint::Kind kind);

@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "floe/math/nearest.h"
+#include "floe/math/rotation.h"
+#include "floe/mesh/exchange.h"
+#include "floe/plan/place_weights.h"
+#include "floe/plan/prepare_spatial.h"
+
+namespace floe::plan {
+namespace {
+
+/// What moves the weighted mean of the nodes. Collective.
+std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::WeightedNode>& nodes) {
+  std::vector<PetscInt> sorted;
+  for (const reduction::WeightedNode& at : nodes) sorted.push_back(at.node);
+  std::sort(sorted.begin(), sorted.end());
+  struct Carried {
+    PetscInt node, leader;
+    double arm[3], axis[3];
+  };
+  std::vector<Carried> mine, copies;
+  for (const fem::Mesh::Follower& f : mesh.followers)
+    if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
+      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader], *line = spin_axis(mesh, f.node),
+                            axis = line ? *line : Eigen::Vector3d::Zero().eval();
+      mine.push_back({mesh.global_node(f.node),
+                      mesh.global_node(f.leader),
+                      {arm.x(), arm.y(), arm.z()},
+                      {axis.x(), axis.y(), axis.z()}});
+    }
+  int ranks = 1;
+  MPI_Comm_size(mesh.comm, &ranks);
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  std::map<PetscInt, Carried> carried;
+  for (const Carried& c :
+       mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values)
+    carried.emplace(c.node, c);
+  std::vector<Lever> all;
+  std::map<PetscInt, std::size_t> place;
+  const auto lever = [&](PetscInt node) -> Lever& {
+    const auto [at, fresh] = place.emplace(node, all.size());
+    if (fresh) all.push_back({node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
+    return all[at->second];
+  };
+  for (const auto& [node, share, arm] : nodes) {
+    const auto c = carried.find(node);
+    Lever& moves = lever(c == carried.end() ? node : c->second.leader);
+    moves.share += share;
+    if (c == carried.end()) {
+      moves.arm += arm;
+      moves.turn += share * Eigen::Matrix3d::Identity();
+      continue;
+    }
+    const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
+    const Eigen::Matrix3d led =
+        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the leader
+    moves.arm += arm * led - share * math::skew(Eigen::Map<const Eigen::Vector3d>(c->second.arm));
+    moves.turn += share * led;
+    if (axis.isZero(0)) continue;
+    Lever& own = lever(node);
+    own.arm += arm * fem::spin(axis);
+    own.turn += share * fem::spin(axis);
+  }
+  return all;
+}
+
+/// Whether the nodes are those of a hinge line: led by one, and turning about it by themselves. Collective.
+bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
+  int mine = 0;
+  for (const fem::Mesh::Spin& spin : mesh.spins)
+    if (spin.node < mesh.owned_nodes &&
+        std::count(place.nodes.begin(), place.nodes.end(), mesh.global_node(spin.node)) > 0)
+      ++mine;
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, mesh.comm);
+  const auto leads = [](const Lever& lever) { return lever.share > 0; };
+  return place.nodes.size() > 1 && mine > 0 && std::count_if(place.levers.begin(), place.levers.end(), leads) == 1;
+}
+
+}  // namespace
+
+Anchor spatial_place(const Body& body, const fem::Structure& structure,
+                     const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
+                     const MeshAxes& axes) {
+  Anchor found;
+  if (place.point && body.rigid) {
+    found.x = axes.axes.transpose() * (Eigen::Vector3d::Map(place.point->data()) - axes.origin);
+    found.nodes = {0};  // of no account
+    found.levers = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
+    return found;
+  }
+  if (place.point) {
+    const fem::NearestNode nearest = fem::nearest_node(
+        structure.mesh, axes.axes.transpose() * (Eigen::Vector3d::Map(place.point->data()) - axes.origin));
+    const Eigen::Vector3d there = axes.origin + axes.axes * nearest.position;
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
+    for (const Eigen::Vector3d& x : structure.mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
+    MPI_Allreduce(MPI_IN_PLACE, low.data(), 3, MPI_DOUBLE, MPI_MIN, structure.mesh.comm);
+    MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+    if (nearest.distance > 1e-6 * (high - low).norm())
+      throw InputError(fmt::format("{}: no node of {} at ({}, {}, {}); the nearest node is at ({:.9g}, {:.9g}, {:.9g})",
+                                   place.where.text(), place.body, (*place.point)[0], (*place.point)[1],
+                                   (*place.point)[2], there.x(), there.y(), there.z()));
+    found.nodes = {nearest.node};
+  } else {
+    const auto set = places.find(place.name);
+    if (set == places.end()) {
+      std::vector<std::string> names;
+      for (const auto& entry : places) names.push_back(entry.first);
+      const std::string near = math::nearest(place.name, names);
+      throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(),
+                                   place.body, place.name,
+                                   names.empty() ? "" : fmt::format("one of {} ", fmt::join(names, ", ")),
+                                   near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (set->second.empty())
+      throw InputError(
+          fmt::format("{}: the place \"{}\" of {} has no node", place.where.text(), place.name, body.name));
+    found.nodes = set->second;
+  }
+  const fem::Mesh& m = structure.mesh;
+  const std::vector<reduction::WeightedNode> weights = place_weights(m, found.nodes);
+  found.levers = levers(m, weights);
+  found.node = found.levers.front().node;
+  found.line = on_hinge_line(m, found);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const reduction::WeightedNode& at : weights)
+    if (const PetscInt local = at.node - m.first_node; local >= 0 && local < m.owned_nodes)
+      sum += at.weight * m.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
+  found.x = sum;
+  return found;
+}
+
+}  // namespace floe::plan

@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "floe/petsc/options.h"
+#include "floe/solve/generalized_alpha.h"
+#include "floe/solve/start.h"
+#include "motion_context.h"
+#include "simplified_newton.h"
+
+namespace floe::solve {
+
+using petsc::check;
+
+namespace {
+
+PetscErrorCode residual(TS, PetscReal t, Vec U, Vec V, Vec A, Vec F, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] { c.system.residual(t, U, V, A, ConstraintLevel::position, F); });
+}
+
+PetscErrorCode tangent(TS, PetscReal t, Vec U, Vec V, Vec A, PetscReal shift_v, PetscReal shift_a, Mat J, Mat,
+                       void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] {
+    c.system.tangent(t, U, V, A, {1, shift_v, shift_a}, J);
+    c.system.save(c.carried_of_tangent);
+    c.system.frame_axes(U, c.axes_of_tangent);
+  });
+}
+
+PetscErrorCode start(TS, PetscReal t, Vec U, Vec V, Vec A, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] {
+    if (const petsc::VecHandle known = std::move(c.accelerations))
+      check(VecCopy(known, A));
+    else
+      consistent_start(c.system, t, U, V, A);
+  });
+}
+
+PetscErrorCode rebase_rotations(TS, Vec U, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] { c.system.rebase(U); });
+}
+
+PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] { c.system.bracket(a, b, W); });
+}
+
+PetscErrorCode turn_rates(TS, Vec U, PetscBool back, Vec y, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] { c.system.turn(c.axes_of_tangent, U, back == PETSC_TRUE, y); });
+}
+
+/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that turn too far are tried
+/// again, smaller.
+PetscErrorCode well_met(TS ts, PetscReal t, Vec U, PetscBool* accept) {
+  MotionContext* c = nullptr;
+  const PetscErrorCode code = TSGetApplicationContext(ts, &c);
+  if (code) return code;
+  return c->guard.run([&] {
+    const System::Astray astray = c->system.astray(t, U);
+    *accept = astray.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
+    if (astray.joint.empty() || (c->adaptive && astray.standing == Standing::half_turn)) return;
+    throw RunError(fmt::format("at t = {:.6g} {}{}", t, astray.text(),
+                               astray.standing == Standing::half_turn ? "; expected a smaller motion.step" : ""));
+  });
+}
+
+/// A state that is not finite, or whose energy soon will not be, is none to go on from, or to end with.
+void refuse_not_finite(Vec U, Vec V) {
+  double sizes[2] = {0, 0};
+  check(VecNorm(U, NORM_2, &sizes[0]));
+  check(VecNorm(V, NORM_2, &sizes[1]));
+  if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
+    throw RunError(
+        "the state is not finite. Try a smaller motion.step, and remove options -motion_snes_... and -motion_ts_... "
+        "that stop Newton's method early");
+}
+
+PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
+  auto& c = *static_cast<MotionContext*>(context);
+  return c.guard.run([&] {
+    if (std::exchange(c.observed, false)) return;
+    if (c.crossings && c.crossings->going_back()) return;  // this instant was observed before
+    if (step == 0) t = 0;                                  // not behind a kink that the motion begins with
+    Vec V = nullptr, A = nullptr;
+    check(TS2GetSolution(ts, nullptr, &V));
+    check(TSGeneralizedAlphaGetAcceleration(ts, &A));
+    refuse_not_finite(U, V);
+    c.observe({t, step, U, V, A, t >= c.end * (1 - 1e-12),
+               c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
+               c.between && A ? &c.between : nullptr});
+  });
+}
+
+/// A factorisation serves several steps: generalized-alpha makes a new one as soon as Newton's rate is bad. In exchange
+/// Newton goes on to 1e-10 of what a step adds to h v, so that the motion stays within some 1e-9 of full Newton's (what
+/// the step neglects is far more); full order of up to 10,000 unknowns to 1e-11, so that its motion does not depend on
+/// the number of ranks. On one rank KLU factors what fills in little several times faster than MUMPS: chains of beams,
+/// some 10 entries a row; and shells, some 45, of up to 1500 unknowns (with 6,700 MUMPS is 1.6 times faster).
+void save_factorisations(SNES snes, Mat J) {
+  PetscInt unknowns = 0;
+  PetscBool sequential_dense = PETSC_FALSE;
+  check(MatGetSize(J, &unknowns, nullptr));
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(J), MATSEQDENSE, &sequential_dense));
+  const double tolerance = sequential_dense ? 1e-10 : unknowns < 10000 ? 1e-11 : 1e-9;
+  check(SNESSetLagJacobian(snes, 20));
+  check(SNESSetLagJacobianPersists(snes, PETSC_TRUE));
+  check(SNESSetTolerances(snes, PETSC_DEFAULT, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscBool sparse = PETSC_FALSE;
+  check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(J), MATSEQAIJ, &sparse));
+  if (!sparse) return;
+  MatInfo info;
+  check(MatGetInfo(J, MAT_LOCAL, &info));
+  if (unknowns > 1500 && info.nz_used > 25.0 * static_cast<double>(unknowns)) return;
+  KSP ksp = nullptr;
+  PC pc = nullptr;
+  check(SNESGetKSP(snes, &ksp));
+  check(KSPGetPC(ksp, &pc));
+  check(PCFactorSetMatSolverType(pc, MATSOLVERKLU));
+}
+
+/// What -motion_ts_type may say: a type for motions, which are of second order, and one that knows rotations in space.
+/// Newton's convergence test measures Newton's updates; a step that passes the end, or an event, would be lost.
+void refuse_other_types(TS ts, const System& system, const std::string& prefix) {
+  SNES snes = nullptr;
+  SNESType newton = nullptr;
+  KSP ksp = nullptr;
+  TSExactFinalTimeOption at_end = TS_EXACTFINALTIME_MATCHSTEP;
+  check(TSGetExactFinalTime(ts, &at_end));
+  if (at_end != TS_EXACTFINALTIME_MATCHSTEP)
+    throw InputError(
+        fmt::format("option -{}ts_exact_final_time: a simulation ends, and is interrupted by events, at the end of a "
+                    "step; expected matchstep",
+                    prefix));
+  check(TSGetSNES(ts, &snes));
+  check(SNESGetType(snes, &newton));
+  if (newton != std::string(simplified_newton) && newton != std::string(SNESNEWTONLS))
+    throw InputError(fmt::format(
+        "option -{}snes_type {}: the convergence test for steps uses the size of Newton's updates; expected {} "
+        "or {}",
+        prefix, newton, simplified_newton, SNESNEWTONLS));
+  check(SNESGetKSP(snes, &ksp));
+  petsc::refuse_preconditioner_alone(ksp);
+  PetscBool second_order = PETSC_FALSE;
+  check(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(ts), &second_order, generalized_alpha, TSALPHA2, ""));
+  TSType type = nullptr;
+  check(TSGetType(ts, &type));
+  if (!second_order)
+    throw InputError(
+        fmt::format("option -{}ts_type {}: integrates first-order systems, and the equations of motion are of second "
+                    "order; expected {} or {}",
+                    prefix, type, generalized_alpha, TSALPHA2));
+  if (system.has_attitudes() && type != std::string(generalized_alpha))
+    throw InputError(fmt::format("option -{}ts_type {}: adds spatial rotations like vectors; expected {}", prefix, type,
+                                 generalized_alpha));
+}
+
+}  // namespace
+
+PetscErrorCode post_step(TS ts) {
+  MotionContext* c = nullptr;
+  PetscFunctionBegin;
+  PetscCall(TSGetApplicationContext(ts, &c));
+  PetscCall(c->guard.run([&] { c->crossings->after_step(ts); }));
+  PetscFunctionReturn(0);
+}
+
+void set_up_motion(TS ts, const System& system, const Integration& how, MotionContext& context, Vec U, Vec V, Vec F,
+                   Mat J) {
+  SNES snes = nullptr;
+  KSP ksp = nullptr;
+  TSAdapt adapt = nullptr;
+  check(TSSetOptionsPrefix(ts, how.prefix.c_str()));
+  check(TSSetProblemType(ts, TS_NONLINEAR));
+  check(TSSetI2Function(ts, F, residual, &context));
+  check(TSSetI2Jacobian(ts, J, J, tangent, &context));
+  check(TS2SetSolution(ts, U, V));
+  check(TSSetType(ts, generalized_alpha));
+  check(TSGeneralizedAlphaSetRadius(ts, how.radius));
+  const petsc::IsHandle multipliers = system.multipliers();
+  check(TSGeneralizedAlphaSetMultipliers(ts, multipliers));
+  check(TSGeneralizedAlphaSetStart(ts, start, &context));
+  const bool attitudes = system.has_attitudes();
+  const TSGeneralizedAlphaRotations rotations{attitudes ? rebase_rotations : nullptr, attitudes ? bracket : nullptr,
+                                              &context, turn_rates};
+  check(TSGeneralizedAlphaSetRotations(ts, &rotations));
+  check(TSSetApplicationContext(ts, &context));
+  check(TSSetFunctionDomainError(ts, well_met));
+  check(TSSetTimeStep(ts, how.step));
+  check(TSSetMaxTime(ts, how.end));
+  check(TSSetMaxSteps(ts, PETSC_MAX_INT));
+  check(TSSetErrorIfStepFails(ts, PETSC_FALSE));
+  check(TSSetExactFinalTime(ts, TS_EXACTFINALTIME_MATCHSTEP));
+  check(TSGetAdapt(ts, &adapt));
+  check(TSAdaptSetType(adapt, how.tolerance ? TSADAPTBASIC : TSADAPTNONE));
+  if (how.tolerance) check(TSSetTolerances(ts, 0, nullptr, *how.tolerance, nullptr));
+  check(TSMonitorSet(ts, monitor, &context, nullptr));
+  check(TSGetSNES(ts, &snes));
+  check(SNESGetKSP(snes, &ksp));
+  set_tangent_solver(ksp, J);
+  save_factorisations(snes, J);
+  petsc::check_options(TSSetFromOptions(ts), how.prefix);
+  check(TSGetMaxTime(ts, &context.end));
+  refuse_other_types(ts, system, how.prefix);
+}
+
+}  // namespace floe::solve
