@@ -50,8 +50,8 @@ void warn_of_instability(const assembly::Model& model, double t, RunResult& resu
 /// Says of a jump where it is and what the probe that it changes most did.
 void warn_of_jump(const assembly::Model& model, const solve::BranchJump& jump, Vec before, Vec after,
                   RunResult& result) {
-  const std::vector<double> was = assembly::probe_values(model, jump.from, before, model.V),
-                            is = assembly::probe_values(model, jump.to, after, model.V);
+  const std::vector<double> was = assembly::probe_values(model, jump.from, before, model.V, model.V),
+                            is = assembly::probe_values(model, jump.to, after, model.V, model.V);
   std::size_t most = 0;
   for (std::size_t i = 1; i < is.size(); ++i)
     if (std::abs(is[i] - was[i]) > std::abs(is[most] - was[most])) most = i;
@@ -112,7 +112,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
     output::Progress progress(comm, 0, load.at);
     const std::string none = start_of_table(model, load, report.newton);
     if (none.empty())
-      recorder.observe({0, 0, model.U, model.V, nullptr, false});
+      recorder.observe({0, 0, model.U, model.V, nullptr, false, nullptr, nullptr, true});
     else
       result.warnings.push_back(none);
     for (int step = 1; step <= load.steps; ++step) {
@@ -124,7 +124,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
                                                  });
       report.steps = step, report.end = t;
       warn_of_instability(model, t, result);
-      recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps});
+      recorder.observe({t, step, model.U, model.V, nullptr, step == load.steps, nullptr, nullptr, true});
       kept.keep({t, step, model.U, model.V, model.V, step == load.steps});  // at rest
       progress.update(t, step);
       interruption.check(comm);

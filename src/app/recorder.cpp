@@ -220,11 +220,12 @@ void Recorder::observe(const solve::Instant& instant) {
     const double interval = *scene_.motion.output, last = result_.series.t.back();
     for (double next = std::floor(last / interval * (1 + 1e-12) + 1e-9) + 1;
          next * interval < instant.t - 1e-9 * interval; ++next) {
-      if (!between_U_) between_U_ = model_.system->create_vector(), between_V_ = model_.system->create_vector();
+      for (petsc::VecHandle* one : {&between_U_, &between_V_, &between_A_})
+        if (!*one) *one = model_.system->create_vector();
       const double begin = MPI_Wtime();
-      (*instant.between)(next * interval, between_U_, between_V_);
+      (*instant.between)(next * interval, between_U_, between_V_, between_A_);
       seconds_ += MPI_Wtime() - begin;
-      store(next * interval, between_U_, between_V_, measured(next * interval, between_U_, between_V_));
+      store(next * interval, between_U_, between_V_, between_A_, measured(next * interval, between_U_, between_V_));
       some = true;
     }
   }
@@ -233,7 +234,7 @@ void Recorder::observe(const solve::Instant& instant) {
   if (!stores && !some) return;
   const Measured now = measured(instant.t, instant.U, instant.V);
   look_after(instant, now);
-  if (stores) store(instant.t, instant.U, instant.V, now);
+  if (stores) store(instant.t, instant.U, instant.V, instant.accelerations(), now);
 }
 
 Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
@@ -271,9 +272,9 @@ std::string Recorder::growth_warning() const {
       growth, balance_.work(), 100 * growth / scale, 100 * limit);
 }
 
-void Recorder::store(double t, Vec U, Vec V, const Measured& now) {
+void Recorder::store(double t, Vec U, Vec V, Vec A, const Measured& now) {
   const double begin = MPI_Wtime();
-  const std::vector<double> values = assembly::probe_values(model_, t, U, V);
+  const std::vector<double> values = assembly::probe_values(model_, t, U, V, A);
   result_.series.t.push_back(t);
   result_.series.values.push_back(values);
   result_.series.energy.push_back(now.energy);

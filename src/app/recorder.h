@@ -54,7 +54,7 @@ class Recorder {
     std::array<double, 2> violations;
   };
   Measured measured(double t, Vec U, Vec V);
-  void store(double t, Vec U, Vec V, const Measured& now);
+  void store(double t, Vec U, Vec V, Vec A, const Measured& now);
   /// For the summary: of the ends of steps; between them all this has the error of the interpolation.
   void look_after(const solve::Instant& instant, const Measured& now);
   bool due(const solve::Instant& instant) const;
@@ -75,8 +75,8 @@ class Recorder {
   solve::EnergyBalance balance_;
   double violation_ = 0, velocity_violation_ = 0;
   PetscInt first_step_ = 0, kept_step_ = 0, checkpoints_ = 0;
-  double kept_at_ = 0, kept_seconds_ = 0;   // wall clock
-  petsc::VecHandle between_U_, between_V_;  // of instants within a step
+  double kept_at_ = 0, kept_seconds_ = 0;               // wall clock
+  petsc::VecHandle between_U_, between_V_, between_A_;  // of instants within a step
 };
 
 }  // namespace floe::app

@@ -84,7 +84,7 @@ void PlanarAssembly::add_coordinates() {
     slot.modal = full_order_modal_damping(plan_, index, body.frame.conditions, coordinates_);
   }
   add_damping_axes();
-  joint_rows_ = standing_rows(plan_, reduced_);
+  joint_rows_ = standing_rows(plan_, reduced_, undetermined_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
@@ -131,13 +131,22 @@ void PlanarAssembly::add_body_terms(int b) {
     for (auto& term : more) terms_.push_back(std::move(term));
     return;
   }
+  add_corotational(b);
+}
+
+/// Elements with their inertia and weight.
+void PlanarAssembly::add_corotational(int b, const BodyPart* part) {
+  const PlannedBody& body = plan_.bodies[b];
+  const Slot& slot = slots_[b];
   if (body.spec.section.GA)
     throw InputError(body.spec.section.where.text() +
                      ": formulation cfr has no shear (GA); expected vm, vm+md, lffr or nlffr, or a section without GA");
   const fem::Structure& s = body.structure;
   const Weight weight(plan_.scene);
   const Eigen::Vector2d gravity = weight.constant() ? Eigen::Vector2d(weight(0).head<2>()) : Eigen::Vector2d::Zero();
-  for (const auto& cell : s.mesh.cells) {
+  for (std::size_t c = 0; c < s.mesh.cells.size(); ++c) {
+    if (part && !part->cells[c]) continue;
+    const fem::Mesh::Cell& cell = s.mesh.cells[c];
     std::vector<int> coordinates;
     for (int node : cell.nodes())
       for (int d = 0; d < 3; ++d) coordinates.push_back(slot.nodes->of_local_node(node) + d);
@@ -145,7 +154,8 @@ void PlanarAssembly::add_body_terms(int b) {
     auto beam = std::make_unique<reference::CorotationalBeam>(
         coordinates, undeformed_place(body, s.mesh.positions[cell.place[0]]),
         undeformed_place(body, s.mesh.positions[cell.place[1]]),
-        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, damping.stiffness},
+        reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI,
+                                                body.spec.damping.stiffness},
         gravity);
     if (!weight.constant())
       beam->changing_gravity = [weight](double t) -> Eigen::Vector2d { return weight(t).head<2>(); };
@@ -166,16 +176,16 @@ Marker PlanarAssembly::density(int b, const body::Inertia& inertia) {
   return marker;
 }
 
-void PlanarAssembly::add_gravity(int b) {
+void PlanarAssembly::add_gravity(int b, const BodyPart* part) {
   const Weight weight(plan_.scene);
   if (weight.none()) return;
   const Slot& slot = slots_[b];
   std::vector<Marker> markers;
   if (compact(b)) {
-    if (owner_) markers.push_back(density(b, reduced_[b].body.inertia));
+    if (owner_) markers.push_back(density(b, part ? part->masses.mass : reduced_[b].body.inertia));
   } else if (formulation_ != Formulation::cfr) {
     markers = reference::density_markers(plan_.bodies[b].structure, plan_.bodies[b].frame.conditions, *slot.nodes,
-                                         slot.frame, reference::Density::mass);
+                                         slot.frame, reference::Density::mass, part ? &part->cells : nullptr);
   }
   for (Marker& marker : markers) {
     auto force = std::make_unique<dynamics::Force>(
@@ -256,7 +266,7 @@ Model PlanarAssembly::model() {
     const dynamics::System layout(coordinates_, {});
     layout.gather(model.U, q);
   }
-  add_loads();
+  for (std::size_t l = 0; l < plan_.loads.size(); ++l) add_load(l);
   add_joints(model, q);
   add_probes(model, q);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});

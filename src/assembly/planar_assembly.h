@@ -7,6 +7,7 @@
 #include "floe/reference/full_order.h"
 #include "floe/reference/mass_damping.h"
 #include "full_order_modes.h"
+#include "sections.h"
 
 namespace floe::assembly {
 
@@ -42,8 +43,11 @@ class PlanarAssembly {
   void start_damping(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
                      Model& model);
   void set_shared(const std::vector<int>& local, const std::vector<double>& values, Vec into) const;
-  void add_gravity(int body);
-  void add_loads();
+  void add_corotational(int body, const BodyPart* part = nullptr);
+  void add_gravity(int body, const BodyPart* part = nullptr);
+  void add_load(std::size_t load, const BodyPart* part = nullptr);
+  std::vector<std::shared_ptr<const dynamics::Term>> terms_of(int body, const BodyPart& part);
+  std::vector<ModelSection> sections(std::size_t probe, Model& model);
   void connect(std::size_t joint, std::unique_ptr<dynamics::Connection> term);
   void add_joints(Model& model, const Eigen::VectorXd& q);
   void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
@@ -67,7 +71,9 @@ class PlanarAssembly {
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
-  Connections connections_;  // of the joints, among terms_
+  Connections connections_;                                  // of the joints, among terms_
+  std::map<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
+  std::vector<int> undetermined_;                            // joints whose multipliers are not determined
   std::map<std::string, JointLatches> latches_;
 };
 

@@ -4,48 +4,49 @@ namespace floe::assembly {
 
 using dynamics::Marker;
 
-void PlanarAssembly::add_loads() {
+void PlanarAssembly::add_load(std::size_t l, const BodyPart* part) {
   using dynamics::Force;
-  for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
-    const Load& load = plan_.scene.loads[l];
-    const Anchor& place = plan_.loads[l];
-    const bool moment = load.kind == Load::Kind::moment;
-    const auto value = [load, moment](double t) {
-      return moment ? Eigen::Vector3d(0, 0, load.moment[2](t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
-    };
-    const Force::Axes axes = load.axes == Load::Axes::body ? Force::Axes::body : Force::Axes::world;
-    std::vector<Marker> markers;
-    if (load.kind != Load::Kind::distributed) {
-      Marker at = marker(place);
-      if (axes == Force::Axes::body && formulation_ == Formulation::cfr && !compact(place.body))
-        throw InputError(load.where.text() +
-                         ": axes: body rotate with the floating frame, which formulation cfr does not have");
-      if (owner_) markers.push_back(std::move(at));
-    } else if (compact(place.body)) {
-      if (owner_) markers.push_back(density(place.body, reduced_[place.body].body.line));
-    } else if (formulation_ != Formulation::cfr) {
-      markers =
-          reference::density_markers(plan_.bodies[place.body].structure, plan_.bodies[place.body].frame.conditions,
-                                     *slots_[place.body].nodes, slots_[place.body].frame, reference::Density::line);
-    } else {
-      if (axes == Force::Axes::body)
-        throw InputError(load.where.text() +
-                         ": axes: body rotate with the floating frame, which formulation cfr does not have");
-      markers = reference::corotational_line_markers(plan_.bodies[place.body].structure, *slots_[place.body].nodes);
-    }
-    for (Marker& at : markers) {
-      // Forces of body axes are given in the axes of the mesh.
-      const double tilt = axes == Force::Axes::body ? -plan_.bodies[place.body].frame_angle : 0;
-      const Eigen::Matrix2d A = turn(tilt);
-      terms_.push_back(std::make_unique<Force>(
-          std::move(at),
-          [value, A](double t) {
-            Eigen::Vector3d f = value(t);
-            f.head<2>() = (A * f.head<2>()).eval();
-            return f;
-          },
-          axes));
-    }
+  const Load& load = plan_.scene.loads[l];
+  const Anchor& place = plan_.loads[l];
+  const reference::CellsOfPart cells = part ? &part->cells : nullptr;
+  const bool moment = load.kind == Load::Kind::moment;
+  const auto value = [load, moment](double t) {
+    return moment ? Eigen::Vector3d(0, 0, load.moment[2](t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
+  };
+  const Force::Axes axes = load.axes == Load::Axes::body ? Force::Axes::body : Force::Axes::world;
+  std::vector<Marker> markers;
+  if (load.kind != Load::Kind::distributed) {
+    Marker at = marker(place);
+    if (axes == Force::Axes::body && formulation_ == Formulation::cfr && !compact(place.body))
+      throw InputError(load.where.text() +
+                       ": axes: body rotate with the floating frame, which formulation cfr does not have");
+    if (owner_) markers.push_back(std::move(at));
+  } else if (compact(place.body)) {
+    if (owner_) markers.push_back(density(place.body, part ? part->masses.line : reduced_[place.body].body.line));
+  } else if (formulation_ != Formulation::cfr) {
+    markers = reference::density_markers(plan_.bodies[place.body].structure, plan_.bodies[place.body].frame.conditions,
+                                         *slots_[place.body].nodes, slots_[place.body].frame, reference::Density::line,
+                                         cells);
+  } else {
+    if (axes == Force::Axes::body)
+      throw InputError(load.where.text() +
+                       ": axes: body rotate with the floating frame, which formulation cfr does not have");
+    markers =
+        reference::corotational_line_markers(plan_.bodies[place.body].structure, *slots_[place.body].nodes, cells);
+  }
+  for (Marker& at : markers) {
+    // Forces of body axes are given in the axes of the mesh.
+    const double tilt = axes == Force::Axes::body ? -plan_.bodies[place.body].frame_angle : 0;
+    const Eigen::Matrix2d A = turn(tilt);
+    terms_.push_back(std::make_unique<Force>(
+        std::move(at),
+        [value, A](double t) {
+          Eigen::Vector3d f = value(t);
+          f.head<2>() = (A * f.head<2>()).eval();
+          return f;
+        },
+        axes));
+    if (load.kind != Load::Kind::distributed) load_terms_[l] = terms_.back().get();
   }
 }
 

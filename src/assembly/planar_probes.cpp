@@ -35,6 +35,7 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[place.body].body.inertia.m) < 1e-9)
         model.warnings.push_back(never_deflects(spec, plan_.bodies[place.body].spec));
     probe.connections = measured(connections_, plan_.scene, spec);
+    if (spec.of_section()) probe.sections = sections(p, model);
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
     if (owner_) {
       probe.start = pose_at(probe.marker, q);

@@ -129,7 +129,8 @@ void check_left_out(const Plan& plan, const HeldBody& held, int b, const std::ve
   }
 }
 
-void leave_out(const Plan& plan, const HeldBody& held, int b, std::vector<std::vector<int>>& standing) {
+void leave_out(const Plan& plan, const HeldBody& held, int b, std::vector<std::vector<int>>& standing,
+               std::vector<int>& undetermined) {
   Eigen::MatrixXd gradient;
   held.rows(held.start, &gradient);
   const std::vector<Eigen::Index> kept = independent_rows(gradient);
@@ -139,6 +140,7 @@ void leave_out(const Plan& plan, const HeldBody& held, int b, std::vector<std::v
   for (const Eigen::Index row : undetermined_rows(gradient, kept))
     if (const int joint = hold_of(held, row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
   refuse_undetermined(plan.scene, joints);
+  undetermined.insert(undetermined.end(), joints.begin(), joints.end());
   Eigen::Index first = 0;
   for (const HeldBody::Hold& hold : held.holds) {
     const Eigen::Index n = hold.directions.rows();
@@ -165,7 +167,8 @@ int joint_rows(const Joint& joint) {
   }
 }
 
-std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced) {
+std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
+                                            std::vector<int>& undetermined) {
   std::vector<std::vector<int>> standing;
   for (const Joint& joint : plan.scene.joints) {
     standing.emplace_back(joint_rows(joint));
@@ -184,7 +187,7 @@ std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<
       nodes.insert(first.ground() ? second.node : first.node);
     }
     if (nodes.size() < 2 || nodes.size() < joints.size()) continue;  // joints at one place contradict
-    leave_out(plan, held_body(plan, reduced[b], b, joints), b, standing);
+    leave_out(plan, held_body(plan, reduced[b], b, joints), b, standing, undetermined);
   }
   return standing;
 }

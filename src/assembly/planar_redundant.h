@@ -16,6 +16,8 @@ int joint_rows(const Joint& joint);
 /// @throws InputError  a row that a function of time drives depends on others: no column follows it; or
 ///                     the row is implied to first order only: the columns leave the joints as the body deforms (the
 ///                     frame does not pass through them). Collective; replicated.
-std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced);
+/// @param undetermined  receives the joints whose multipliers the rows do not determine
+std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
+                                            std::vector<int>& undetermined);
 
 }  // namespace floe::assembly

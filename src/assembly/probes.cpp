@@ -4,6 +4,8 @@
 #include "connections.h"
 #include "floe/assembly/model.h"
 #include "floe/math/rotation.h"
+#include "floe/solve/start.h"
+#include "shell_stress.h"
 
 namespace floe::assembly {
 
@@ -31,6 +33,20 @@ Meaning meaning_of(Probe::Quantity quantity, double extent) {
       return {"N", 1, Kind::load, xy, xyz};
     case Probe::Quantity::moment:
       return {"N m", extent, Kind::load, z, xyz};
+    case Probe::Quantity::section_force:
+      return {"N", 1, Kind::load, {"N", "V"}, {"N", "Vy", "Vz"}};
+    case Probe::Quantity::section_moment:
+      return {"N m", extent, Kind::load, {"M"}, {"T", "My", "Mz"}};
+    case Probe::Quantity::stress:
+      return {"Pa", 1, Kind::stress, {}, {"xx", "yy", "xy"}};
+    case Probe::Quantity::principal_stress:
+      return {"Pa", 1, Kind::stress, {}, {"first", "second"}};
+    case Probe::Quantity::von_mises_stress:
+      return {"Pa", 1, Kind::stress, {}, {"mises"}};
+    case Probe::Quantity::membrane_force:
+      return {"N/m", 1 / extent, Kind::load, {}, {"xx", "yy", "xy"}};
+    case Probe::Quantity::bending_moment:
+      return {"N", 1, Kind::load, {}, {"xx", "yy", "xy"}};
     default:
       return {"m", extent, Kind::place, xy, xyz};
   }
@@ -121,6 +137,67 @@ void add_exerted(const ModelProbe& probe, double t, const Eigen::VectorXd& q, co
   values.insert(values.end(), parts.data() + first, parts.data() + behind);
 }
 
+bool of_section(const ModelProbe& probe) {
+  return probe.quantity == Probe::Quantity::section_force || probe.quantity == Probe::Quantity::section_moment;
+}
+
+/// What the cuts of all sections exert on their parts, one after the other. Collective.
+std::vector<dynamics::Wrench> in_sections(const Model& model, double t, const Eigen::VectorXd& q,
+                                          const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+  std::vector<dynamics::Wrench> all;
+  for (const ModelProbe& probe : model.probes)
+    for (const ModelSection& section : probe.sections) all.push_back(on_part(section.cut, t, q, v, a));
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(6 * all.size()), MPI_DOUBLE, MPI_SUM, model.system->comm());
+  return all;
+}
+
+/// @param wrench  of the probe's first section
+void add_section(const ModelProbe& probe, const dynamics::Wrench* wrench, const Eigen::VectorXd& q,
+                 const Eigen::VectorXd& v, std::vector<double>& values) {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
+  if (probe.spatial) {
+    const dynamics::SpatialPose at = placed(probe.spatial->marker, q, v);
+    p = at.p, D = at.D;
+  } else {
+    const Eigen::Vector3d y = placed(probe.marker, q, v).y;
+    p.head<2>() = y.head<2>(), D.topLeftCorner<2, 2>() = turn(y[2]);
+  }
+  const bool force = probe.quantity == Probe::Quantity::section_force;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const ModelSection& section : probe.sections) {
+    const Eigen::Vector3d f = wrench->head<3>();
+    Eigen::Vector3d m = wrench->tail<3>(), from = p;
+    if (section.origin >= 0) from.head(probe.spatial ? 3 : 2) = q.segment(section.origin, probe.spatial ? 3 : 2);
+    m -= (p - from).cross(f);
+    sum += section.factor * ((D * section.axes).transpose() * (force ? f : m));
+    ++wrench;
+  }
+  const int first = !probe.spatial && !force ? 2 : 0, behind = !probe.spatial && force ? 2 : 3;
+  values.insert(values.end(), sum.data() + first, sum.data() + behind);
+}
+
+/// What all probes of shells record, one after the other. Collective.
+std::vector<Eigen::Vector3d> in_shells(const Model& model, double t, const Eigen::VectorXd& q) {
+  std::vector<Eigen::Vector3d> all;
+  for (const ModelProbe& probe : model.probes)
+    if (probe.shell) all.push_back(probe.shell->value(t, q));
+  if (!all.empty())
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM,
+                  model.system->comm());
+  return all;
+}
+
+void add_shell(Probe::Quantity quantity, const Eigen::Vector3d& s, std::vector<double>& values) {
+  const double mean = (s[0] + s[1]) / 2, radius = std::hypot((s[0] - s[1]) / 2, s[2]);
+  if (quantity == Probe::Quantity::principal_stress)
+    values.insert(values.end(), {mean + radius, mean - radius});
+  else if (quantity == Probe::Quantity::von_mises_stress)
+    values.push_back(std::sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * s[2] * s[2]));
+  else
+    values.insert(values.end(), s.data(), s.data() + 3);
+}
+
 void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
   if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
@@ -156,7 +233,8 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
       break;
     case Probe::Quantity::force:
     case Probe::Quantity::moment:
-      break;  // add_exerted
+    default:
+      break;  // add_exerted, add_section, add_shell
     case Probe::Quantity::deflection: {
       if (!probe.frame.empty()) {
         const Eigen::Vector2d u = deflection_from_nodes(probe, q, v, at.y);
@@ -194,17 +272,47 @@ std::vector<double> attitudes(const Model& model, Vec U) {
   return all;
 }
 
-std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V) {
-  static thread_local Eigen::VectorXd q, v;
+namespace {
+
+/// Unknowns and accelerations at an instant: given ones, or those that are consistent with U and V. Collective.
+void find_accelerations(const Model& model, double t, Vec U, Vec V, Vec A, Eigen::VectorXd& q, Eigen::VectorXd& a) {
+  if (A) return model.system->gather(A, a);
+  const petsc::VecHandle own = model.system->create_vector(), found = model.system->create_vector();
+  petsc::check(VecCopy(U, own));
+  solve::consistent_start(*model.system, t, own, V, found);
+  model.system->gather(own, q);  // with the multipliers of these accelerations
+  model.system->gather(found, a);
+}
+
+}  // namespace
+
+std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec A) {
+  static thread_local Eigen::VectorXd q, v, a, whole;
   model.system->gather(U, q);
   model.system->gather(V, v);
   std::vector<double> values;
+  std::vector<dynamics::Wrench> wrenches;
+  if (std::any_of(model.probes.begin(), model.probes.end(), of_section)) {
+    whole = q;
+    find_accelerations(model, t, U, V, A, whole, a);
+    wrenches = in_sections(model, t, whole, v, a);
+  }
   const MPI_Comm comm = model.system->comm();
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
+  const std::vector<Eigen::Vector3d> of_shells = in_shells(model, t, q);
+  std::size_t next = 0, next_shell = 0;
   if (rank == size - 1)
-    for (const ModelProbe& probe : model.probes) add_values(probe, t, q, v, values);
+    for (const ModelProbe& probe : model.probes) {
+      if (of_section(probe))
+        add_section(probe, &wrenches[next], q, v, values);
+      else if (probe.shell)
+        add_shell(probe.quantity, of_shells[next_shell++], values);
+      else
+        add_values(probe, t, q, v, values);
+      next += probe.sections.size();
+    }
   if (size > 1) {
     values.resize(probe_columns(model).size());
     MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);

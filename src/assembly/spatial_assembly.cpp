@@ -347,7 +347,7 @@ Model SpatialAssembly::model() {
     model.bodies.push_back(std::move(report));
     model.warnings.insert(model.warnings.end(), body.notices.begin(), body.notices.end());
   }
-  add_loads();
+  for (std::size_t l = 0; l < plan_.loads.size(); ++l) add_load(l);
   add_joints(model);
   add_probes(model);
   dynamics::Attitudes attitudes;

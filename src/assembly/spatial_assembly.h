@@ -10,6 +10,7 @@
 #include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"
 #include "full_order_modes.h"
+#include "sections.h"
 
 namespace floe::assembly {
 
@@ -69,11 +70,14 @@ class SpatialAssembly {
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
   std::vector<HeldPlace> held_places(const DampedWhole& whole, int body);
-  void add_gravity(int body);
+  void add_gravity(int body, const BodyPart* part = nullptr);
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
-                   bool of_body, bool conservative);
-  void add_loads();
-  void add_pressure(const Load& load, int body);
+                   bool of_body, bool conservative, const BodyPart* part);
+  void add_load(std::size_t load, const BodyPart* part = nullptr);
+  void add_pressure(const Load& load, int body, const BodyPart* part);
+  std::vector<std::shared_ptr<const dynamics::Term>> terms_of(int body, const BodyPart& part);
+  std::vector<ModelSection> sections(std::size_t probe, Model& model);
+  std::shared_ptr<const ShellPoint> shell_point(std::size_t probe) const;
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
@@ -102,7 +106,9 @@ class SpatialAssembly {
   std::vector<int> multipliers_;                                       // of each joint, the first
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
-  Connections connections_;  // of the joints, among terms_
+  Connections connections_;                                  // of the joints, among terms_
+  std::map<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
+  std::vector<int> undetermined_;                            // joints whose multipliers are not determined
   std::map<std::string, JointLatches> latches_;
 };
 

@@ -183,7 +183,7 @@ void SpatialAssembly::add_joints(Model& model) {
     SpatialRows rows(plan_, start_);
     for (const auto& [j, placed] : all)
       if (!placed.constraint.rows.empty()) rows.add(j, placed.places, placed.constraint);
-    const std::vector<std::vector<int>> standing = rows.standing(notes);
+    const std::vector<std::vector<int>> standing = rows.standing(notes, undetermined_);
     std::size_t next = 0;
     for (const auto& [j, placed] : all)
       if (placed.constraint.rows.empty())

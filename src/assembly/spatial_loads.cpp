@@ -85,7 +85,8 @@ SpatialMarker SpatialAssembly::density_marker(int b, const body::Inertia& inerti
 
 /// A force density, in world axes or in those of the body.
 void SpatialAssembly::add_density(int b, Density density, const std::function<Eigen::Vector3d(double)>& force,
-                                  bool of_body, bool conservative) {
+                                  bool of_body, bool conservative, const BodyPart* part) {
+  const reference::CellsOfPart cells = part ? &part->cells : nullptr;
   const PlannedBody& body = plan_.bodies[b];
   if (slots_[b].still) {
     const Eigen::Matrix3d A = of_body ? body.axes.transpose() : body.attitude.transpose();
@@ -112,9 +113,12 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
   }
   std::vector<SpatialMarker> markers;
   if (slots_[b].corotated)
-    markers = slots_[b].corotated->density(density);
+    markers = slots_[b].corotated->density(density, cells);
   else if (!compact(b))
-    markers = reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density);
+    markers =
+        reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density, cells);
+  else if (owner_ && part)
+    markers.push_back(density_marker(b, density == Density::mass ? part->masses.mass : part->masses.line));
   else if (owner_)
     markers.push_back(density_marker(b, density == Density::mass ? reduced_[b].body.inertia : reduced_[b].body.line));
   const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
@@ -132,53 +136,43 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
   }
 }
 
-void SpatialAssembly::add_gravity(int b) {
+void SpatialAssembly::add_gravity(int b, const BodyPart* part) {
   const Weight weight(plan_.scene);
   if (weight.none()) return;
   const auto fixed = [g = weight(0)](double) { return g; };
   if (weight.constant())
-    add_density(b, Density::mass, fixed, false, true);
+    add_density(b, Density::mass, fixed, false, true, part);
   else
-    add_density(b, Density::mass, weight, false, false);
+    add_density(b, Density::mass, weight, false, false, part);
 }
 
-void SpatialAssembly::add_loads() {
-  for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
-    const Load& load = plan_.scene.loads[l];
-    const Anchor& place = plan_.loads[l];
-    const bool of_body = load.axes == Load::Axes::body;
-    const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
-      return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
-    };
-    if (load.kind == Load::Kind::pressure) {
-      add_pressure(load, place.body);
-      continue;
-    }
-    if (load.kind == Load::Kind::distributed) {
-      add_density(place.body, Density::line, value, of_body, false);
-      continue;
-    }
-    if (slots_[place.body].corotated) {
-      add_corotated_force(load, place);
-      continue;
-    }
-    SpatialMarker at = marker(place);
-    if (!owner_ || at.coordinates.empty()) continue;
-    const PlannedBody& body = plan_.bodies[place.body];
-    const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
-    at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
-    const int first = load.kind == Load::Kind::moment ? 3 : 0;
-    terms_.push_back(std::make_unique<SpatialForce>(
-        std::move(at),
-        [A, value, first](double t) {
-          Wrench w = Wrench::Zero();
-          w.segment<3>(first) = A * value(t);
-          return w;
-        },
-        of_body                          ? SpatialForce::Axes::body
-        : load.axes == Load::Axes::place ? SpatialForce::Axes::place
-                                         : SpatialForce::Axes::world));
-  }
+void SpatialAssembly::add_load(std::size_t l, const BodyPart* part) {
+  const Load& load = plan_.scene.loads[l];
+  const Anchor& place = plan_.loads[l];
+  const bool of_body = load.axes == Load::Axes::body;
+  const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
+    return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
+  };
+  if (load.kind == Load::Kind::pressure) return add_pressure(load, place.body, part);
+  if (load.kind == Load::Kind::distributed) return add_density(place.body, Density::line, value, of_body, false, part);
+  if (slots_[place.body].corotated) return add_corotated_force(load, place);
+  SpatialMarker at = marker(place);
+  if (!owner_ || at.coordinates.empty()) return;
+  const PlannedBody& body = plan_.bodies[place.body];
+  const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+  at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
+  const int first = load.kind == Load::Kind::moment ? 3 : 0;
+  terms_.push_back(std::make_unique<SpatialForce>(
+      std::move(at),
+      [A, value, first](double t) {
+        Wrench w = Wrench::Zero();
+        w.segment<3>(first) = A * value(t);
+        return w;
+      },
+      of_body                          ? SpatialForce::Axes::body
+      : load.axes == Load::Axes::place ? SpatialForce::Axes::place
+                                       : SpatialForce::Axes::world));
+  load_terms_[l] = terms_.back().get();
 }
 
 void SpatialAssembly::add_probes(Model& model) {
@@ -198,6 +192,7 @@ void SpatialAssembly::add_probes(Model& model) {
       probe.start = start_of(probe.marker).p;
       if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
     }
+    if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates
     model.probes.push_back({spec.name,
                             spec.quantity,
                             {},
@@ -207,6 +202,8 @@ void SpatialAssembly::add_probes(Model& model) {
                             Eigen::Vector3d::Zero(),
                             std::move(probe),
                             measured(connections_, plan_.scene, spec)});
+    if (spec.of_section()) model.probes.back().sections = sections(p, model);
+    if (spec.of_shell()) model.probes.back().shell = shell_point(p);
   }
 }
 

@@ -43,10 +43,13 @@ Chosen shells_of(const Load& load, const PlannedBody& body) {
 
 }  // namespace
 
-void SpatialAssembly::add_pressure(const Load& load, int b) {
+void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part) {
   using dynamics::PressureLoad;
   const PlannedBody& body = plan_.bodies[b];
-  const Chosen chosen = shells_of(load, body);
+  const Chosen chosen = [part, all = shells_of(load, body),
+                         first = body.structure.mesh.cells.data()](const fem::Mesh::Cell& cell) {
+    return all(cell) && (!part || part->cells[static_cast<std::size_t>(&cell - first)] != 0);
+  };
   const auto add = [&](std::vector<int> coordinates, body::Pressure unit) {
     terms_.push_back(std::make_unique<PressureLoad>(
         std::move(coordinates), slots_[b].attitude, std::move(unit), [p = load.pressure](double t) { return p(t); },

@@ -172,7 +172,7 @@ bool SpatialRows::on_branch(const VectorXd& q, double t) const {
   });
 }
 
-std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
+std::vector<std::vector<int>> SpatialRows::standing(std::string& notes, std::vector<int>& undetermined) const {
   std::vector<std::vector<int>> all;
   if (entries_.empty()) return all;
   MatrixXd gradient;
@@ -184,6 +184,7 @@ std::vector<std::vector<int>> SpatialRows::standing(std::string& notes) const {
     for (const Index row : undetermined_rows(gradient, kept))
       if (const int joint = entry_of(row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
     refuse_undetermined(plan_.scene, joints);
+    undetermined = std::move(joints);
   }
   Index first = 0;
   for (const Entry& entry : entries_) {

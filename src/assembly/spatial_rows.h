@@ -20,8 +20,9 @@ class SpatialRows {
            const dynamics::SpatialConstraint& constraint);
   /// Of each joint added, the rows that stand.
   /// @param notes  a line for each joint that loses rows
+  /// @param undetermined  receives the joints whose multipliers the rows do not determine
   /// @throws InputError  a row that depends on others is not met: joints contradict one another
-  std::vector<std::vector<int>> standing(std::string& notes) const;
+  std::vector<std::vector<int>> standing(std::string& notes, std::vector<int>& undetermined) const;
 
  private:
   struct Entry {

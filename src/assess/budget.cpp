@@ -29,7 +29,7 @@ ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Est
     if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
-    series.values.push_back(probe_values(model, states[i].t, U, V));
+    series.values.push_back(probe_values(model, states[i].t, U, V, A));
   }
   return series;
 }

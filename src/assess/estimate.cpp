@@ -193,12 +193,13 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
   const auto values = [&](const State& state) {
     solve::set_state(system, state, U, V, A);
-    return probe_values(more, state.t, U, V);
+    return probe_values(more, state.t, U, V, A);
   };
   const double before = time.spent();  // of some steps, to know how many there may be
   const std::vector<State> first(states.begin(), states.begin() + std::min<std::ptrdiff_t>(8, std::ssize(states)));
-  solve::deviation(system, motion.begin(), first,
-                   [&](const State& state, const VectorXd&, const VectorXd&) { values(state), values(state); });
+  solve::deviation(
+      system, motion.begin(), first,
+      [&](const State& state, const VectorXd&, const VectorXd&, const VectorXd&) { values(state), values(state); });
   const double each = (time.spent() - before) / static_cast<double>(first.size());
   const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
   if (count < states.size()) {
@@ -207,9 +208,9 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   }
   ProbeErrors probes(probe_columns(more));
   double error = 0, size = 0;
-  const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate) {
+  const auto observe = [&](const State& state, const VectorXd& d, const VectorXd& rate, const VectorXd& second_rate) {
     const std::vector<double> was = values(state);
-    std::vector<double> gap = values(solve::deviated(system, state, d, rate, VectorXd::Zero(d.size())));
+    std::vector<double> gap = values(solve::deviated(system, state, d, rate, second_rate));
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
     probes.add(gap, was);
     const double e = deformations(more, d).squaredNorm();

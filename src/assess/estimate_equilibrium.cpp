@@ -41,7 +41,7 @@ class FullOrder {
   }
 
   const Model& model() const { return full_; }
-  std::vector<double> values() const { return probe_values(full_, t_, U_, V_); }
+  std::vector<double> values() const { return probe_values(full_, t_, U_, V_, V_); }
 
   /// Takes over a reduced equilibrium.
   void put(const State& state) {

@@ -16,7 +16,8 @@ AtTimes::AtTimes(const Model& model, std::vector<double> times, double step)
     : times_(std::move(times)),
       tolerance_(1e-6 * step),
       U_(model.system->create_vector()),
-      V_(model.system->create_vector()) {}
+      V_(model.system->create_vector()),
+      A_(model.system->create_vector()) {}
 
 ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integration how,
                            const std::vector<double>& times, const std::function<bool(const solve::Instant&)>& enough) {
@@ -28,10 +29,10 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
   AtTimes at(model, times, how.step);
   const std::size_t columns = probe_columns(model).size();
   const auto observe = [&](const solve::Instant& instant) {
-    at.observe(instant, [&](std::size_t i, double t, Vec U, Vec V) {
+    at.observe(instant, [&](std::size_t i, double t, Vec U, Vec V, Vec A) {
       // an instant within a step of an integrator that does not interpolate is not known
       history.values.resize(i, std::vector<double>(columns, std::numeric_limits<double>::quiet_NaN()));
-      history.values.push_back(probe_values(model, t, U, V));
+      history.values.push_back(probe_values(model, t, U, V, A));
     });
     history.reached = instant.t;
     if (!enough || !enough(instant)) return;
@@ -66,7 +67,7 @@ ProbeHistory equilibrium_history(const Model& model, const solve::Integration& h
         history.values.resize(
             static_cast<std::size_t>(at - times.begin()),
             std::vector<double>(probe_columns(model).size(), std::numeric_limits<double>::quiet_NaN()));
-        history.values.push_back(probe_values(model, t, model.U, model.V));
+        history.values.push_back(probe_values(model, t, model.U, model.V, model.V));
       }
       history.enough = enough && enough({t, step, model.U, model.V, nullptr, step == steps});
     }

@@ -14,16 +14,16 @@ class AtTimes {
   /// @param times  ascending [s]
   AtTimes(const Model& model, std::vector<double> times, double step);
 
-  /// @param visit  (number of the instant, t, U, V)
+  /// @param visit  (number of the instant, t, U, V, A; A null where it is not known)
   template <class Visit>
   void observe(const solve::Instant& instant, Visit&& visit) {
     for (; next_ < times_.size() && times_[next_] < instant.t + tolerance_; ++next_) {
       const double t = times_[next_];
       if (t > instant.t - tolerance_) {
-        visit(next_, t, instant.U, instant.V);
+        visit(next_, t, instant.U, instant.V, instant.accelerations());
       } else if (instant.between) {
-        (*instant.between)(t, U_, V_);
-        visit(next_, t, U_.get(), V_.get());
+        (*instant.between)(t, U_, V_, A_);
+        visit(next_, t, U_.get(), V_.get(), A_.get());
       }
     }
   }
@@ -31,7 +31,7 @@ class AtTimes {
  private:
   std::vector<double> times_;
   double tolerance_;
-  petsc::VecHandle U_, V_;
+  petsc::VecHandle U_, V_, A_;
   std::size_t next_ = 0;
 };
 

@@ -42,12 +42,12 @@ class Comparison {
                            A = model.system->create_vector();
     for (const State& state : states_) {
       solve::set_state(*model.system, state, U, V, A);
-      values_.push_back(probe_values(model, state.t, U, V));
+      values_.push_back(probe_values(model, state.t, U, V, A));
     }
   }
 
   void observe(const solve::Instant& instant) {
-    at_.observe(instant, [&](std::size_t i, double t, Vec U, Vec V) { add(i, t, U, V); });
+    at_.observe(instant, [&](std::size_t i, double t, Vec U, Vec V, Vec A) { add(i, t, U, V, A); });
   }
 
   std::size_t count() const { return t_.size(); }
@@ -64,9 +64,9 @@ class Comparison {
   }
 
  private:
-  void add(std::size_t i, double t, Vec U, Vec V) {
+  void add(std::size_t i, double t, Vec U, Vec V, Vec A) {
     const std::vector<double>& mine = values_[i];
-    std::vector<double> gap = probe_values(model_, t, U, V);
+    std::vector<double> gap = probe_values(model_, t, U, V, A);
     for (std::size_t c = 0; c < gap.size(); ++c) gap[c] -= mine[c];
     probes_.add(gap, mine);
     VectorXd q;

@@ -217,7 +217,7 @@ Plan prepare(const Scene& scene, MPI_Comm comm) {
   for (const Probe& probe : scene.probes) {
     std::array<Anchor, 2> places;
     places[0] = find(plan.bodies, probe.at);
-    if (probe.relative_to) places[1] = find(plan.bodies, *probe.relative_to);
+    if (const auto& other = probe.relative_to ? probe.relative_to : probe.toward) places[1] = find(plan.bodies, *other);
     plan.probes.push_back(places);
     std::vector<Anchor>& chord = plan.chords.emplace_back();
     for (const Place& place : probe.chord) chord.push_back(find(plan.bodies, place));

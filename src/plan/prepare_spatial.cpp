@@ -232,7 +232,7 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
   for (const Probe& probe : scene.probes) {
     std::array<Anchor, 2> places;
     places[0] = place(probe.at);
-    if (probe.relative_to) places[1] = place(*probe.relative_to);
+    if (const auto& other = probe.relative_to ? probe.relative_to : probe.toward) places[1] = place(*other);
     plan.probes.push_back(places);
   }
   return plan;

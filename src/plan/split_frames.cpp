@@ -77,6 +77,7 @@ Scene split_frames(const Scene& scene) {
     for (Place& place : probe.chord) redirect(scene, place);
     redirect(scene, probe.at);
     if (probe.relative_to) redirect(scene, *probe.relative_to);
+    if (probe.toward) redirect(scene, *probe.toward);
   }
   split.bodies.clear();
   for (const Body& body : scene.bodies) {

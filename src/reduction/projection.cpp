@@ -167,6 +167,26 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
   return body;
 }
 
+PartMasses part_masses(const fem::Structure& structure, const Basis& basis, const std::vector<char>& only) {
+  const fem::FieldRows V = local_rows(structure, basis);
+  const fem::DofRanges ranges = fem::dof_ranges(structure, V);
+  MassForms inertia(structure, V, ranges, true), line(structure, V, ranges, true);
+  std::vector<fem::PieceRows> pieces;
+  for (std::size_t c = 0; c < only.size(); ++c) {
+    if (!only[c]) continue;
+    fem::piece_rows(structure, structure.mesh.cells[c], {false, false, true, true}, pieces);
+    for (const fem::PieceRows& piece : pieces) {
+      inertia.add(piece, piece.mass);
+      inertia.add(piece, piece.rotary);
+      line.add(piece, piece.line);
+    }
+  }
+  PartMasses part{inertia.sums(), line.sums()};
+  sum_over_ranks(structure.mesh.comm, part.mass);
+  sum_over_ranks(structure.mesh.comm, part.line);
+  return part;
+}
+
 body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, PetscInt node) {
   const int d = structure.mesh.dimension, k = basis.columns;
   const int n = structure.dofs_per_node;

@@ -11,7 +11,6 @@
 #include "floe/fem/shell.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
-#include "floe/reference/corotational_element.h"
 
 namespace floe::reference {
 
@@ -207,41 +206,49 @@ bool one_frame(const std::vector<SpatialMarker>& places) {
 
 }  // namespace
 
-void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const {
+std::unique_ptr<CorotationalElement> CorotationalBody::element(const fem::Mesh::Cell& cell, std::size_t i,
+                                                               double viscosity) const {
+  std::vector<SpatialMarker> at = places(cell);
+  std::vector<Vector3d> X;
+  for (int corner : cell.places()) X.push_back(structure_.mesh.positions[corner]);
+  fem::CellKind kind = cell.kind;
+  fem::ElementMaps maps;
+  if (cell.kind == fem::CellKind::quadrilateral) {
+    const auto& [a, b, c] = fem::quadrilateral_triangles[i];
+    kind = fem::CellKind::triangle;
+    at = {at[a], at[b], at[c]}, X = {X[a], X[b], X[c]};
+    maps = fem::shell_triangle({X[0], X[1], X[2]}, std::get<fem::ShellSection>(structure_.sections[cell.part]));
+  } else {
+    maps = structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.place));
+  }
+  if (one_frame(at)) return nullptr;
+  Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(X.size()));
+  for (std::size_t n = 0; n < X.size(); ++n) x.col(static_cast<Eigen::Index>(n)) = X[n];
+  // A triangle keeps its corners in its plane: its slopes are zero, and it is linear in its own axes.
+  body::Elasticity elasticity = fem::elasticity(maps, Eigen::MatrixXd::Identity(6 * x.cols(), 6 * x.cols()));
+  if (kind == fem::CellKind::triangle) elasticity = body::linearised(elasticity);
+  const double share = cell.kind == fem::CellKind::quadrilateral ? 0.5 : 1;
+  elasticity.bending *= share, elasticity.F *= std::sqrt(share);
+  return std::make_unique<CorotationalElement>(kind, std::move(at), x, std::move(elasticity), viscosity);
+}
+
+void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms,
+                                    CellsOfPart part) const {
   const fem::Mesh& mesh = structure_.mesh;
-  const auto add = [&](fem::CellKind kind, std::vector<SpatialMarker> places, const std::vector<Vector3d>& X,
-                       const fem::ElementMaps& maps, double share) {
-    if (one_frame(places)) return;
-    Eigen::Matrix3Xd x(3, static_cast<Eigen::Index>(X.size()));
-    for (std::size_t i = 0; i < X.size(); ++i) x.col(static_cast<Eigen::Index>(i)) = X[i];
-    const Eigen::Index dofs = 6 * x.cols();
-    // A triangle keeps its corners in its plane: its slopes are zero, and it is linear in its own axes.
-    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(dofs, dofs);
-    body::Elasticity elasticity = fem::elasticity(maps, all);
-    if (kind == fem::CellKind::triangle) elasticity = body::linearised(elasticity);
-    elasticity.bending *= share, elasticity.F *= std::sqrt(share);
-    terms.push_back(
-        std::make_unique<CorotationalElement>(kind, std::move(places), x, std::move(elasticity), viscosity));
-  };
-  for (const fem::Mesh::Cell& cell : mesh.cells) {
-    if (cell.kind == fem::CellKind::point) continue;
-    const std::vector<SpatialMarker> places = this->places(cell);
-    std::vector<Vector3d> X;
-    for (int corner : cell.places()) X.push_back(mesh.positions[corner]);
-    if (cell.kind != fem::CellKind::quadrilateral) {
-      add(cell.kind, places, X, structure_.maps(fem::Mesh::Cell(cell.kind, cell.part, cell.place)), 1);
-      continue;
-    }
-    const auto& section = std::get<fem::ShellSection>(structure_.sections[cell.part]);
-    for (const auto& [a, b, c] : fem::quadrilateral_triangles)
-      add(fem::CellKind::triangle, {places[a], places[b], places[c]}, {X[a], X[b], X[c]},
-          fem::shell_triangle({X[a], X[b], X[c]}, section), 0.5);
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const fem::Mesh::Cell& cell = mesh.cells[c];
+    if (cell.kind == fem::CellKind::point || !counts(part, c)) continue;
+    const std::size_t pieces = cell.kind == fem::CellKind::quadrilateral ? fem::quadrilateral_triangles.size() : 1;
+    for (std::size_t i = 0; i < pieces; ++i)
+      if (auto one = element(cell, i, viscosity)) terms.push_back(std::move(one));
   }
 }
 
-std::vector<CorotationalBody::NodeMass> CorotationalBody::carried(Density density) const {
+std::vector<CorotationalBody::NodeMass> CorotationalBody::carried(Density density, CellsOfPart part) const {
   std::map<int, NodeMass> all;
-  for (const fem::Mesh::Cell& cell : structure_.mesh.cells) {
+  for (std::size_t c = 0; c < structure_.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const fem::Mesh::Cell& cell = structure_.mesh.cells[c];
     const std::vector<SpatialMarker> places = this->places(cell);
     for (const CarriedMass& mass : carried_mass(structure_, cell, density)) {
       const SpatialMarker& at = places[mass.corner];
@@ -259,9 +266,9 @@ std::vector<CorotationalBody::NodeMass> CorotationalBody::carried(Density densit
   return list;
 }
 
-std::vector<SpatialMarker> CorotationalBody::density(Density density) const {
+std::vector<SpatialMarker> CorotationalBody::density(Density density, CellsOfPart part) const {
   std::vector<SpatialMarker> markers;
-  for (NodeMass& one : carried(density)) {
+  for (NodeMass& one : carried(density, part)) {
     one.at.mass = one.inertia.m, one.at.x0 = one.inertia.s0;
     markers.push_back(std::move(one.at));
   }
@@ -300,13 +307,18 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   }
 }
 
-std::vector<std::unique_ptr<dynamics::Term>> CorotationalBody::terms(double viscosity) const {
+std::vector<std::unique_ptr<dynamics::Term>> CorotationalBody::terms_of(CellsOfPart part, double viscosity) const {
   std::vector<std::unique_ptr<dynamics::Term>> all;
-  add_elements(viscosity, all);
+  add_elements(viscosity, all, part);
   const body::Elasticity rigid{Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0), {}};
-  for (const NodeMass& one : carried(Density::mass))
+  for (const NodeMass& one : carried(Density::mass, part))
     all.push_back(std::make_unique<dynamics::SpatialBody>(one.at.coordinates, one.at.attitude,
                                                           body::spatial(one.inertia), rigid));
+  return all;
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> CorotationalBody::terms(double viscosity) const {
+  std::vector<std::unique_ptr<dynamics::Term>> all = terms_of(nullptr, viscosity);
   add_links(all);
   add_idle(all);
   return all;

@@ -101,10 +101,31 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
   return terms;
 }
 
+std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure, const fem::Conditions& held,
+                                                           const NodeCoordinates& nodes, int frame, CellsOfPart part) {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  std::vector<int> kept;
+  for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const std::vector<int> all = structure.cell_dofs(structure.mesh.cells[c]);
+    const Eigen::MatrixXd V = free_columns(structure, held, all, kept);
+    std::vector<int> free;
+    for (int i : kept) free.push_back(all[i]);
+    const Eigen::Index k = V.cols();
+    terms.push_back(std::make_unique<dynamics::FloatingBody>(
+        with_frame(frame, free, nodes), body::planar(fem::inertia(structure.maps(structure.mesh.cells[c]), V)),
+        body::Elasticity{Eigen::MatrixXd::Zero(k, k), Eigen::MatrixXd(0, k), {}}));
+  }
+  return terms;
+}
+
 std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
-                                              const NodeCoordinates& nodes, int frame, Density density) {
+                                              const NodeCoordinates& nodes, int frame, Density density,
+                                              CellsOfPart part) {
   std::vector<dynamics::Marker> markers;
-  for (const auto& cell : structure.mesh.cells) {
+  for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const fem::Mesh::Cell& cell = structure.mesh.cells[c];
     const std::vector<int> all = structure.cell_dofs(cell);
     fem::ElementMaps maps = structure.maps(cell);
     if (density == Density::line) maps.mass = structure.line(cell);
@@ -138,9 +159,12 @@ dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates&
   return marker;
 }
 
-std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes) {
+std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes,
+                                                        CellsOfPart part) {
   std::vector<dynamics::Marker> markers;
-  for (const auto& cell : structure.mesh.cells) {
+  for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const fem::Mesh::Cell& cell = structure.mesh.cells[c];
     const double length = (structure.mesh.positions[cell.place[1]] - structure.mesh.positions[cell.place[0]]).norm();
     for (int node : cell.nodes()) {
       dynamics::Marker marker;

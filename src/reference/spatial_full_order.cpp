@@ -118,11 +118,32 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
   return terms;
 }
 
+std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,
+                                                                   const fem::Conditions& held,
+                                                                   const NodeCoordinates& nodes,
+                                                                   const SpatialFrame& frame, CellsOfPart part) {
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const fem::Mesh::Cell& cell = structure.mesh.cells[c];
+    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    const Eigen::Index k = free.V.cols();
+    terms.push_back(std::make_unique<dynamics::SpatialBody>(
+        behind_frame(frame, free.coordinates), frame.attitude,
+        body::spatial(inertia_of(structure, cell, structure.maps(cell), free.V)),
+        body::Elasticity{Eigen::MatrixXd::Zero(k, k), Eigen::MatrixXd(0, k), {}}));
+  }
+  return terms;
+}
+
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
                                                              const fem::Conditions& held, const NodeCoordinates& nodes,
-                                                             const SpatialFrame& frame, Density density) {
+                                                             const SpatialFrame& frame, Density density,
+                                                             CellsOfPart part) {
   std::vector<dynamics::SpatialMarker> markers;
-  for (const auto& cell : structure.mesh.cells) {
+  for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
+    if (!counts(part, c)) continue;
+    const fem::Mesh::Cell& cell = structure.mesh.cells[c];
     fem::ElementMaps maps = structure.maps(cell);
     if (density == Density::line) maps.mass = structure.line(cell);
     const FreeDofs free = free_dofs(structure, held, cell, nodes);

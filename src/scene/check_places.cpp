@@ -54,6 +54,22 @@ void check_place(Document& document, const Scene& scene, const Place& place, boo
   }
 }
 
+/// Forces in sections and stresses are those of a flexible body with a mesh; shells are in space.
+void check_inner(Document& document, const Scene& scene, const Probe& probe) {
+  if (probe.of_shell() && scene.dimension == 2)
+    document.fault(probe.where, "records a shell, which planar scenes do not have",
+                   "a scene in space, or section_force");
+  for (const Body& body : scene.bodies) {
+    if (body.name != probe.at.body) continue;
+    if (body.rigid)
+      document.fault(probe.at.where, fmt::format("is a place of body {}, which is rigid", body.name),
+                     "a place of a flexible body, or a probe of a joint's force");
+    if (body.reduced)
+      document.fault(probe.at.where, fmt::format("is a place of body {}, whose file has no elements", body.name),
+                     "a body with a mesh, or a probe of a joint's force");
+  }
+}
+
 }  // namespace
 
 void check_places(Document& document, const Scene& scene) {
@@ -73,6 +89,8 @@ void check_places(Document& document, const Scene& scene) {
   for (const Probe& probe : scene.probes) {
     check_place(document, scene, probe.at, false);
     if (probe.relative_to) check_place(document, scene, *probe.relative_to, false);
+    if (probe.toward) check_place(document, scene, *probe.toward, false);
+    if (probe.of_section() || probe.of_shell()) check_inner(document, scene, probe);
   }
 }
 

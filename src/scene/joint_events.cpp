@@ -15,8 +15,15 @@ bool is_switched(const Scene& scene, const std::string& joint) {
 }
 
 bool is_measured(const Scene& scene, const std::string& joint) {
-  return std::any_of(scene.probes.begin(), scene.probes.end(),
-                     [&](const Probe& probe) { return !joint.empty() && probe.joint == joint; });
+  if (joint.empty()) return false;
+  const auto on_body = [&](const std::string& body) {
+    return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& one) {
+      return one.name == joint && (one.first.body == body || one.second.body == body);
+    });
+  };
+  return std::any_of(scene.probes.begin(), scene.probes.end(), [&](const Probe& probe) {
+    return probe.of_section() ? on_body(probe.at.body) : probe.joint == joint;
+  });
 }
 
 }  // namespace floe::scene

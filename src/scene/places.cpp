@@ -183,6 +183,7 @@ std::vector<std::string> middles_beside_nodes(const Scene& scene) {
   for (const Probe& probe : scene.probes) {
     look(probe.at);
     if (probe.relative_to) look(*probe.relative_to);
+    if (probe.toward) look(*probe.toward);
   }
   return words;
 }

@@ -4,6 +4,26 @@
 
 namespace floe::scene {
 
+namespace {
+
+void read_shell_keys(Document& document, Reading& reading, Probe& probe) {
+  using Surface = Probe::Surface;
+  if (reading.given("surface")) {
+    probe.surface = reading.choice<Surface>(
+        "surface", {{"middle", Surface::middle}, {"top", Surface::top}, {"bottom", Surface::bottom}});
+    if (!probe.of_stress())
+      document.fault(reading.where("surface"), "applies to stresses of shells only", "quantity: stress, or none");
+  }
+  if (reading.given("axis")) {
+    probe.axis = reading.point("axis");
+    if (!probe.of_shell())
+      document.fault(reading.where("axis"), "applies to shells only", "quantity: stress, membrane_force, ..., or none");
+    if (probe.axis == Point{0, 0, 0}) document.fault(reading.where("axis"), "is zero", "a direction");
+  }
+}
+
+}  // namespace
+
 Probe read_probe(Document& document, const std::string& name, const Value& value) {
   using Quantity = Probe::Quantity;
   Probe probe;
@@ -25,7 +45,14 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
                                                            {"rotation", Quantity::rotation},
                                                            {"angular_velocity", Quantity::angular_velocity},
                                                            {"force", Quantity::force},
-                                                           {"moment", Quantity::moment}});
+                                                           {"moment", Quantity::moment},
+                                                           {"section_force", Quantity::section_force},
+                                                           {"section_moment", Quantity::section_moment},
+                                                           {"stress", Quantity::stress},
+                                                           {"principal_stress", Quantity::principal_stress},
+                                                           {"von_mises_stress", Quantity::von_mises_stress},
+                                                           {"membrane_force", Quantity::membrane_force},
+                                                           {"bending_moment", Quantity::bending_moment}});
   const bool exerted = probe.quantity == Quantity::force || probe.quantity == Quantity::moment;
   if (exerted != (of == "joint") && !of.empty())
     document.fault(reading.where("quantity"),
@@ -35,6 +62,18 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
     document.fault(reading.where("relative_to"),
                    "does not apply to a deflection, which is measured in the body's frame",
                    "another quantity, or none");
+  read_shell_keys(document, reading, probe);
+  if (probe.relative_to && (probe.of_section() || probe.of_shell()))
+    document.fault(reading.where("relative_to"), "does not apply to sections and shells, whose own axes count",
+                   "another quantity, or none");
+  if (const auto toward = reading.value("toward")) {
+    probe.toward = read_place(document, *toward, reading.key("toward"));
+    if (!probe.of_section() && !probe.of_shell())
+      document.fault(reading.where("toward"), "applies to sections of beams and to shells only",
+                     "quantity: section_force, stress, ..., or none");
+    else if (probe.toward->body != probe.at.body)
+      document.fault(reading.where("toward"), "is on body " + probe.toward->body, "a place of body " + probe.at.body);
+  }
   return probe;
 }
 

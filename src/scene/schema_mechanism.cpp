@@ -165,12 +165,27 @@ const SchemaSection probe_section{
             "quantity", "",
             "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
             "to the floating frame; rotation: of the section (in spatial scenes a rotation vector of length at most "
-            "pi); force, moment (about the second place): of a joint, in world axes. Absent: displacement, of a "
-            "joint force",
-            {"position", "displacement", "deflection", "velocity", "rotation", "angular_velocity", "force", "moment"}),
+            "pi); force, moment (about the second place): of a joint, in world axes; section_force (N, Vy, Vz; in "
+            "planar scenes N, V), section_moment (about the place: T, My, Mz; M): of a beam, what the part beyond the "
+            "section (towards increasing x of the elements) exerts on the part before it, in the axes of the section "
+            "as it rotates; of a shell, in axes x, y on its surface: "
+            "membrane_force and bending_moment per length (positive moments stretch the top), stress, principal_stress "
+            "and von_mises_stress at `surface`. Absent: displacement, of a joint force",
+            {"position", "displacement", "deflection", "velocity", "rotation", "angular_velocity", "force", "moment",
+             "section_force", "section_moment", "stress", "principal_stress", "von_mises_stress", "membrane_force",
+             "bending_moment"}),
         {"relative_to", Type::place, "", "",
          "reference place; components in axes that rotate with its section; absent: world. Of a joint, the axes alone "
          "are those of the place"},
+        {"toward", Type::place, "", "",
+         "section_force, section_moment: the section just beside the place, on the element that leads towards this "
+         "place; absent: the mean of both sides, which differ where a load or a joint acts on the place. Of shells: on "
+         "the part and plane that lead there, where several meet"},
+        in_space(choice("surface", "middle", "of a shell, for stresses; top is where the normal of its elements points",
+                        {"middle", "top", "bottom"})),
+        in_space({"axis", Type::point, "", "",
+                  "axis x of the components of a shell, mesh axes, projected on the surface; absent: that of the "
+                  "section, or x (y where x is normal to the shell)"}),
     }};
 
 const SchemaSection event_section{

@@ -178,16 +178,16 @@ class Follower {
 
 }  // namespace
 
-DeviationReport deviation(
-    const System& system, double begin, const std::vector<State>& known,
-    const std::function<void(const State&, const Eigen::VectorXd&, const Eigen::VectorXd&)>& observe) {
+DeviationReport deviation(const System& system, double begin, const std::vector<State>& known,
+                          const std::function<void(const State&, const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                                   const Eigen::VectorXd&)>& observe) {
   Follower follower(system);
   double before = begin;
   follower.report.end = begin;
   for (const State& state : known) {
     const double h = state.t - before;
     if (!follower.step(state, Scheme(h, follower.report.steps == 0), h)) break;
-    observe(state, follower.last().d, follower.last().rate);
+    observe(state, follower.last().d, follower.last().rate, follower.last().second_rate);
     before = state.t;
     ++follower.report.steps, follower.report.end = state.t;
   }

@@ -231,7 +231,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
-  PetscCall(PetscObjectComposeFunction((PetscObject)ts, interpolate_name, interpolate_both));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, interpolate_name, interpolate_all));
   PetscFunctionReturn(0);
 }
 
@@ -266,9 +266,9 @@ PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRot
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V) {
+PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V, Vec A) {
   PetscFunctionBegin;
-  PetscUseMethod(ts, "TSGeneralizedAlphaInterpolate_C", (TS, PetscReal, Vec, Vec), (ts, t, U, V));
+  PetscUseMethod(ts, "TSGeneralizedAlphaInterpolate_C", (TS, PetscReal, Vec, Vec, Vec), (ts, t, U, V, A));
   PetscFunctionReturn(0);
 }
 

@@ -135,7 +135,7 @@ void renew_jacobian(SNES snes, PetscInt iteration);
 PetscErrorCode step(TS ts);
 PetscErrorCode roll_back(TS ts);
 PetscErrorCode interpolate(TS ts, PetscReal t, Vec U);
-PetscErrorCode interpolate_both(TS ts, PetscReal t, Vec U, Vec V);
+PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V, Vec A);
 PetscErrorCode form_function(SNES snes, Vec U, Vec F, TS ts);
 PetscErrorCode form_jacobian(SNES snes, Vec U, Mat J, Mat P, TS ts);
 

@@ -299,21 +299,24 @@ PetscErrorCode interpolate(TS ts, PetscReal t, Vec U_vec) {
   PetscFunctionReturn(0);
 }
 
-// Rates likewise, between V0 and V1 with the derivatives A0 and A1.
-PetscErrorCode interpolate_both(TS ts, PetscReal t, Vec U, Vec V_vec) {
+// Rates likewise, between V0 and V1 with the derivatives A0 and A1, which are interpolated linearly.
+PetscErrorCode interpolate_all(TS ts, PetscReal t, Vec U, Vec V_vec, Vec A_vec) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
   PetscCall(interpolate(ts, t, U));
   if (ts->ptime == ts->ptime_prev) {
     PetscCall(VecCopy(ts->vec_dot, V_vec));
+    PetscCall(VecCopy(data->A1, A_vec));
     PetscFunctionReturn(0);
   }
   const Entries V0(data->V0), V1(data->V1), A0(data->A0), A1(data->A1), dynamic(data->dynamic);
-  Changed V(V_vec);
+  Changed V(V_vec), A(A_vec);
   const PetscReal h = ts->ptime - ts->ptime_prev, x = (t - ts->ptime_prev) / h, to_end = x * x * (3 - 2 * x);
-  for (PetscInt i = 0, n = local_size(V_vec); i < n; ++i)
+  for (PetscInt i = 0, n = local_size(V_vec); i < n; ++i) {
     V[i] = dynamic[i] * (V0[i] + to_end * (V1[i] - V0[i]) + h * x * (1 - x) * ((1 - x) * A0[i] - x * A1[i]));
+    A[i] = A0[i] + x * (A1[i] - A0[i]);
+  }
   PetscFunctionReturn(0);
 }
 

@@ -24,7 +24,7 @@ struct MotionContext {
   std::vector<double> carried_of_tangent = {};        ///< as it was when the last tangent was formed
   std::vector<Eigen::Matrix3d> axes_of_tangent = {};  ///< of frames, likewise
   std::function<MotionState()> state = {};
-  std::function<void(double, Vec, Vec)> between = {};
+  std::function<void(double, Vec, Vec, Vec)> between = {};
   std::unique_ptr<Crossings> crossings = {};
   std::vector<double> happened = {};    ///< of each event
   bool observed = false;                ///< the instant that TS begins with, before a kink

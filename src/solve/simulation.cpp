@@ -205,8 +205,8 @@ IntegrationReport simulate(const System& system, const Integration& how, Vec U, 
   context.ts = ts;
   if (report.type == generalized_alpha) {
     context.state = [&] { return keep(context); };
-    context.between = [&](double t, Vec at, Vec rate) {
-      check(TSGeneralizedAlphaInterpolate(context.ts, t, at, rate));
+    context.between = [&](double t, Vec at, Vec rate, Vec second_rate) {
+      check(TSGeneralizedAlphaInterpolate(context.ts, t, at, rate, second_rate));
     };
   }
   context.happened.assign(how.events.size(), 0);

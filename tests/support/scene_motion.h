@@ -58,9 +58,9 @@ struct History {
   }
 };
 
-inline void store(History& history, double t, Vec U, Vec V) {
+inline void store(History& history, double t, Vec U, Vec V, Vec A = nullptr) {
   const auto columns = assembly::probe_columns(history.model);
-  const std::vector<double> values = assembly::probe_values(history.model, t, U, V);
+  const std::vector<double> values = assembly::probe_values(history.model, t, U, V, A);
   history.t.push_back(t);
   for (std::size_t c = 0; c < columns.size(); ++c) history.columns[columns[c].name].push_back(values[c]);
   history.energy.push_back(history.model.system->energy(t, U, V));
@@ -80,7 +80,7 @@ inline History move(const std::string& text, Formulation formulation) {
   how.kinks = assembly::kinks_of(scene, motion.end);
   how.on_event = [&](const dynamics::EventReport& event) { history.events.push_back(event); };
   history.report = solve::simulate(*history.model.system, how, history.model.U, history.model.V,
-                                   [&](const solve::Instant& at) { store(history, at.t, at.U, at.V); });
+                                   [&](const solve::Instant& at) { store(history, at.t, at.U, at.V, at.A); });
   return history;
 }
 
@@ -89,7 +89,7 @@ inline History rest(const std::string& text, Formulation formulation, int steps 
   History history = history_of(text, formulation);
   for (int i = 1; i <= steps; ++i)
     solve::equilibrium(*history.model.system, double(i) / steps, history.model.U, history.model.V);
-  store(history, 1, history.model.U, history.model.V);
+  store(history, 1, history.model.U, history.model.V, history.model.V);
   return history;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "floe/dynamics/connection.h"
+#include "floe/dynamics/cut.h"
 #include "floe/dynamics/event.h"
 #include "floe/dynamics/joints.h"
 #include "floe/dynamics/spatial_marker.h"
@@ -65,6 +66,18 @@ struct SpatialProbe {
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
 };
 
+/// A section through a beam, by the part of the body on one of its sides.
+struct ModelSection {
+  dynamics::Cut cut;
+  double factor =
+      1;            ///< of what it exerts on the part, in the mean of both sides: -1 or -1/2 of one beyond the section
+  int origin = -1;  ///< of moments: local index of R on the last rank; -1: the place itself
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< x, y, z of the undeformed section in the body's axes
+};
+
+/// What a shell's stresses follow from (shell_stress.h).
+struct ShellPoint;
+
 /// A probe of a planar scene, by the markers that it looks at.
 struct ModelProbe {
   std::string name;
@@ -77,6 +90,8 @@ struct ModelProbe {
   /// Of a joint: its terms, which are the system's; on its last rank.
   std::vector<const dynamics::Connection*> connections = {};
   Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();  ///< of the place in the axes of this frame, from its origin
+  std::vector<ModelSection> sections = {};            ///< of a section: one, or both sides
+  std::shared_ptr<const ShellPoint> shell = {};       ///< of a shell
 };
 
 /// One side of a joint's limits.
@@ -158,7 +173,7 @@ std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const
 struct ProbeColumn {
   std::string name, unit;
   double scale = 1;  ///< beside which its values are small or not: the scene's extent [m], 1 rad
-  enum class Kind { place, rate, load } kind = Kind::place;
+  enum class Kind { place, rate, load, stress } kind = Kind::place;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
@@ -170,6 +185,9 @@ int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.
 std::vector<double> attitudes(const Model& model, Vec U);
 /// Values at an instant, the same on all ranks of the system. Collective.
-std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V);
+/// @param A  accelerations, which forces in bodies need; null: those that are consistent with U and V (one
+/// factorisation
+///           where a probe needs them)
+std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec A = nullptr);
 
 }  // namespace floe::assembly

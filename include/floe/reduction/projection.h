@@ -13,6 +13,13 @@ namespace floe::reduction {
 /// + p)^2), p the number of pairs, at most k^2/2; memory: V once more on every rank, and O((k + p)^2).
 body::FlexibleBody project(const fem::Structure& structure, const Basis& basis);
 
+/// Inertia constants of some of the cells on the columns of V, of their mass and of unit density per length (area).
+/// @param only  of each of this rank's cells whether it counts. Collective; the same on all ranks.
+struct PartMasses {
+  body::Inertia mass, line;
+};
+PartMasses part_masses(const fem::Structure& structure, const Basis& basis, const std::vector<char>& only);
+
 /// Rows of V at a node: S and psi. Collective; replicated.
 body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, PetscInt node);
 

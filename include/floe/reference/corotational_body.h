@@ -6,6 +6,7 @@
 #include "floe/dynamics/spatial_marker.h"
 #include "floe/dynamics/system.h"
 #include "floe/fem/structure.h"
+#include "floe/reference/corotational_element.h"
 #include "floe/reference/full_order.h"
 
 namespace floe::reference {
@@ -62,8 +63,13 @@ class CorotationalBody {
     Eigen::Vector3d x;
   };
   std::vector<NodeMass> masses() const { return carried(Density::mass); }
+  /// The element of a cell that is no point, or the i-th of a quadrilateral's four triangles; null: all its places have
+  /// one frame. Rank-local.
+  std::unique_ptr<CorotationalElement> element(const fem::Mesh::Cell& cell, std::size_t i, double viscosity) const;
+  /// Elements and masses of some cells alone. Rank-local.
+  std::vector<std::unique_ptr<dynamics::Term>> terms_of(CellsOfPart part, double viscosity) const;
   /// Force densities per mass, or per line and area, as a marker for each frame (SpatialMarker::mass).
-  std::vector<dynamics::SpatialMarker> density(Density density) const;
+  std::vector<dynamics::SpatialMarker> density(Density density, CellsOfPart part = nullptr) const;
   /// Of the frames that this rank sees.
   void add_attitudes(dynamics::Attitudes& attitudes) const;
   /// The start of this rank's own frames. @param global  Coordinates::global(), numbered
@@ -79,8 +85,9 @@ class CorotationalBody {
     Eigen::Vector3d arm, axis;
     int rows() const { return axis.isZero(0) ? 6 : 5; }
   };
-  std::vector<NodeMass> carried(Density density) const;
-  void add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
+  std::vector<NodeMass> carried(Density density, CellsOfPart part = nullptr) const;
+  void add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms,
+                    CellsOfPart part = nullptr) const;
   void add_links(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
   void add_idle(std::vector<std::unique_ptr<dynamics::Term>>& terms) const;
   void find_links(const std::vector<std::vector<PetscInt>>& pieces);

@@ -43,19 +43,30 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
                                                               const NodeCoordinates& nodes, int frame, int multipliers,
                                                               ElasticForce force, double viscosity = 0);
 
+/// Of each of this rank's cells whether it counts; null: all do.
+using CellsOfPart = const std::vector<char>*;
+inline bool counts(CellsOfPart part, std::size_t cell) { return !part || (*part)[cell] != 0; }
+
+/// The inertia alone of the elements, each as a FloatingBody without elasticity. Rank-local.
+std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure, const fem::Conditions& held,
+                                                           const NodeCoordinates& nodes, int frame,
+                                                           CellsOfPart part = nullptr);
+
 /// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or [m] of line.
 ///
 /// @param held  dofs that the frame holds: a force on them acts on the frame alone
 enum class Density { mass, line };
 std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
-                                              const NodeCoordinates& nodes, int frame, Density density);
+                                              const NodeCoordinates& nodes, int frame, Density density,
+                                              CellsOfPart part = nullptr);
 
 /// The place of a node of a full-order body, which does not move with the dofs that the frame holds.
 dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
                              const Eigen::Vector3d& x);
 
 /// Line density on the elements of a corotational body (world axes): each half element's load goes to its node. [m]
-std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes);
+std::vector<dynamics::Marker> corotational_line_markers(const fem::Structure& structure, const NodeCoordinates& nodes,
+                                                        CellsOfPart part = nullptr);
 
 /// r = A q with A fixed: a linear equation among coordinates, in terms of dynamics::Term. Weight 1 at every level.
 ///

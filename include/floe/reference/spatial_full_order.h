@@ -42,9 +42,17 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
     const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
     const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity = 0);
 
+/// The inertia alone of the elements, each as a SpatialBody without elasticity. Rank-local.
+std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,
+                                                                   const fem::Conditions& held,
+                                                                   const NodeCoordinates& nodes,
+                                                                   const SpatialFrame& frame,
+                                                                   CellsOfPart part = nullptr);
+
 /// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or of line and area.
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
                                                              const fem::Conditions& held, const NodeCoordinates& nodes,
-                                                             const SpatialFrame& frame, Density density);
+                                                             const SpatialFrame& frame, Density density,
+                                                             CellsOfPart part = nullptr);
 
 }  // namespace floe::reference

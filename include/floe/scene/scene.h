@@ -258,10 +258,24 @@ struct Probe {
     angular_velocity,
     force,
     moment,
+    section_force,
+    section_moment,
+    stress,
+    principal_stress,
+    von_mises_stress,
+    membrane_force,
+    bending_moment,
   } quantity = Quantity::displacement;
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
-  std::vector<Place> chord;          ///< of a split body, deflection: from the line through these two places
+  std::optional<Place> toward;       ///< sections and shells: just beside the place, on the element that leads there
+  enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell, for stresses
+  std::optional<Point> axis;  ///< of shells: the first axis of components, projected on the surface; mesh axes
+  std::vector<Place> chord;   ///< of a split body, deflection: from the line through these two places
   Where where;
+
+  bool of_section() const { return quantity == Quantity::section_force || quantity == Quantity::section_moment; }
+  bool of_stress() const { return quantity >= Quantity::stress && quantity <= Quantity::von_mises_stress; }
+  bool of_shell() const { return quantity >= Quantity::stress; }
 };
 
 /// Something that happens once: a joint lets go or is locked where it is, or the motion ends.

@@ -42,10 +42,10 @@ struct DeviationReport {
 ///
 /// @param system   on one rank, whose terms take their steps from state to state (Term::begin_step)
 /// @param known    in ascending order of t, all after `begin`
-/// @param observe  called at each of them with the state, d and d'
-DeviationReport deviation(
-    const System& system, double begin, const std::vector<State>& known,
-    const std::function<void(const State&, const Eigen::VectorXd& d, const Eigen::VectorXd& rate)>& observe);
+/// @param observe  called at each of them with the state, d, d' and d''
+DeviationReport deviation(const System& system, double begin, const std::vector<State>& known,
+                          const std::function<void(const State&, const Eigen::VectorXd& d, const Eigen::VectorXd& rate,
+                                                   const Eigen::VectorXd& second_rate)>& observe);
 
 /// The state with a deviation and its rates, as above.
 State deviated(const System& system, const State& state, const Eigen::VectorXd& d, const Eigen::VectorXd& rate,

@@ -59,7 +59,7 @@ PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRot
 PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);
 
 /// U and its rates V within the last step, cubic polynomials between its ends (errors of fourth order in the step);
-/// multipliers in U are linear, and zero in V. Rotations are relative to the base that the step's end has.
-PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V);
+/// multipliers in U are linear, and zero in V. A is linear. Rotations are relative to the base that the step's end has.
+PetscErrorCode TSGeneralizedAlphaInterpolate(TS ts, PetscReal t, Vec U, Vec V, Vec A);
 
 }  // namespace floe::solve

@@ -31,9 +31,12 @@ struct Instant {
   bool last;
   /// All that the motion goes on from here with; null with other types of TS than generalized-alpha. Rank-local.
   const std::function<MotionState()>* state = nullptr;
-  /// U and V at a time within the step that ends here (TSGeneralizedAlphaInterpolate); null at the start and with other
-  /// types of TS. Attitudes are relative to the bases that stand. Collective.
-  const std::function<void(double t, Vec U, Vec V)>* between = nullptr;
+  /// U, V and A at a time within the step that ends here (TSGeneralizedAlphaInterpolate); null at the start and with
+  /// other types of TS. Attitudes are relative to the bases that stand. Collective.
+  const std::function<void(double t, Vec U, Vec V, Vec A)>* between = nullptr;
+  bool at_rest = false;  ///< an equilibrium: all rates are zero
+  /// The accelerations, where they are known. @return  null: they are not
+  Vec accelerations() const { return at_rest ? V : A; }
 };
 
 /// What an integration took, and how far it came.

@@ -69,8 +69,8 @@ TEST_CASE("deviation: the missing part of a pendulum's motion, at order 2 in ste
     double difference = 0, size = 0;
     const States exact = every(to, n);
     std::size_t i = 0;
-    const auto report =
-        solve::deviation(whole, 0, every(from, n), [&](const solve::State& at, const VectorXd& d, const VectorXd&) {
+    const auto report = solve::deviation(
+        whole, 0, every(from, n), [&](const solve::State& at, const VectorXd& d, const VectorXd&, const VectorXd&) {
           const double gap = exact[i++].q[2] - at.q[2];
           difference += std::pow(d[2] - gap, 2), size += gap * gap;
         });
@@ -93,16 +93,17 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
     double difference = 0, size = 0, rates = 0, greatest = 0;
     const States exact = every(to, n);
     std::size_t i = 0;
-    solve::deviation(
-        *equations.system, 0, every(from, n), [&](const solve::State& at, const VectorXd& d, const VectorXd& rate) {
-          const solve::State& there = exact[i++];
-          const Vector3d gap = math::rotation_vector(at.bases[0].conjugate() * there.bases[0]);
-          difference += (d.segment<3>(3) - gap).squaredNorm(), size += gap.squaredNorm();
-          const solve::State now = solve::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
-          const Vector3d w = there.v.segment<3>(3) - at.v.segment<3>(3);
-          rates += (now.v.segment<3>(3) - at.v.segment<3>(3) - w).squaredNorm();
-          greatest += w.squaredNorm();
-        });
+    solve::deviation(*equations.system, 0, every(from, n),
+                     [&](const solve::State& at, const VectorXd& d, const VectorXd& rate, const VectorXd&) {
+                       const solve::State& there = exact[i++];
+                       const Vector3d gap = math::rotation_vector(at.bases[0].conjugate() * there.bases[0]);
+                       difference += (d.segment<3>(3) - gap).squaredNorm(), size += gap.squaredNorm();
+                       const solve::State now =
+                           solve::deviated(*equations.system, at, d, rate, VectorXd::Zero(d.size()));
+                       const Vector3d w = there.v.segment<3>(3) - at.v.segment<3>(3);
+                       rates += (now.v.segment<3>(3) - at.v.segment<3>(3) - w).squaredNorm();
+                       greatest += w.squaredNorm();
+                     });
     CHECK(i == exact.size());
     CHECK(std::sqrt(rates / greatest) < 0.1);
     return std::sqrt(difference / size);
@@ -115,11 +116,12 @@ TEST_CASE("deviation: of a spinning top, in the group of rotations") {
 TEST_CASE("deviation: nothing is missing, nothing deviates; what does not converge ends it") {
   const dynamics::System whole = testing::pendulum(m, l, g);
   const States from = states_of(whole, whole.create_vector(), whole.create_vector(), {0.5, 1e-3, 0.8, {}});
-  solve::deviation(whole, 0, from,
-                   [&](const solve::State&, const VectorXd& d, const VectorXd&) { CHECK(d.head<3>().norm() < 1e-8); });
+  solve::deviation(whole, 0, from, [&](const solve::State&, const VectorXd& d, const VectorXd&, const VectorXd&) {
+    CHECK(d.head<3>().norm() < 1e-8);
+  });
   States broken = from;
   broken[99].a[2] = NAN;
-  const auto report = solve::deviation(whole, 0, broken, [](const auto&, const auto&, const auto&) {});
+  const auto report = solve::deviation(whole, 0, broken, [](const auto&, const auto&, const auto&, const auto&) {});
   CHECK(report.steps == 99);
   CHECK(report.end == Approx(0.099));
 }
