@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "building.h"
-#include "scene_motion.h"
+#include "estimated.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -253,6 +253,38 @@ probes:
     CHECK(moment(at, "root").y() == Approx(10. / 12).epsilon(tolerance));
     CHECK(moment(at, "middle").y() == Approx(-10. / 24).epsilon(tolerance));
     CHECK(force(at, "shear").z() == Approx(-5).epsilon(tolerance));
+  }
+}
+
+TEST_CASE("sections of a driven beam of three modes: error against full order, and its estimate", "[verification]") {
+  const std::string text = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 20}}
+    section: {shape: rectangle, width: 0.03, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 3}
+joints:
+  drive: {type: driven, between: [ground, beam.start], axis: [0, 0, 1], angle: "2*smooth(t,0,0.5)"}
+loads:
+  tip: {type: force, at: beam.end, force: [0, "2*sin(40*t)", "sin(25*t)"]}
+motion: {end: 0.5, step: 1e-3}
+probes:
+  root: {at: beam.start, quantity: section_moment}
+  inner: {at: beam.middle, quantity: section_moment}
+  force: {at: beam.middle, quantity: section_force}
+)yaml";
+  const Estimated reduced = move_and_estimate(text, Formulation::vm_md);
+  REQUIRE(reduced.estimate.none == "");
+  const History full = move(text, Formulation::nlffr);
+  for (std::size_t p = 0; p < 3; ++p) {
+    const std::string& name = reduced.history.model.probes[p].name;
+    const double error = vector_error(reduced.history, full, name), estimate = reduced.estimate.probes[p];
+    INFO(fmt::format("{}: error {:.3g}, estimate {:.3g}", name, error, estimate));
+    CHECK(error < (name == "force" ? 0.02 : 0.006));
+    CHECK(estimate > 0.2 * error);
+    CHECK(estimate < 3 * error);
   }
 }
 

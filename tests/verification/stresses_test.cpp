@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "building.h"
-#include "scene_motion.h"
+#include "estimated.h"
 #include "spatial_scenes.h"
 
 using namespace floe;
@@ -107,6 +107,35 @@ TEST_CASE("stresses of a reduced plate converge to those of full order", "[verif
   const double few = error(5), more = error(20);
   CHECK(few < 0.25);
   CHECK(more < 0.5 * few);
+}
+
+TEST_CASE("stresses of a reduced plate in motion: the estimate of their error", "[verification]") {
+  const std::string text = fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: [12, 6], cells: quadrilaterals}}
+    section: {thickness: 0.005}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 4}
+joints: {clamp: {type: fixed, between: [ground, plate.left]}}
+loads: {p: {type: pressure, body: plate, pressure: "20*sin(30*t)"}}
+motion: {end: 0.4, step: 1e-3}
+probes:
+  root: {at: {body: plate, node: [0, 0.25, 0]}, quantity: stress, surface: top}
+  inner: {at: {body: plate, node: [0.5, 0.25, 0]}, quantity: stress, surface: top}
+)yaml",
+                                {});
+  const Estimated reduced = move_and_estimate(text, Formulation::vm_md);
+  REQUIRE(reduced.estimate.none == "");
+  const History full = move(text, Formulation::nlffr);
+  for (std::size_t p = 0; p < 2; ++p) {
+    const std::string& name = reduced.history.model.probes[p].name;
+    const double error = vector_error(reduced.history, full, name), estimate = reduced.estimate.probes[p];
+    INFO(fmt::format("{}: error {:.3g}, estimate {:.3g}", name, error, estimate));
+    CHECK(error < 0.1);
+    CHECK(estimate > 0.5 * error);
+    CHECK(estimate < 2 * error);
+  }
 }
 
 TEST_CASE("stresses of a cantilever plate as CalculiX has them", "[verification]") {
