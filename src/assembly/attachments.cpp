@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floe/petsc/values.h"
+#include "floe/scene/sensors.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -235,12 +236,22 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
     add_spatial_constraint_modes(plan, index, all);
 }
 
+/// Where a load acts: its place, or both of its joint.
+std::vector<Anchor> places_of_load(const Plan& plan, std::size_t l) {
+  const std::string& joint = plan.scene.loads[l].joint;
+  if (joint.empty()) return {plan.loads[l]};
+  const auto& [first, second] = plan.joints[joint_index(plan.scene, joint)];
+  return {first, second};
+}
+
 /// In which a load acts: its axes, and besides its own directions at five times of the motion, as an oblique body may
 /// be soft along every axis and stiff between them.
 std::vector<Eigen::Vector3d> directions(const std::array<math::Formula, 3>& values, double end) {
   std::vector<Eigen::Vector3d> all;
   for (int c = 0; c < 3; ++c)
     if (!values[c].constant() || values[c]() != 0) all.push_back(Eigen::Vector3d::Unit(c));
+  if (std::any_of(values.begin(), values.end(), [](const math::Formula& value) { return value.has_sensors(); }))
+    return all;
   for (int k = 0; k <= 4; ++k) {
     const double t = (end > 0 ? end : 1) * k / 4;
     const Eigen::Vector3d value(values[0](t), values[1](t), values[2](t));
@@ -269,13 +280,15 @@ Attachments attachments(const Plan& plan, int index) {
   if (choice == Choice::joints || choice == Choice::all) add_joints(plan, index, all);
   for (std::size_t l = 0; l < plan.loads.size(); ++l) {
     const Load& load = plan.scene.loads[l];
-    if (plan.loads[l].body != index || load.spread()) continue;
+    if (load.spread()) continue;
     const bool moment = load.kind == Load::Kind::moment;
-    const bool of_joint = choice == Choice::joints && moment && at_a_joint(plan, plan.loads[l]);
-    if (choice != Choice::loads && choice != Choice::all && !of_joint) continue;
     const int d = body.structure.dimension();
-    for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
-      all.push_back(unit_load(body, plan.loads[l], c, load.name));
+    for (const Anchor& place : places_of_load(plan, l)) {
+      const bool of_joint = choice == Choice::joints && (!load.joint.empty() || (moment && at_a_joint(plan, place)));
+      if (place.body != index || (choice != Choice::loads && choice != Choice::all && !of_joint)) continue;
+      for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
+        all.push_back(unit_load(body, place, c, load.name));
+    }
   }
   return all;
 }
@@ -285,8 +298,9 @@ std::vector<reduction::Attachment> loads_on(const Plan& plan, int index) {
   Attachments all;
   for (std::size_t l = 0; l < plan.loads.size(); ++l) {
     const Load& load = plan.scene.loads[l];
+    if (load.spread() || !load.joint.empty()) continue;  // to joints all directions belong anyway
     const Anchor& place = plan.loads[l];
-    if (place.body != index || load.kind == Load::Kind::distributed) continue;
+    if (place.body != index) continue;
     const bool moment = load.kind == Load::Kind::moment;
     const Eigen::Matrix3d to_frame = load.axes == Load::Axes::world ? body.attitude.transpose() : body.axes.transpose();
     const auto& values = moment ? load.moment : load.force;

@@ -43,10 +43,9 @@ std::vector<dynamics::Kink> kinks_of(const Scene& scene, double end) {
   for (int i = 0; i < 3; ++i) {
     add_load(scene.gravity[i], step, end, all);
     add_load(scene.ground_acceleration[i], step, end, all);
-    for (const Load& load : scene.loads)
-      add_load(load.force[i], step, end, all), add_load(load.moment[i], step, end, all);
   }
-  for (const Load& load : scene.loads) add_load(load.pressure, step, end, all);
+  for (const Load& load : scene.loads)
+    for (const math::Formula* formula : load.formulas()) add_load(*formula, step, end, all);
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.before < b.before; });
   std::vector<dynamics::Kink> joined;
   for (dynamics::Kink& kink : all) {

@@ -269,6 +269,9 @@ Model PlanarAssembly::model() {
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) add_load(l);
   add_joints(model, q);
   add_probes(model, q);
+  add_state_loads(model, q);
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p)
+    if (plan_.scene.probes[p].of_section()) model.probes[p].sections = sections(p, model);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));

@@ -4,6 +4,7 @@
 #include "connections.h"
 #include "damping_axes.h"
 #include "floe/assembly/reduce_bodies.h"
+#include "floe/dynamics/sensor.h"
 #include "floe/reference/full_order.h"
 #include "floe/reference/mass_damping.h"
 #include "full_order_modes.h"
@@ -48,8 +49,21 @@ class PlanarAssembly {
   void add_load(std::size_t load, const BodyPart* part = nullptr);
   std::vector<std::shared_ptr<const dynamics::Term>> terms_of(int body, const BodyPart& part);
   std::vector<ModelSection> sections(std::size_t probe, Model& model);
+  /// The terms of a load that is not on a joint, of which `value` gives the force or the moment. Collective.
+  std::vector<std::unique_ptr<dynamics::Term>> load_terms(std::size_t load,
+                                                          const std::function<Eigen::Vector3d(double)>& value,
+                                                          const BodyPart* part = nullptr);
+  /// Loads on joints, those that depend on sensors, and probes that are formulas. After joints and probes.
+  void add_state_loads(Model& model, const Eigen::VectorXd& q);
+  std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model,
+                                                         const Eigen::VectorXd& q) const;
   void connect(std::size_t joint, std::unique_ptr<dynamics::Connection> term);
   void add_joints(Model& model, const Eigen::VectorXd& q);
+  using Of = dynamics::RelativeCoordinate::Of;
+  /// Of a joint, on its rank: since the start, but for a length.
+  std::unique_ptr<dynamics::PlanarCoordinate> coordinate_of(std::size_t joint, Of of,
+                                                            const std::array<dynamics::Marker, 2>& places,
+                                                            const Eigen::VectorXd& q) const;
   void add_stops(std::size_t index, const std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q,
                  std::vector<ModelStop>& stops);
   void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
@@ -70,10 +84,11 @@ class PlanarAssembly {
   std::vector<DampedWhole> damped_;
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
+  std::vector<std::array<dynamics::Marker, 2>> joint_places_;
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
-  Connections connections_;                                  // of the joints, among terms_
-  std::map<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
-  std::vector<int> undetermined_;                            // joints whose multipliers are not determined
+  Connections connections_;                                       // of the joints, among terms_
+  std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
+  std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
   std::map<std::string, JointLatches> latches_;
 };
 

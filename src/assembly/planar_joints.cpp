@@ -13,12 +13,12 @@ namespace floe::assembly {
 using dynamics::Marker;
 
 void PlanarAssembly::add_joints(Model& model, const Eigen::VectorXd& q) {
-  std::vector<std::array<Marker, 2>> markers;  // finding them is collective, what follows is rank-local
-  for (const auto& joint : plan_.joints) markers.push_back({marker(joint[0]), marker(joint[1])});
+  // Finding them is collective, what follows is rank-local.
+  for (const auto& joint : plan_.joints) joint_places_.push_back({marker(joint[0]), marker(joint[1])});
   const auto add = [&] {
-    for (std::size_t j = 0; j < markers.size(); ++j) {
-      if (owner_) add_joint(j, markers[j], q);
-      add_stops(j, markers[j], q, model.stops);
+    for (std::size_t j = 0; j < joint_places_.size(); ++j) {
+      if (owner_) add_joint(j, joint_places_[j], q);
+      add_stops(j, joint_places_[j], q, model.stops);
     }
   };
   if (is_reduced(formulation_))
@@ -89,19 +89,28 @@ void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, con
   }
 }
 
+std::unique_ptr<dynamics::PlanarCoordinate> PlanarAssembly::coordinate_of(std::size_t j, Of of,
+                                                                          const std::array<Marker, 2>& places,
+                                                                          const Eigen::VectorXd& q) const {
+  const Joint& joint = plan_.scene.joints[j];
+  const Eigen::Vector3d one = pose_at(places[0], q), two = pose_at(places[1], q);
+  const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
+  const double start = of == Of::turn ? two[2] - one[2] : of == Of::slide ? axis.dot((two - one).head<2>()) : 0;
+  return std::make_unique<dynamics::PlanarCoordinate>(places[0], places[1], of, start, turn(-one[2]) * axis);
+}
+
 void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& places, const Eigen::VectorXd& q,
                                std::vector<ModelStop>& stops) {
   const Joint& joint = plan_.scene.joints[j];
-  if (!joint.limits) return;
   const bool slides = joint.kind == Joint::Kind::prismatic;
+  if (joint.friction && owner_)
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, slides ? Of::slide : Of::turn, places, q),
+                                                      law_of(*joint.friction)));
+  if (!joint.limits) return;
   const dynamics::Stop* term = nullptr;
   if (owner_) {
-    const Eigen::Vector3d one = pose_at(places[0], q), two = pose_at(places[1], q);
-    const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized(),
-                          along = slides ? Eigen::Vector2d(turn(-one[2]) * axis) : Eigen::Vector2d::Zero();
-    const double start = slides ? axis.dot((two - one).head<2>()) : two[2] - one[2];
-    auto stop = std::make_unique<dynamics::PlanarStop>(places[0], places[1], along, start,
-                                                       law_of(*joint.limits, !slides, plan_.extent));
+    auto stop = std::make_unique<dynamics::Stop>(coordinate_of(j, slides ? Of::slide : Of::turn, places, q),
+                                                 law_of(*joint.limits, !slides, plan_.extent));
     term = stop.get();
     connect(j, std::move(stop));
   }

@@ -5,15 +5,25 @@ namespace floe::assembly {
 using dynamics::Marker;
 
 void PlanarAssembly::add_load(std::size_t l, const BodyPart* part) {
-  using dynamics::Force;
   const Load& load = plan_.scene.loads[l];
-  const Anchor& place = plan_.loads[l];
-  const reference::CellsOfPart cells = part ? &part->cells : nullptr;
+  if (!load.joint.empty() || load.has_sensors()) return;  // add_state_loads
   const bool moment = load.kind == Load::Kind::moment;
   const auto value = [load, moment](double t) {
     return moment ? Eigen::Vector3d(0, 0, load.moment[2](t)) : Eigen::Vector3d(load.force[0](t), load.force[1](t), 0);
   };
+  for (auto& term : load_terms(l, value, part)) {
+    if (load.kind != Load::Kind::distributed) load_terms_.emplace(l, term.get());
+    terms_.push_back(std::move(term));
+  }
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
+    std::size_t l, const std::function<Eigen::Vector3d(double)>& value, const BodyPart* part) {
+  using dynamics::Force;
+  const Load& load = plan_.scene.loads[l];
+  const Anchor& place = plan_.loads[l];
   const Force::Axes axes = load.axes == Load::Axes::body ? Force::Axes::body : Force::Axes::world;
+  const reference::CellsOfPart cells = part ? &part->cells : nullptr;
   std::vector<Marker> markers;
   if (load.kind != Load::Kind::distributed) {
     Marker at = marker(place);
@@ -34,11 +44,12 @@ void PlanarAssembly::add_load(std::size_t l, const BodyPart* part) {
     markers =
         reference::corotational_line_markers(plan_.bodies[place.body].structure, *slots_[place.body].nodes, cells);
   }
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
   for (Marker& at : markers) {
     // Forces of body axes are given in the axes of the mesh.
     const double tilt = axes == Force::Axes::body ? -plan_.bodies[place.body].frame_angle : 0;
     const Eigen::Matrix2d A = turn(tilt);
-    terms_.push_back(std::make_unique<Force>(
+    terms.push_back(std::make_unique<Force>(
         std::move(at),
         [value, A](double t) {
           Eigen::Vector3d f = value(t);
@@ -46,8 +57,8 @@ void PlanarAssembly::add_load(std::size_t l, const BodyPart* part) {
           return f;
         },
         axes));
-    if (load.kind != Load::Kind::distributed) load_terms_[l] = terms_.back().get();
   }
+  return terms;
 }
 
 }  // namespace floe::assembly

@@ -13,7 +13,7 @@ Eigen::Vector2d PlanarAssembly::in_mesh_axes(const Anchor& place) const {
 void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
-    const Anchor& place = plan_.probes[p][0];
+    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
     ModelProbe probe{spec.name, spec.quantity, marker(place), {}, {}, {}, Eigen::Vector3d::Zero()};
     const std::vector<Anchor>& chord = plan_.chords[p];
     for (const Anchor& node : chord) probe.frame.push_back(marker(node));
@@ -34,8 +34,8 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
       if (probe.marker.S.size() == 0 ||
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[place.body].body.inertia.m) < 1e-9)
         model.warnings.push_back(never_deflects(spec, plan_.bodies[place.body].spec));
+    probe.unit = spec.unit;
     probe.connections = measured(connections_, plan_.scene, spec);
-    if (spec.of_section()) probe.sections = sections(p, model);
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
     if (owner_) {
       probe.start = pose_at(probe.marker, q);

@@ -3,7 +3,10 @@
 
 #include "connections.h"
 #include "floe/assembly/model.h"
+#include "floe/dynamics/local_indices.h"
+#include "floe/dynamics/state_formula.h"
 #include "floe/math/rotation.h"
+#include "floe/scene/sensors.h"
 #include "floe/solve/start.h"
 #include "shell_stress.h"
 
@@ -11,44 +14,44 @@ namespace floe::assembly {
 
 namespace {
 
-/// Unit, size and kind of a probe's columns, and what they are called in the plane and in space.
+/// Unit, size and kind of a probe's columns.
 struct Meaning {
   std::string unit;
   double scale;
   ProbeColumn::Kind kind;
-  std::vector<std::string> plane, space;
 };
 
 Meaning meaning_of(Probe::Quantity quantity, double extent) {
   using Kind = ProbeColumn::Kind;
-  const std::vector<std::string> xy{"x", "y"}, xyz{"x", "y", "z"}, z{"z"};
   switch (quantity) {
     case Probe::Quantity::rotation:
-      return {"rad", 1, Kind::place, {"angle"}, {"rx", "ry", "rz"}};
+      return {"rad", 1, Kind::place};
     case Probe::Quantity::velocity:
-      return {"m/s", extent, Kind::rate, xy, xyz};
+      return {"m/s", extent, Kind::rate};
     case Probe::Quantity::angular_velocity:
-      return {"rad/s", 1, Kind::rate, z, xyz};
+      return {"rad/s", 1, Kind::rate};
     case Probe::Quantity::force:
-      return {"N", 1, Kind::load, xy, xyz};
+      return {"N", 1, Kind::load};
     case Probe::Quantity::moment:
-      return {"N m", extent, Kind::load, z, xyz};
+      return {"N m", extent, Kind::load};
     case Probe::Quantity::section_force:
-      return {"N", 1, Kind::load, {"N", "V"}, {"N", "Vy", "Vz"}};
+      return {"N", 1, Kind::load};
     case Probe::Quantity::section_moment:
-      return {"N m", extent, Kind::load, {"M"}, {"T", "My", "Mz"}};
+      return {"N m", extent, Kind::load};
     case Probe::Quantity::stress:
-      return {"Pa", 1, Kind::stress, {}, {"xx", "yy", "xy"}};
+      return {"Pa", 1, Kind::stress};
     case Probe::Quantity::principal_stress:
-      return {"Pa", 1, Kind::stress, {}, {"first", "second"}};
+      return {"Pa", 1, Kind::stress};
     case Probe::Quantity::von_mises_stress:
-      return {"Pa", 1, Kind::stress, {}, {"mises"}};
+      return {"Pa", 1, Kind::stress};
     case Probe::Quantity::membrane_force:
-      return {"N/m", 1 / extent, Kind::load, {}, {"xx", "yy", "xy"}};
+      return {"N/m", 1 / extent, Kind::load};
     case Probe::Quantity::bending_moment:
-      return {"N", 1, Kind::load, {}, {"xx", "yy", "xy"}};
+      return {"N", 1, Kind::load};
+    case Probe::Quantity::formula:
+      return {"", 1, Kind::formula};
     default:
-      return {"m", extent, Kind::place, xy, xyz};
+      return {"m", extent, Kind::place};
   }
 }
 
@@ -58,8 +61,10 @@ std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
     const Meaning meaning = meaning_of(probe.quantity, model.extent);
-    for (const std::string& component : probe.spatial ? meaning.space : meaning.plane)
-      columns.push_back({probe.name + "." + component, meaning.unit, meaning.scale, meaning.kind});
+    for (const std::string& component : components_of(probe.quantity, probe.spatial ? 3 : 2))
+      columns.push_back({probe.name + "." + component,
+                         meaning.kind == ProbeColumn::Kind::formula ? probe.unit : meaning.unit, meaning.scale,
+                         meaning.kind});
   }
   return columns;
 }
@@ -137,6 +142,13 @@ void add_exerted(const ModelProbe& probe, double t, const Eigen::VectorXd& q, co
   values.insert(values.end(), parts.data() + first, parts.data() + behind);
 }
 
+double value_of(const dynamics::StateFormula& formula, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  Eigen::VectorXd own, rate;
+  dynamics::pick(formula.coordinates(), q, own);
+  dynamics::pick(formula.coordinates(), v, rate);
+  return formula.value({t, own, rate, Eigen::VectorXd::Zero(own.size())});
+}
+
 bool of_section(const ModelProbe& probe) {
   return probe.quantity == Probe::Quantity::section_force || probe.quantity == Probe::Quantity::section_moment;
 }
@@ -202,6 +214,7 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
                 std::vector<double>& values) {
   if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
     return add_exerted(probe, t, q, v, values);
+  if (probe.quantity == Probe::Quantity::formula) return values.push_back(value_of(*probe.formula, t, q, v));
   if (probe.spatial) return add_values(*probe.spatial, probe.quantity, q, v, values);
   Placed at = placed(probe.marker, q, v);
   Eigen::Vector3d start = probe.start;
@@ -234,7 +247,7 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
     case Probe::Quantity::force:
     case Probe::Quantity::moment:
     default:
-      break;  // add_exerted, add_section, add_shell
+      break;  // add_exerted, value_of, add_section, add_shell
     case Probe::Quantity::deflection: {
       if (!probe.frame.empty()) {
         const Eigen::Vector2d u = deflection_from_nodes(probe, q, v, at.y);

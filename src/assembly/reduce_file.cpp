@@ -50,7 +50,14 @@ Scene alone(const Scene& scene, int index) {
   for (Joint& joint : part.joints)  // another body is, for this one, a place that is not held
     for (Place* place : {&joint.first, &joint.second})
       if (!stays(*place)) *place = Place{}, place->where = joint.where;
-  std::erase_if(part.loads, [&](const Load& load) { return load.spread() ? load.body != name : load.at.body != name; });
+  std::erase_if(part.loads, [&](const Load& load) {
+    if (!load.joint.empty())
+      return std::none_of(part.joints.begin(), part.joints.end(),
+                          [&](const Joint& joint) { return joint.name == load.joint; });
+    return load.spread() ? load.body != name : load.at.body != name;
+  });
+  for (Load& load : part.loads)
+    if (!load.joint.empty() && !stays(load.at)) load.at = Place{}, load.at.where = load.where;
   std::erase_if(part.probes, [&](const Probe& probe) {
     return probe.at.body != name || (probe.relative_to && !stays(*probe.relative_to));
   });

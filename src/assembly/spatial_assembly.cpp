@@ -350,6 +350,9 @@ Model SpatialAssembly::model() {
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) add_load(l);
   add_joints(model);
   add_probes(model);
+  add_state_loads(model);
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p)
+    if (plan_.scene.probes[p].of_section()) model.probes[p].sections = sections(p, model);
   dynamics::Attitudes attitudes;
   for (std::size_t b = 0; b < slots_.size(); ++b)
     if (slots_[b].corotated)

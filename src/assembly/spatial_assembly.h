@@ -5,6 +5,7 @@
 #include "damping_axes.h"
 #include "fixed_frames.h"
 #include "floe/assembly/reduce_bodies.h"
+#include "floe/dynamics/sensor.h"
 #include "floe/dynamics/spatial_joint.h"
 #include "floe/reference/corotational_body.h"
 #include "floe/reference/mass_damping.h"
@@ -58,7 +59,6 @@ class SpatialAssembly {
   void refuse_corotated(std::vector<std::string>& faults) const;
   std::vector<std::vector<PetscInt>> clamped_edges(int body) const;
   void add_corotated(int body);
-  void add_corotated_force(const Load& load, const Anchor& place);
   void add_corotated_pressure(const Load& load, int body, const fem::Mesh::Cell& cell);
 
   void add_frame(int body);
@@ -78,10 +78,20 @@ class SpatialAssembly {
   std::vector<std::shared_ptr<const dynamics::Term>> terms_of(int body, const BodyPart& part);
   std::vector<ModelSection> sections(std::size_t probe, Model& model);
   std::shared_ptr<const ShellPoint> shell_point(std::size_t probe) const;
+  /// The terms of a force or moment at a place, of which `value` gives the components. Collective.
+  std::vector<std::unique_ptr<dynamics::Term>> load_terms(std::size_t load,
+                                                          const std::function<Eigen::Vector3d(double)>& value);
+  /// Loads on joints, those that depend on sensors, and probes that are formulas. After joints and probes.
+  void add_state_loads(Model& model);
+  std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model) const;
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
   void add_spring(int joint, const PlacedJoint& placed);
+  using Of = dynamics::RelativeCoordinate::Of;
+  /// Of a joint, on its rank: since the start, but for a length.
+  std::unique_ptr<dynamics::SpatialCoordinate> coordinate_of(int joint, Of of, const PlacedJoint& placed) const;
+  /// And friction.
   void add_stops(int joint, const PlacedJoint& placed, std::vector<ModelStop>& stops);
   void add_probes(Model& model);
   void set_deformation(int body, Vec shape, Vec into) const;
@@ -104,11 +114,12 @@ class SpatialAssembly {
   std::vector<DampedWhole> damped_;
   std::vector<std::shared_ptr<dynamics::Attitude>> damped_attitudes_;  // of those that have axes
   std::vector<int> multipliers_;                                       // of each joint, the first
+  std::vector<PlacedJoint> placed_;                                    // every joint
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
-  Connections connections_;                                  // of the joints, among terms_
-  std::map<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
-  std::vector<int> undetermined_;                            // joints whose multipliers are not determined
+  Connections connections_;                                       // of the joints, among terms_
+  std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
+  std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
   std::map<std::string, JointLatches> latches_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "floe/dynamics/spatial_force.h"
 #include "floe/fem/shell.h"
 #include "floe/plan/prepare_spatial_joints.h"
 #include "floe/reference/facet_pressure.h"
@@ -11,9 +10,7 @@
 
 namespace floe::assembly {
 
-using dynamics::SpatialForce;
 using dynamics::SpatialMarker;
-using dynamics::Wrench;
 using Eigen::Vector3d;
 
 using Pieces = std::vector<std::vector<PetscInt>>;
@@ -146,22 +143,6 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
   }
   if (one) return {{body.place_on_piece(piece, place.x), 1.}};
   return parts;
-}
-
-void SpatialAssembly::add_corotated_force(const Load& load, const Anchor& place) {
-  if (!owner_) return;
-  const bool turns = load.kind == Load::Kind::moment;
-  for (auto& [at, share] : corotated_parts(place)) {
-    at.D0 = plan_.bodies[place.body].axes.transpose();  // axes of a place are those of the mesh
-    terms_.push_back(std::make_unique<SpatialForce>(
-        std::move(at),
-        [f = turns ? load.moment : load.force, factor = turns ? share : 1., first = turns ? 3 : 0](double t) {
-          Wrench w = Wrench::Zero();
-          w.segment<3>(first) = factor * Vector3d(f[0](t), f[1](t), f[2](t));
-          return w;
-        },
-        load.axes == Load::Axes::place ? SpatialForce::Axes::place : SpatialForce::Axes::world));
-  }
 }
 
 void SpatialAssembly::add_corotated_pressure(const Load& load, int b, const fem::Mesh::Cell& cell) {

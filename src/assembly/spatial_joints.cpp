@@ -148,49 +148,59 @@ void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, const std::vec
     terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
 }
 
+std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int j, Of of,
+                                                                            const PlacedJoint& placed) const {
+  const Eigen::Vector3d apart = start_of(placed.places[1]).p - start_of(placed.places[0]).p;
+  const double start = of == Of::slide ? plan_.joint_axes[j].col(2).dot(apart) : 0;
+  return std::make_unique<dynamics::SpatialCoordinate>(placed.places[0], placed.places[1], of, start);
+}
+
 void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
-  using Of = dynamics::SpatialStop::Of;
   const Joint& joint = plan_.scene.joints[j];
   const auto add = [&](const LimitsSpec& limits, Of of) {
     const dynamics::Stop* term = nullptr;
     if (owner_) {
-      const Eigen::Vector3d apart = start_of(placed.places[1]).p - start_of(placed.places[0]).p;
-      const double start = of == Of::slide ? plan_.joint_axes[j].col(2).dot(apart) : 0;
-      auto stop = std::make_unique<dynamics::SpatialStop>(placed.places[0], placed.places[1], of, start,
-                                                          law_of(limits, of == Of::turn, plan_.extent));
+      auto stop =
+          std::make_unique<dynamics::Stop>(coordinate_of(j, of, placed), law_of(limits, of == Of::turn, plan_.extent));
       term = stop.get();
       connect(j, std::move(stop));
     }
     note_stops(joint, limits, term, stops);
   };
-  if (joint.limits) add(*joint.limits, joint.kind == Kind::revolute ? Of::turn : Of::slide);
+  const Of main = joint.kind == Kind::revolute ? Of::turn : Of::slide;
+  if (joint.friction && owner_)
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, main, placed), law_of(*joint.friction)));
+  if (joint.turn_friction && owner_)
+    connect(j,
+            std::make_unique<dynamics::JointForce>(coordinate_of(j, Of::turn, placed), law_of(*joint.turn_friction)));
+  if (joint.limits) add(*joint.limits, main);
   if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
 }
 
 void SpatialAssembly::add_joints(Model& model) {
-  std::vector<std::pair<int, PlacedJoint>> all;  // finding places is collective, what follows is rank-local
+  std::vector<int> all;  // finding places is collective, what follows is rank-local
   std::string notes;
   const auto find = [&] {
     for (std::size_t j = 0; j < plan_.joints.size(); ++j)
-      if (PlacedJoint placed = place(static_cast<int>(j)); !stands(static_cast<int>(j)))
-        all.emplace_back(static_cast<int>(j), std::move(placed));
+      if (placed_.push_back(place(static_cast<int>(j))); !stands(static_cast<int>(j)))
+        all.push_back(static_cast<int>(j));
   };
   const auto add = [&] {
     if (!owner_) {
-      for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
+      for (const int j : all) add_stops(j, placed_[j], model.stops);
       return;
     }
     SpatialRows rows(plan_, start_);
-    for (const auto& [j, placed] : all)
-      if (!placed.constraint.rows.empty()) rows.add(j, placed.places, placed.constraint);
+    for (const int j : all)
+      if (!placed_[j].constraint.rows.empty()) rows.add(j, placed_[j].places, placed_[j].constraint);
     const std::vector<std::vector<int>> standing = rows.standing(notes, undetermined_);
     std::size_t next = 0;
-    for (const auto& [j, placed] : all)
-      if (placed.constraint.rows.empty())
-        add_spring(j, placed);
+    for (const int j : all)
+      if (placed_[j].constraint.rows.empty())
+        add_spring(j, placed_[j]);
       else
-        add_joint(j, placed, standing[next++]);
-    for (const auto& [j, placed] : all) add_stops(j, placed, model.stops);
+        add_joint(j, placed_[j], standing[next++]);
+    for (const int j : all) add_stops(j, placed_[j], model.stops);
   };
   if (is_reduced(formulation_)) {
     find();

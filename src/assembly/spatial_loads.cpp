@@ -148,43 +148,62 @@ void SpatialAssembly::add_gravity(int b, const BodyPart* part) {
 
 void SpatialAssembly::add_load(std::size_t l, const BodyPart* part) {
   const Load& load = plan_.scene.loads[l];
-  const Anchor& place = plan_.loads[l];
-  const bool of_body = load.axes == Load::Axes::body;
+  const int body = plan_.loads[l].body;
+  if (!load.joint.empty() || load.has_sensors()) return;  // add_state_loads
   const auto value = [f = load.kind == Load::Kind::moment ? load.moment : load.force](double t) {
     return Eigen::Vector3d(f[0](t), f[1](t), f[2](t));
   };
-  if (load.kind == Load::Kind::pressure) return add_pressure(load, place.body, part);
-  if (load.kind == Load::Kind::distributed) return add_density(place.body, Density::line, value, of_body, false, part);
-  if (slots_[place.body].corotated) return add_corotated_force(load, place);
-  SpatialMarker at = marker(place);
-  if (!owner_ || at.coordinates.empty()) return;
+  if (load.kind == Load::Kind::pressure) return add_pressure(load, body, part);
+  if (load.kind == Load::Kind::distributed)
+    return add_density(body, Density::line, value, load.axes == Load::Axes::body, false, part);
+  for (auto& term : load_terms(l, value)) {
+    load_terms_.emplace(l, term.get());
+    terms_.push_back(std::move(term));
+  }
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
+    std::size_t l, const std::function<Eigen::Vector3d(double)>& value) {
+  const Load& load = plan_.scene.loads[l];
+  const Anchor& place = plan_.loads[l];
   const PlannedBody& body = plan_.bodies[place.body];
-  const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
-  at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
-  const int first = load.kind == Load::Kind::moment ? 3 : 0;
-  terms_.push_back(std::make_unique<SpatialForce>(
-      std::move(at),
-      [A, value, first](double t) {
-        Wrench w = Wrench::Zero();
-        w.segment<3>(first) = A * value(t);
-        return w;
-      },
-      of_body                          ? SpatialForce::Axes::body
-      : load.axes == Load::Axes::place ? SpatialForce::Axes::place
-                                       : SpatialForce::Axes::world));
-  load_terms_[l] = terms_.back().get();
+  const bool of_body = load.axes == Load::Axes::body, turns = load.kind == Load::Kind::moment;
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  std::vector<std::pair<SpatialMarker, double>> parts;
+  if (slots_[place.body].corotated) {
+    if (owner_) parts = corotated_parts(place);
+  } else if (SpatialMarker at = marker(place); owner_ && !at.coordinates.empty()) {
+    parts.emplace_back(std::move(at), 1.);
+  }
+  for (auto& [at, share] : parts) {
+    const Eigen::Matrix3d A =
+        (turns ? share : 1.) * (of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
+    at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
+    terms.push_back(std::make_unique<SpatialForce>(
+        std::move(at),
+        [A, value, first = turns ? 3 : 0](double t) {
+          Wrench w = Wrench::Zero();
+          w.segment<3>(first) = A * value(t);
+          return w;
+        },
+        of_body                          ? SpatialForce::Axes::body
+        : load.axes == Load::Axes::place ? SpatialForce::Axes::place
+                                         : SpatialForce::Axes::world));
+  }
+  return terms;
 }
 
 void SpatialAssembly::add_probes(Model& model) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
-    SpatialProbe probe{marker(plan_.probes[p][0]), {}};
-    const int b = plan_.probes[p][0].body;
+    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
+    SpatialProbe probe{marker(place), {}};
+    const int b = place.body;
     if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b))
       if (probe.marker.S.size() == 0 ||
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)
         model.warnings.push_back(never_deflects(spec, plan_.bodies[b].spec));
-    if (plan_.probes[p][0].body >= 0) probe.mesh = plan_.bodies[plan_.probes[p][0].body].axes;
+    if (b >= 0) probe.mesh = plan_.bodies[b].axes;
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
     if (owner_) {
       for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
@@ -201,8 +220,9 @@ void SpatialAssembly::add_probes(Model& model) {
                             Eigen::Vector3d::Zero(),
                             Eigen::Vector3d::Zero(),
                             std::move(probe),
-                            measured(connections_, plan_.scene, spec)});
-    if (spec.of_section()) model.probes.back().sections = sections(p, model);
+                            measured(connections_, plan_.scene, spec),
+                            {},
+                            spec.unit});
     if (spec.of_shell()) model.probes.back().shell = shell_point(p);
   }
 }

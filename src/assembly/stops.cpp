@@ -9,6 +9,10 @@ dynamics::StopLaw law_of(const LimitsSpec& limits, bool turn, double extent) {
           limits.width.value_or(turn ? 1e-3 : 1e-3 * extent)};
 }
 
+dynamics::FrictionLaw law_of(const FrictionSpec& friction) {
+  return {friction.level, friction.viscosity, friction.speed};
+}
+
 void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::Stop* term, std::vector<ModelStop>& all) {
   if (std::isfinite(limits.lower)) all.push_back({joint.name, false, term});
   if (std::isfinite(limits.upper)) all.push_back({joint.name, true, term});
@@ -27,7 +31,7 @@ std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) 
     const Eigen::VectorXd own = q(stop.coordinates()), rates = v(stop.coordinates()),
                           none = Eigen::VectorXd::Zero(own.size());
     const dynamics::Motion motion{0, own, rates, none};
-    const double x = stop.position(motion), rate = stop.rate(motion);
+    const auto [x, rate] = stop.at(motion);
     gap = model.stops[i].upper ? std::array{stop.law().upper - x, -rate} : std::array{x - stop.law().lower, rate};
   }
   if (size > 1) MPI_Bcast(gap.data(), 2, MPI_DOUBLE, size - 1, comm);

@@ -7,6 +7,8 @@ namespace floe::assembly {
 /// @param extent a length of the scene
 dynamics::StopLaw law_of(const LimitsSpec& limits, bool turn, double extent);
 
+dynamics::FrictionLaw law_of(const FrictionSpec& friction);
+
 /// Notes the stops of a joint. @param term  null where another rank has it
 void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::Stop* term, std::vector<ModelStop>& all);
 

@@ -18,9 +18,9 @@ struct Excitation {
 std::vector<Excitation> excitations(const Scene& scene) {
   std::vector<Excitation> all;
   for (const Load& load : scene.loads) {
-    Excitation one{load.name, "load " + load.name, load.spread() ? load.body : load.at.body, {load.pressure}};
-    one.formulas.insert(one.formulas.end(), load.force.begin(), load.force.end());
-    one.formulas.insert(one.formulas.end(), load.moment.begin(), load.moment.end());
+    Excitation one{load.name, "load " + load.name, load.spread() ? load.body : load.at.body, {}};
+    for (const math::Formula* formula : load.formulas())
+      if (!formula->has_sensors()) one.formulas.push_back(*formula);
     all.push_back(std::move(one));
   }
   const auto& g = scene.gravity;

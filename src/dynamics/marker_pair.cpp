@@ -33,6 +33,13 @@ void MarkerPair::add(const Vector6& wrench, Eigen::VectorXd& r) const {
     r[where_second[i]] += pose_second.P.col(i).dot(wrench.tail<3>());
 }
 
+void MarkerPair::add_rate_gradient(const Vector6& by_rates, Eigen::VectorXd& r) const {
+  for (std::size_t i = 0; i < where_first.size(); ++i)
+    r[where_first[i]] += pose_first.dyd.col(i).dot(by_rates.head<3>());
+  for (std::size_t i = 0; i < where_second.size(); ++i)
+    r[where_second[i]] += pose_second.dyd.col(i).dot(by_rates.tail<3>());
+}
+
 void MarkerPair::add_tangent(const Vector6& wrench, const Matrix6& Y, const Matrix6& Yd, Weights weights,
                              Eigen::MatrixXd& J) const {
   const Matrix6 of_y = weights.q * Y + weights.v * Yd, of_yd = weights.q * Yd;

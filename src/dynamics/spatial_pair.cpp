@@ -36,6 +36,16 @@ void SpatialPair::add_gradient(const Vector12& gradient, Eigen::VectorXd& r) {
   }
 }
 
+void SpatialPair::add_rate_gradient(const Vector12& by_rates, Eigen::VectorXd& r) {
+  for (int i = 0; i < 2; ++i) {
+    if (where[i].empty()) continue;
+    rate_gradient(marker[i], pose[i], rates_[i]);
+    rows_.noalias() = rates_[i].transpose() * by_rates.segment<6>(6 * i);
+    if (marker[i].framed()) rows_.segment<3>(3) = (pose[i].T.transpose() * rows_.segment<3>(3)).eval();
+    for (std::size_t row = 0; row < where[i].size(); ++row) r[where[i][row]] += rows_[row];
+  }
+}
+
 void SpatialPair::differentiate(const Matrix12& Y, const Matrix12& Yd, bool damped, Weights weights, int j) {
   using Half = Eigen::Matrix<double, 12, 6>;
   const Half of_place = weights.q * Y.middleCols<6>(6 * j), of_rates = Yd.middleCols<6>(6 * j);

@@ -77,8 +77,9 @@ Operation compared(std::function<bool(double, double)> holds) {
 /// By recursive descent, a level for each precedence.
 struct Reader {
   const std::string& text;
-  const std::vector<std::string>& variables;
+  std::vector<std::string>& variables;
   const Names& names;
+  bool dotted = false;
   std::size_t at = 0;
   bool constant = true;
 
@@ -206,11 +207,19 @@ struct Reader {
     at = static_cast<std::size_t>(end - text.data());
     return node;
   }
+  bool continues_name(std::size_t i) const {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_');
+  }
   NodePointer named() {
     const std::size_t start = at;
-    while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_')) ++at;
+    while (continues_name(at)) ++at;
+    const bool has_dot = at < text.size() && text[at] == '.' && continues_name(at + 1);
+    if (has_dot) ++at;
+    while (has_dot && continues_name(at)) ++at;
     const std::string name = text.substr(start, at - start);
     auto node = std::make_shared<Expression::Node>();
+    if (has_dot && dotted && std::find(variables.begin(), variables.end(), name) == variables.end())
+      variables.push_back(name);
     if (const auto variable = std::find(variables.begin(), variables.end(), name); variable != variables.end()) {
       constant = false;
       return node->variable = static_cast<int>(variable - variables.begin()), node;
@@ -238,30 +247,36 @@ struct Reader {
   }
 };
 
-/// The variables, of which the first varies.
-std::array<Jet, 3> jets(std::span<const double> variables, bool varies) {
-  std::array<Jet, 3> all;
-  for (std::size_t i = 0; i < std::min(variables.size(), all.size()); ++i)
-    all[i] = {variables[i], varies && i == 0 ? 1.0 : 0.0, 0};
-  return all;
+/// The variables, of which the first varies; f(jets). Those that are not given are 1.
+template <class F>
+auto with_jets(std::span<const double> variables, std::size_t count, bool varies, const F& f) {
+  constexpr std::size_t few = 3;
+  std::array<Jet, few> some;
+  std::vector<Jet> many;
+  if (count > few) many.resize(count);
+  const std::span<Jet> all = count > few ? std::span<Jet>(many) : std::span<Jet>(some);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = {i < variables.size() ? variables[i] : 1, varies && i == 0 ? 1.0 : 0.0, 0};
+  return f(all);
 }
 
 }  // namespace
 
-Expression::Expression(const std::string& text, const std::vector<std::string>& variables, const Names& names) {
-  Reader reader{text, variables, names};
+Expression::Expression(const std::string& text, std::vector<std::string>& variables, const Names& names, bool dotted) {
+  Reader reader{text, variables, names, dotted};
   root_ = reader.whole();
-  constant_ = reader.constant;
+  constant_ = reader.constant, count_ = variables.size();
 }
 
 double Expression::value(std::span<const double> variables) const {
-  return root_->evaluate(jets(variables, false), nullptr).value;
+  return with_jets(variables, count_, false, [&](auto jets) { return root_->evaluate(jets, nullptr).value; });
 }
+Jet Expression::along(std::span<const Jet> variables) const { return root_->evaluate(variables, nullptr); }
 Jet Expression::operator()(std::span<const double> variables) const {
-  return root_->evaluate(jets(variables, true), nullptr);
+  return with_jets(variables, count_, true, [&](auto jets) { return root_->evaluate(jets, nullptr); });
 }
 Jet Expression::operator()(std::span<const double> variables, std::vector<Jet>& switches) const {
-  return root_->evaluate(jets(variables, true), &switches);
+  return with_jets(variables, count_, true, [&](auto jets) { return root_->evaluate(jets, &switches); });
 }
 Jet Expression::operator()(const Jet& variable, std::vector<Jet>* switches) const {
   return root_->evaluate({&variable, 1}, switches);

@@ -20,9 +20,14 @@ namespace floe::math {
 class Expression {
  public:
   struct Node;
+  /// @param variables  to which names with a dot (`hinge.angle`) are appended in the order in which they occur, if they
+  ///                   are given by `dotted`; else they are unknown
   /// @throws FormulaError
-  Expression(const std::string& text, const std::vector<std::string>& variables, const Names& names);
+  Expression(const std::string& text, std::vector<std::string>& variables, const Names& names, bool dotted = false);
+  /// Here and below, variables that are not given are 1 (sensors, where only time counts).
   double value(std::span<const double> variables) const;
+  /// With derivatives along a line through the space of the variables.
+  Jet along(std::span<const Jet> variables) const;
   /// By the first of the variables.
   Jet operator()(std::span<const double> variables) const;
   /// Appends the switches, of the branches that are taken alone: their number may change where one of them does.
@@ -37,6 +42,7 @@ class Expression {
  private:
   std::shared_ptr<const Node> root_;
   bool constant_ = true;
+  std::size_t count_ = 0;  // of variables
 };
 
 }  // namespace floe::math

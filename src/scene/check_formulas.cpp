@@ -8,7 +8,7 @@ namespace {
 constexpr int samples = 16;  // of the time of the motion; the rest is told when the run gets there
 
 void check(Document& document, const math::Formula& formula, double end, Where where, const std::string& key) {
-  if (formula.constant()) return;  // checked when read
+  if (formula.constant() || formula.has_sensors()) return;  // checked when read, or told when the run gets there
   where.key += (where.key.empty() ? "" : ".") + key;
   try {
     for (int i = 0; i <= samples; ++i) formula(end * i / samples);
@@ -38,6 +38,7 @@ void check_formulas(Document& document, const Scene& scene) {
       check(document, load.moment[i], end, load.where, component("moment", i));
     for (int i = 0; i < 3; ++i) check(document, load.force[i], end, load.where, component("force", i));
     check(document, load.pressure, end, load.where, "pressure");
+    check(document, load.on_joint, end, load.where, load.kind == Load::Kind::moment ? "moment" : "force");
   }
 }
 

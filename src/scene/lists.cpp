@@ -13,7 +13,8 @@ std::vector<Value> read_list(Document& document, const Value& value, const Key& 
     return {};
   }
   if (count > 0 && value.node.size() != count) {
-    const bool formulas = key.type == Type::formulas || key.type == Type::formula_of_place;
+    const bool formulas = key.type == Type::formulas || key.type == Type::load_force || key.type == Type::load_moment ||
+                          key.type == Type::formula_of_place;
     document.fault(value.where, fmt::format("has length {}", value.node.size()),
                    describe(key, document.dimension) + (formulas ? "; quote a formula that has a comma" : ""));
     return {};

@@ -105,11 +105,23 @@ std::optional<LimitsSpec> read_limits(Document& document, Reading& joint, const 
   return limits;
 }
 
+std::optional<FrictionSpec> read_friction(Document& document, Reading& joint, const char* key) {
+  const auto value = joint.value(key);
+  if (!value) return {};
+  Reading reading(document, *value, "friction");
+  FrictionSpec friction{reading.number("level"), reading.number("viscosity"), reading.number("speed"), value->where};
+  if (friction.level == 0 && friction.viscosity == 0)
+    document.fault(value->where, "has no level and no viscosity", "level, viscosity or both");
+  return friction;
+}
+
 void read_properties(Document& document, Reading& reading, Joint& joint) {
   if (joint.kind == Kind::driven) read_drive(document, reading, "angle", joint.angle, joint.speed);
   if (joint.kind == Kind::driven_slide) read_drive(document, reading, "position", joint.position, joint.speed);
   joint.limits = read_limits(document, reading, "limits");
   if (document.dimension == 3) joint.turn_limits = read_limits(document, reading, "turn_limits");
+  joint.friction = read_friction(document, reading, "friction");
+  if (document.dimension == 3) joint.turn_friction = read_friction(document, reading, "turn_friction");
   using Edges = Joint::Edges;
   const bool holds_rotations = joint.kind == Kind::fixed || joint.kind == Kind::prismatic ||
                                joint.kind == Kind::driven || joint.kind == Kind::driven_slide;

@@ -29,8 +29,16 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   }
   if (load.kind == Kind::distributed) {
     load.body = reading.text("body");
-  } else if (const auto at = reading.value("at")) {
-    load.at = read_place(document, *at, reading.key("at"));
+  } else if (const std::string on = reading.one_of({"at", "joint"}); on == "at") {
+    load.at = read_place(document, *reading.value("at"), reading.key("at"));
+  } else if (on == "joint") {
+    load.joint = reading.text("joint");
+    load.on_joint = reading.formula(load.kind == Kind::moment ? "moment" : "force");
+    if (reading.given("axes"))
+      document.fault(reading.where("axes"), "does not apply to a load on a joint", "axes only with at");
+    return load;
+  } else {
+    return load;
   }
   if (load.kind == Kind::moment)
     load.moment = reading.moment("moment");
@@ -40,6 +48,9 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
       "axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}, {"place", Load::Axes::place}});
   if (load.axes == Load::Axes::place && (document.dimension == 2 || load.kind == Kind::distributed))
     document.fault(reading.where("axes"), "is place", "place only for a force or moment in a spatial scene");
+  if (load.kind == Kind::distributed && load.has_sensors())
+    document.fault(reading.where("force"), "depends on a sensor",
+                   "formulas of t: only forces and moments at places and of joints may depend on sensors");
   return load;
 }
 

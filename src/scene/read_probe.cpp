@@ -31,7 +31,17 @@ Probe read_probe(Document& document, const std::string& name, const Value& value
   probe.where = value.where;
   Reading reading(document, value, "probe");
   if (!value.node.IsMap()) return probe;
-  const std::string of = reading.one_of({"at", "joint"});
+  const std::string of = reading.one_of({"at", "joint", "formula"});
+  if (of == "formula") {
+    probe.quantity = Quantity::formula;
+    probe.formula = read_formula(document, *reading.value("formula"), reading.key("formula"), {"t"});
+    probe.unit = reading.text("unit");
+    for (const char* key : {"quantity", "relative_to"})
+      if (reading.given(key))
+        document.fault(reading.where(key), "does not apply to a formula", "formula and unit alone");
+    return probe;
+  }
+  if (reading.given("unit")) document.fault(reading.where("unit"), "is given without formula", "unit of a formula");
   if (const auto at = reading.value("at")) probe.at = read_place(document, *at, reading.key("at"));
   if (of == "joint") probe.joint = reading.text("joint");
   if (const auto from = reading.value("relative_to"))

@@ -65,6 +65,8 @@ bool in_space(Document& document, const YAML::Node& root) {
   if (!bodies || !bodies.IsMap()) return false;
   for (const auto& body : bodies) {
     if (reduced_in_space(document, body.second)) return true;
+    if (const YAML::Node rigid = body.second.IsMap() ? body.second["rigid"] : YAML::Node(); rigid && rigid.IsMap())
+      if (three(rigid["centre"])) return true;
     const YAML::Node mesh = body.second.IsMap() ? body.second["mesh"] : YAML::Node();
     if (!mesh || !mesh.IsMap()) continue;
     if (mesh["file"] || mesh["plate"]) return true;
@@ -122,6 +124,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
                    "one of them");
   scene.probes = read_named<Probe>(document, reading, "probes", read_probe);
   place_probes(document, scene);
+  place_loads(document, scene);
   check_start(document, scene);
   scene.events = read_named<Event>(document, reading, "events", read_event);
   if (scene.bodies.empty() && reading.given("bodies") && document.fault_count() == 0) {

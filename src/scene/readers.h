@@ -12,6 +12,8 @@ MeshSpec read_mesh(Document& document, const Value& value);
 Body read_body(Document& document, const std::string& name, const Value& value);
 /// A body that was reduced before: its file and the start, beside which no other key has a meaning.
 Body read_reduced(Document& document, const std::string& name, Reading& body);
+/// Whether it is rigid, and its mass where that is given; then perhaps a mesh that stands for it.
+void read_rigid(Document& document, Reading& body, Body& into);
 /// Position, velocity and deformation at the start.
 InitialSpec read_initial(Document& document, Reading& body);
 /// The keys section and material of a body.
@@ -29,6 +31,9 @@ Event read_event(Document& document, const std::string& name, const Value& value
 Probe read_probe(Document& document, const std::string& name, const Value& value);
 /// The places of probes of joints. Joints must have been read.
 void place_probes(Document& document, Scene& scene);
+/// The places of loads on joints, and the sensors that loads and probes depend on. Joints and probes must have been
+/// read.
+void place_loads(Document& document, Scene& scene);
 void read_parameters(Document& document, const Value& value);
 void read_functions(Document& document, const Value& value);
 /// Whether formulas may know a parameter or function by this name; else a fault.

@@ -19,6 +19,18 @@ const SchemaSection limits_section{
          positive},
     }};
 
+const SchemaSection friction_section{
+    "friction",
+    "Dry friction, regularised, and viscous friction, opposite to the rate of the joint: level tanh(rate / speed) + "
+    "viscosity rate. Its level does not depend on the joint's reactions.",
+    "level: 0.4\nspeed: 1e-3",
+    {
+        {"level", Type::number, "N m; N", "0", "moment or force of dry friction", nonnegative},
+        {"speed", Type::number, "rad/s; m/s", required,
+         "rate at which 76 % of the level is reached; a joint that sticks creeps below it", positive},
+        {"viscosity", Type::number, "N m s/rad; N s/m", "0", "viscous friction", nonnegative},
+    }};
+
 const SchemaSection joint_section{
     "joint",
     "Connects two places, named by its key. Types in planar scenes: fixed, revolute, prismatic, driven, spring.",
@@ -59,6 +71,12 @@ const SchemaSection joint_section{
                  "end stops of the translation where the joint has one, else of the rotation; absent: none", "limits")),
         only({"cylindrical"},
              in_space(part("turn_limits", Type::section, "", "end stops of the rotation; absent: none", "limits"))),
+        only({"revolute", "prismatic", "cylindrical"},
+             part("friction", Type::section, "",
+                  "friction of the translation where the joint has one, else of the rotation; absent: none",
+                  "friction")),
+        only({"cylindrical"},
+             in_space(part("turn_friction", Type::section, "", "friction of the rotation; absent: none", "friction"))),
         only({"prismatic", "revolute", "driven", "cylindrical", "universal", "planar", "driven_slide", "spring"},
              {"axis", Type::point, "", "",
               "direction at the start in world axes; rotates with the first place. For a spring in spatial scenes: "
@@ -92,15 +110,23 @@ const SchemaSection joint_section{
 
 const SchemaSection load_section{
     "load",
-    "A time-dependent force, moment or pressure, named by its key.",
-    "type: force\nat: beam.end\nforce: [0, \"F*sin(9.5*t)\"]",
+    "A force, moment or pressure, named by its key. Forces and moments at places and of joints may depend on sensors: "
+    "in their formulas JOINT.angle and JOINT.rate (hinges, springs), JOINT.travel and JOINT.speed (slides), "
+    "JOINT.length and JOINT.length_rate (springs), and PROBE.COMPONENT, as tip.x, of probes of positions, "
+    "displacements, rotations and their rates are numbers.",
+    "type: moment\njoint: elbow\nmoment: \"-k*(elbow.angle - ref(t)) - d*elbow.rate\"",
     {
         choice("type", required,
                "force or moment at a place, force distributed along all beams of a body, or pressure on its shells",
                {"force", "moment", "distributed", "pressure"}),
-        only({"force", "moment"}, {"at", Type::place, "", required,
+        only({"force", "moment"}, {"at", Type::place, "", "",
                                    "where it acts; at a place of several nodes it is distributed: over edges by "
-                                   "length, over areas by area, over points equally"}),
+                                   "length, over areas by area, over points equally. Exactly one of at, joint"}),
+        only({"force", "moment"},
+             {"joint", Type::text, "", "",
+              "instead: name of a joint between whose places it acts: a moment on the angle of a revolute, cylindrical "
+              "or spring joint, a force on the travel of a prismatic or cylindrical joint or on the length of a "
+              "spring; one formula, positive where it increases the angle, travel or length"}),
         only({"distributed", "pressure"}, {"body", Type::body, "", required, "the body on which it acts"}),
         only({"pressure"},
              in_space({"part", Type::text, "", "", "part of the mesh on which it acts; absent: all shells"})),
@@ -110,8 +136,8 @@ const SchemaSection load_section{
                                      "true: follower pressure, normal to the deformed shells; false: constant "
                                      "direction, that at the start"})),
         only({"force", "distributed"},
-             {"force", Type::formulas, "N; N/m", required, "components, per length if distributed"}),
-        only({"moment"}, {"moment", Type::moment, "N m", required,
+             {"force", Type::load_force, "N; N/m", required, "components, per length if distributed"}),
+        only({"moment"}, {"moment", Type::load_moment, "N m", required,
                           "moment, positive counterclockwise; in spatial scenes its components about x, y, z"}),
         only({"force", "moment", "distributed"},
              choice("axes", "world",
@@ -153,7 +179,7 @@ const SchemaSection motion_section{
 
 const SchemaSection probe_section{
     "probe",
-    "A quantity recorded at a place or of a joint, named by its key. Exactly one of at, joint.",
+    "A quantity recorded at a place, of a joint or of sensors, named by its key. Exactly one of at, joint, formula.",
     "at: beam.end\nquantity: displacement",
     {
         {"at", Type::place, "", "", "place where the quantity is recorded"},
@@ -161,6 +187,9 @@ const SchemaSection probe_section{
          "instead: name of a joint, spring or bushing, whose force or moment on its second place is recorded, end "
          "stops "
          "included (joint reactions, drive moments)"},
+        {"formula", Type::load_force, "", "",
+         "instead: a formula of t and sensors (see `load`), as \"elbow.angle - ref(t)\"; its column is NAME.value"},
+        {"unit", Type::text, "", "", "unit of the formula's value; absent: none"},
         choice(
             "quantity", "",
             "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
@@ -219,8 +248,8 @@ const SchemaSection place_section{
 }  // namespace
 
 const std::vector<SchemaSection>& mechanism_sections() {
-  static const std::vector<SchemaSection> all{joint_section,  limits_section, load_section, place_section,
-                                              motion_section, probe_section,  event_section};
+  static const std::vector<SchemaSection> all{joint_section, limits_section, friction_section, load_section,
+                                              place_section, motion_section, probe_section,    event_section};
   return all;
 }
 

@@ -71,8 +71,15 @@ std::string describe(const Key& key, int dimension) {
       return "a number or a formula of t";
     case Type::formulas:
       return fmt::format("{} formulas of t {}", count, coordinates);
-    case Type::moment:
-      return space ? "three formulas of t [x, y, z]" : "a number or a formula of t";
+    case Type::load_force:
+      return fmt::format("{} formulas of t and sensors {}, of a load on a joint one", count, coordinates);
+    case Type::load_moment:
+      return space ? "three formulas of t and sensors [x, y, z], of a load on a joint one"
+                   : "a number or a formula of t and sensors";
+    case Type::rigid:
+      return fmt::format("true or false, or a mapping with the keys of `{}`", key.section);
+    case Type::inertia:
+      return space ? "three or six numbers [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz]" : "a number or a formula of the parameters";
     case Type::turning:
       return space ? "three numbers [x, y, z]" : "a number or a formula of the parameters";
     case Type::formula_of_place:

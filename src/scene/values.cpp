@@ -61,9 +61,11 @@ std::string in_quotes(const std::string& text) {
 
 math::Formula read_formula(Document& document, const Value& value, const Key& key,
                            const std::vector<std::string>& variables) {
+  const bool of_sensors = key.type == Type::load_force || key.type == Type::load_moment;
   const std::string expected =
-      variables.empty() ? "a number or a formula of the parameters"
-                        : fmt::format("a number or a formula of {} and the parameters", fmt::join(variables, ", "));
+      of_sensors          ? "a number or a formula of t, sensors and the parameters"
+      : variables.empty() ? "a number or a formula of the parameters"
+                          : fmt::format("a number or a formula of {} and the parameters", fmt::join(variables, ", "));
   if (!value.node.IsScalar()) {
     document.fault(value.where, shown(value.node), expected);
     return NAN;
@@ -79,7 +81,8 @@ math::Formula read_formula(Document& document, const Value& value, const Key& ke
     return NAN;
   }
   try {
-    return math::Formula(text, variables, document.names);
+    return of_sensors ? math::Formula::of_sensors(text, document.names)
+                      : math::Formula(text, variables, document.names);
   } catch (const math::FormulaError& error) {
     document.fault(value.where, error.what(), expected, error.unknown, names_known(document, variables));
     return NAN;

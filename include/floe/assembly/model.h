@@ -20,6 +20,9 @@
 namespace floe::plan {
 struct BodyMesh;
 }
+namespace floe::dynamics {
+class StateFormula;
+}
 
 namespace floe::assembly {
 using namespace plan;
@@ -89,6 +92,8 @@ struct ModelProbe {
   std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
   /// Of a joint: its terms, which are the system's; on its last rank.
   std::vector<const dynamics::Connection*> connections = {};
+  std::shared_ptr<const dynamics::StateFormula> formula = {};  ///< of quantity formula, on the system's last rank
+  std::string unit = {};                                       ///< likewise
   Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();  ///< of the place in the axes of this frame, from its origin
   std::vector<ModelSection> sections = {};            ///< of a section: one, or both sides
   std::shared_ptr<const ShellPoint> shell = {};       ///< of a shell
@@ -173,7 +178,7 @@ std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const
 struct ProbeColumn {
   std::string name, unit;
   double scale = 1;  ///< beside which its values are small or not: the scene's extent [m], 1 rad
-  enum class Kind { place, rate, load, stress } kind = Kind::place;
+  enum class Kind { place, rate, load, stress, formula } kind = Kind::place;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.

@@ -32,6 +32,8 @@ struct MarkerPair {
   Vector6 ydd() const;
   /// r += (dy/dq)' wrench
   void add(const Vector6& wrench, Eigen::VectorXd& r) const;
+  /// r += (d(yd)/dq at fixed v)' by_rates
+  void add_rate_gradient(const Vector6& by_rates, Eigen::VectorXd& r) const;
   /// J += derivative of add(wrench(y, yd), r): Y = dwrench/dy, Yd = dwrench/dyd.
   void add_tangent(const Vector6& wrench, const Matrix6& Y, const Matrix6& Yd, Weights weights,
                    Eigen::MatrixXd& J) const;

@@ -27,6 +27,9 @@ struct SpatialPair {
   /// r += the derivative by the coordinates of a number whose derivative by the virtual motions is `gradient`: as the
   /// rows of a wrench, with T(x)' on those of x.
   void add_gradient(const Vector12& gradient, Eigen::VectorXd& r);
+  /// r += the derivative by the coordinates, at fixed velocities, of a number whose derivative by (velocity_1, spin_1,
+  /// velocity_2, spin_2) is `by_rates`. Needs the motion.
+  void add_rate_gradient(const Vector12& by_rates, Eigen::VectorXd& r);
   /// J += derivative of add(wrench, r).
   ///
   /// @param Y   change of the wrench with the virtual motions at fixed velocities and spins

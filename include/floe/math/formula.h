@@ -2,6 +2,7 @@
 #include <initializer_list>
 #include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -45,6 +46,9 @@ class Formula {
   /// @param variables  in the order of the arguments of operator(), at most three
   /// @throws FormulaError
   Formula(const std::string& text, const std::vector<std::string>& variables, const Names& names);
+  /// A formula of t and of what sensors measure: every name with a dot, as hinge.angle, is a variable behind t.
+  /// @throws FormulaError
+  static Formula of_sensors(const std::string& text, const Names& names);
 
   /// @throws FormulaError when the value is not finite (its text names the formula and the arguments)
   double operator()(double first = 0, double second = 0, double third = 0) const;
@@ -55,14 +59,26 @@ class Formula {
   /// d2/dfirst2 likewise.
   double second_derivative(double first, double second = 0) const;
 
+  /// Of any number of variables. @param arguments  as variables()  @throws FormulaError as operator()
+  double value(std::span<const double> arguments) const;
+  /// The same with the derivative by each (forward-mode differentiation, once for each variable).
+  /// @param arguments    as variables();  @param derivatives  of the same length
+  /// @throws FormulaError as operator()
+  double gradient(std::span<const double> arguments, std::span<double> derivatives) const;
+
   /// Mentions none of its variables.
   bool constant() const { return !tree_; }
+  /// In the order of the arguments.
+  const std::vector<std::string>& variables() const { return variables_; }
+  /// Whether it depends on more than the first variable, the time.
+  bool has_sensors() const { return variables_.size() > 1; }
   const std::string& text() const { return text_; }
   /// The formula as a tree, for breaks(); null where it is constant.
   const Expression* expression() const { return tree_.get(); }
 
  private:
-  double finite(double value, const char* what, double first, double second, double third = 0) const;
+  Formula(const std::string& text, const std::vector<std::string>& variables, const Names& names, bool dotted);
+  double finite(double value, const char* what, std::span<const double> arguments) const;
   std::string text_;
   std::vector<std::string> variables_;
   double value_ = 0;  // of a constant

@@ -146,6 +146,14 @@ struct ReducedSpec {
   Where where;
 };
 
+/// A rigid body's mass, its centre in mesh axes, and the inertia tensor about that; in the plane about z alone.
+struct RigidMass {
+  double mass = 0;                  ///< [kg]
+  Point centre{};                   ///< [m]
+  std::array<double, 6> inertia{};  ///< J_xx, J_yy, J_zz, J_xy, J_xz, J_yz, with J_xy = -int rho x y [kg m2]
+  bool has_mesh = false;            ///< of its own, to be shown; else one of a line at the centre stands for it
+};
+
 /// A structure by its mesh, or one that was reduced before; then only the name, `reduced` and the pose at the start
 /// count.
 struct Body {
@@ -158,6 +166,7 @@ struct Body {
   std::optional<fem::Strains> strains;  ///< absent: as its elements have them by default
   bool rotary_inertia = true;
   bool rigid = false;
+  std::optional<RigidMass> mass;  ///< rigid: instead of that of the mesh
   FrameSpec frame;
   int frames = 1;  ///< split one line into this many floating frames, joined rigidly
   ReductionSpec reduction;
@@ -171,6 +180,13 @@ struct LimitsSpec {
   double lower = -INFINITY, upper = INFINITY;  ///< since the start [rad], [m]
   double stiffness = 0, damping = 0;           ///< [N m/rad], [N/m]; [N m s/rad], [N s/m]
   std::optional<double> width;                 ///< over which the force sets in [rad], [m]
+  Where where;
+};
+
+/// Friction of a free coordinate of a joint (dynamics::FrictionLaw).
+struct FrictionSpec {
+  double level = 0, viscosity = 0;  ///< [N m], [N]; [N m s/rad], [N s/m]
+  double speed = 0;                 ///< within which the friction changes its sign [rad/s], [m/s]
   Where where;
 };
 
@@ -198,6 +214,7 @@ struct Joint {
   std::optional<math::Formula> speed;  ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
   std::optional<LimitsSpec> limits,
       turn_limits;  ///< of the slide, or of the turn where there is none; of a turn besides
+  std::optional<FrictionSpec> friction, turn_friction;  ///< likewise
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;
@@ -225,10 +242,16 @@ struct Load {
   bool follower = true;                                ///< pressure: stays normal to the shells
   std::array<math::Formula, 3> force{0.0, 0.0, 0.0};   ///< of t [N], distributed [N/m], [N/m2]
   std::array<math::Formula, 3> moment{0.0, 0.0, 0.0};  ///< of t [N m]; in the plane about z
+  std::string joint;  ///< force, moment: instead of `at`, between its places; `at` is then the one that a probe has
+  math::Formula on_joint;  ///< on the joint's travel, length or angle: positive increases it [N], [N m]
   /// body: they follow the frame; place: they rotate with the place (in space).
   enum class Axes { world, body, place } axes = Axes::world;
   Where where;
   bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
+  /// Components of a force or moment, or `on_joint`.
+  std::vector<const math::Formula*> formulas() const;
+  /// Whether any of them depends on what sensors measure (sensors.h).
+  bool has_sensors() const;
 };
 
 /// How long, and by what steps.
@@ -239,8 +262,9 @@ struct Motion {
   std::optional<double> tolerance;  ///< adaptive step, relative
   int every = 1;                    ///< store each so many steps
   std::optional<double> output;     ///< instead: at multiples of this time, between steps by interpolation [s]
-  /// From the bodies' initial states, or from the static equilibrium under loads and drives at t = 0.
-  enum class Start { given, equilibrium } start = Start::given;
+  /// From the bodies' initial states, from the static equilibrium under loads and drives at t = 0, or from the steady
+  /// rotation about the hub.
+  enum class Start { given, equilibrium, steady_rotation } start = Start::given;
   Where where;
 };
 
@@ -258,6 +282,7 @@ struct Probe {
     angular_velocity,
     force,
     moment,
+    formula,
     section_force,
     section_moment,
     stress,
@@ -266,6 +291,8 @@ struct Probe {
     membrane_force,
     bending_moment,
   } quantity = Quantity::displacement;
+  math::Formula formula;             ///< quantity formula, which has no place: of t and of sensors (sensors.h)
+  std::string unit;                  ///< likewise
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
   std::optional<Place> toward;       ///< sections and shells: just beside the place, on the element that leads there
   enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell, for stresses

@@ -5,8 +5,9 @@
 #include "spatial_terms.h"
 
 using namespace floe;
-using dynamics::PlanarStop;
-using dynamics::SpatialStop;
+using dynamics::PlanarCoordinate;
+using dynamics::SpatialCoordinate;
+using dynamics::Stop;
 using dynamics::StopLaw;
 using Eigen::VectorXd;
 using testing::Random;
@@ -20,13 +21,14 @@ const StopLaw damped{-0.02, 0.01, 3, 0.7, 0.9}, undamped{-0.02, 0.01, 3, 0, 0.9}
 /// Every kind of stop between every pair of places.
 template <class Test>
 void each(const StopLaw& law, const Test& test) {
+  using Of = dynamics::RelativeCoordinate::Of;
   for (const auto& [first, second] : testing::place_pairs()) {
-    test(PlanarStop(first, second, Eigen::Vector2d::Zero(), 0.1, law));
-    test(PlanarStop(first, second, {0.6, 0.8}, 0.1, law));
+    test(Stop(std::make_unique<PlanarCoordinate>(first, second, Of::turn, 0.1), law));
+    test(Stop(std::make_unique<PlanarCoordinate>(first, second, Of::slide, 0.1, Eigen::Vector2d(0.6, 0.8)), law));
   }
   for (const auto& places : testing::spatial_pairs())
-    for (const auto of : {SpatialStop::Of::turn, SpatialStop::Of::slide})
-      test(SpatialStop(places.first, places.second, of, 0.1, law));
+    for (const auto of : {Of::turn, Of::slide})
+      test(Stop(std::make_unique<SpatialCoordinate>(places.first, places.second, of, 0.1), law));
 }
 
 Eigen::Index size(const dynamics::Term& term) { return static_cast<Eigen::Index>(term.coordinates().size()); }
@@ -65,8 +67,8 @@ TEST_CASE("tangents of stops are the differences of the force, damping included"
 TEST_CASE("undamped stops give back as power what they lose of energy") {
   Random random(242);
   for (const auto& places : testing::spatial_pairs())
-    for (const auto of : {SpatialStop::Of::turn, SpatialStop::Of::slide}) {
-      const SpatialStop stop(places.first, places.second, of, 0.1, undamped);
+    for (const auto of : {dynamics::RelativeCoordinate::Of::turn, dynamics::RelativeCoordinate::Of::slide}) {
+      const Stop stop(std::make_unique<SpatialCoordinate>(places.first, places.second, of, 0.1), undamped);
       const testing::SpatialMotion motion(random, size(stop), places.frames);
       const State s = motion.state(0.4);
       const auto energy = [&](double t) {

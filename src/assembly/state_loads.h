@@ -1,0 +1,16 @@
+#pragma once
+#include <memory>
+
+#include "floe/dynamics/joint_force.h"
+#include "floe/dynamics/state_force.h"
+#include "floe/scene/sensors.h"
+
+namespace floe::assembly {
+using namespace scene;
+
+dynamics::RelativeCoordinate::Of of_dynamics(JointCoordinate of);
+
+/// A force of size 1 that increases a joint's coordinate.
+std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoordinate> of);
+
+}  // namespace floe::assembly

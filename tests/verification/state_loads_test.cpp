@@ -1,0 +1,266 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "../../src/app/campbell.h"
+#include "space_twin.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+const Turned turn;
+
+/// A rod of length 1 and mass 3 about its end: I = 1. In the plane, or turned somehow in space.
+std::string rod(bool space, const std::string& rest) {
+  const std::string plane = R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}
+    section: {EA: 1, EI: 1, rhoA: 3, rhoI: 0}
+joints: {hinge: {type: revolute, between: [ground, rod.start]}}
+)yaml",
+                    spatial = R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 2}}
+    section: {shape: rectangle, width: 1e-4, height: 1e-4, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 3e8}
+    initial: {rotation: $r}
+joints: {hinge: {type: revolute, between: [ground, rod.start], axis: $z}}
+)yaml";
+  return fill(space ? spatial : plane, {{"r", turn.rotation()}, {"z", turn(0, 0, 1)}}) + rest;
+}
+
+}  // namespace
+
+// I phi.. = -k (phi - ref) - d phi.: the step response of an oscillator with omega = sqrt(k/I), zeta = d / (2 omega I).
+// The work of the moment is the kinetic energy.
+TEST_CASE("state loads: a link with PD control answers a step as the closed form says") {
+  const double omega = 5, zeta = 0.1, ref = 0.3, od = omega * std::sqrt(1 - zeta * zeta);
+  for (const bool space : {false, true}) {
+    const History at = move(rod(space, R"yaml(
+parameters: {k: 25, d: 1, ref: 0.3}
+loads: {motor: {type: moment, joint: hinge, moment: "-k*(hinge.angle - ref) - d*hinge.rate"}}
+motion: {end: 2, step: 1e-3}
+probes: {rod: {at: rod.end, quantity: displacement}, motor: {joint: hinge, quantity: moment}, w: {at: rod.end, quantity: angular_velocity}}
+)yaml"),
+                            Formulation::vm_md);
+    const auto exact = [&](double t) {
+      return ref * (1 - std::exp(-zeta * omega * t) * (std::cos(od * t) + zeta * omega / od * std::sin(od * t)));
+    };
+    double worst = 0, work = 0, power = 0;
+    for (std::size_t i = 0; i < at.t.size(); ++i) {
+      const double phi = exact(at.t[i]);
+      const Eigen::Vector3d flat(std::cos(phi) - 1, std::sin(phi), 0);
+      const Eigen::Vector3d u = space ? Eigen::Vector3d(turn.Q.transpose() * vector_at(at, "rod", i))
+                                      : Eigen::Vector3d(at["rod.x"][i], at["rod.y"][i], 0);
+      worst = std::max(worst, (u - flat).norm());
+      const double now = space ? vector_at(at, "motor", i).dot(vector_at(at, "w", i)) : at["motor.z"][i] * at["w.z"][i];
+      if (i > 0) work += 0.5 * (at.t[i] - at.t[i - 1]) * (now + power);
+      power = now;
+    }
+    CHECK(worst < 1e-5);
+    CHECK(work == Approx(at.energy.back().kinetic).epsilon(5e-4));
+    CHECK(at.energy.back().elastic == 0);
+  }
+}
+
+// The same spring twice: floe's own, and a load of the same stiffness and viscosity on the length of a spring without
+// any. Between a beam that bends and the ground, in every formulation.
+TEST_CASE("state loads: a spring by a formula is floe's own spring") {
+  const std::string plane = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 6}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+joints:
+  hinge: {type: revolute, between: [ground, beam.start]}
+  spring: {type: spring, between: [beam.end, {body: ground, node: [1.2, 0.8]}], stiffness: $k, viscosity: $d, length: 0.5}
+$load
+gravity: [0, -9.81]
+motion: {end: 0.4, step: 2e-3}
+probes: {tip: {at: beam.end}, force: {joint: spring}}
+)yaml",
+                    space = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 4}}
+    section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 1, 0]}
+    material: {E: 7e9, nu: 0.3, rho: 2700}
+joints:
+  root: {type: fixed, between: [ground, beam.start]}
+  spring: {type: spring, between: [beam.end, {body: ground, node: [1.2, 0.8, 0.3]}], stiffness: $k, viscosity: $d, length: 0.5}
+$load
+gravity: [0, 0, -9.81]
+motion: {end: 0.1, step: 5e-4}
+probes: {tip: {at: beam.end}, force: {joint: spring}}
+)yaml";
+  const std::string load =
+      "loads: {pull: {type: force, joint: spring, force: \"-30*(spring.length - 0.5) - 0.4*spring.length_rate\"}}";
+  for (const std::string& scene : {plane, space})
+    for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
+      const History own = move(fill(scene, {{"k", "30"}, {"d", "0.4"}, {"load", ""}}), formulation),
+                    formula = move(fill(scene, {{"k", "0"}, {"d", "0"}, {"load", load}}), formulation);
+      for (const std::string column : {"tip.x", "tip.y", "force.x", "force.y"})
+        CHECK(relative_error(formula, own, column) < 1e-6);
+      CHECK(formula.report.newton <= own.report.newton + 2);
+    }
+}
+
+// x.. = (1 - x^2) x. - x: amplitude 2.008619861, period 6.663286859 of the limit cycle (Andersen & Geer, SIAM J. Appl.
+// Math. 42, 1982; Amore, Boyd & Fernandez 2018).
+TEST_CASE("state loads: the limit cycle of van der Pol's oscillator has its amplitude and period") {
+  const History at = move(R"yaml(
+bodies:
+  mass: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 1}}, section: {EA: 1, EI: 1, rhoA: 1}}
+joints: {slide: {type: prismatic, between: [ground, mass.start], axis: [0.6, 0.8]}}
+loads: {law: {type: force, joint: slide, force: "(1 - (slide.travel + 1)^2)*slide.speed - slide.travel - 1"}}
+motion: {end: 60, step: 5e-3, spectral_radius: 0.99}
+probes: {mass: {at: mass.start}}
+)yaml",
+                          Formulation::vm_md);
+  std::vector<double> x;
+  for (std::size_t i = 0; i < at.t.size(); ++i) x.push_back(0.6 * at["mass.x"][i] + 0.8 * at["mass.y"][i] + 1);
+  std::vector<double> up;
+  double amplitude = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (x[i - 1] < 0 && x[i] >= 0) up.push_back(at.t[i - 1] + (at.t[i] - at.t[i - 1]) * x[i - 1] / (x[i - 1] - x[i]));
+    if (at.t[i] > 45) amplitude = std::max(amplitude, x[i]);
+  }
+  REQUIRE(up.size() > 4);
+  CHECK(up.back() - up[up.size() - 2] == Approx(6.663286859).epsilon(2e-5));
+  CHECK(amplitude == Approx(2.008619861).epsilon(2e-5));
+}
+
+// x.. + x + x^3 = 0 from rest at A: T = 4 K(m) / sqrt(1 + A^2), m = A^2 / (2 (1 + A^2)).
+TEST_CASE("state loads: the period of Duffing's oscillator is that of the elliptic integral") {
+  const History at = move(R"yaml(
+bodies:
+  mass:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.1, height: 0.1, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 100}
+    initial: {position: [2, 0, 0]}
+joints: {slide: {type: prismatic, between: [ground, mass.start], axis: [1, 0, 0]}}
+loads: {law: {type: force, at: mass.start, force: ["-mass.x - mass.x^3", 0, 0]}}
+motion: {end: 10, step: 2e-3, spectral_radius: 0.99}
+probes: {mass: {at: mass.start, quantity: position}}
+)yaml",
+                          Formulation::vm_md);
+  const double A = 2, T = 4 * std::comp_ellint_1(A / std::sqrt(2 * (1 + A * A))) / std::sqrt(1 + A * A);
+  const auto zeros = at.crossings("mass.x");
+  REQUIRE(zeros.size() > 4);
+  CHECK(zeros[4] - zeros[0] == Approx(2 * T).epsilon(2e-5));
+  CHECK(at.energy.back().kinetic > 0);
+}
+
+// A free body in a fluid: m v. = -c v, J w. = -b w about an axis of the body.
+TEST_CASE("state loads: forces against velocities of places let them decay") {
+  const History at = move(R"yaml(
+bodies:
+  ball:
+    rigid: true
+    mesh: {line: {from: [-0.5, 0, 0], to: [0.5, 0, 0], elements: 2}}
+    section: {shape: rectangle, width: 1, height: 1, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 6}
+    initial: {velocity: [1, 2, 3], angular_velocity: [0, 0, 4]}
+loads:
+  drag: {type: force, at: ball.middle, force: ["-12*v.x", "-12*v.y", "-12*v.z"]}
+  torque: {type: moment, at: ball.middle, axes: place, moment: [0, 0, "-0.5*w.z"]}
+motion: {end: 1, step: 1e-3}
+probes: {v: {at: ball.middle, quantity: velocity}, w: {at: ball.middle, quantity: angular_velocity}}
+)yaml",
+                          Formulation::vm_md);
+  CHECK(at["v.y"].back() == Approx(2 * std::exp(-2)).epsilon(1e-5));
+  CHECK(at["v.z"].back() == Approx(3 * std::exp(-2)).epsilon(1e-5));
+  CHECK(at["w.z"].back() == Approx(4 * std::exp(-0.5)).epsilon(1e-5));  // J = m/6 = 1
+}
+
+// A rod on a flap hinge at the axis of a hub that turns with W: flap omega^2 = W^2 + k/I, and with a damper d the
+// exponent -d/(2I) +- i sqrt(W^2 + k/I - (d/2I)^2).
+TEST_CASE("state loads: frequencies and damping at steady rotation contain the loads' derivatives") {
+  const std::string scene = R"yaml(
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, -0.5], to: [0, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.1, height: 0.1, orientation: [1, 0, 0]}
+    material: {E: 1, nu: 0.3, rho: 1}
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 2}}
+    section: {shape: rectangle, width: 1e-4, height: 1e-4, orientation: [0, 1, 0]}
+    material: {E: 1, nu: 0.3, rho: 3e8}
+joints:
+  shaft: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "2*t"}
+  flap: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
+loads: {flap: {type: moment, joint: flap, moment: "-5*sin(flap.angle) - 0.8*flap.rate"}}
+)yaml";
+  app::CampbellRequest request;
+  request.speeds = "3", request.modes = 1;
+  std::exception_ptr fault;
+  const app::CampbellDiagram found =
+      app::campbell(scene::parse_scene(scene, "scene"), Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
+  if (fault) std::rethrow_exception(fault);
+  REQUIRE(found.points.size() == 1);
+  REQUIRE(found.points[0].fault == "");
+  CHECK(found.points[0].vibrations[0].growth == Approx(-0.4).epsilon(1e-6));
+  CHECK(found.points[0].vibrations[0].omega == Approx(std::sqrt(9 + 5 - 0.16)).epsilon(1e-6));
+}
+
+// k phi = m g l / 2 cos phi, reached by Newton's method.
+TEST_CASE("state loads: an equilibrium with a nonlinear spring") {
+  const History at = rest(rod(false, R"yaml(
+gravity: [0, -9.81]
+loads: {spring: {type: moment, joint: hinge, moment: "-40*hinge.angle - 200*hinge.angle^3"}}
+probes: {rod: {at: rod.end, quantity: rotation}}
+)yaml"),
+                          Formulation::vm_md);
+  const double phi = at["rod.angle"][0];
+  CHECK(phi < -0.1);
+  CHECK(-40 * phi - 200 * phi * phi * phi == Approx(3 * 9.81 / 2 * std::cos(phi)).epsilon(1e-9));
+}
+
+// A mass with speed v comes to rest after m v^2 / (2 f); an oscillator of stiffness k loses 2 f / k of its amplitude in
+// every half period, however fast it moves.
+TEST_CASE("friction: a slider comes to rest, and an oscillator decays by equal steps") {
+  const History slider = move(R"yaml(
+bodies:
+  mass:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 1}}
+    section: {EA: 1, EI: 1, rhoA: 2}
+    initial: {velocity: [3, 0]}
+joints: {slide: {type: prismatic, between: [ground, mass.start], friction: {level: 5, speed: 1e-3}}}
+motion: {end: 1.5, step: 1e-3}
+probes: {mass: {at: mass.start}, force: {joint: slide}}
+)yaml",
+                              Formulation::vm_md);
+  CHECK(slider["mass.x"].back() == Approx(2 * 9. / (2 * 5)).epsilon(1e-3));
+  CHECK(slider.at("force.x", 0.6) == Approx(-5).epsilon(1e-6));
+  const double k = 100, f = 2;
+  for (const bool space : {false, true}) {
+    std::string text = rod(space, R"yaml(
+loads: {spring: {type: moment, joint: hinge, moment: "-100*(hinge.angle + 0.5)"}}
+motion: {end: 2, step: 1e-3}
+probes: {angle: {at: rod.end, quantity: rotation}}
+)yaml");
+    text.replace(text.find("revolute,"), 9, "revolute, friction: {level: 2, speed: 1e-3},");
+    const History at = move(text, Formulation::vm_md);
+    std::vector<double> x, peaks;
+    for (std::size_t i = 0; i < at.t.size(); ++i) {
+      const double phi =
+          !space ? at["angle.angle"][i]
+                 : (turn.Q.transpose() * Eigen::Vector3d(at["angle.rx"][i], at["angle.ry"][i], at["angle.rz"][i])).z();
+      x.push_back(phi + 0.5);
+    }
+    for (std::size_t i = 1; i + 1 < x.size(); ++i)
+      if ((x[i] - x[i - 1]) * (x[i + 1] - x[i]) < 0) peaks.push_back(std::abs(x[i]));
+    REQUIRE(peaks.size() >= 5);
+    for (int n = 0; n < 5; ++n) CHECK(peaks[n] == Approx(0.5 - 2 * f / k * (n + 1)).margin(2e-4));
+  }
+}
