@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floe/assembly/rotation.h"
 #include "floe/assess/validity.h"
 #include "floe/output/progress.h"
 #include "floe/solve/deviation.h"
@@ -14,23 +15,6 @@
 
 namespace floe::app {
 namespace {
-
-using Kind = scene::Joint::Kind;
-
-bool turns(const scene::Joint& joint) {
-  return (joint.kind == Kind::driven || joint.kind == Kind::revolute) && joint.first.ground() != joint.second.ground();
-}
-
-/// The one joint that the scene turns about; none: it has several, or none.
-const scene::Joint* hub_of(const scene::Scene& scene) {
-  const scene::Joint* hub = nullptr;
-  for (const scene::Joint& joint : scene.joints) {
-    if (!turns(joint)) continue;
-    if (hub) return nullptr;
-    hub = &joint;
-  }
-  return hub;
-}
 
 Eigen::Vector3d vector_of(const scene::Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -70,26 +54,6 @@ Eigen::Vector3d hub_position(const assembly::Model& model, int dimension) {
 assembly::Model plan(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
   const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
   return assembly::build(scene, formulation, comm, true);
-}
-
-solve::RotatingSystem rotating_system(const scene::Scene& scene, const CampbellDiagram& diagram) {
-  solve::RotatingSystem rotating{*diagram.model.system, {}, diagram.axis, {}};
-  for (const assembly::BodyReport& body : diagram.model.bodies) {
-    const bool of_nodes = diagram.model.formulation == scene::Formulation::cfr && body.first_dof >= 0;
-    if (of_nodes) continue;  // every node is a frame among the system's attitudes
-    if (body.first_coordinate < 0)
-      throw InputError(
-          fmt::format("{}: body {} is clamped to the ground, and cannot rotate; expected a joint of type "
-                      "driven or revolute to the ground in place of a fixed one",
-                      scene.file, body.name));
-    if (!body.attitude) rotating.planar_frames.push_back(body.first_coordinate);
-  }
-  for (const scene::Joint& joint : scene.joints)
-    if (turns(joint) && joint.kind == Kind::driven) rotating.drives.push_back("joint " + joint.name);
-  for (const scene::Joint& joint : scene.joints)
-    if ((joint.kind == Kind::spring || joint.kind == Kind::bushing) && joint.first.ground() != joint.second.ground())
-      rotating.springs.push_back((joint.kind == Kind::spring ? "spring " : "bushing ") + joint.name);
-  return rotating;
 }
 
 /// From the steady rotation at `from` to the vibrations at `speed`. Returns where the next search begins.
@@ -156,7 +120,7 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
     if (unknowns > solve::largest_rotating_system)
       point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
     else
-      visit(rotating_system(given, full), 0, modes, full.model.U, point);
+      visit(assembly::rotating_system(given, full.model, full.axis), 0, modes, full.model.U, point);
   } catch (const InputError& error) {
     point.fault = error.what();
   } catch (const RunError& error) {
@@ -182,7 +146,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   if (int ranks = 1; formulation == scene::Formulation::cfr && (MPI_Comm_size(comm, &ranks), ranks > 1))
     throw InputError(
         "--formulation: cfr is supported on one rank only; expected one rank, or nlffr, lffr, vm or vm+md");
-  const scene::Joint* hub = hub_of(given);
+  const scene::Joint* hub = assembly::hub_of(given);
   CampbellDiagram diagram;
   diagram.axis.direction = direction_of(given, request, hub);
   if (request.through) diagram.axis.point = parse_point(*request.through, "--through");
@@ -194,7 +158,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   diagram.model = plan(look ? with_hub(given, *hub) : given, formulation, comm);
   if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
   diagram.label = label_of(diagram.model);
-  const solve::RotatingSystem rotating = rotating_system(given, diagram);
+  const solve::RotatingSystem rotating = assembly::rotating_system(given, diagram.model, diagram.axis);
   solve::check_turns(rotating, diagram.model.U);
   const double started = MPI_Wtime();
   diagram.offline_seconds = started - begin;

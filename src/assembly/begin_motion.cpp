@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "floe/assembly/rotation.h"
 #include "floe/solve/start.h"
 
 namespace floe::assembly {
 
-void begin_motion(const Scene& scene, Model& model) {
+void begin_motion(const Plan& plan, Model& model) {
+  const Scene& scene = plan.scene;
   if (scene.motion.start == Motion::Start::equilibrium) {
     petsc::check(VecSet(model.V, 0));
     try {
@@ -17,6 +19,7 @@ void begin_motion(const Scene& scene, Model& model) {
     }
     model.system->rebase(model.U);
   }
+  if (scene.motion.start == Motion::Start::steady_rotation) start_in_rotation(plan, model);
   model.velocity_correction = solve::consistent_velocities(*model.system, 0, model.U, model.V);
 }
 

@@ -373,7 +373,7 @@ Model SpatialAssembly::model() {
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
-  begin_motion(plan_.scene, model);
+  begin_motion(plan_, model);
   return model;
 }
 

@@ -15,8 +15,9 @@ Motion read_motion(Document& document, const Value& value) {
   motion.tolerance = reading.optional_number("tolerance");
   motion.every = reading.integer("every");
   motion.output = reading.optional_number("output");
-  motion.start = reading.choice<Motion::Start>(
-      "start", {{"given", Motion::Start::given}, {"equilibrium", Motion::Start::equilibrium}});
+  motion.start = reading.choice<Motion::Start>("start", {{"given", Motion::Start::given},
+                                                         {"equilibrium", Motion::Start::equilibrium},
+                                                         {"steady_rotation", Motion::Start::steady_rotation}});
   if (motion.output && reading.given("every"))
     document.fault(reading.where("every"), "cannot be combined with output, which is independent of the steps",
                    "one of them");
@@ -35,15 +36,18 @@ Motion read_motion(Document& document, const Value& value) {
 }
 
 void check_start(Document& document, const Scene& scene) {
-  if (scene.motion.start != Motion::Start::equilibrium) return;
+  if (scene.motion.start == Motion::Start::given) return;
+  const bool rotates = scene.motion.start == Motion::Start::steady_rotation;
   for (const Body& body : scene.bodies) {
     const InitialSpec& initial = body.initial;
-    const bool moves = initial.velocity != Point{} || initial.angular_velocity != Point{} || initial.deformation_rate ||
-                       initial.spatial_deformation_rate;
+    const bool moves = initial.velocity != Point{} || (initial.angular_velocity != Point{} && !rotates) ||
+                       initial.deformation_rate || initial.spatial_deformation_rate;
     if (!moves) continue;
     Where where = scene.motion.where;
     where.key += ".start";
-    document.fault(where, fmt::format("is equilibrium, and body {} has an initial velocity", body.name),
+    document.fault(where,
+                   fmt::format("is {}, and body {} has an initial velocity",
+                               rotates ? "steady_rotation" : "equilibrium", body.name),
                    "start: given, or bodies at rest");
   }
 }

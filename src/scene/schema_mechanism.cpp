@@ -167,9 +167,10 @@ const SchemaSection motion_section{
          {0, 1, true, true}},
         choice("start", "given",
                "given: from the initial states of the bodies; equilibrium: from the static equilibrium under the loads "
-               "and "
-               "drives at t = 0 that is found from there, at rest (drives give their speeds)",
-               {"given", "equilibrium"}),
+               "and drives at t = 0 that is found from there, at rest (drives give their speeds); steady_rotation: "
+               "from the steady rotation about the only driven or revolute joint to the ground, at the speed of its "
+               "drive at t = 0 or the initial angular_velocity of the body there",
+               {"given", "equilibrium", "steady_rotation"}),
         {"every", Type::integer, "", "1", "store every n-th step", counts},
         {"output", Type::number, "s", "",
          "store at multiples of this time instead, interpolated between steps by the integrator's cubic polynomials; "

@@ -192,6 +192,11 @@ class Follower {
 
 }  // namespace
 
+void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Vec V) {
+  rotating.system.rebase(U);
+  set(V, rotating_motion(rotating, speed, gather_to_all(rotating.system, U)).V);
+}
+
 PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump) {
   const KeptState before(rotating.system, U);
   try {

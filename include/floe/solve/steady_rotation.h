@@ -58,6 +58,9 @@ void check_turns(const RotatingSystem& rotating, Vec U);
 /// Collective, the same on every rank.
 PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump = nullptr);
 
+/// V = V(U) at `speed`; attitudes of U are their own bases afterwards. Collective.
+void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Vec V);
+
 /// A small motion e^(growth t) cos(omega t) about the steady rotation, as seen in the rotating axes.
 struct Vibration {
   double omega = 0;   ///< [rad/s]

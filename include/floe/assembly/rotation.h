@@ -1,0 +1,18 @@
+#pragma once
+#include "floe/assembly/model.h"
+#include "floe/solve/steady_rotation.h"
+
+namespace floe::assembly {
+
+/// The one driven or revolute joint to the ground, about which the scene turns; none: it has several, or none.
+const Joint* hub_of(const Scene& scene);
+
+/// @throws InputError  a body clamped to the ground
+solve::RotatingSystem rotating_system(const Scene& scene, const Model& model, const solve::RotationAxis& axis);
+
+/// U, V of the model to the steady rotation about the hub, at the speed that its drive has at t = 0 or, where nothing
+/// drives it, the initial angular velocity of the body there.
+/// @throws InputError  no hub, no speed, or a scene that cannot turn; RunError  no steady rotation. Collective.
+void start_in_rotation(const Plan& plan, Model& model);
+
+}  // namespace floe::assembly
