@@ -10,6 +10,7 @@
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/mode_warnings.h"
 #include "floe/plan/interface.h"
+#include "floe/plan/mesh_copy.h"
 #include "floe/reduction/ranking.h"
 
 namespace floe::assembly {
@@ -179,10 +180,34 @@ void modes_for_derivatives(const Plan& plan, int index, Stage& stage, BodyReport
 
 }  // namespace
 
+namespace {
+
+/// Of a mass whose centre and inertia are given in the axes of the mesh, in those of the body's frame.
+body::Inertia inertia_of(const RigidMass& mass, const Eigen::Isometry3d& frame, int dimension) {
+  const auto& J = mass.inertia;
+  Eigen::Matrix3d tensor;
+  tensor << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];
+  Eigen::Matrix3d second = 0.5 * tensor.trace() * Eigen::Matrix3d::Identity() - tensor;  // int rho x x'
+  if (dimension == 2) second = 0.5 * J[2] * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d A = frame.linear().transpose();
+  const Eigen::Vector3d centre = frame.inverse() * Eigen::Vector3d::Map(mass.centre.data());
+  body::Inertia inertia(dimension, 0);
+  inertia.m = mass.mass;
+  inertia.s0 = mass.mass * centre.head(dimension);
+  inertia.C0 =
+      (A * second * A.transpose() + mass.mass * centre * centre.transpose()).topLeftCorner(dimension, dimension);
+  return inertia;
+}
+
+}  // namespace
+
 ReducedBody rigid(const PlannedBody& body) {
   ReducedBody reduced;
   reduced.basis = std::make_shared<reduction::Basis>();
   reduced.body = reduction::rigid_body(body.structure);
+  if (body.spec.mass)
+    reduced.body.inertia =
+        inertia_of(*body.spec.mass, frame_in_mesh(body), static_cast<int>(reduced.body.inertia.dimension()));
   reduced.report.rigid = true;
   return reduced;
 }

@@ -85,8 +85,10 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
                      const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
                      const MeshAxes& axes) {
   Anchor found;
-  if (place.point && body.rigid) {
-    found.x = axes.axes.transpose() * (Eigen::Vector3d::Map(place.point->data()) - axes.origin);
+  const bool named_centre = body.mass && !place.point && place.name == "centre";
+  if ((place.point && body.rigid) || named_centre) {
+    const Point& x = named_centre ? body.mass->centre : *place.point;
+    found.x = axes.axes.transpose() * (Eigen::Vector3d::Map(x.data()) - axes.origin);
     found.nodes = {0};  // of no account
     found.levers = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
     return found;
@@ -106,6 +108,9 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
     found.nodes = {nearest.node};
   } else {
     const auto set = places.find(place.name);
+    if (body.mass && !body.mass->has_mesh)
+      throw InputError(fmt::format("{}: {} has no mesh and no place \"{}\"; expected centre or coordinates",
+                                   place.where.text(), place.body, place.name));
     if (set == places.end()) {
       std::vector<std::string> names;
       for (const auto& entry : places) names.push_back(entry.first);

@@ -142,6 +142,10 @@ Point place_point(const MeshSpec& mesh, const Place& place) {
 
 Point place_point(const Body& body, const Place& place) {
   if (body.rigid && place.point) return *place.point;
+  if (body.mass && place.name == "centre") return body.mass->centre;
+  if (body.mass && !body.mass->has_mesh)
+    throw InputError(fmt::format("{}: {} has no mesh and no place \"{}\"; expected centre or coordinates",
+                                 place.where.text(), place.body, place.name));
   if (body.rigid && place.name == "middle" && unbranched(body.mesh)) {
     const Half half = half_of(body.mesh);
     const double node = std::round(half.steps);

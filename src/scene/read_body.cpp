@@ -62,6 +62,25 @@ std::optional<fem::Strains> read_strains(Document& document, Reading& body) {
   return strains;
 }
 
+/// A section of a rigid body whose mass is given: of no account.
+void give_section(Body& body) {
+  body.section.EA = body.section.EI = body.section.rhoA = 1;
+  if (body.mesh.plate) {
+    body.parts = {{"", fem::shell_section({{fem::isotropic(1, 0, 1), 1, 0}}, 0, Eigen::Vector3d::Zero()), body.where}};
+    return;
+  }
+  const auto& points = body.mesh.points;
+  Eigen::Vector3d across = Eigen::Vector3d::UnitY();
+  for (const auto& [from, to] : body.mesh.segments) {  // oblique to all of them
+    const Eigen::Vector3d along =
+        Eigen::Map<const Eigen::Vector3d>(points[to].data()) - Eigen::Map<const Eigen::Vector3d>(points[from].data());
+    if (across.cross(along).norm() < 1e-3 * along.norm())
+      across = Eigen::Vector3d(across.z(), across.x() + 0.3, across.y() + 0.7).normalized();
+  }
+  body.parts = {
+      {"", fem::SpatialBeam{fem::spatial_section(fem::circle(1), {1, 1, 1}, {0, 0}), across, {}}, body.where}};
+}
+
 // The default count of modes fits every mesh; what the file asks for is taken at its word.
 void fit_default_modes(Body& body) {
   if (body.reduction.modes.given || body.mesh.points.empty() || body.frames < 1) return;
@@ -101,9 +120,13 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   if (!value.node.IsMap()) return body;
   if (reading.given("reduced")) return read_reduced(document, name, reading);
   if (const auto mesh = reading.value("mesh")) body.mesh = read_mesh(document, *mesh);
-  body.rigid = reading.flag("rigid");
+  read_rigid(document, reading, body);
   const bool in_space = document.dimension == 3;
-  if (in_space)
+  const bool sectionless =
+      body.mass && (!body.mass->has_mesh || (!reading.given("section") && !reading.given("parts") && !body.mesh.file));
+  if (sectionless)
+    give_section(body);
+  else if (in_space)
     body.parts = read_parts(document, reading);
   else
     body.section = read_section(document, reading, body.rigid);

@@ -12,7 +12,8 @@ const SchemaSection body_section{
     "0.0078}\n"
     "frame: pinned\nreduction: {modes: 12}",
     {
-        part("mesh", Type::section, required, "the undeformed shape in mesh axes", "mesh"),
+        part("mesh", Type::section, "",
+             "the undeformed shape in mesh axes; required but for rigid bodies with given mass", "mesh"),
         {"reduced", Type::text, "", "",
          "instead of all other keys except initial: a file written by `floe reduce`, relative to the folder of the "
          "scene; its places are those stored in the file"},
@@ -35,8 +36,12 @@ const SchemaSection body_section{
             "second_order",
             {"von_karman", "second_order"}),
         in_plane({"rotary_inertia", Type::flag, "", "true", "rotary inertia rhoI of the sections"}),
-        {"rigid", Type::flag, "", "false",
-         "rigid body: EA and EI may be absent; frame, reduction, damping and deformation have no effect"},
+        part(
+            "rigid", Type::rigid, "false",
+            "rigid body: EA and EI may be absent; frame, reduction, damping and deformation have no effect. With mass, "
+            "centre and inertia: these instead of those of the mesh, which may be absent together with section and "
+            "material",
+            "rigid"),
         part("frame", Type::frame, "",
              "conditions of the floating frame; absent: pinned from start to end in planar scenes; in spatial scenes "
              "mean-axis, but clamped for plates and meshes from files that a joint clamps to the ground or to a rigid "
@@ -50,6 +55,19 @@ const SchemaSection body_section{
         part("damping", Type::section, "", "damping; absent: none", "damping"),
         part("initial", Type::section, "",
              "initial state; absent: at rest, undeformed, mesh axes parallel to world axes", "initial"),
+    }};
+
+const SchemaSection rigid_section{
+    "rigid",
+    "A rigid body by its mass, centre and inertia. Its places are `centre` and coordinates in mesh axes, and those of "
+    "its mesh if it has one.",
+    "mass: 12\ncentre: [0.1, 0, 0]\ninertia: [0.3, 0.4, 0.5]",
+    {
+        {"mass", Type::number, "kg", required, "mass", positive},
+        {"centre", Type::point, "m", required, "centre of mass in mesh axes"},
+        {"inertia", Type::inertia, "kg m2", required,
+         "moment of inertia about the centre; in spatial scenes the tensor in mesh axes: Jxx, Jyy, Jzz, and where they "
+         "are not zero Jxy, Jxz, Jyz (Jxy = -int rho x y)"},
     }};
 
 const SchemaSection mesh_section{
@@ -228,9 +246,10 @@ const SchemaSection initial_section{
 }  // namespace
 
 const std::vector<SchemaSection>& body_sections() {
-  static const std::vector<SchemaSection> all{body_section,      mesh_section,    line_section,     polyline_section,
-                                              segments_section,  section_section, material_section, frame_section,
-                                              reduction_section, modes_section,   damping_section,  initial_section};
+  static const std::vector<SchemaSection> all{body_section,     rigid_section,     mesh_section,    line_section,
+                                              polyline_section, segments_section,  section_section, material_section,
+                                              frame_section,    reduction_section, modes_section,   damping_section,
+                                              initial_section};
   return all;
 }
 
