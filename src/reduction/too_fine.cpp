@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "floe/reduction/statics.h"
 
@@ -62,9 +63,41 @@ Cells cells_of(const fem::Structure& structure) {
   return {all[1] / all[0], all[1], values[1] <= 1e-12 * values[2]};
 }
 
+/// Quadrilaterals of second order that share no edge with another shell. Collective.
+PetscInt lone_quadrilaterals(const fem::Structure& structure) {
+  const fem::Mesh& mesh = structure.mesh;
+  const Eigen::Index n = structure.dofs_per_node;
+  const auto each_middle = [&](const auto& visit) {
+    for (const fem::Mesh::Cell& cell : mesh.cells)
+      if (mesh::is_quadratic(cell.kind) && !mesh::is_line(cell.kind)) {
+        const auto places = cell.places();
+        for (std::size_t i = places.size() / 2; i < places.size(); ++i) visit(cell, n * places[i]);
+      }
+  };
+  Eigen::VectorXd here = Eigen::VectorXd::Zero(n * std::ssize(mesh.positions));
+  each_middle([&](const fem::Mesh::Cell&, Eigen::Index at) { here[at] += 1; });
+  const petsc::VecHandle count = fem::field(structure);
+  structure.exchange.add(here, count);
+  const Eigen::VectorXd all = structure.exchange.gather(count);
+  std::map<const fem::Mesh::Cell*, bool> lone;
+  each_middle([&](const fem::Mesh::Cell& cell, Eigen::Index at) {
+    bool& one = lone.try_emplace(&cell, cell.places().size() == 8).first->second;
+    one = one && all[at] < 1.5;
+  });
+  PetscInt sum = std::count_if(lone.begin(), lone.end(), [](const auto& one) { return one.second; });
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_INT, MPI_SUM, mesh.comm);
+  return sum;
+}
+
 }  // namespace
 
 RunError too_fine(const fem::Structure& structure, const std::string& what) {
+  if (const PetscInt lone = structure.dimension() == 3 ? lone_quadrilaterals(structure) : 0; lone > 0)
+    return RunError(fmt::format(
+        "{}: {} of {} elements {} of second order (S8R) without an edge in common with another shell; by reduced "
+        "integration two motions of such an element cost no energy, and the joints leave them free; take two or more "
+        "of them side by side, elements of first order, or joints that hold one of its edges",
+        what, lone, structure.mesh.cell_count, lone == 1 ? "is a quadrilateral" : "are quadrilaterals"));
   const Cells cells = cells_of(structure);
   const double length = fem::extent(structure);
   if (cells.plain || !(cells.h > 10 * cells.r))  // (L/h)^4, the bending of a cell against that of the body

@@ -35,6 +35,13 @@ COMMANDS = {"run": ["run", "scene.yaml", "-o", "out"], "modes": ["modes", "scene
             "compare": ["compare", "scene.yaml", "--formulations", "vm", "-o", "out"], "reduce": ["reduce", "scene.yaml", "-o", "p.h5"]}
 
 
+# one quadrilateral of second order; its edge at x = 0, and a corner
+ALONE = ("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0.5, 0, 0\n6, 1, 0.5, 0\n7, 0.5, 1, 0\n8, 0, 0.5, 0\n"
+         "*ELEMENT, TYPE=S8R, ELSET=LEFT\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=EDGE\n1, 4, 8\n*NSET, NSET=ROOT\n1\n*NSET, NSET=TIP\n3\n"
+         + MATERIALS.format(7e10, 2700) + "*SHELL SECTION, ELSET=LEFT, MATERIAL=STEEL\n0.01\n")
+MECHANISM = "1 of 1 elements is a quadrilateral of second order (S8R) without an edge in common with another shell"
+
+
 def once(*phrases):
     """Each stands on stdout once."""
     def check(folder):
@@ -52,6 +59,11 @@ def cases(Case):
                    files={"part.inp": deck(METRES, 0.01, more="*BOUNDARY\nROOT, 1, 6\n" + STEP)})
         yield Case(f"deck: scale, {name}", words, 0, lines=0, check=once(*SCALED), scene=scene("path: part.inp, scale: 1e-3"),
                    files={"part.inp": deck(MILLIMETRES, 2)})
+    for name in ("modes", "run", "static"):
+        yield Case(f"deck: a single S8R, {name}", COMMANDS[name], 1, (MECHANISM, "take two or more of them side by side"), lines=1,
+                   scene=scene(), files={"part.inp": ALONE})
+    yield Case("deck: a single S8R held at an edge", COMMANDS["modes"], 0, lines=0, shows=("[Hz]",),
+               scene=scene().replace("p.ROOT", "p.EDGE"), files={"part.inp": ALONE})
     for name in ("modes", "check"):
         yield Case(f"deck: in place of a scene, {name}", [name, "part.inp"] + ["--frequencies", "2"] * (name == "check"), 0, lines=0,
                    shows=("body", "[Hz]"), files={"part.inp": deck(METRES, 0.01)})

@@ -82,7 +82,8 @@ petsc::KspHandle direct_solver(Mat A, const char* prefix);
 /// residual (the other norm is all round-off of u, multiplied by EI/h^3). The operator is set by the caller.
 void iterate(KSP ksp, KSPType type);
 
-/// `the mesh of N elements is finer than double precision resolves: WHAT; ...`; `thinner` of thin folds. Collective.
+/// `the mesh of N elements is finer than double precision resolves: WHAT; ...`; thinner, of thin folds; of
+/// quadrilaterals of second order that stand alone, which of their motions cost no energy. Collective.
 RunError too_fine(const fem::Structure& structure, const std::string& what);
 
 /// X with A X = B for all columns at once. @throws RunError with prefix, reason and residual. Collective.
