@@ -27,6 +27,13 @@ constexpr int most_frames = 16, most_times = 16, most_elements = 1000;
 
 /// What is chosen before the reduced model: frames, elements, strains.
 class TotalSearch {
+  /// A full-order model that was simulated.
+  struct Candidate {
+    Discretisation bodies;
+    double error;        // of the worst probe
+    std::string failed;  // where the error is impossible: why
+  };
+
  public:
   TotalSearch(const scene::Scene& scene, double accuracy, MPI_Comm comm)
       : scene_(scene), accuracy_(accuracy), comm_(comm), chosen_(discretisation_of(scene)) {}
@@ -90,21 +97,37 @@ class TotalSearch {
 
   /// Error of a full-order model, in the scene's own steps.
   double error_of(const Discretisation& bodies) {
-    for (const auto& [known, error] : errors_)
-      if (known == bodies) return error;
-    double error = impossible;
+    for (const Candidate& known : tried_bodies_)
+      if (known.bodies == bodies) return known.error;
+    Candidate one{bodies, impossible, "no finite numbers"};
     try {
-      error =
+      one.error =
           worst_error(quiet_motion(discretised(scene_, bodies), scene::Formulation::nlffr, comm_), exact_.in_own_steps);
-    } catch (const std::runtime_error&) {  // on all ranks
+    } catch (const std::runtime_error& fault) {  // on all ranks
       if (Interruption::happened(comm_)) throw;
+      one.failed = fault.what();
+      one.failed.resize(
+          std::min({one.failed.find(';'), one.failed.find('\n'), one.failed.find(" ("), one.failed.size()}));
     }
-    if (!std::isfinite(error)) error = impossible;
-    errors_.push_back({bodies, error});
-    return error;
+    if (!std::isfinite(one.error)) one.error = impossible;
+    tried_bodies_.push_back(one);
+    return one.error;
   }
 
+  /// What `more` makes of the chosen bodies; where that model fails, what it makes of that, until nothing changes.
+  template <class More>
+  Discretisation first_that_moves(const More& more) {
+    Discretisation one = more(chosen_);
+    for (Discretisation next = more(one); !(one == chosen_) && error_of(one) == impossible && !(next == one);
+         next = more(one))
+      one = next;
+    return one;
+  }
+
+  /// Twice the elements; the same where a body has the most already.
   Discretisation with_elements(Discretisation bodies) const {
+    if (std::any_of(bodies.begin(), bodies.end(), [](const Discretised& one) { return one.elements >= most_times; }))
+      return bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       if (generated(scene_.bodies[b])) bodies[b].elements *= 2;
     return bodies;
@@ -113,7 +136,7 @@ class TotalSearch {
   /// Twice the frames of one body, or of all (-1), with elements to divide; the same where there is nothing to divide.
   Discretisation with_frames(Discretisation bodies, int only) const {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      if ((only >= 0 && static_cast<int>(b) != only) || !divisible(scene_, scene_.bodies[b])) continue;
+      if ((only >= 0 && static_cast<int>(b) != only) || !divisible(scene_.bodies[b])) continue;
       if (bodies[b].frames * 2 > most_frames) continue;
       bodies[b].frames *= 2;
       const auto fits = [&] {
@@ -140,20 +163,16 @@ class TotalSearch {
     while (error > wanted) {
       Discretisation best = chosen_;
       double least = error;
-      std::vector<Discretisation> all = {with_frames(chosen_, -1), with_strains(chosen_, fem::Strains::second_order)};
-      if (chosen_.empty() || times() < most_times) all.push_back(with_elements(chosen_));
+      const std::vector<Discretisation> all = {
+          first_that_moves([&](const Discretisation& bodies) { return with_frames(bodies, -1); }),
+          with_strains(chosen_, fem::Strains::second_order),
+          first_that_moves([&](const Discretisation& bodies) { return with_elements(bodies); })};
       for (const Discretisation& one : all)
         if (!(one == chosen_) && error_of(one) < least) best = one, least = error_of(one);
-      if (least > 0.9 * error) break;
+      if (best == chosen_ || least > 0.9 * error) break;
       chosen_ = best, error = least;
     }
     if (error <= wanted) spare_frames(wanted);
-  }
-
-  int times() const {
-    int greatest = 1;
-    for (const Discretised& one : chosen_) greatest = std::max(greatest, one.elements);
-    return greatest;
   }
 
   /// Bodies that need no more frames than they had.
@@ -199,15 +218,16 @@ class TotalSearch {
   }
 
   void explain_discretisation() {
-    for (const auto& [bodies, error] : errors_)
-      tried_.push_back(fmt::format("{}: {}", words(bodies), std::isfinite(error) ? math::percent(error) : "fails"));
+    for (const Candidate& one : tried_bodies_)
+      tried_.push_back(
+          fmt::format("{}: {}", words(one.bodies),
+                      std::isfinite(one.error) ? math::percent(one.error) : fmt::format("fails ({})", one.failed)));
     const std::string choice = words(chosen_);
     if (!choice.empty())
       decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));
     for (const scene::Body& body : scene_.bodies)
-      if (generated(body) && body.mesh.segments.size() == 1 && !divisible(scene_, body))
-        decide("  " + body.name, fmt::format("{} frames", body.frames),
-               "not divided: a probe is a deflection from its floating frame, or it has an interface");
+      if (generated(body) && body.mesh.segments.size() == 1 && !divisible(body))
+        decide("  " + body.name, fmt::format("{} frames", body.frames), "not divided: it has an interface");
   }
 
   /// Reduction, step and mesh alone: the mesh by the reduced model on finer ones.
@@ -277,7 +297,7 @@ class TotalSearch {
   Discretisation chosen_;
   ExactMotion exact_;
   nlohmann::ordered_json before_;
-  std::vector<std::pair<Discretisation, double>> errors_;
+  std::vector<Candidate> tried_bodies_;
   std::vector<std::string> tried_;
   std::vector<std::pair<std::string, std::string>> unbounded_;
   std::vector<Decision> decisions_;

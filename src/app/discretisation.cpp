@@ -8,7 +8,6 @@
 namespace floe::app {
 
 using scene::Body;
-using scene::Probe;
 using scene::Scene;
 
 namespace {
@@ -47,12 +46,8 @@ void write_frames(YAML::Node node, const Body& body, int frames) {
 
 bool generated(const Body& body) { return !body.rigid && !body.reduced && !body.mesh.file; }
 
-bool divisible(const Scene& scene, const Body& body) {
-  if (!generated(body) || body.mesh.segments.size() != 1 || !body.reduction.interface.empty()) return false;
-  return std::none_of(scene.probes.begin(), scene.probes.end(), [&](const Probe& probe) {
-    return probe.quantity == Probe::Quantity::deflection && probe.at.body == body.name &&
-           (scene.dimension == 3 || body.frame.kind == scene::FrameSpec::Kind::mean_axis);
-  });
+bool divisible(const Body& body) {
+  return generated(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty();
 }
 
 Discretisation discretisation_of(const Scene& scene) {

@@ -18,9 +18,8 @@ using Discretisation = std::vector<Discretised>;
 
 /// Whether a body is flexible, and its mesh is generated.
 bool generated(const scene::Body& body);
-/// Whether it is one straight line whose floating frame may be divided: in space none of its probes is a deflection, in
-/// the plane no deflection is from mean axes.
-bool divisible(const scene::Scene& scene, const scene::Body& body);
+/// Whether it is one straight line whose floating frame may be divided.
+bool divisible(const scene::Body& body);
 
 Discretisation discretisation_of(const scene::Scene& scene);
 

@@ -6,14 +6,17 @@
 #include "floe/assembly/start_vectors.h"
 #include "floe/scene/places.h"
 #include "floe/solve/simulation.h"
+#include "load_scale.h"
 #include "planar_assembly.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
 
 Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced) {
-  return plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced).model()
-                                   : PlanarAssembly(plan, formulation, reduced).model();
+  Model model = plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced).model()
+                                          : PlanarAssembly(plan, formulation, reduced).model();
+  model.force = force_of(plan);
+  return model;
 }
 
 namespace {
@@ -87,10 +90,27 @@ ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool kee
   return all;
 }
 
+/// Loads whose directions depend on the number of frames.
+std::vector<std::string> loads_in_axes_of_parts(const Scene& split) {
+  std::vector<std::string> words;
+  const auto look = [&](const Load& load, const std::string& part) {
+    const std::string whole = part.substr(0, part.find('#'));
+    if (load.axes != Load::Axes::body || load.kind == Load::Kind::pressure || whole == part) return;
+    const std::string text = fmt::format(
+        "load {}: its axes are those of the floating frames of the parts of body {}, and with more frames those of its "
+        "sections; for the same directions in any number of frames use axes: place or world",
+        load.name, whole);
+    if (words.empty() || words.back() != text) words.push_back(text);
+  };
+  for (const Load& load : split.loads) look(load, load.spread() ? load.body : load.at.body);
+  return words;
+}
+
 Model assembled(const Plan& plan, const ReducedBodies& reduced) {
   Model model = assemble(plan, reduced.formulation, reduced.bodies);
   model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
   for (std::string& words : middles_beside_nodes(plan.scene)) model.warnings.push_back(std::move(words));
+  for (std::string& words : loads_in_axes_of_parts(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : smoothed_drives(plan.scene)) model.warnings.push_back(std::move(words));
   return model;
 }

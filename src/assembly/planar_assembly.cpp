@@ -33,7 +33,7 @@ std::vector<PetscInt> visited_nodes(const Plan& plan, int body) {
     visit(plan.probes[p][0]), visit(plan.probes[p][1]);
     if (plan.scene.probes[p].quantity == Probe::Quantity::deflection && plan.probes[p][0].body == body)
       for (const Anchor& place : plan.bodies[body].frame_places) nodes.push_back(place.node);
-    for (const Anchor& place : plan.chords[p]) visit(place);
+    for (const Anchor& place : plan.probe_frames[p]) visit(place);
   }
   return nodes;
 }

@@ -69,6 +69,8 @@ class PlanarAssembly {
   void add_joint(std::size_t index, std::array<dynamics::Marker, 2>& places, const Eigen::VectorXd& q);
   Eigen::Vector2d in_mesh_axes(const Anchor& place) const;  // undeformed
   void add_probes(Model& model, const Eigen::VectorXd& q);
+  /// That which a deflection is measured from where its place has none of the whole body; none: it has.
+  std::optional<FrameByPlaces> frame_of_deflection(std::size_t probe);
   void set_start(Model& model);
   void set_full_order_start(int body, Vec U, Vec V);
   dynamics::Marker marker(const Anchor& place);

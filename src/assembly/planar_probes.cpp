@@ -10,27 +10,55 @@ Eigen::Vector2d PlanarAssembly::in_mesh_axes(const Anchor& place) const {
   return body.frame_origin + turn(body.frame_angle) * place.x.head<2>();
 }
 
+std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) {
+  const Anchor& probe = plan_.probes[p][0];
+  std::vector<Anchor> places = plan_.probe_frames[p];
+  if (plan_.scene.probes[p].quantity != Probe::Quantity::deflection || probe.body < 0) return std::nullopt;
+  const PlannedBody& body = plan_.bodies[probe.body];
+  const FrameKind kind = body.frame.kind;
+  if (places.empty() && (compact(probe.body) || formulation_ != Formulation::cfr)) return std::nullopt;
+  if (places.empty() && kind == FrameKind::mean_axis)
+    throw InputError(plan_.scene.probes[p].where.text() +
+                     ": deflection relative to a mean-axis frame is not available in formulation cfr");
+  if (places.empty())
+    for (const Anchor& node : body.frame_places) places.push_back({probe.body, node.node, node.x});
+  FrameByPlaces frame{kind, {}, {}};
+  for (const Anchor& place : places) {
+    const Body& part = plan_.bodies[place.body].spec;
+    dynamics::Marker at = marker(place);
+    frame.undeformed.push_back(in_mesh_axes(place));
+    if (kind == FrameKind::mean_axis) {  // the mesh of a part is one line of one section
+      const auto end = [&](int i) -> Eigen::Vector2d {
+        const Point& x = part.mesh.points[part.mesh.segments[0][i]];
+        return {x[0], x[1]};
+      };
+      frame.undeformed.back() = (end(0) + end(1)) / 2;
+      frame.gyration = (end(1) - end(0)).squaredNorm() / 12;
+      if (part.rotary_inertia && part.section.rhoA > 0) frame.gyration += part.section.rhoI / part.section.rhoA;
+      at.x = turn(-plan_.bodies[place.body].frame_angle) *
+             (frame.undeformed.back() - plan_.bodies[place.body].frame_origin);
+      at.S.resize(2, 0), at.psi.resize(0);
+      at.coordinates.resize(std::min<std::size_t>(at.coordinates.size(), 3));
+    }
+    frame.places.push_back(std::move(at));
+  }
+  Eigen::Vector2d origin = frame.undeformed.front(), along = frame.undeformed.back() - origin;
+  if (kind == FrameKind::mean_axis) {
+    origin.setZero();
+    for (const Eigen::Vector2d& X : frame.undeformed) origin += X / static_cast<double>(places.size());
+  }
+  if (kind != FrameKind::pinned) along = Eigen::Vector2d::UnitX();  // the axes of the mesh
+  frame.of_probe = turn(-std::atan2(along.y(), along.x())) * (in_mesh_axes(probe) - origin);
+  return frame;
+}
+
 void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
     const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
-    ModelProbe probe{spec.name, spec.quantity, marker(place), {}, {}, {}, Eigen::Vector3d::Zero()};
-    const std::vector<Anchor>& chord = plan_.chords[p];
-    for (const Anchor& node : chord) probe.frame.push_back(marker(node));
-    if (!chord.empty()) {
-      const Eigen::Vector2d from = in_mesh_axes(chord[0]), along = in_mesh_axes(chord[1]) - from;
-      probe.at_rest = turn(-std::atan2(along.y(), along.x())) * (in_mesh_axes(place) - from);
-    }
-    if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && !compact(place.body) &&
-        formulation_ == Formulation::cfr && chord.empty()) {
-      const PlannedBody& body = plan_.bodies[place.body];
-      if (body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
-        throw InputError(spec.where.text() +
-                         ": deflection relative to a mean-axis frame is not available in formulation cfr");
-      for (const Anchor& node : body.frame_places) probe.frame.push_back(marker({place.body, node.node, node.x}));
-      probe.at_rest = turn(-probe.frame[0].angle0) * (probe.marker.x - probe.frame[0].x);
-    }
-    if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && compact(place.body) && chord.empty())
+    ModelProbe probe{spec.name, spec.quantity, marker(place), {}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+    probe.frame = frame_of_deflection(p);
+    if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && compact(place.body) && !probe.frame)
       if (probe.marker.S.size() == 0 ||
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[place.body].body.inertia.m) < 1e-9)
         model.warnings.push_back(never_deflects(spec, plan_.bodies[place.body].spec));

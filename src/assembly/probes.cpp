@@ -21,7 +21,9 @@ struct Meaning {
   ProbeColumn::Kind kind;
 };
 
-Meaning meaning_of(Probe::Quantity quantity, double extent) {
+Meaning meaning_of(Probe::Quantity quantity, const Model& model) {
+  constexpr double unknown = 1e-100;  // any force is large beside it
+  const double extent = model.extent, force = model.force > 0 ? model.force : unknown;
   using Kind = ProbeColumn::Kind;
   switch (quantity) {
     case Probe::Quantity::rotation:
@@ -31,13 +33,13 @@ Meaning meaning_of(Probe::Quantity quantity, double extent) {
     case Probe::Quantity::angular_velocity:
       return {"rad/s", 1, Kind::rate};
     case Probe::Quantity::force:
-      return {"N", 1, Kind::load};
+      return {"N", force, Kind::load};
     case Probe::Quantity::moment:
-      return {"N m", extent, Kind::load};
+      return {"N m", force * extent, Kind::load};
     case Probe::Quantity::section_force:
-      return {"N", 1, Kind::load};
+      return {"N", force, Kind::load};
     case Probe::Quantity::section_moment:
-      return {"N m", extent, Kind::load};
+      return {"N m", force * extent, Kind::load};
     case Probe::Quantity::stress:
       return {"Pa", 1, Kind::stress};
     case Probe::Quantity::principal_stress:
@@ -45,9 +47,9 @@ Meaning meaning_of(Probe::Quantity quantity, double extent) {
     case Probe::Quantity::von_mises_stress:
       return {"Pa", 1, Kind::stress};
     case Probe::Quantity::membrane_force:
-      return {"N/m", 1 / extent, Kind::load};
+      return {"N/m", force / extent, Kind::load};
     case Probe::Quantity::bending_moment:
-      return {"N", 1, Kind::load};
+      return {"N", force, Kind::load};
     case Probe::Quantity::formula:
       return {"", 1, Kind::formula};
     default:
@@ -60,7 +62,7 @@ Meaning meaning_of(Probe::Quantity quantity, double extent) {
 std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
-    const Meaning meaning = meaning_of(probe.quantity, model.extent);
+    const Meaning meaning = meaning_of(probe.quantity, model);
     for (const std::string& component : components_of(probe.quantity, probe.spatial ? 3 : 2))
       columns.push_back({probe.name + "." + component,
                          meaning.kind == ProbeColumn::Kind::formula ? probe.unit : meaning.unit, meaning.scale,
@@ -82,16 +84,6 @@ Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Ei
   dynamics::Pose pose;
   dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
   return {pose.y, pose.yd};
-}
-
-/// Displacement of a place from the frame that nodes of the body define: through nodes a and b (pinned), or along the
-/// section at a (clamped).
-Eigen::Vector2d deflection_from_nodes(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                      const Eigen::Vector3d& y) {
-  const Eigen::Vector3d a = placed(probe.frame[0], q, v).y, b = placed(probe.frame[1], q, v).y;
-  const bool pinned = probe.frame[0].x != probe.frame[1].x;
-  const double angle = pinned ? std::atan2(b.y() - a.y(), b.x() - a.x()) : a[2];
-  return turn(-angle) * (y - a).head<2>() - probe.at_rest;
 }
 
 dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen::VectorXd& q,
@@ -125,7 +117,8 @@ void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen
   if (quantity == Probe::Quantity::velocity) value = at.velocity;
   if (quantity == Probe::Quantity::rotation) value = rotation_vector(at.D);
   if (quantity == Probe::Quantity::angular_velocity) value = at.spin;
-  if (quantity == Probe::Quantity::deflection) value = probe.mesh * (at.c - probe.marker.x0);
+  if (quantity == Probe::Quantity::deflection)
+    value = probe.frame ? deflection(*probe.frame, q, at.p) : Eigen::Vector3d(probe.mesh * (at.c - probe.marker.x0));
   values.insert(values.end(), value.data(), value.data() + 3);
 }
 
@@ -249,8 +242,8 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
     default:
       break;  // add_exerted, value_of, add_section, add_shell
     case Probe::Quantity::deflection: {
-      if (!probe.frame.empty()) {
-        const Eigen::Vector2d u = deflection_from_nodes(probe, q, v, at.y);
+      if (probe.frame) {
+        const Eigen::Vector2d u = deflection(*probe.frame, q, at.y.head<2>());
         values.insert(values.end(), {u.x(), u.y()});
         break;
       }

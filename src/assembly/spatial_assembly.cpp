@@ -125,6 +125,8 @@ std::vector<PetscInt> SpatialAssembly::visited(int body) const {
   for (std::size_t l = 0; l < plan_.loads.size(); ++l)
     if (!plan_.scene.loads[l].spread()) visit(plan_.loads[l]);
   for (const auto& probe : plan_.probes) visit(probe[0]), visit(probe[1]);
+  for (const auto& frame : plan_.probe_frames)
+    for (const Anchor& place : frame) visit(place);
   return nodes;
 }
 

@@ -2,7 +2,6 @@
 
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/spatial_force.h"
-#include "floe/scene/places.h"
 #include "spatial_assembly.h"
 #include "weight.h"
 
@@ -191,40 +190,6 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
                                          : SpatialForce::Axes::world));
   }
   return terms;
-}
-
-void SpatialAssembly::add_probes(Model& model) {
-  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
-    const Probe& spec = plan_.scene.probes[p];
-    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
-    SpatialProbe probe{marker(place), {}};
-    const int b = place.body;
-    if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b))
-      if (probe.marker.S.size() == 0 ||
-          probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)
-        model.warnings.push_back(never_deflects(spec, plan_.bodies[b].spec));
-    if (b >= 0) probe.mesh = plan_.bodies[b].axes;
-    if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
-    if (owner_) {
-      for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
-        if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
-      probe.start = start_of(probe.marker).p;
-      if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
-    }
-    if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates
-    model.probes.push_back({spec.name,
-                            spec.quantity,
-                            {},
-                            {},
-                            {},
-                            Eigen::Vector3d::Zero(),
-                            Eigen::Vector3d::Zero(),
-                            std::move(probe),
-                            measured(connections_, plan_.scene, spec),
-                            {},
-                            spec.unit});
-    if (spec.of_shell()) model.probes.back().shell = shell_point(p);
-  }
 }
 
 }  // namespace floe::assembly

@@ -36,6 +36,7 @@ std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, con
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Kind kind = columns[i].kind;
     double least = kind == Kind::place ? part : 1e-7 * most[kind];
+    if (kind == Kind::load) least = std::max(least, 1e-7);
     if (kind == Kind::rate) least = std::max(least, part / (duration > 0 ? duration : 1));
     references[probe[i]] = std::max(references[probe[i]], least * columns[i].scale);
   }

@@ -219,8 +219,8 @@ Plan prepare(const Scene& scene, MPI_Comm comm) {
     places[0] = find(plan.bodies, probe.at);
     if (const auto& other = probe.relative_to ? probe.relative_to : probe.toward) places[1] = find(plan.bodies, *other);
     plan.probes.push_back(places);
-    std::vector<Anchor>& chord = plan.chords.emplace_back();
-    for (const Place& place : probe.chord) chord.push_back(find(plan.bodies, place));
+    std::vector<Anchor>& frame = plan.probe_frames.emplace_back();
+    for (const Place& place : probe.frame) frame.push_back(find(plan.bodies, place));
   }
   return plan;
 }

@@ -234,6 +234,8 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
     places[0] = place(probe.at);
     if (const auto& other = probe.relative_to ? probe.relative_to : probe.toward) places[1] = place(*other);
     plan.probes.push_back(places);
+    std::vector<Anchor>& frame = plan.probe_frames.emplace_back();
+    for (const Place& one : probe.frame) frame.push_back(place(one));
   }
   return plan;
 }

@@ -53,15 +53,25 @@ void redirect(const Scene& scene, Place& place) {
   }
 }
 
-/// In the plane, a deflection in a body of several frames: from the frame that the body would have as a whole.
+FrameSpec::Kind kind_of_frame(const Scene& scene, const Body& body) {
+  return scene.dimension == 3 && !body.frame.given ? FrameSpec::Kind::mean_axis : body.frame.kind;
+}
+
+/// A deflection in a body of several frames is from the frame that the body would have as a whole.
 void refer_to_whole(const Scene& scene, Probe& probe) {
-  if (scene.dimension == 3 || probe.quantity != Probe::Quantity::deflection) return;
+  if (probe.quantity != Probe::Quantity::deflection) return;
   for (const Body& body : scene.bodies) {
     if (body.name != probe.at.body || body.frames == 1) continue;
-    if (body.frame.kind == FrameSpec::Kind::pinned) probe.chord = {body.frame.from, body.frame.to};
-    if (body.frame.kind != FrameSpec::Kind::clamped) continue;
-    probe.quantity = Probe::Quantity::displacement;
-    probe.relative_to = body.frame.at;
+    switch (kind_of_frame(scene, body)) {
+      case FrameSpec::Kind::pinned:
+        probe.frame = {body.frame.from, body.frame.to};
+        break;
+      case FrameSpec::Kind::clamped:
+        probe.frame = {body.frame.at};
+        break;
+      case FrameSpec::Kind::mean_axis:
+        for (int i = 0; i < body.frames; ++i) probe.frame.push_back({part_name(body.name, i), "start", {}, body.where});
+    }
   }
 }
 
@@ -74,7 +84,7 @@ Scene split_frames(const Scene& scene) {
     if (!load.spread()) redirect(scene, load.at);
   for (Probe& probe : split.probes) {
     refer_to_whole(scene, probe);
-    for (Place& place : probe.chord) redirect(scene, place);
+    for (Place& place : probe.frame) redirect(scene, place);
     redirect(scene, probe.at);
     if (probe.relative_to) redirect(scene, *probe.relative_to);
     if (probe.toward) redirect(scene, *probe.toward);

@@ -194,8 +194,10 @@ const SchemaSection probe_section{
         choice(
             "quantity", "",
             "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
-            "to the floating frame; rotation: of the section (in spatial scenes a rotation vector of length at most "
-            "pi); force, moment (about the second place): of a joint, in world axes; section_force (N, Vy, Vz; in "
+            "to the floating frame, of a body in several frames to that of the whole body; rotation: of the section "
+            "(in "
+            "spatial scenes a rotation vector of length at most pi); force, moment (about the second place): of a "
+            "joint, in world axes; section_force (N, Vy, Vz; in "
             "planar scenes N, V), section_moment (about the place: T, My, Mz; M): of a beam, what the part beyond the "
             "section (towards increasing x of the elements) exerts on the part before it, in the axes of the section "
             "as it rotates; of a shell, in axes x, y on its surface: "

@@ -83,12 +83,15 @@ TEST_CASE("discretised scenes: frames, elements and strains as text") {
   const scene::Scene scene = scene_of({});
   app::Discretisation bodies = app::discretisation_of(scene);
   REQUIRE(bodies.size() == 1);
-  CHECK(app::divisible(scene, scene.bodies[0]));
+  CHECK(app::divisible(scene.bodies[0]));
   bodies[0] = {4, 2, {}};
   const scene::Scene other = app::discretised(scene, bodies);
   CHECK(other.bodies[0].frames == 4);
   CHECK(other.bodies[0].mesh.elements[0] == 16);
   CHECK(other.bodies[0].reduction.modes.count == 3);  // of 6 in one frame
   CHECK(other.bodies[0].reduction.derivatives.choice == scene::DerivativesSpec::Choice::all);
-  CHECK_FALSE(app::divisible(scene_of({{"kind", "mean-axis"}}), scene_of({{"kind", "mean-axis"}}).bodies[0]));
+  CHECK(app::divisible(scene_of({{"kind", "mean-axis"}}).bodies[0]));
+  scene::Body rigid = scene.bodies[0];
+  rigid.rigid = true;
+  CHECK_FALSE(app::divisible(rigid));
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "floe/assembly/frame_by_places.h"
 #include "floe/dynamics/connection.h"
 #include "floe/dynamics/cut.h"
 #include "floe/dynamics/event.h"
@@ -67,6 +68,7 @@ struct SpatialProbe {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< position; relative to the other place, if there is one
   Eigen::Matrix3d mesh =
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
+  std::optional<SpatialFrameByPlaces> frame = {};  ///< deflection of split bodies
 };
 
 /// A section through a beam, by the part of the body on one of its sides.
@@ -87,16 +89,15 @@ struct ModelProbe {
   Probe::Quantity quantity;
   dynamics::Marker marker;
   std::optional<dynamics::Marker> relative_to;
-  std::vector<dynamics::Marker> frame;  ///< deflection of corotational and split bodies: nodes that define the frame
   Eigen::Vector3d start, start_relative;
   std::optional<SpatialProbe> spatial = {};  ///< in space; the rest stands for the plane
   /// Of a joint: its terms, which are the system's; on its last rank.
   std::vector<const dynamics::Connection*> connections = {};
   std::shared_ptr<const dynamics::StateFormula> formula = {};  ///< of quantity formula, on the system's last rank
   std::string unit = {};                                       ///< likewise
-  Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();  ///< of the place in the axes of this frame, from its origin
   std::vector<ModelSection> sections = {};            ///< of a section: one, or both sides
   std::shared_ptr<const ShellPoint> shell = {};       ///< of a shell
+  std::optional<FrameByPlaces> frame = {};  ///< deflection of corotational and split bodies
 };
 
 /// One side of a joint's limits.
@@ -134,6 +135,7 @@ struct Model {
   std::map<std::string, JointLatches> latches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
   double extent = 1;               ///< a length of the scene [m]
+  double force = 0;                ///< a force of the scene [N]; 0: none is known
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
   std::vector<JointMultipliers> joints;
   std::shared_ptr<Offline> offline = {};  ///< if it was to be kept
@@ -177,7 +179,8 @@ std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const
 /// Columns of the probes: `tip.x` with unit.
 struct ProbeColumn {
   std::string name, unit;
-  double scale = 1;  ///< beside which its values are small or not: the scene's extent [m], 1 rad
+  /// Beside which its values are small or not: the scene's extent [m], 1 rad, a force of the scene [N].
+  double scale = 1;
   enum class Kind { place, rate, load, stress, formula } kind = Kind::place;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);

@@ -19,7 +19,8 @@ std::string probe_of(const ProbeColumn& column);
 ///   S_p max(1e-7 min(1, max_q s_q / S_q), 1e-10),   S = extent of the scene [m], 1 rad (ProbeColumn::scale):
 ///
 /// what is below is round-off, or of no account. For velocities S = extent / duration (they do not count as q), or 1e-7
-/// of the maximum of them where that is more; of forces and moments (over the extent) 1e-7 of their maximum.
+/// of the maximum of them where that is more; of forces and moments 1e-7 of their maximum or of S, a force of the scene
+/// (Model::force; times the extent).
 /// @param duration  of the motion [s]; 0: a second
 std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, const std::vector<double>& sizes,
                                     double duration);

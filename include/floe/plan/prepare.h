@@ -77,10 +77,10 @@ struct Plan {
   MPI_Comm comm;
   std::vector<PlannedBody> bodies;
   std::vector<std::array<Anchor, 2>> joints;
-  std::vector<Anchor> loads;                     ///< distributed ones: body only
-  std::vector<std::array<Anchor, 2>> probes;     ///< second: relative_to, toward, or the ground
-  double extent = 0;                             ///< a length of the scene
-  std::vector<std::vector<Anchor>> chords = {};  ///< in the plane: Probe::chord of each probe
+  std::vector<Anchor> loads;                           ///< distributed ones: body only
+  std::vector<std::array<Anchor, 2>> probes;           ///< second: relative_to, toward, or the ground
+  double extent = 0;                                   ///< a length of the scene
+  std::vector<std::vector<Anchor>> probe_frames = {};  ///< Probe::frame of each probe
   /// In space, of each joint: axes at the start in the world, z its axis, x the second axis of a universal one.
   std::vector<Eigen::Matrix3d> joint_axes = {};
   /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).

@@ -297,7 +297,9 @@ struct Probe {
   std::optional<Place> toward;       ///< sections and shells: just beside the place, on the element that leads there
   enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell, for stresses
   std::optional<Point> axis;  ///< of shells: the first axis of components, projected on the surface; mesh axes
-  std::vector<Place> chord;   ///< of a split body, deflection: from the line through these two places
+  /// Of a deflection in a split body: places that define the frame of the whole: both ends (pinned), one (clamped), or
+  /// one of each part (mean axes).
+  std::vector<Place> frame;
   Where where;
 
   bool of_section() const { return quantity == Quantity::section_force || quantity == Quantity::section_moment; }
@@ -328,7 +330,8 @@ struct Scene {
   std::string file;
   int dimension = 2;  ///< 3 as soon as a mesh has three coordinates or comes from a file, or a reduced body is in space
   std::string title;
-  std::string text;  ///< the file as read
+  std::string text;                 ///< the file as read
+  std::vector<std::string> tables;  ///< files of tables among its functions
   std::map<std::string, double> parameters;
   std::vector<Body> bodies;
   std::vector<Joint> joints;

@@ -57,3 +57,17 @@ TEST_CASE("errors of probes that are no numbers stay none") {
   CHECK(std::isnan(errors.relative(1)[0]));
   CHECK(ProbeErrors({}).relative(1).empty());
 }
+
+TEST_CASE("errors of forces that are zero up to round-off are of no account") {
+  const std::vector<ProbeColumn> loads = {{"root.x", "N", 200, ProbeColumn::Kind::load},
+                                          {"clamp.z", "N m", 400, ProbeColumn::Kind::load}};
+  const auto of = [&](double size, double error) {
+    ProbeErrors errors(loads);
+    errors.add({error, 0}, {size, 0});
+    return errors.relative(1)[0];
+  };
+  CHECK(of(1e-12, 1e-10) < 1e-4);  // also where no other force is measured
+  CHECK(of(0, 1e-6) == Approx(1e-6 / 2e-5));
+  CHECK(of(0.1, 1e-3) == Approx(0.01));
+  CHECK(reference_sizes(loads, {0, 5e4}, 1)[0] == Approx(1e-7 * 125 * 200));
+}

@@ -1,0 +1,95 @@
+#include "floe/math/rotation.h"
+#include "floe/scene/places.h"
+#include "spatial_assembly.h"
+
+namespace floe::assembly {
+
+using dynamics::SpatialMarker;
+using Eigen::Vector3d;
+
+namespace {
+
+Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+/// Of a part of a split line, in mesh axes.
+struct MassCentre {
+  Vector3d at;
+  double gyration;  ///< its square, about axes across the line [m2]
+};
+
+MassCentre mass_centre(const Body& part) {
+  const Vector3d a = vector(part.mesh.points[part.mesh.segments[0][0]]),
+                 b = vector(part.mesh.points[part.mesh.segments[0][1]]), along = (b - a).normalized();
+  MassCentre centre{(a + b) / 2, (b - a).squaredNorm() / 12};
+  const auto* beam = std::get_if<fem::SpatialBeam>(&part.parts.front().section);
+  if (!beam || beam->section.rhoA == 0) return centre;
+  const Vector3d z = along.cross(beam->orientation).normalized();
+  centre.at += beam->section.centroid[0] * z.cross(along) + beam->section.centroid[1] * z;
+  centre.gyration += (beam->section.rhoIy + beam->section.rhoIz) / (2 * beam->section.rhoA);
+  return centre;
+}
+
+}  // namespace
+
+SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& places, const Anchor& probe) {
+  const auto in_mesh_axes = [&](const Anchor& place) {
+    return Vector3d(plan_.bodies[place.body].origin + plan_.bodies[place.body].axes * place.x);
+  };
+  SpatialFrameByPlaces frame{plan_.bodies[probe.body].frame.kind, {}, {}};
+  Vector3d origin = Vector3d::Zero();
+  for (const Anchor& place : places) {
+    const PlannedBody& part = plan_.bodies[place.body];
+    SpatialMarker at = marker(place);
+    at.D0 = part.axes.transpose();
+    frame.undeformed.push_back(in_mesh_axes(place));
+    if (frame.kind == FrameKind::mean_axis) {
+      const MassCentre centre = mass_centre(part.spec);
+      frame.undeformed.back() = centre.at, frame.gyration = centre.gyration;
+      at.x0 = part.axes.transpose() * (centre.at - part.origin);
+      at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 0);
+      at.coordinates.resize(std::min<std::size_t>(at.coordinates.size(), 6));
+      origin += centre.at / static_cast<double>(places.size());
+    }
+    frame.places.push_back(std::move(at));
+  }
+  if (frame.kind != FrameKind::mean_axis) origin = frame.undeformed.front();
+  frame.of_probe = in_mesh_axes(probe) - origin;
+  return frame;
+}
+
+void SpatialAssembly::add_probes(Model& model) {
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
+    const Probe& spec = plan_.scene.probes[p];
+    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
+    SpatialProbe probe{marker(place), {}};
+    const int b = place.body;
+    const std::vector<Anchor>& whole = plan_.probe_frames[p];
+    if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b) && whole.empty())
+      if (probe.marker.S.size() == 0 ||
+          probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)
+        model.warnings.push_back(never_deflects(spec, plan_.bodies[b].spec));
+    if (b >= 0) probe.mesh = plan_.bodies[b].axes;
+    if (!whole.empty()) probe.frame = whole_frame(whole, place);
+    if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
+    if (owner_) {
+      for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
+        if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
+      probe.start = start_of(probe.marker).p;
+      if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
+    }
+    if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates
+    model.probes.push_back({spec.name,
+                            spec.quantity,
+                            {},
+                            {},
+                            Vector3d::Zero(),
+                            Vector3d::Zero(),
+                            std::move(probe),
+                            measured(connections_, plan_.scene, spec),
+                            {},
+                            spec.unit});
+    if (spec.of_shell()) model.probes.back().shell = shell_point(p);
+  }
+}
+
+}  // namespace floe::assembly
