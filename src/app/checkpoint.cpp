@@ -9,6 +9,7 @@
 #include <iterator>
 #include <set>
 
+#include "floe/mesh/deck.h"
 #include "floe/output/provenance.h"
 #include "floe/petsc/error.h"
 
@@ -52,10 +53,11 @@ ordered_json identity_of(const scene::Scene& scene, scene::Formulation formulati
                         {"formulation", scene::name_of(formulation)},
                         {"petsc_options", output::provenance(comm)["petsc_options"]},
                         {"ranks", ranks}};
-  std::set<std::string> files;
+  std::set<std::string> files(scene.tables.begin(), scene.tables.end());
   for (const scene::Body& body : scene.bodies) {
     if (body.reduced) files.insert(body.reduced->path);
-    if (body.mesh.file) files.insert(body.mesh.file->path);
+    if (body.mesh.file)
+      for (const std::string& file : mesh::files_of(body.mesh.file->path)) files.insert(file);
   }
   identity["files"].push_back({{"path", scene.file}, {"hash", hash_of(scene.text)}});
   for (const std::string& file : files)

@@ -42,6 +42,7 @@ struct OfBody {
 
 OfBody of_body(const PlannedBody& body) {
   if (body.spec.reduced) return {body.spec.reduced->file->body.inertia.m, 0};
+  if (body.spec.mass) return {body.spec.mass->mass, 0};
   const fem::Structure& structure = body.structure;
   const double L = fem::extent(structure);
   double mass = 0, softest = std::numeric_limits<double>::infinity();
@@ -57,6 +58,8 @@ OfBody of_body(const PlannedBody& body) {
 }
 
 double size_of(const Load& load, double t, double extent) {
+  if (load.has_sensors()) return 0;  // not a function of t
+  if (!load.joint.empty()) return std::abs(load.on_joint(t)) / (load.kind == Load::Kind::moment ? extent : 1);
   const auto norm = [&](const std::array<math::Formula, 3>& f) { return std::hypot(f[0](t), f[1](t), f[2](t)); };
   switch (load.kind) {
     case Load::Kind::moment:

@@ -20,26 +20,40 @@ void write_columns(YAML::Node reduction, const std::vector<std::string>& labels,
     reduction.remove("elastic_force");
 }
 
-/// A path that is relative to the folder of one scene, for one in another folder.
-void move_path(YAML::Node node, const std::filesystem::path& from, const std::filesystem::path& to) {
-  const std::filesystem::path path = node.as<std::string>();
-  if (path.is_absolute()) return;
-  const auto whole = [](const std::filesystem::path& one) { return std::filesystem::absolute(one).lexically_normal(); };
-  node = whole(from / path).lexically_proximate(whole(to)).string();
-}
+/// Paths that are relative to the folder of one scene become those for a scene in another folder.
+class MovedPaths {
+ public:
+  MovedPaths(std::filesystem::path from, const std::filesystem::path& to) : from_(std::move(from)), to_(whole(to)) {}
 
-void move_paths(YAML::Node root, const std::filesystem::path& from, const std::filesystem::path& to) {
-  for (const auto& entry : root["bodies"]) {
-    YAML::Node body = entry.second;
-    if (body["reduced"].IsDefined()) move_path(body["reduced"], from, to);
-    if (!body["mesh"].IsDefined() || !body["mesh"].IsMap() || !body["mesh"]["file"].IsDefined()) continue;
-    YAML::Node file = body["mesh"]["file"];
-    if (file.IsScalar())
-      move_path(file, from, to);
-    else if (file.IsMap() && file["path"].IsDefined())
-      move_path(file["path"], from, to);
+  void move(YAML::Node root) {
+    for (const auto& entry : root["functions"])
+      if (entry.second.IsMap()) move_path(entry.second["file"]);
+    for (const auto& entry : root["bodies"]) {
+      YAML::Node body = entry.second;
+      move_path(body["reduced"]);
+      if (!body["mesh"].IsDefined() || !body["mesh"].IsMap()) continue;
+      if (const YAML::Node file = body["mesh"]["file"]; file.IsDefined() && file.IsMap()) move_path(file["path"]);
+    }
   }
-}
+
+ private:
+  static std::filesystem::path whole(const std::filesystem::path& one) {
+    return std::filesystem::absolute(one).lexically_normal();
+  }
+
+  /// Once, however many aliases the node has.
+  void move_path(YAML::Node node) {
+    if (!node.IsDefined() || !node.IsScalar()) return;
+    for (const YAML::Node& one : moved_)
+      if (one.is(node)) return;
+    moved_.push_back(node);
+    const std::filesystem::path path = node.as<std::string>();
+    if (!path.is_absolute()) node = whole(from_ / path).lexically_proximate(to_).string();
+  }
+
+  std::filesystem::path from_, to_;
+  std::vector<YAML::Node> moved_;
+};
 
 }  // namespace
 
@@ -47,7 +61,7 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
                       const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
                       const std::filesystem::path& folder) {
   YAML::Node root = YAML::Load(scene.text);
-  if (!folder.empty()) move_paths(root, std::filesystem::path(scene.file).parent_path(), folder);
+  if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
   for (const Body& body : scene.bodies) {
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;

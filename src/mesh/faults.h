@@ -22,6 +22,9 @@ class Faults {
   /// Names a file; returns its number.
   int add_file(const std::string& path);
 
+  /// Those named, in their order.
+  const std::vector<std::string>& files() const { return files_; }
+
   /// "path:line" or "path: byte n".
   std::string text_of(Where where) const;
 

@@ -23,8 +23,9 @@ struct Value {
 class Document {
  public:
   std::string file;
-  math::Names names;  ///< that formulas may use: parameters and functions so far
-  int dimension = 2;  ///< of the scene: how many coordinates a point has
+  math::Names names;                ///< that formulas may use: parameters and functions so far
+  int dimension = 2;                ///< of the scene: how many coordinates a point has
+  std::vector<std::string> tables;  ///< files of tables so far
 
   /// A reduced body's file, read once. @throws InputError
   std::shared_ptr<const output::ReducedBodyFile> reduced_file(const std::string& path);

@@ -53,7 +53,8 @@ bool is_header(const std::string& line) {
 math::Table read_columns(Document& document, const Where& where, const std::string& path, int of_t, int of_value) {
   const std::string name = in_quotes(path);
   math::Table table;
-  std::ifstream file(document.beside(path));
+  document.tables.push_back(document.beside(path));
+  std::ifstream file(document.tables.back());
   const auto fault = [&](int line, const std::string& wrong, const std::string& expected) {
     document.fault(where, fmt::format("{}, line {}: {}", name, line, wrong), expected);
     return math::Table{};

@@ -105,6 +105,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   if (const auto functions = reading.value("functions")) read_functions(document, *functions);
+  scene.tables = document.tables;
   if (unknown_dimension(document, root.node["bodies"])) {  // coordinates would be judged by a guess
     read_named<Body>(document, reading, "bodies", read_body);
     document.throw_faults();

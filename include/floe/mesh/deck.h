@@ -105,4 +105,7 @@ struct DeckFile {
   std::vector<std::string> notices;  // same on all ranks: what was left out
 };
 
+/// A mesh file and those that it includes, as far as they can be read, each once. Rank-local.
+std::vector<std::string> files_of(const std::string& path);
+
 }  // namespace floe::mesh
