@@ -33,6 +33,7 @@ body::Inertia leading(const body::Inertia& inertia, int k) {
     for (auto& h : row) h = h.head(k).eval();
   for (auto& row : part.M)
     for (auto& M : row) M = M.topLeftCorner(k, k).eval();
+  for (auto& Q : part.Q) Q = Q.topLeftCorner(k, k).eval();
   for (auto& row : part.W)
     for (auto& W : row) W = W.topLeftCorner(k, k).eval();
   return part;
@@ -102,7 +103,9 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
 body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place) {
   if (place.map) {
     const Eigen::Index k = reduced.body.coordinates();
-    return {place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k)};
+    body::PlaceMap map{place.map->x, place.map->S.leftCols(k), place.map->psi.leftCols(k), place.map->Q};
+    for (Eigen::MatrixXd& Q : map.Q) Q = Q.topLeftCorner(k, k).eval();
+    return map;
   }
   const fem::Structure& structure = plan.bodies[place.body].structure;
   return place.nodes.empty()

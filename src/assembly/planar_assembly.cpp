@@ -171,7 +171,7 @@ Marker PlanarAssembly::density(int b, const body::Inertia& inertia) {
   for (Eigen::Index i = 0; i < in.S.cols(); ++i) marker.coordinates.push_back(slots_[b].elastic + static_cast<int>(i));
   marker.mass = in.m;
   marker.x = in.s0;
-  marker.S = in.S;
+  marker.S = in.S, marker.Q = in.Q;
   marker.psi = Eigen::RowVectorXd::Zero(in.S.cols());
   return marker;
 }

@@ -2,6 +2,7 @@
 
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/spatial_force.h"
+#include "floe/math/rotation.h"
 #include "spatial_assembly.h"
 #include "weight.h"
 
@@ -12,16 +13,6 @@ using dynamics::SpatialMarker;
 using dynamics::SpatialPose;
 using dynamics::Wrench;
 using reference::Density;
-
-namespace {
-
-Eigen::MatrixXd total(const std::vector<body::MassPoint>& points, Eigen::Index dofs) {
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(3, dofs);
-  for (const body::MassPoint& point : points) S += point.mass * point.N;
-  return S;
-}
-
-}  // namespace
 
 SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   if (place.ground()) return SpatialMarker::ground(place.x);
@@ -39,7 +30,7 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     if (plan_.bodies[place.body].spec.rigid) return at;
     const body::PlaceMap map = place_map(plan_, reduced_[place.body], place);
     at.x0 = map.x;
-    at.S = map.S;
+    at.S = map.S, at.Q = map.Q;
     at.psi = map.psi;
     return at;
   }
@@ -47,11 +38,14 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   const Eigen::Index n = static_cast<Eigen::Index>(place.levers.size());
   for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
   at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
-  for (Eigen::Index i = 0; i < n; ++i)
+  const auto holds = [&](PetscInt dof) {
+    return std::binary_search(held(place.body).begin(), held(place.body).end(), dof);
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Lever& lever = place.levers[i];
     for (int d = 0; d < 6; ++d) {
-      const Lever& lever = place.levers[i];
       at.coordinates.push_back(slot.nodes->of_node(lever.node) + d);
-      if (std::binary_search(held(place.body).begin(), held(place.body).end(), 6 * lever.node + d)) continue;
+      if (holds(6 * lever.node + d)) continue;
       if (d < 3) {
         at.S(d, 6 * i + d) = lever.share;
         continue;
@@ -59,6 +53,13 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
       at.psi.col(6 * i + d) = lever.turn.col(d - 3);
       at.S.col(6 * i + d) = lever.arm.col(d - 3);
     }
+    if (lever.lead.isZero(0)) continue;
+    if (at.Q.empty()) at.Q.assign(3, Eigen::MatrixXd::Zero(6 * n, 6 * n));
+    Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
+    for (int d = 0; d < 3; ++d) free(d, d) = holds(6 * lever.node + 3 + d) ? 0 : 1;
+    for (int a = 0; a < 3; ++a)
+      at.Q[a].block<3, 3>(6 * i + 3, 6 * i + 3) = free * math::arm_form(Eigen::Vector3d::Unit(a), lever.lead) * free;
+  }
   return at;
 }
 
@@ -77,7 +78,7 @@ SpatialMarker SpatialAssembly::density_marker(int b, const body::Inertia& inerti
   marker.coordinates = coordinates_of(b);
   marker.mass = inertia.m;
   marker.x0 = inertia.s0;
-  marker.S = inertia.S;
+  marker.S = inertia.S, marker.Q = inertia.Q;
   marker.psi = Eigen::Matrix3Xd::Zero(3, inertia.S.cols());
   return marker;
 }
@@ -89,24 +90,23 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
   const PlannedBody& body = plan_.bodies[b];
   if (slots_[b].still) {
     const Eigen::Matrix3d A = of_body ? body.axes.transpose() : body.attitude.transpose();
-    const auto add = [&](std::vector<int> coordinates, Eigen::MatrixXd S) {
+    const auto add = [&](std::vector<int> coordinates, const body::Inertia& inertia) {
       auto term = std::make_unique<dynamics::DeadForce>(
-          std::move(coordinates), std::move(S), [A, force](double t) -> Eigen::VectorXd { return A * force(t); });
+          std::move(coordinates), inertia.S, [A, force](double t) -> Eigen::VectorXd { return A * force(t); },
+          inertia.Q);
       term->conservative = conservative;
       terms_.push_back(std::move(term));
     };
     if (compact(b)) {
       const body::FlexibleBody& reduced = reduced_[b].body;
       if (owner_ && reduced.coordinates() > 0)
-        add(coordinates_of(b), (density == Density::mass ? reduced.inertia : reduced.line).S);
+        add(coordinates_of(b), density == Density::mass ? reduced.inertia : reduced.line);
       return;
     }
     for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
       const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
       if (free.coordinates.empty()) continue;
-      add(free.coordinates,
-          total(density == Density::mass ? body.structure.maps(cell).mass : body.structure.line(cell), free.V.rows()) *
-              free.V);
+      add(free.coordinates, reference::density_inertia(body.structure, cell, density, free.V));
     }
     return;
   }

@@ -114,10 +114,9 @@ reduction::Operator more_than_elastic(const BodyReport& body, Vec q, const Vecto
 Found found_at(const BodyReport& body, const reduction::Statics& statics, const State& state) {
   const petsc::VecHandle q = shape_of(body, state);
   const Vector3d spin = spin_of(body, state);
-  const fem::MissingStiffness missing = fem::missing_stiffness(*body.structure, q, spin);
+  const fem::MissingStiffness missing = fem::missing_stiffness(*body.structure, q);
   std::vector<Cause> causes;
-  for (const Cause& cause :
-       {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}, {"arms", missing.arms}})
+  for (const Cause& cause : {Cause{"in-plane", missing.in_plane}, {"coupling", missing.coupling}})
     if (cause.A) causes.push_back(cause);
   if (causes.empty()) return {};
   const reduction::Operator more = more_than_elastic(body, q, spin);
@@ -148,12 +147,6 @@ std::string words(const BodyReport& body, const Found& found) {
     return fmt::format(
         "body {}: second-order coupling of bending and torsion changes the stiffness {} by {} (limit 5 %), and "
         "is not in von Karman's strains: too {}; use strains: second_order, or several frames (frames: N)",
-        body.name, of, number, too);
-  if (found.what == "arms")
-    return fmt::format(
-        "body {}: the motion of second order of centroids, offset masses and rigid links under spin changes the "
-        "stiffness "
-        "{} by {} (limit 5 %), and is not part of the model: too {}; place nodes at the centroids, or compare with cfr",
         body.name, of, number, too);
   return fmt::format(
       "body {}: quadratic strains of displacements in the plane of its shells change the stiffness {} by {} "

@@ -206,7 +206,7 @@ petsc::VecHandle deformation_of(const BodyReport& body, const State& state) {
 }
 
 bool also_of_full_order(const OutOfRange& one) {
-  static const std::set<std::string> those = {"slope", "mesh", "in-plane", "coupling", "arms"};
+  static const std::set<std::string> those = {"slope", "mesh", "in-plane", "coupling"};
   return those.count(one.what) > 0;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "floe/math/matrix_vector.h"
+
 namespace floe::body {
 namespace {
 
@@ -29,6 +31,31 @@ void products(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::Ve
   work.De.noalias() = in.D * work.e;
   work.Be.noalias() = in.B * work.e;  // B' e = -B e
   work.Bed.noalias() = in.B * work.ed;
+  work.Yed.setZero(k);
+  if (in.Q.empty()) return;
+  work.Be.noalias() -= in.Y * work.e;
+  work.Yed.noalias() = in.Y * work.ed;
+  math::multiply_forms(in.Q, work.e, work.S);
+  work.S += in.S;
+  math::multiply_forms(in.Q, work.ed, work.Qed);
+}
+
+/// sigma and its rates in body axes.
+struct FirstMoments {
+  Vector2d sigma, sigma_d, sigma_dd;
+};
+
+const Eigen::Matrix2Xd& directions(const PlanarInertia& in, const InertiaWork& work) {
+  return in.Q.empty() ? in.S : work.S;
+}
+
+FirstMoments first_moments(const PlanarInertia& in, const InertiaWork& work) {
+  const Eigen::Matrix2Xd& S = directions(in, work);
+  FirstMoments sum{in.s0 + times(S, work.e), times(S, work.ed), times(S, work.edd)};
+  if (in.Q.empty()) return sum;
+  sum.sigma += 0.5 * (times(in.S, work.e) - times(S, work.e));
+  sum.sigma_dd += times(work.Qed, work.ed);
+  return sum;
 }
 
 }  // namespace
@@ -40,7 +67,8 @@ void add_inertia_force(const PlanarInertia& in, const Eigen::VectorXd& q, const 
   const auto &e = work.e, &ed = work.ed, &edd = work.edd, &De = work.De, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
-  const Vector2d sigma = in.s0 + times(in.S, e), sigma_d = times(in.S, ed), sigma_dd = times(in.S, edd);
+  const auto [sigma, sigma_d, sigma_dd] = first_moments(in, work);
+  const Eigen::Matrix2Xd& S_of_e = directions(in, work);
   const Vector2d Rdd = A.transpose() * a.head<2>();  // in body axes
 
   const Vector2d momentum_rate =
@@ -48,13 +76,13 @@ void add_inertia_force(const PlanarInertia& in, const Eigen::VectorXd& q, const 
   r.head<2>() += A * momentum_rate;
 
   const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(De);
-  r[2] +=
-      rotated_quarter(sigma).dot(Rdd) + moment * wd + in.g.dot(edd) - Be.dot(edd) + 2 * w * (in.h.dot(ed) + De.dot(ed));
+  r[2] += rotated_quarter(sigma).dot(Rdd) + moment * wd + in.g.dot(edd) - Be.dot(edd) + work.Yed.dot(ed) +
+          2 * w * (in.h.dot(ed) + De.dot(ed));
 
   auto elastic = r.tail(k);
   elastic.noalias() += in.M * edd;
   for (Eigen::Index j = 0; j < k; ++j)
-    elastic[j] += in.S.col(j).dot(Rdd) + (in.g[j] - Be[j]) * wd - w * w * (in.h[j] + De[j]) - 2 * w * work.Bed[j];
+    elastic[j] += S_of_e.col(j).dot(Rdd) + (in.g[j] - Be[j]) * wd - w * w * (in.h[j] + De[j]) - 2 * w * work.Bed[j];
 }
 
 void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -64,11 +92,13 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
   products(in, q, v, a, work);
   work.Ded.noalias() = in.D * work.ed;
   work.Bedd.noalias() = in.B * work.edd;
+  if (!in.Q.empty()) work.Bedd.noalias() += in.Y * work.edd;
   const auto &e = work.e, &ed = work.ed, &edd = work.edd, &De = work.De, &Be = work.Be;
   const double w = v[2], wd = a[2];
   const Eigen::Matrix2d A = rotation(q[2]);
   const Eigen::Matrix2d quarter = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
-  const Vector2d sigma = in.s0 + times(in.S, e), sigma_d = times(in.S, ed), sigma_dd = times(in.S, edd);
+  const auto [sigma, sigma_d, sigma_dd] = first_moments(in, work);
+  const Eigen::Matrix2Xd& S_of_e = directions(in, work);
   const Vector2d Jsigma = rotated_quarter(sigma);
   const Vector2d Rdd = A.transpose() * a.head<2>(), turned_Rdd = rotated_quarter(Rdd);
 
@@ -84,16 +114,21 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
   // frame by q and q by frame
   const Eigen::Matrix2d onS = A * ((wa - wq * w * w) * Eigen::Matrix2d::Identity() + (wq * wd + wv * 2 * w) * quarter);
   for (Eigen::Index j = 0; j < k; ++j) {
-    const Vector2d S = in.S.col(j);
+    const Vector2d S = S_of_e.col(j);
     const double hDe = in.h[j] + De[j], gBe = in.g[j] - Be[j], across = S.dot(turned_Rdd);  // (J S)' R = -S' J R
     J.block<2, 1>(0, 3 + j) += onS * S;
     J.block<1, 2>(3 + j, 0) += wa * (A * S).transpose();
-    J(2, 3 + j) += wq * (work.Bedd[j] - across + 2 * wd * hDe + 2 * w * work.Ded[j]) + wv * 2 * w * hDe + wa * gBe;
+    J(2, 3 + j) +=
+        wq * (work.Bedd[j] - across + 2 * wd * hDe + 2 * w * work.Ded[j]) + wv * 2 * (w * hDe + work.Yed[j]) + wa * gBe;
     J(3 + j, 2) += wa * gBe - wq * across - wv * 2 * (w * hDe + work.Bed[j]);
   }
 
   // q by q
   J.block(3, 3, k, k) += wa * in.M - wq * w * w * in.D - (wq * wd + wv * 2 * w) * in.B;
+  if (in.Q.empty()) return;
+  math::multiply_forms(in.Q, edd, work.Qedd);
+  J.block(0, 3, 2, k) += A * (wq * (2 * w * quarter * work.Qed + work.Qedd) + 2 * wv * work.Qed);
+  J.block(3, 3, k, k) += wq * (Rdd.x() * in.Q[0] + Rdd.y() * in.Q[1] + wd * in.Y);
 }
 
 void add_inertia_force(const PlanarInertia& inertia, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -109,15 +144,13 @@ void add_inertia_tangent(const PlanarInertia& inertia, const Eigen::VectorXd& q,
 }
 
 double kinetic_energy(const PlanarInertia& in, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  const Eigen::Index k = in.M.rows();
-  const auto e = q.tail(k), ed = v.tail(k);
-  const double w = v[2];
+  InertiaWork work;
+  products(in, q, v, v, work);
+  const auto [sigma, sigma_d, unused] = first_moments(in, work);
+  const double w = v[2], moment = in.C0 + 2 * in.h.dot(work.e) + work.e.dot(work.De);
   const Vector2d Rd = rotation(q[2]).transpose() * v.head<2>();
-  const Vector2d sigma = in.s0 + in.S * e;
-  const Eigen::VectorXd De = in.D * e;
-  const double moment = in.C0 + 2 * in.h.dot(e) + e.dot(De);
-  return 0.5 * (in.m * Rd.squaredNorm() + moment * w * w + ed.dot(in.M * ed)) +
-         Rd.dot(rotated_quarter(sigma) * w + in.S * ed) + w * (in.g - in.B * e).dot(ed);
+  return 0.5 * (in.m * Rd.squaredNorm() + moment * w * w + work.ed.dot(in.M * work.ed)) +
+         Rd.dot(rotated_quarter(sigma) * w + sigma_d) + w * (in.g - work.Be).dot(work.ed);
 }
 
 }  // namespace floe::body

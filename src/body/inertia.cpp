@@ -1,6 +1,53 @@
 #include "floe/body/inertia.h"
 
+#include <algorithm>
+
+#include "floe/math/rotation.h"
+
 namespace floe::body {
+RotatingForms::RotatingForms() {
+  first.fill(Form::Zero());
+  for (auto& row : moments) row.fill(Form::Zero());
+}
+
+RotatingForms::RotatingForms(const Eigen::Matrix3d& second) : RotatingForms() {
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) moments[a][b] = math::arm_form(Eigen::Vector3d::Unit(b), second.row(a));
+}
+
+void RotatingForms::add(double mass, const Eigen::VectorXd& x, const Eigen::MatrixXd& N, const Eigen::Vector3d& arm) {
+  for (Eigen::Index b = 0; b < N.rows(); ++b) {
+    Eigen::Vector3d row = Eigen::Vector3d::Zero();
+    row.head(N.cols()) = N.row(b);
+    const Form form = mass * math::arm_form(row, arm);
+    first[b] += form;
+    for (Eigen::Index a = 0; a < x.size(); ++a) moments[a][b] += x[a] * form;
+  }
+}
+
+void RotatingForms::rotate(const Eigen::Matrix3d& R) {
+  const RotatingForms before = *this;
+  *this = RotatingForms();
+  for (int a = 0; a < 3; ++a)
+    for (int c = 0; c < 3; ++c) {
+      first[a] += R(a, c) * before.first[c];
+      for (int b = 0; b < 3; ++b)
+        for (int d = 0; d < 3; ++d) moments[a][b] += R(a, c) * R(b, d) * before.moments[c][d];
+    }
+}
+
+namespace {
+
+bool zero(const Eigen::Matrix3d& form) { return form.isZero(0); }
+
+}  // namespace
+
+bool RotatingForms::has_first() const { return !std::all_of(first.begin(), first.end(), zero); }
+
+bool RotatingForms::empty() const {
+  return !has_first() && std::all_of(moments.begin(), moments.end(),
+                                     [](const auto& row) { return std::all_of(row.begin(), row.end(), zero); });
+}
 
 Inertia::Inertia(int d, int k)
     : s0(Eigen::VectorXd::Zero(d)),
@@ -22,29 +69,36 @@ void Inertia::add(const MassPoint& point) {
     }
 }
 
+void Inertia::allocate_first() {
+  if (Q.empty()) Q.assign(dimension(), Eigen::MatrixXd::Zero(coordinates(), coordinates()));
+}
+
 void Inertia::allocate_rotary() {
   const int d = dimension(), k = coordinates();
   if (W.empty()) W.assign(d, std::vector<Eigen::MatrixXd>(d, Eigen::MatrixXd::Zero(k, k)));
 }
 
-Eigen::Matrix3d rotary_form(const Eigen::Matrix3d& E, int a, int b) {
-  Eigen::Matrix3d T = -E(a, b) * Eigen::Matrix3d::Identity();
-  T.row(b) += E.row(a) / 2;
-  T.col(b) += E.col(a) / 2;
-  return T;
-}
-
 void Inertia::add(const RotatingMass& mass) {
+  const bool arms = mass.has_first();
+  if (arms) allocate_first();
   allocate_rotary();
-  for (int a = 0; a < dimension(); ++a)
-    for (int b = 0; b < dimension(); ++b)
-      W[a][b].noalias() += mass.turn.transpose() * (rotary_form(mass.moments, a, b) * mass.turn);
+  const auto add_form = [&](const RotatingMass::Form& form, Eigen::MatrixXd& to) {
+    to.noalias() += mass.turn.transpose() * (form * mass.turn);
+  };
+  for (int a = 0; a < dimension(); ++a) {
+    if (arms) add_form(mass.first[a], Q[a]);
+    for (int b = 0; b < dimension(); ++b) add_form(mass.moments[a][b], W[a][b]);
+  }
 }
 
 Inertia& Inertia::operator+=(const Inertia& other) {
   m += other.m, s0 += other.s0, C0 += other.C0, S += other.S;
   for (int a = 0; a < dimension(); ++a)
     for (int b = 0; b < dimension(); ++b) h[a][b] += other.h[a][b], M[a][b] += other.M[a][b];
+  if (!other.Q.empty()) {
+    allocate_first();
+    for (int a = 0; a < dimension(); ++a) Q[a] += other.Q[a];
+  }
   if (other.W.empty()) return *this;
   allocate_rotary();
   for (int a = 0; a < dimension(); ++a)
@@ -64,6 +118,7 @@ PlanarInertia planar(const Inertia& inertia) {
   p.B = inertia.M[0][1] - inertia.M[1][0];  // N'J'N with J' = [[0,1],[-1,0]]
   p.D = p.M;
   if (!inertia.W.empty()) p.D += inertia.W[0][0] + inertia.W[1][1];
+  if (!inertia.Q.empty()) p.Q = {inertia.Q[0], inertia.Q[1]}, p.Y = inertia.W[0][1] - inertia.W[1][0];
   return p;
 }
 

@@ -51,6 +51,15 @@ void set_rates(const SpatialInertia& in, const Eigen::VectorXd& q, const Eigen::
   work.of_ed.setZero(k, 12);
   add_products(in, 0, work.e, work.products, work.of_e);
   add_products(in, skew ? in.symmetric : 0, work.ed, work.products, work.of_ed);
+  if (in.Q.empty()) return;
+  math::multiply_forms(in.Q, work.e, work.S);
+  work.S += in.S;
+  math::multiply_forms(in.Q, work.ed, work.Qed);
+}
+
+/// S(e).
+const Eigen::Matrix3Xd& first_moments(const SpatialInertia& in, const SpatialInertiaWork& work) {
+  return in.Q.empty() ? in.S : work.S;
 }
 
 Matrix3d symmetric(double xx, double yy, double zz, double yz, double zx, double xy) {
@@ -68,10 +77,10 @@ Vector3d turn_rate(const Rates& rates, Index i) { return {rates(i, 9), rates(i, 
 
 /// What e and e' make of the body as a whole.
 struct Sums {
-  Vector3d sigma, sigma_d;  ///< s0 + S e, S e'
-  Matrix3d J, J_d;          ///< and its rate
-  Vector3d spin;            ///< G e'
-  Vector3d turn;            ///< Y(e', e')
+  Vector3d sigma, sigma_d, sigma_dd;  ///< and its rates in body axes
+  Matrix3d J, J_d;                    ///< and its rate
+  Vector3d spin;                      ///< G e'
+  Vector3d turn;                      ///< Y(e', e')
 };
 
 Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
@@ -84,8 +93,15 @@ Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
     turn[c] = ed.dot(work.of_ed.col(9 + c));
   }
   for (int c = 0; c < 6; ++c) J[c] = 0.5 * (e.dot(in.linear.col(c)) + e.dot(work.of_e.col(c)));
-  return {in.s0 + times(in.S, e),
-          times(in.S, ed),
+  const Eigen::Matrix3Xd& S = first_moments(in, work);
+  Vector3d sigma = in.s0 + times(S, e), sigma_dd = times(S, work.edd);
+  if (!in.Q.empty()) {
+    sigma += 0.5 * (times(in.S, e) - times(S, e));
+    sigma_dd += times(work.Qed, ed);
+  }
+  return {sigma,
+          times(S, ed),
+          sigma_dd,
           in.J0 + symmetric(J[0], J[1], J[2], J[3], J[4], J[5]),
           symmetric(rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]),
           Vector3d(rate[6], rate[7], rate[8]),
@@ -93,8 +109,8 @@ Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
 }
 
 /// The acceleration of the mass relative to the frame's origin: body axes, times mass.
-Vector3d relative_acceleration(const Sums& s, const Vector3d& w, const Vector3d& wd, const Vector3d& sigma_dd) {
-  return wd.cross(s.sigma) + w.cross(w.cross(s.sigma)) + 2 * w.cross(s.sigma_d) + sigma_dd;
+Vector3d relative_acceleration(const Sums& s, const Vector3d& w, const Vector3d& wd) {
+  return wd.cross(s.sigma) + w.cross(w.cross(s.sigma)) + 2 * w.cross(s.sigma_d) + s.sigma_dd;
 }
 
 /// The e by e block but for M: all forms, each with its weight.
@@ -117,6 +133,15 @@ void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d
   tangent.bottomRightCorner(k, k) += Eigen::Map<const Eigen::MatrixXd>(sum.data(), k, k);
 }
 
+/// What the change of S with e adds to the tangent.
+void add_arms(const SpatialInertia& in, const Matrix3d& A, const Vector3d& u, const Vector3d& w, double wq, double wv,
+              SpatialInertiaWork& work, Eigen::MatrixXd& tangent) {
+  const Index k = in.S.cols();
+  math::multiply_forms(in.Q, work.edd, work.Qedd);
+  tangent.topRightCorner(3, k) += A * (wq * (2 * math::skew(w) * work.Qed + work.Qedd) + 2 * wv * work.Qed);
+  for (int a = 0; a < 3; ++a) tangent.bottomRightCorner(k, k) += wq * u[a] * in.Q[a];
+}
+
 }  // namespace
 
 void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q,
@@ -126,7 +151,7 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   set_rates(in, q, v, a, true, work);
   const Sums s = sums_of(in, work);
   const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
-  r.head<3>() += in.m * a.head<3>() + A * relative_acceleration(s, w, wd, times(in.S, work.edd));
+  r.head<3>() += in.m * a.head<3>() + A * relative_acceleration(s, w, wd);
   Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + s.turn + w.cross(s.J * w + s.spin);
   for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c) + work.of_e.col(9 + c));
   r.segment<3>(3) += moment;
@@ -149,7 +174,8 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   rows += work.Medd;
   for (int c = 0; c < 12; ++c) rows += by_rates[c] * work.of_e.col(c);
   for (int c = 0; c < 3; ++c) rows += 2 * w[c] * work.of_ed.col(6 + c);
-  for (Index i = 0; i < k; ++i) rows[i] += in.S.col(i).dot(u);
+  const Eigen::Matrix3Xd& S = first_moments(in, work);
+  for (Index i = 0; i < k; ++i) rows[i] += S.col(i).dot(u);
 }
 
 void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, const Eigen::VectorXd& q,
@@ -166,7 +192,7 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
   const Matrix3d T = wq * math::rotation_tangent(q.segment<3>(3));
 
   // frame by frame
-  const Vector3d relative = relative_acceleration(s, w, wd, times(in.S, work.edd));
+  const Vector3d relative = relative_acceleration(s, w, wd);
   tangent.block<3, 3>(0, 0) += wa * in.m * I;
   tangent.block<3, 3>(0, 3) +=
       A * (wv * (w.dot(s.sigma) * I + w * s.sigma.transpose() - 2 * s.sigma * w.transpose() - 2 * skew(s.sigma_d)) -
@@ -175,9 +201,10 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
   tangent.block<3, 3>(3, 3) += wv * (turn * s.J - skew(s.J * w + s.spin) + s.J_d) + wa * s.J + of_sigma * skew(u) * T;
 
   // frame by e and e by frame
+  const Eigen::Matrix3Xd& all_S = first_moments(in, work);
   const Matrix3d on_S = A * (wa * I + wq * (skew(wd) + squares) + 2 * wv * turn);
   for (Index i = 0; i < k; ++i) {
-    const Vector3d S = in.S.col(i), G = spin_rate(work.of_e, i) + turn_rate(work.of_e, i);
+    const Vector3d S = all_S.col(i), G = spin_rate(work.of_e, i) + turn_rate(work.of_e, i);
     const Vector3d Bed = spin_rate(work.of_ed, i), Yed = turn_rate(work.of_ed, i);
     const Matrix3d J = moment_rate(work.of_e, i);
     const Vector3d Jw = J * w, across = S.cross(u);
@@ -190,6 +217,7 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
     tangent.block<1, 3>(6 + i, 3) += (wv * (2 * Bed - Jw) + wa * G + T.transpose() * across).transpose();
   }
 
+  if (!in.Q.empty()) add_arms(in, A, u, w, wq, wv, work, tangent);
   if (wa != 0) tangent.bottomRightCorner(k, k) += wa * in.M;
   add_forms(in, wq * squares, wq * wd + 2 * wv * w, wq * wd, work.sum, tangent);
 }

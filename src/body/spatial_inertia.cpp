@@ -42,6 +42,7 @@ SpatialInertia spatial(const Inertia& in) {
   s.s0 = in.s0;
   s.J0 = in.C0.trace() * Eigen::Matrix3d::Identity() - in.C0;
   s.S = in.S;
+  s.Q = in.Q;
   s.linear.resize(k, 9);
   set_linear(in, s);
   s.M = in.M[0][0] + in.M[1][1] + in.M[2][2];

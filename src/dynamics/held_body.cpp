@@ -25,16 +25,29 @@ Energy HeldBody::energy(const Motion& motion) const {
   return {0.5 * motion.v.dot(mass_ * motion.v), body::energy(elasticity_, motion.q), 0};
 }
 
-DeadForce::DeadForce(std::vector<int> coordinates, Eigen::MatrixXd S, std::function<Eigen::VectorXd(double)> force)
-    : coordinates_(std::move(coordinates)), S_(std::move(S)), force_(std::move(force)) {}
+DeadForce::DeadForce(std::vector<int> coordinates, Eigen::MatrixXd S, std::function<Eigen::VectorXd(double)> force,
+                     std::vector<Eigen::MatrixXd> Q)
+    : coordinates_(std::move(coordinates)), S_(std::move(S)), force_(std::move(force)), Q_(std::move(Q)) {}
 
 void DeadForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  r.noalias() -= S_.transpose() * force_(motion.t);
+  const Eigen::VectorXd force = force_(motion.t);
+  r.noalias() -= S_.transpose() * force;
+  for (std::size_t a = 0; a < Q_.size(); ++a) r.noalias() -= force[static_cast<Eigen::Index>(a)] * (Q_[a] * motion.q);
+}
+
+void DeadForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+  if (Q_.empty() || weights.q == 0) return;
+  const Eigen::VectorXd force = force_(motion.t);
+  for (std::size_t a = 0; a < Q_.size(); ++a) J -= weights.q * force[static_cast<Eigen::Index>(a)] * Q_[a];
 }
 
 Energy DeadForce::energy(const Motion& motion) const {
   if (!conservative) return {};
-  return {0, 0, -force_(motion.t).dot(S_ * motion.q)};
+  const Eigen::VectorXd force = force_(motion.t);
+  double work = force.dot(S_ * motion.q);
+  for (std::size_t a = 0; a < Q_.size(); ++a)
+    work += 0.5 * force[static_cast<Eigen::Index>(a)] * motion.q.dot(Q_[a] * motion.q);
+  return {0, 0, -work};
 }
 
 }  // namespace floe::dynamics

@@ -1,5 +1,7 @@
 #include "floe/dynamics/spatial_marker.h"
 
+#include "floe/math/matrix_vector.h"
+
 namespace floe::dynamics {
 namespace {
 
@@ -14,14 +16,19 @@ struct Elastic {
   Vector3d u = Vector3d::Zero(), turn = Vector3d::Zero();
 };
 
-Elastic elastic(const SpatialMarker& marker, const Eigen::VectorXd& x) {
+Elastic elastic(const SpatialMarker& marker, const Eigen::Matrix3Xd& S, const Eigen::VectorXd& x) {
   Elastic e;
   const Index frame = marker.framed() ? 6 : 0;
-  for (Index j = 0; j < marker.S.cols(); ++j) {
-    e.u += x[frame + j] * marker.S.col(j);
+  for (Index j = 0; j < S.cols(); ++j) {
+    e.u += x[frame + j] * S.col(j);
     e.turn += x[frame + j] * marker.psi.col(j);
   }
   return e;
+}
+
+/// S(e).
+const Eigen::Matrix3Xd& directions(const SpatialMarker& marker, const SpatialPose& at) {
+  return marker.Q.empty() ? marker.S : at.S;
 }
 
 void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
@@ -33,7 +40,7 @@ void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
   }
   const Matrix3d turned = out.A * out.bend.transpose();
   for (Index j = 0; j < k; ++j) {
-    const Vector3d shift = marker.S.col(j), turn = marker.psi.col(j);
+    const Vector3d shift = directions(marker, out).col(j), turn = marker.psi.col(j);
     out.P.col(frame + j) << out.A * shift, turned * turn;
   }
 }
@@ -46,8 +53,14 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   } else {
     out.A = marker.axes, out.T = Matrix3d::Identity();
   }
-  const Elastic e = elastic(marker, q);
+  const Elastic e = elastic(marker, marker.S, q);
   out.c = marker.x0 + e.u, out.beta = e.turn;
+  if (!marker.Q.empty()) {
+    const Eigen::VectorXd own = q.tail(marker.S.cols());
+    math::multiply_forms(marker.Q, own, out.S);
+    out.c += 0.5 * out.S * own;
+    out.S += marker.S;
+  }
   out.p = marker.mass * R + out.A * out.c;
   out.D = out.A * marker.D0, out.bend = Matrix3d::Identity();
   if (e.turn.isZero(0)) return;
@@ -59,7 +72,13 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
 void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eigen::VectorXd& a, SpatialPose& out) {
   Vector3d Rd = Vector3d::Zero(), Rdd = Vector3d::Zero(), alpha = Vector3d::Zero(), w = Vector3d::Zero();
   if (marker.framed()) Rd = v.head<3>(), Rdd = a.head<3>(), w = v.segment<3>(3), alpha = a.segment<3>(3);
-  const Elastic ed = elastic(marker, v), edd = elastic(marker, a);
+  const Elastic ed = elastic(marker, directions(marker, out), v);
+  Elastic edd = elastic(marker, directions(marker, out), a);
+  if (!marker.Q.empty()) {
+    const Eigen::VectorXd own = v.tail(marker.S.cols());
+    math::multiply_forms(marker.Q, own, out.Qed);
+    edd.u += out.Qed * own;
+  }
   out.omega = w, out.beta_rate = ed.turn;
   out.c_rate = w.cross(out.c) + ed.u;
   out.velocity = marker.mass * Rd + out.A * out.c_rate;
@@ -93,7 +112,8 @@ void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench&
   rows.resize(frame + k);
   const Vector3d force = at.A.transpose() * wrench.head<3>(), moment = at.A.transpose() * wrench.tail<3>();
   if (marker.framed()) rows.head<3>() = marker.mass * wrench.head<3>(), rows.segment<3>(3) = at.c.cross(force) + moment;
-  for (Index j = 0; j < k; ++j) rows[frame + j] = marker.S.col(j).dot(force);
+  const Eigen::Matrix3Xd& S = directions(marker, at);
+  for (Index j = 0; j < k; ++j) rows[frame + j] = S.col(j).dot(force);
   if (k == 0 || moment.isZero(0)) return;
   const Vector3d bending = at.bend * moment;
   for (Index j = 0; j < k; ++j) rows[frame + j] += marker.psi.col(j).dot(bending);
@@ -107,7 +127,8 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
     out.middleCols<3>(3) << -at.A * skew(at.c_rate), -at.A * skew(at.turn);
   }
   const Matrix3d dragged = at.A * skew(at.omega), bent = -at.A * rotation_tangent_derivative(-at.beta, at.beta_rate);
-  out.topRightCorner(3, k).noalias() = dragged * marker.S;
+  out.topRightCorner(3, k).noalias() = dragged * directions(marker, at);
+  if (!marker.Q.empty()) out.topRightCorner(3, k).noalias() += at.A * at.Qed;
   out.bottomRightCorner(3, k).noalias() = bent * marker.psi;
 }
 
@@ -120,10 +141,14 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
     const Matrix3d m = skew(moment), of_x = at.bend * m * at.T, force_of_x = f * at.T;
     K.block<3, 3>(3, 3) += (skew(at.c) * f + m) * at.T;
     for (Index j = 0; j < k; ++j) {
-      const Vector3d shift = marker.S.col(j), turn = marker.psi.col(j);
+      const Vector3d shift = directions(marker, at).col(j), turn = marker.psi.col(j);
       K.block<3, 1>(3, 6 + j) -= f * shift;
       K.block<1, 3>(6 + j, 3) += shift.transpose() * force_of_x + turn.transpose() * of_x;
     }
+  }
+  if (!marker.Q.empty()) {
+    const Vector3d force = weight * (at.A.transpose() * wrench.head<3>());
+    for (int a = 0; a < 3; ++a) K.bottomRightCorner(k, k) += force[a] * marker.Q[a];
   }
   if (k == 0 || moment.isZero(0)) return;
   const Matrix3d bent = rotation_tangent_derivative(at.beta, moment);

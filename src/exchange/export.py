@@ -82,7 +82,7 @@ def note_rotary(body):
     from reduced_body import in_space
     share = second_order_share(in_space(body))
     if share > 0:
-        print("Note: MBSim has no place for rotary inertia of second order (W): it is left out, and changes 5 % of the "
+        print("Note: MBSim has no place for inertia of second order (Q, W): it is left out, and W changes 5 % of the "
               f"stiffness at a spin of {(0.05 / share) ** 0.5:.3g} rad/s")
 
 

@@ -31,6 +31,7 @@ class Body:
     S: np.ndarray  # d x k
     h: np.ndarray  # d x d x k
     M: np.ndarray  # d x d x k x k
+    Q: np.ndarray  # d x k x k, first moments of second order; zero: none, or a file of a version before 4
     W: np.ndarray  # d x d x k x k, rotary inertia of second order; zero: none, or a file of version 1
     bending: np.ndarray  # k x k
     F: np.ndarray  # r x (k + pairs)
@@ -87,11 +88,11 @@ def open_file(path):
     if not isinstance(found, bytes) or found.rstrip(b"\0") != b"floe reduced body":
         file.close()
         raise Fault(f"{path}: expected a file written by floe reduce, found an HDF5 file of another kind")
-    for name, wanted, what in (("version", (1, 2, 3), "of another version of the format"),
+    for name, wanted, what in (("version", (1, 2, 3, 4), "of another version of the format"),
                                ("complete", (1,), "that is incomplete")):
         if file.attrs.get(name) not in wanted:
             file.close()
-            raise Fault(f"{path}: expected a complete reduced body of version 1, 2 or 3; found one {what}")
+            raise Fault(f"{path}: expected a complete reduced body of version 1 to 4; found one {what}")
     return file
 
 
@@ -118,13 +119,14 @@ def from_hdf5(file):
     damping = file["damping"][:]
     inertia = {name: file[f"inertia/{name}"][()] for name in ("m", "s0", "C0", "S", "h", "M")}
     d = len(inertia["s0"])
+    inertia["Q"] = file["inertia/Q"][()] if "inertia/Q" in file else np.zeros((d, k, k))
     inertia["W"] = file["inertia/W"][()] if "inertia/W" in file else np.zeros((d, d, k, k))
     F, pairs = file["elasticity/F"][:], file["elasticity/pairs"][:]
     names = texts(file["places/names"]) if file["places/names"].shape[0] else []
     x, place_S, place_psi = (file[f"places/{name}"][:] for name in ("x", "S", "psi"))
     for name, value, shape in (
             ("elasticity/bending", bending, (k, k)), ("elasticity/F", F, (len(F), k + len(pairs))),
-            ("inertia/S", inertia["S"], (d, k)), ("inertia/M", inertia["M"], (d, d, k, k)), ("inertia/W", inertia["W"], (d, d, k, k)),
+            ("inertia/S", inertia["S"], (d, k)), ("inertia/Q", inertia["Q"], (d, k, k)), ("inertia/M", inertia["M"], (d, d, k, k)), ("inertia/W", inertia["W"], (d, d, k, k)),
             ("inertia/h", inertia["h"], (d, d, k)), ("columns/kept", kept, (k,)),
             ("damping", damping, (k, k) if damping.size else damping.shape),
             ("places/x", x, (len(names), d)), ("places/S", place_S, (len(names), d, k)),
@@ -154,7 +156,7 @@ def in_space(body):
     psi = np.zeros((len(body.places), 3, body.k))
     psi[:, 2] = body.place_psi[:, 0]
     return dataclasses.replace(body, s0=padded(body.s0, [0]), C0=padded(body.C0, [0, 1]), S=padded(body.S, [0]),
-                               h=padded(body.h, [0, 1]), M=padded(body.M, [0, 1]), W=padded(body.W, [0, 1]), x=padded(body.x, [1]),
+                               h=padded(body.h, [0, 1]), M=padded(body.M, [0, 1]), W=padded(body.W, [0, 1]), Q=padded(body.Q, [0]), x=padded(body.x, [1]),
                                place_S=padded(body.place_S, [1]), place_psi=psi)
 
 
@@ -163,7 +165,7 @@ def on_columns(body, chosen):
     pick = np.ix_(chosen, chosen)
     return dataclasses.replace(
         body, S=body.S[:, chosen], h=body.h[:, :, chosen], M=body.M[:, :, chosen][:, :, :, chosen],
-        W=body.W[:, :, chosen][:, :, :, chosen],
+        Q=body.Q[:, chosen][:, :, chosen], W=body.W[:, :, chosen][:, :, :, chosen],
         bending=body.stiffness[pick], F=np.zeros((0, len(chosen))), pairs=np.zeros((0, 2), int),
         damping=body.damping[pick], place_S=body.place_S[:, :, chosen], place_psi=body.place_psi[:, :, chosen],
         kinds=[body.kinds[i] for i in chosen], labels=[body.labels[i] for i in chosen], omega=body.omega[chosen])

@@ -66,7 +66,7 @@ def terms(whole, body, stiffness_of):
     return {
         "mdCM": (body.s0[:, None], body.S[:, :, None]),
         "J": (six(inertia_terms.J0(body)), six(inertia_terms.J1(body))),
-        "Ct": (body.S.T, geometric(whole.S.T)),
+        "Ct": (body.S.T, geometric(whole.S.T) + body.Q.transpose(1, 2, 0)),
         "Cr": (inertia_terms.Cr0(body), inertia_terms.Cr1(body) + geometric(inertia_terms.Cr0(whole))),
         "Me": (body.mass_matrix, None),
         "Gr": (inertia_terms.Gr0(body), None),

@@ -169,21 +169,31 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
 std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell) {
   std::vector<RigidArm> arms;
   const auto corners = cell.places(), nodes = cell.nodes();
-  for (std::size_t i = 0; i < corners.size() && mesh.dimension == 3; ++i) {
+  const std::size_t d = static_cast<std::size_t>(mesh.dimension), n = 3 * (d - 1);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t by = cell.line[i] >= 0 ? static_cast<std::size_t>(cell.line[i]) : i;
     const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[by]];
-    if (!arm.isZero(0)) arms.push_back({static_cast<Eigen::Index>(6 * i), static_cast<Eigen::Index>(6 * by + 3), arm});
+    if (!arm.isZero(0)) arms.push_back({static_cast<Eigen::Index>(n * i), static_cast<Eigen::Index>(n * by + d), arm});
   }
   return arms;
 }
+
+namespace {
+
+/// Whether all strains of elements of the section are of second order, so that they take the arms of rigid links.
+bool second_order(const Section& section) {
+  if (const auto* shell = std::get_if<ShellSection>(&section)) return shell->strains == Strains::second_order;
+  const auto* beam = std::get_if<SpatialBeam>(&section);
+  return beam && beam->strain.strains == Strains::second_order;
+}
+
+}  // namespace
 
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
   const Corners at{mesh, cell, strain};
   ElementMaps own = std::visit([&](const auto& section) { return maps_of(at, section); }, sections[cell.part]);
   if (!cell.follows()) return own;
-  const auto* shell = std::get_if<ShellSection>(&sections[cell.part]);
-  if (!shell || shell->strains == Strains::von_karman) return transformed(own, following(mesh, cell));
-  return transformed(own, following(mesh, cell), rigid_arms(mesh, cell));
+  return transformed(own, following(mesh, cell), rigid_arms(mesh, cell), second_order(sections[cell.part]));
 }
 
 Eigen::MatrixXd Structure::matrix(const Mesh::Cell& cell, double k, double m) const {

@@ -137,68 +137,6 @@ MatrixXd coupling(const Structure& structure, const Mesh::Cell& cell, SpatialBea
   return to_own.transpose() * A * to_own;
 }
 
-/// A mass at an arm from a node of a cell.
-struct Lump {
-  double mass;
-  Vector3d arm;
-};
-
-/// What goes with a node of a cell.
-Lump lump_of(const Structure& structure, const Mesh::Cell& cell, int node) {
-  const auto at = [&](int corner) -> const Vector3d& { return structure.mesh.positions[cell.place[corner]]; };
-  const Section& section = structure.sections[cell.part];
-  if (const auto* beam = std::get_if<SpatialBeam>(&section)) {
-    if (cell.kind == CellKind::line3) {
-      const BeamShare share =
-          quadratic_beam_shares({at(0), at(1), at(2), beam->orientation})[static_cast<std::size_t>(node)];
-      return {beam->section.rhoA * share.length, share.axes.rightCols<2>() * beam->section.centroid};
-    }
-    const spatial::BeamFrame frame = spatial::beam_frame(place_of(structure, cell, *beam), beam->section);
-    return {beam->section.rhoA * frame.length / 2, frame.axes.rightCols<2>() * frame.C};
-  }
-  if (const auto* point = std::get_if<PointMass>(&section)) return {point->mass, point->offset};
-  const auto* shell = std::get_if<ShellSection>(&section);
-  if (!shell) return {0, Vector3d::Zero()};
-  const auto corners = static_cast<int>(cell.corners().size());
-  if (mesh::is_quadratic(cell.kind)) {
-    std::vector<Vector3d> x;
-    for (const int place : cell.places()) x.push_back(structure.mesh.positions[place]);
-    return {shell->mass * quadratic_shell_shares(x)[static_cast<std::size_t>(node)].area, Vector3d::Zero()};
-  }
-  const Vector3d area = (at(2) - at(0)).cross(corners == 4 ? at(3) - at(1) : at(0) - at(1)) / 2;
-  return {shell->mass * area.norm() / corners, Vector3d::Zero()};
-}
-
-/// S of MissingStiffness::arms, twice, of the masses of a cell on the dofs of its nodes.
-MatrixXd arms(const Structure& structure, const Mesh::Cell& cell, const Vector3d& spin) {
-  MatrixXd A = MatrixXd::Zero(6 * cell.moving, 6 * cell.moving);
-  const auto corners = cell.places();
-  for (int i = 0; i < static_cast<int>(corners.size()); ++i) {
-    const int by = cell.line[i] >= 0 ? cell.line[i] : i;
-    const Lump lump = lump_of(structure, cell, i);
-    const Vector3d X = structure.mesh.positions[corners[i]] + lump.arm,
-                   c = X - structure.mesh.positions[cell.moved[by]],
-                   across = spin.squaredNorm() * X - spin * spin.dot(X);
-    const Eigen::Matrix3d product = across * c.transpose();
-    A.block<3, 3>(6 * by + 3, 6 * by + 3) -=
-        lump.mass * ((product + product.transpose()) / 2 - across.dot(c) * Eigen::Matrix3d::Identity());
-  }
-  return A;
-}
-
-/// Whether any rank has a mass at an arm. Collective.
-bool has_arms(const Structure& structure) {
-  const auto carried = [](const Section& section) {
-    const auto* beam = std::get_if<SpatialBeam>(&section);
-    const auto* point = std::get_if<PointMass>(&section);
-    return (beam && !beam->section.centroid.isZero(0)) || (point && !point->offset.isZero(0));
-  };
-  int there =
-      std::any_of(structure.sections.begin(), structure.sections.end(), carried) || !structure.mesh.followers.empty();
-  MPI_Allreduce(MPI_IN_PLACE, &there, 1, MPI_INT, MPI_LOR, structure.mesh.comm);
-  return there;
-}
-
 /// What `matrix_of` gives for the elements with a section of this kind, on the dofs of their nodes; null: there are
 /// none.
 template <class Section, class MatrixOf>
@@ -218,7 +156,7 @@ petsc::MatHandle of_kind(const Structure& structure, MatrixOf&& matrix_of) {
 
 }  // namespace
 
-MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Vector3d& spin) {
+MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
   const VectorXd all = structure.exchange.gather(q);
   const auto of_corners = [&](const Mesh::Cell& cell, const MatrixXd& T) -> VectorXd {
     return T * all(structure.cell_dofs(cell));
@@ -238,9 +176,6 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Vect
           const VectorXd own = of_corners(cell, T);
           return lacks_coupling(beam) ? coupling(structure, cell, beam, own) : MatrixXd::Zero(own.size(), own.size());
         });
-  if (!spin.isZero(0) && has_arms(structure))
-    missing.arms =
-        assemble_cells(structure, {}, 0, [&](const Mesh::Cell& cell) { return arms(structure, cell, spin); });
   return missing;
 }
 

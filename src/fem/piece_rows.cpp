@@ -6,6 +6,7 @@
 #include "floe/fem/flat_body.h"
 #include "floe/fem/quadratic_shell.h"
 #include "floe/fem/transform.h"
+#include "floe/math/rotation.h"
 #include "shell_triangle.h"
 
 namespace floe::fem {
@@ -88,6 +89,7 @@ ElementMaps in_plane(const FlatBody& flat, const Structure& structure, const Mes
   maps = transformed(maps, T);
   for (body::MassPoint& point : maps.mass)
     point.x = flat.axes.transpose() * point.x, point.N = flat.axes.transpose() * point.N;
+  for (body::RotatingMass& mass : maps.rotary) mass.rotate(flat.axes.transpose());
   return maps;
 }
 
@@ -124,7 +126,7 @@ void generic_piece(const Structure& structure, const Mesh::Cell& cell, PiecePart
     const auto* section = std::get_if<ShellSection>(&structure.sections[cell.part]);
     if (parts.mass) add_masses(maps.mass, section && section->mass_radius > 0, piece.mass);
     for (const body::RotatingMass& mass : maps.rotary)
-      if (parts.mass) piece.rotary.push_back({mass.moments, mass.turn});
+      if (parts.mass) piece.rotary.push_back({mass, mass.turn});
   }
   if (!parts.line) return;
   std::vector<body::MassPoint> line = structure.line(cell);
@@ -237,6 +239,7 @@ void each_rows(PieceRows& piece, Act&& act) {
   for (StrainRows& point : piece.strain) act(point.L), act(point.G);
   for (auto* samples : {&piece.mass, &piece.line})
     for (MassRows& sample : *samples) act(sample.N);
+  for (RotaryRows& mass : piece.rotary) act(mass.turn);
 }
 
 /// Where the piece has the node, with all its dofs; it is added where it has not.
@@ -255,16 +258,35 @@ int place_of(int node, PieceRows& piece) {
   return piece.nodes - 1;
 }
 
-/// Adds the second-order motion of corner `at`, 1/2 theta x (theta x arm), to the strains: before its rows are those of
-/// the node that it follows. @param led  the node with theta among the piece's
-void rotate_arm(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) {
+/// Adds the second-order motion of the mass that corner `at` moves.
+void rotate_mass(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) {
+  body::RotatingForms forms;
+  for (const MassRows& sample : piece.mass) {
+    body::RotatingForms of;
+    of.add(sample.mass, sample.x, sample.N.middleCols<3>(6 * at), arm);
+    for (int a = 0; a < 3; ++a) {
+      if (!sample.pair) forms.first[a] += of.first[a];
+      for (int b = 0; b < 3; ++b) forms.moments[a][b] += of.moments[a][b];
+    }
+  }
+  if (forms.empty()) return;
+  piece.rotary.push_back({forms, {}});
+  piece.rotary.back().turn.setZero(3, 6 * piece.nodes);
+  piece.rotary.back().turn.middleCols<3>(6 * led + 3).setIdentity();
+}
+
+/// Adds the second-order motion of corner `at`, 1/2 theta x (theta x arm), to mass and strains: before its rows are
+/// those of the node that it follows. @param led  the node with theta among the piece's
+void rotate_arm(const Eigen::Vector3d& arm, int at, int led, bool strained, PieceRows& piece) {
   if (arm.isZero(0)) return;
+  rotate_mass(arm, at, led, piece);
+  if (!strained) return;
   for (StrainRows& point : piece.strain) {
     const Eigen::Index first = point.G.rows(), strains = point.L.rows();
     std::array<Eigen::Matrix3d, 3> P;
     bool any = false;
     for (Eigen::Index s = 0; s < strains; ++s) {
-      P[s] = second_order_arm(point.L.row(s).segment<3>(6 * at).transpose(), arm);
+      P[s] = math::arm_form(point.L.row(s).segment<3>(6 * at).transpose(), arm);
       any = any || !P[s].isZero(0);
     }
     if (!any) continue;
@@ -284,7 +306,7 @@ void rotate_arm(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) {
 void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, bool second_order, PieceRows& piece) {
   piece.spins.push_back(spin);
   const int led = place_of(leader, piece);
-  if (second_order) rotate_arm(arm, spin.at, led, piece);
+  rotate_arm(arm, spin.at, led, second_order, piece);
   const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
   each_rows(piece, [&](auto& rows) {
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
@@ -310,7 +332,7 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
     const int moved = cell.moved[of[i]];
     if (moved == piece.node[i]) continue;
     const Eigen::Vector3d arm = at[piece.node[i]] - at[moved];
-    if (second_order) rotate_arm(arm, i, i, piece);
+    rotate_arm(arm, i, i, second_order, piece);
     const Eigen::Matrix<double, 6, 6> T = rigid_arm(arm);
     each_rows(piece, [&](auto& rows) {
       rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();

@@ -122,10 +122,10 @@ ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   if (section.rhoI > 0)
     for (const GaussPoint& g : gauss4()) {
       const double moment = section.rhoI * g.weight * l;
-      body::RotatingMass part{Eigen::Matrix3d::Zero(), Eigen::MatrixXd::Zero(3, 6)};
-      part.moments.topLeftCorner<2, 2>() = moment * axes.turn.col(1) * axes.turn.col(1).transpose();
-      part.turn.row(2) = (slope(g.at, axes) - axes.shear) * axes.to_local;
-      maps.rotary.push_back(std::move(part));
+      Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+      second.topLeftCorner<2, 2>() = moment * axes.turn.col(1) * axes.turn.col(1).transpose();
+      maps.rotary.emplace_back(body::RotatingForms(second), Eigen::MatrixXd::Zero(3, 6));
+      maps.rotary.back().turn.row(2) = (slope(g.at, axes) - axes.shear) * axes.to_local;
     }
   const double radius = section.rhoA > 0 ? std::sqrt(section.rhoI / section.rhoA) : 0;
   for (const GaussPoint& g : gauss4()) {

@@ -37,8 +37,10 @@ ElementMaps point_mass(const Eigen::Vector3d& node, double mass, const Eigen::Ma
     at_centre -= mass / 3;
   }
   if (at_centre > 1e-9 * mass) place(at_centre, offset);
-  if (scale > 0) {
-    maps.rotary.push_back({second, Eigen::MatrixXd::Zero(3, 6)});
+  body::RotatingForms forms(second);
+  forms.add(mass, node + offset, Eigen::Matrix3d::Identity(), offset);
+  if (!forms.empty()) {
+    maps.rotary.emplace_back(forms, Eigen::MatrixXd::Zero(3, 6));
     maps.rotary.back().turn.rightCols<3>().setIdentity();
   }
   return maps;

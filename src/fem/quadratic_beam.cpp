@@ -191,14 +191,16 @@ void add_mass(const Curve& curve, const SpatialBeamSection& section, ElementMaps
       maps.mass.push_back({section.rhoA * length * point.share, at.at + arm[0] * at.D[0] + arm[1] * at.D[1],
                            displacement(curve, at, arm)});
     }
-    if (!(section.rhoIy + section.rhoIz > 0)) continue;
     Eigen::Matrix<double, 3, 2> D;
     D << at.D[0], at.D[1];
     const Eigen::Matrix2d second =
         (Eigen::Matrix2d() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy).finished();
     MatrixXd turn = MatrixXd::Zero(3, beam_dofs);
     for (Index i = 0; i < beam_nodes; ++i) turn.middleCols<3>(6 * i + 3) = at.N[i] * Matrix3d::Identity();
-    maps.rotary.push_back({length * D * second * D.transpose(), turn});
+    const Vector3d arm = D * section.centroid;
+    body::RotatingForms forms(length * D * second * D.transpose());
+    forms.add(section.rhoA * length, at.at + arm, Matrix3d::Identity(), arm);
+    if (!forms.empty()) maps.rotary.emplace_back(forms, turn);
   }
 }
 

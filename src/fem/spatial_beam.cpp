@@ -75,12 +75,15 @@ ElementMaps spatial_beam(const BeamPlace& place, const SpatialBeamSection& secti
     for (const BeamStation& g : beam_gauss5)  // slopes to the fourth have degree 8
       maps.membrane.push_back(station(g, beam, section.EA, frame, beam.p[6]));
   }
-  if (section.rhoIy + section.rhoIz > 0) {
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // about the centroid, int rho a a'
-    moments.bottomRightCorner<2, 2>() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
-    moments = (frame.axes * moments * frame.axes.transpose()).eval();
-    for (const BeamStation& g : beam_gauss4)
-      maps.rotary.push_back({g.weight * frame.length * moments, section_rotation(g.at, frame)});
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();  // about the centroid, int rho a a'
+  second.bottomRightCorner<2, 2>() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy;
+  second = (frame.axes * second * frame.axes.transpose()).eval();
+  const Eigen::Vector3d arm = frame.axes.rightCols<2>() * section.centroid;
+  for (const BeamStation& g : beam_gauss4) {
+    body::RotatingForms forms(g.weight * frame.length * second);
+    forms.add(section.rhoA * g.weight * frame.length, place.from + g.at * frame.length * frame.axes.col(0) + arm,
+              Eigen::Matrix3d::Identity(), arm);
+    if (!forms.empty()) maps.rotary.emplace_back(forms, section_rotation(g.at, frame));
   }
   const std::vector<SectionPoint> points = section_points(section);
   for (const BeamStation& g : beam_gauss4)

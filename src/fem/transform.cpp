@@ -3,6 +3,7 @@
 #include <map>
 
 #include "floe/error.h"
+#include "floe/math/rotation.h"
 
 namespace floe::fem {
 namespace {
@@ -38,11 +39,6 @@ Eigen::MatrixXd rigid_arms(const Eigen::Vector3d& first, const Eigen::Vector3d& 
   return T;
 }
 
-Eigen::Matrix3d second_order_arm(const Eigen::Vector3d& l, const Eigen::Vector3d& arm) {
-  const Eigen::Matrix3d product = l * arm.transpose();
-  return (product + product.transpose()) / 2 - l.dot(arm) * Eigen::Matrix3d::Identity();
-}
-
 namespace {
 
 /// Adds the arms' terms to a point, whose L is on the dofs of the element and whose G on those of the result.
@@ -58,24 +54,39 @@ void add_arms(const std::vector<RigidArm>& arms, StrainPoint& point) {
       Eigen::MatrixXd& P = point.P[static_cast<std::size_t>(s)];
       P.conservativeResizeLike(Eigen::MatrixXd::Zero(before + 3, before + 3));
       for (const RigidArm* arm : moved)
-        P.bottomRightCorner<3, 3>() += second_order_arm(point.L.row(s).segment<3>(arm->point), arm->arm);
+        P.bottomRightCorner<3, 3>() += math::arm_form(point.L.row(s).segment<3>(arm->point), arm->arm);
     }
   }
 }
 
+/// Adds what moves with the arm: mass points on the dofs of the element, rotation on those of the result.
+void add_mass(const std::vector<body::MassPoint>& points, const RigidArm& arm, Eigen::Index dofs,
+              std::vector<body::RotatingMass>& rotary) {
+  body::RotatingForms forms;
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3, dofs);
+  for (const body::MassPoint& point : points) {
+    const Eigen::Index d = point.x.size();
+    forms.add(point.mass, point.x, point.N.middleCols(arm.point, d), arm.arm);
+    turn.block(d == 2 ? 2 : 0, arm.rotation, 2 * d - 3, 2 * d - 3).setIdentity();
+  }
+  if (!forms.empty()) rotary.emplace_back(forms, turn);
+}
+
 }  // namespace
 
-ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const std::vector<RigidArm>& arms) {
+ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const std::vector<RigidArm>& arms,
+                        bool strained) {
   expect_rows(T, maps.bending.rows());
   ElementMaps result = maps;
   result.bending = T.transpose() * maps.bending * T;
   for (StrainPoint& g : result.membrane) {
     g.G = (g.G * T).eval();
-    add_arms(arms, g);
+    if (strained) add_arms(arms, g);
     g.L = (g.L * T).eval();
   }
   result.mass = transformed(maps.mass, T);
   for (body::RotatingMass& mass : result.rotary) mass.turn = (mass.turn * T).eval();
+  for (const RigidArm& arm : arms) add_mass(maps.mass, arm, T.cols(), result.rotary);
   return result;
 }
 

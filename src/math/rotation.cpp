@@ -32,6 +32,11 @@ Matrix3d skew(const Vector3d& a) {
   return (Matrix3d() << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0).finished();
 }
 
+Eigen::Matrix3d arm_form(const Eigen::Vector3d& l, const Eigen::Vector3d& c) {
+  const Eigen::Matrix3d product = l * c.transpose();
+  return (product + product.transpose()) / 2 - l.dot(c) * Eigen::Matrix3d::Identity();
+}
+
 Matrix3d rotation(const Vector3d& x) { return quaternion(x).toRotationMatrix(); }
 
 Eigen::Quaterniond quaternion(const Vector3d& x) {

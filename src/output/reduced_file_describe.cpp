@@ -87,7 +87,8 @@ std::string made_text(const MadeBy& made) {
 
 std::int64_t numbers_of(const body::Inertia& inertia) {
   const std::int64_t d = inertia.dimension(), k = inertia.coordinates();
-  return 1 + d + d * d + d * k + d * d * (k + k * k * (inertia.W.empty() ? 1 : 2));
+  return 1 + d + d * d + d * k + d * d * (k + k * k * (inertia.W.empty() ? 1 : 2)) +
+         (inertia.Q.empty() ? 0 : d * k * k);
 }
 
 }  // namespace
@@ -96,7 +97,9 @@ std::int64_t online_bytes(const ReducedBodyFile& file) {
   const auto& elasticity = file.body.elasticity;
   std::int64_t numbers = numbers_of(file.body.inertia) + numbers_of(file.body.line) + elasticity.bending.size() +
                          elasticity.F.size() + file.damping.size();
-  for (const auto& place : file.places) numbers += place.map.x.size() + place.map.S.size() + place.map.psi.size();
+  for (const auto& place : file.places)
+    numbers += place.map.x.size() + place.map.S.size() + place.map.psi.size() +
+               (place.map.Q.empty() ? 0 : place.map.x.size() * file.body.coordinates() * file.body.coordinates());
   return numbers * static_cast<std::int64_t>(sizeof(double)) +
          static_cast<std::int64_t>(elasticity.pairs.size() * sizeof(elasticity.pairs[0]));
 }

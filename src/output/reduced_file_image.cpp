@@ -62,10 +62,10 @@ class Writer {
   std::uint64_t sum_ = 0xcbf29ce484222325u;
 };
 
-/// Units of m, s0, C0, S, h, and of M and W.
-using InertiaUnits = std::array<const char*, 6>;
-constexpr InertiaUnits of_mass = {"kg", "kg m", "kg m^2", "kg^1/2", "kg^1/2 m", "1"};
-constexpr InertiaUnits of_line = {"m", "m^2", "m^3", "m kg^-1/2", "m^2 kg^-1/2", "m kg^-1"};
+/// Units of m, s0, C0, S, h, of M and W, and of Q.
+using InertiaUnits = std::array<const char*, 7>;
+constexpr InertiaUnits of_mass = {"kg", "kg m", "kg m^2", "kg^1/2", "kg^1/2 m", "1", "m^-1"};
+constexpr InertiaUnits of_line = {"m", "m^2", "m^3", "m kg^-1/2", "m^2 kg^-1/2", "m kg^-1", "kg^-1"};
 
 void put(Writer& to, const std::string& group, const body::Inertia& inertia, const InertiaUnits& units) {
   const hsize_t d = extent(inertia.dimension()), k = extent(inertia.coordinates());
@@ -80,12 +80,15 @@ void put(Writer& to, const std::string& group, const body::Inertia& inertia, con
     for (const auto& each : row) append(M, each);
   to.numbers(group + "/h", {d, d, k}, h, units[4], "[a][b]: int rho x_a N_b");
   to.numbers(group + "/M", {d, d, k, k}, M, units[5], "[a][b]: int rho N_a' N_b");
+  Numbers Q, W;
+  for (const auto& each : inertia.Q) append(Q, each);
+  if (!inertia.Q.empty())
+    to.numbers(group + "/Q", {d, k, k}, Q, units[6], "[a]: q' Q q = int rho n_a, n = theta x (theta x c); symmetric");
   if (inertia.W.empty()) return;
-  Numbers W;
   for (const auto& row : inertia.W)
     for (const auto& each : row) append(W, each);
   to.numbers(group + "/W", {d, d, k, k}, W, units[5],
-             "[a][b]: q' W q = int rho a_a (theta x (theta x a))_b of rotating sections; symmetric");
+             "[a][b]: q' W q = int rho x_a n_b, n/2 the displacement of second order of what rotates; symmetric");
 }
 
 void put(Writer& to, const body::Elasticity& elasticity) {
@@ -99,17 +102,21 @@ void put(Writer& to, const body::Elasticity& elasticity) {
 
 void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t k) {
   std::vector<std::string> names;
-  Numbers x, S, psi;
+  Numbers x, S, psi, Q;
   for (const auto& place : places) {
     names.push_back(place.name);
     append(x, place.map.x);
     append(S, place.map.S);
     append(psi, place.map.psi);
+    for (hsize_t a = 0; a < d; ++a)
+      append(Q, place.map.Q.empty() ? Eigen::MatrixXd::Zero(k, k).eval() : place.map.Q[a]);
   }
   const hsize_t n = places.size();
   to.texts("places/names", names);
   to.numbers("places/x", {n, d}, x, "m", "undeformed, in the axes of the floating frame");
   to.numbers("places/S", {n, d, k}, S, "kg^-1/2", "displacement S q");
+  if (std::any_of(places.begin(), places.end(), [](const auto& place) { return !place.map.Q.empty(); }))
+    to.numbers("places/Q", {n, d, k, k}, Q, "m^-1 kg^-1", "second-order displacement q' Q_a q / 2; symmetric");
   to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "rotation psi q");
 }
 

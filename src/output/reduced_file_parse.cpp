@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "reduced_file_hdf5.h"
@@ -55,6 +56,11 @@ body::Inertia read_inertia(hid_t file, const std::string& group, int dimension, 
       inertia.h[a][b] = matrix_at(h.data() + (a * d + b) * k, k, 1);
       inertia.M[a][b] = matrix_at(M.data() + (a * d + b) * k * k, k, k);
     }
+  if (H5Lexists(file, (group + "/Q").c_str(), H5P_DEFAULT) > 0) {
+    const auto Q = read_whole<double>(file, group + "/Q", {d, k, k});
+    inertia.allocate_first();
+    for (hsize_t a = 0; a < d; ++a) inertia.Q[a] = matrix_at(Q.data() + a * k * k, k, k);
+  }
   if (H5Lexists(file, (group + "/W").c_str(), H5P_DEFAULT) <= 0) return inertia;
   const auto W = read_whole<double>(file, group + "/W", {d, d, k, k});
   inertia.allocate_rotary();
@@ -88,11 +94,18 @@ std::vector<ReducedPlace> read_places(hid_t file, hsize_t d, hsize_t k) {
   const auto x = read_whole<double>(file, "places/x", {n, d});
   const auto S = read_whole<double>(file, "places/S", {n, d, k});
   const auto psi = read_whole<double>(file, "places/psi", {n, rotations, k});
+  const bool arms = H5Lexists(file, "places/Q", H5P_DEFAULT) > 0;
+  const auto Q = arms ? read_whole<double>(file, "places/Q", {n, d, k, k}) : std::vector<double>();
   std::vector<ReducedPlace> places;
-  for (hsize_t i = 0; i < n; ++i)
+  for (hsize_t i = 0; i < n; ++i) {
     places.push_back({names[i],
                       {matrix_at(x.data() + i * d, d, 1), matrix_at(S.data() + i * d * k, d, k),
                        matrix_at(psi.data() + i * rotations * k, rotations, k)}});
+    std::vector<Eigen::MatrixXd> forms;
+    for (hsize_t a = 0; a < d && arms; ++a) forms.push_back(matrix_at(Q.data() + (i * d + a) * k * k, k, k));
+    const bool some = std::any_of(forms.begin(), forms.end(), [](const auto& form) { return !form.isZero(0); });
+    if (some) places.back().map.Q = std::move(forms);
+  }
   return places;
 }
 

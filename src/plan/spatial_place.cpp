@@ -57,7 +57,9 @@ std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::We
     const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
     const Eigen::Matrix3d led =
         Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the leader
-    moves.arm += arm * led - share * math::skew(Eigen::Map<const Eigen::Vector3d>(c->second.arm));
+    const Eigen::Map<const Eigen::Vector3d> lead(c->second.arm);
+    moves.arm += arm * led - share * math::skew(lead);
+    moves.lead += share * lead;
     moves.turn += share * led;
     if (axis.isZero(0)) continue;
     Lever& own = lever(node);

@@ -1,5 +1,6 @@
 #include "mass_forms.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace floe::reduction {
@@ -48,13 +49,13 @@ void MassForms::add(const fem::PieceRows& piece, const std::vector<fem::RotaryRo
     if (fields_.cols() == 0) return inertia_.allocate_rotary();
     turns_.range.include(fem::multiply(structure_, piece, mass.turn, fields_, ranges_, turns_.next()));
     turns_.count += 3;
-    moments_.push_back(mass.moments);
+    forms_.push_back(mass);
     if (turns_.count + 3 > together) flush_rotary();
   }
 }
 
 void MassForms::flush_rotary() {
-  if (moments_.empty()) return;
+  if (forms_.empty()) return;
   inertia_.allocate_rotary();
   const int d = structure_.dimension();
   if (!turns_.range.empty()) {
@@ -62,17 +63,22 @@ void MassForms::flush_rotary() {
     const Eigen::Map<const Eigen::MatrixXd> all(turns_.rows.data(), turns_.columns, turns_.count);
     const auto rows = all.middleRows(begin, count);
     Eigen::MatrixXd weighted(count, turns_.count);
-    for (int a = 0; a < d; ++a)
-      for (int b = 0; b < d; ++b) {
-        for (std::size_t i = 0; i < moments_.size(); ++i) {
-          const auto at = 3 * static_cast<Eigen::Index>(i);
-          weighted.middleCols<3>(at).noalias() = rows.middleCols<3>(at) * body::rotary_form(moments_[i], a, b);
-        }
-        inertia_.W[a][b].block(begin, begin, count, count).noalias() += rows * weighted.transpose();
+    const auto add_forms = [&](auto&& form, Eigen::MatrixXd& to) {
+      for (std::size_t i = 0; i < forms_.size(); ++i) {
+        const auto at = 3 * static_cast<Eigen::Index>(i);
+        weighted.middleCols<3>(at).noalias() = rows.middleCols<3>(at) * form(forms_[i]);
       }
+      to.block(begin, begin, count, count).noalias() += rows * weighted.transpose();
+    };
+    const bool arms = std::any_of(forms_.begin(), forms_.end(), [](const auto& forms) { return forms.has_first(); });
+    if (arms) inertia_.allocate_first();
+    for (int a = 0; a < d; ++a) {
+      if (arms) add_forms([&](const auto& forms) { return forms.first[a]; }, inertia_.Q[a]);
+      for (int b = 0; b < d; ++b) add_forms([&](const auto& forms) { return forms.moments[a][b]; }, inertia_.W[a][b]);
+    }
   }
   turns_.clear();
-  moments_.clear();
+  forms_.clear();
 }
 
 void MassForms::flush(Samples& samples, bool first_moments) {
@@ -97,6 +103,11 @@ namespace {
 body::Inertia turned(const body::Inertia& of, const Eigen::Matrix3d& R) {
   body::Inertia to(3, of.coordinates());
   to.m = of.m, to.s0 = R * of.s0, to.C0 = R * of.C0 * R.transpose(), to.S = R * of.S;
+  if (!of.Q.empty()) {
+    to.allocate_first();
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 3; ++c) to.Q[a] += R(a, c) * of.Q[c];
+  }
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       for (int c = 0; c < 3; ++c)

@@ -34,7 +34,7 @@ class MassForms {
   body::Inertia inertia_;
   Samples single_, pairs_;
   RowStack turns_;  ///< three rows of each rotating mass
-  std::vector<Eigen::Matrix3d> moments_;
+  std::vector<body::RotatingForms> forms_;
 };
 
 /// V'MV of this rank's share of mass: the sum of M_aa.

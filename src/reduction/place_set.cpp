@@ -1,35 +1,79 @@
 #include "floe/reduction/place_set.h"
 
+#include <algorithm>
+
+#include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 
 namespace floe::reduction {
 
 using petsc::check;
 
+namespace {
+
+/// A node of this rank in the mean, and the node that it follows at an arm.
+struct Moved {
+  WeightedNode at;  ///< local number
+  int leader = -1;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  Eigen::Matrix3Xd turn = {};  ///< rotations of the leader
+};
+
+std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedNode>& nodes, int columns) {
+  std::vector<Moved> mine;
+  for (const WeightedNode& at : nodes) {
+    const PetscInt local = at.node - mesh.first_node;
+    if (local < 0 || local >= mesh.owned_nodes) continue;
+    mine.push_back({{local, at.weight, at.arm}});
+    for (const fem::Mesh::Follower& f : mesh.followers) {
+      if (f.node != local || mesh.dimension != 3) continue;
+      mine.back().leader = f.leader, mine.back().arm = mesh.positions[f.node] - mesh.positions[f.leader];
+      mine.back().turn.setZero(3, columns);
+    }
+  }
+  return mine;
+}
+
+/// Sum of weight/2 theta x (theta x arm) on the columns: Q. Collective.
+std::vector<Eigen::MatrixXd> second_order(const fem::Mesh& mesh, const std::vector<Moved>& moved,
+                                          Eigen::Index columns) {
+  int any = std::any_of(moved.begin(), moved.end(), [](const Moved& each) { return each.leader >= 0; });
+  MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
+  if (!any) return {};
+  std::vector<Eigen::MatrixXd> Q(3, Eigen::MatrixXd::Zero(columns, columns));
+  for (int a = 0; a < 3; ++a) {
+    for (const Moved& each : moved)
+      if (each.leader >= 0)
+        Q[a] += each.at.weight * each.turn.transpose() * math::arm_form(Eigen::Vector3d::Unit(a), each.arm) * each.turn;
+    MPI_Allreduce(MPI_IN_PLACE, Q[a].data(), static_cast<int>(Q[a].size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  }
+  return Q;
+}
+
+}  // namespace
+
 body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, const std::vector<WeightedNode>& nodes) {
   const fem::Mesh& mesh = structure.mesh;
   const int d = structure.dimension(), n = structure.dofs_per_node, k = basis.columns;
-  std::vector<WeightedNode> mine;  // local numbers
-  for (const WeightedNode& at : nodes)
-    if (const PetscInt local = at.node - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
-      mine.push_back({local, at.weight, at.arm});
+  std::vector<Moved> mine = moved_here(mesh, nodes, k);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, k + 1);  // columns of V, then positions
-  for (const WeightedNode& at : mine) sum.col(k).head(d) += at.weight * mesh.positions[at.node].head(d);
+  for (const Moved& each : mine) sum.col(k).head(d) += each.at.weight * mesh.positions[each.at.node].head(d);
   for (int j = 0; j < k; ++j) {
     Vec column = nullptr;
     check(BVGetColumn(basis.V, j, &column));
     {
       petsc::Values values(column);
-      for (const WeightedNode& at : mine) {
-        const Eigen::VectorXd motion = fem::nodal_motion(structure, values.begin(), static_cast<int>(at.node));
-        sum.col(j) += at.weight * motion;
-        if (d == 3) sum.col(j).head<3>() += at.arm * motion.tail<3>();
+      for (Moved& each : mine) {
+        const Eigen::VectorXd motion = fem::nodal_motion(structure, values.begin(), static_cast<int>(each.at.node));
+        sum.col(j) += each.at.weight * motion;
+        if (d == 3) sum.col(j).head<3>() += each.at.arm * motion.tail<3>();
+        if (each.leader >= 0) each.turn.col(j) = fem::nodal_motion(structure, values.begin(), each.leader).tail<3>();
       }
     }
     check(BVRestoreColumn(basis.V, j, &column));
   }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), static_cast<int>(sum.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
-  return {sum.col(k).head(d), sum.topLeftCorner(d, k), sum.block(d, 0, n - d, k)};
+  return {sum.col(k).head(d), sum.topLeftCorner(d, k), sum.block(d, 0, n - d, k), second_order(mesh, mine, k)};
 }
 
 }  // namespace floe::reduction

@@ -31,9 +31,10 @@ void sum_over_ranks(MPI_Comm comm, double* values, Eigen::Index count) {
 }
 
 void sum_over_ranks(MPI_Comm comm, body::Inertia& inertia) {
-  int rotates = !inertia.W.empty();
-  MPI_Allreduce(MPI_IN_PLACE, &rotates, 1, MPI_INT, MPI_MAX, comm);
-  if (rotates) inertia.allocate_rotary();
+  std::array<int, 2> some{!inertia.Q.empty(), !inertia.W.empty()};
+  MPI_Allreduce(MPI_IN_PLACE, some.data(), 2, MPI_INT, MPI_MAX, comm);
+  if (some[0]) inertia.allocate_first();
+  if (some[1]) inertia.allocate_rotary();
   sum_over_ranks(comm, &inertia.m, 1);
   sum_over_ranks(comm, inertia.s0.data(), inertia.s0.size());
   sum_over_ranks(comm, inertia.C0.data(), inertia.C0.size());
@@ -42,6 +43,7 @@ void sum_over_ranks(MPI_Comm comm, body::Inertia& inertia) {
     for (auto& h : row) sum_over_ranks(comm, h.data(), h.size());
   for (auto& row : inertia.M)
     for (auto& M : row) sum_over_ranks(comm, M.data(), M.size());
+  for (auto& Q : inertia.Q) sum_over_ranks(comm, Q.data(), Q.size());
   for (auto& row : inertia.W)
     for (auto& W : row) sum_over_ranks(comm, W.data(), W.size());
 }

@@ -128,7 +128,7 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
     const fem::Mesh::Cell& cell = structure.mesh.cells[c];
     const std::vector<int> all = structure.cell_dofs(cell);
     fem::ElementMaps maps = structure.maps(cell);
-    if (density == Density::line) maps.mass = structure.line(cell);
+    if (density == Density::line) maps.mass = structure.line(cell), maps.rotary.clear();
     const body::PlanarInertia in = body::planar(fem::inertia(
         maps, Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(all.size()), static_cast<Eigen::Index>(all.size()))));
     dynamics::Marker marker;
@@ -136,9 +136,13 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
     marker.coordinates = with_frame(frame, all, nodes);
     marker.mass = in.m;
     marker.x = in.s0;
-    marker.S = in.S;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (is_held(held, structure.global_dof(all[i]))) marker.S.col(static_cast<Eigen::Index>(i)).setZero();
+    marker.S = in.S, marker.Q = in.Q;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!is_held(held, structure.global_dof(all[i]))) continue;
+      const auto at = static_cast<Eigen::Index>(i);
+      marker.S.col(at).setZero();
+      for (Eigen::MatrixXd& Q : marker.Q) Q.row(at).setZero(), Q.col(at).setZero();
+    }
     marker.psi = Eigen::RowVectorXd::Zero(in.S.cols());
     markers.push_back(std::move(marker));
   }

@@ -136,6 +136,13 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::St
   return terms;
 }
 
+body::Inertia density_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell, Density density,
+                              const Eigen::MatrixXd& V) {
+  fem::ElementMaps maps = structure.maps(cell);
+  if (density == Density::line) maps.mass = structure.line(cell), maps.rotary.clear();
+  return fem::inertia(maps, V);
+}
+
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
                                                              const fem::Conditions& held, const NodeCoordinates& nodes,
                                                              const SpatialFrame& frame, Density density,
@@ -144,17 +151,15 @@ std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structur
   for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
     if (!counts(part, c)) continue;
     const fem::Mesh::Cell& cell = structure.mesh.cells[c];
-    fem::ElementMaps maps = structure.maps(cell);
-    if (density == Density::line) maps.mass = structure.line(cell);
     const FreeDofs free = free_dofs(structure, held, cell, nodes);
-    const body::Inertia in = fem::inertia(maps, free.V);
+    const body::Inertia in = density_inertia(structure, cell, density, free.V);
     if (in.m == 0) continue;
     dynamics::SpatialMarker marker;
     marker.coordinates = behind_frame(frame, free.coordinates);
     marker.attitude = frame.attitude;
     marker.mass = in.m;
     marker.x0 = in.s0;
-    marker.S = in.S;
+    marker.S = in.S, marker.Q = in.Q;
     marker.psi = Eigen::Matrix3Xd::Zero(3, in.S.cols());
     markers.push_back(std::move(marker));
   }

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Dense>
+#include <array>
 #include <vector>
 
 namespace floe::body {
@@ -11,23 +12,44 @@ struct MassPoint {
   Eigen::MatrixXd N;  ///< d x k
 };
 
-/// Mass that rotates rigidly: a piece of a beam about its line of centroids, a rigid mass about its centre. Its mass
-/// points are MassPoints, displaced by theta x a; the rotation vector theta = turn q moves them by 1/2 theta x (theta x
-/// a) besides, at second order.
-struct RotatingMass {
-  Eigen::Matrix3d moments;  ///< int rho a a' about the centre, body axes [kg m2]; quadrature weight included
-  Eigen::MatrixXd turn;     ///< 3 x k; in the plane the third row alone
+/// Integrals over mass whose displacement has a part of second order, n/2 beside N q (MassPoint). What rotates rigidly
+/// by the rotation vector theta about a point that q displaces, at the arm c from it, has n = theta x (theta x c):
+///
+///   int rho n_a = theta' first[a] theta,   int rho x_a n_b = theta' moments[a][b] theta      all 3 x 3, symmetric
+///
+/// x: undeformed position; all in the frame's axes. Sections of beams, rigid masses, what follows a node at an arm.
+struct RotatingForms {
+  using Form = Eigen::Matrix3d;
+  std::array<Form, 3> first;
+  std::array<std::array<Form, 3>, 3> moments;
+
+  RotatingForms();  ///< zero
+  /// A piece about its centre, which q displaces: int rho c = 0. @param second  int rho c c' about the centre [kg m2],
+  /// quadrature weight included
+  explicit RotatingForms(const Eigen::Matrix3d& second);
+  /// Adds mass at x, displaced by N n/2 besides, n of a point at the arm. @param N  d x d; 1: mass at that point
+  void add(double mass, const Eigen::VectorXd& x, const Eigen::MatrixXd& N, const Eigen::Vector3d& arm);
+  /// The same in other axes of the frame. @param R  its columns are the present axes in the new ones
+  void rotate(const Eigen::Matrix3d& R);
+  bool has_first() const;
+  bool empty() const;
+};
+
+/// Such mass, theta = turn q.
+struct RotatingMass : RotatingForms {
+  Eigen::MatrixXd turn;  ///< 3 x k; in the plane the third row alone
+  RotatingMass(RotatingForms forms, Eigen::MatrixXd by) : RotatingForms(std::move(forms)), turn(std::move(by)) {}
 };
 
 /// The constants of a body's inertia in d = 2 or 3 dimensions, integrated once over its mass, with k elastic
 /// coordinates.
 ///
 ///   m = int rho,  s0_a = int rho x_a,  C0_ab = int rho x_a x_b,  S_a = int rho N_a,
-///   h_ab = int rho x_a N_b,  M_ab = int rho N_a' N_b,  q' W_ab q = int rho a_a n_b,  n = theta x (theta x a)
+///   h_ab = int rho x_a N_b,  M_ab = int rho N_a' N_b,  q' Q_a q = int rho n_a,  q' W_ab q = int rho x_a n_b
 ///
-/// Everything that the floating frame couples follows from them: the displacement is N q + n/2, and the kinetic energy
-/// is kept to second order in q and q'. W, symmetric, is the part of sections and rigid masses that rotate
-/// (RotatingMass): n has no mean over them. Source: Shabana, Dynamics of multibody systems, ch. 5 (linear part);
+/// Everything that the floating frame couples follows from them: the displacement is N q + n/2, n of second order
+/// (RotatingMass), and the kinetic energy is kept to second order in q and q'. Q, W are symmetric; Q vanishes where
+/// what rotates rotates about its centre. Source: Shabana, Dynamics of multibody systems, ch. 5 (linear part);
 /// theory.md. Units: kg, m, and those of the elastic coordinates.
 struct Inertia {
   double m = 0;
@@ -36,7 +58,8 @@ struct Inertia {
   Eigen::MatrixXd S;                            ///< d x k
   std::vector<std::vector<Eigen::VectorXd>> h;  ///< [a][b], k
   std::vector<std::vector<Eigen::MatrixXd>> M;  ///< [a][b], k x k; M[b][a] = M[a][b]'
-  std::vector<std::vector<Eigen::MatrixXd>> W;  ///< [a][b], k x k, symmetric; empty: nothing rotates by itself
+  std::vector<Eigen::MatrixXd> Q;               ///< [a], k x k, symmetric; empty: zero
+  std::vector<std::vector<Eigen::MatrixXd>> W;  ///< [a][b], k x k, symmetric; empty: zero
 
   Inertia() = default;
   Inertia(int dimension, int coordinates);
@@ -44,6 +67,7 @@ struct Inertia {
   int coordinates() const { return static_cast<int>(S.cols()); }
   void add(const MassPoint& point);
   void add(const RotatingMass& mass);
+  void allocate_first();   ///< Q = 0, unless it is there
   void allocate_rotary();  ///< W = 0, unless it is there
   Inertia& operator+=(const Inertia& other);
 };
@@ -51,23 +75,19 @@ struct Inertia {
 /// The contractions of Inertia that a motion in the plane needs. J = [[0,-1],[1,0]].
 ///
 ///   C0 = int rho x'x,  h = int rho x'N,  g = int rho (x N_y - y N_x),  M = M_xx + M_yy,  B = int rho N'J'N (skew),
-///   D = M + W_xx + W_yy
+///   D = M + W_xx + W_yy,  Y = W_xy - W_yx
 ///
 /// D is M without the rotary inertia of sections: their moment of inertia about the frame's origin does not change as
-/// they rotate.
+/// they rotate. Q, Y: empty where they vanish.
 struct PlanarInertia {
   double m = 0;
   Eigen::Vector2d s0 = Eigen::Vector2d::Zero();
   double C0 = 0;
   Eigen::Matrix2Xd S;
   Eigen::VectorXd h, g;
-  Eigen::MatrixXd M, B, D;
+  Eigen::MatrixXd M, B, D, Y;
+  std::vector<Eigen::MatrixXd> Q;  ///< x, y
 };
-
-/// What W adds to it, T of a mass with moments E: W_ab += turn' T_ab turn, d = 3.
-///
-///   T_ab = 1/2 (e_b (E e_a)' + E e_a e_b') - E_ab 1
-Eigen::Matrix3d rotary_form(const Eigen::Matrix3d& moments, int a, int b);
 
 /// @param inertia  d = 2, or d = 3 of which x and y count
 PlanarInertia planar(const Inertia& inertia);

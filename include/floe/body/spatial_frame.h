@@ -7,7 +7,7 @@ namespace floe::body {
 
 /// The contractions of Inertia (d = 3) that a motion in space needs, e the k elastic coordinates, c = x + N e + n/2.
 ///
-///   sigma(e) = int rho c = s0 + S e
+///   sigma(e) = int rho c = s0 + S e + 1/2 Q(e, e),     S(e) = dsigma/de = S + Q e
 ///   J(e)     = int rho (c.c I - c c'),     dJ/de_i = J_i(e)
 ///   G(e)     = int rho c x dc/de  (3 x k)
 ///
@@ -21,6 +21,7 @@ struct SpatialInertia {
   Eigen::Vector3d s0 = Eigen::Vector3d::Zero();
   Eigen::Matrix3d J0 = Eigen::Matrix3d::Zero();  ///< J at e = 0, about the frame's origin
   Eigen::Matrix3Xd S;
+  std::vector<Eigen::MatrixXd> Q;                   ///< x, y, z; empty: zero
   Eigen::Matrix<double, Eigen::Dynamic, 9> linear;  ///< k x (J_xx J_yy J_zz J_yz J_zx J_xy G_x G_y G_z), d/de at e = 0
   Eigen::MatrixXd M;                                ///< M_xx + M_yy + M_zz
   Eigen::MatrixXd forms;                            ///< k x (k n): the n of D, E, B, Y that do not vanish side by side
@@ -38,6 +39,7 @@ struct SpatialInertiaWork {
   using Rates = Eigen::Matrix<double, Eigen::Dynamic, 12>;
   Eigen::VectorXd e, ed, edd;           ///< elastic parts of q, v, a
   Rates of_e, of_ed, of_edd;            ///< dJ/de, G but for Y e, Y e; what e', e'' as e would add to them
+  Eigen::Matrix3Xd S, Qed, Qedd;        ///< S(e), Q e', Q e''; not set where Q vanishes
   Eigen::VectorXd products, Medd, sum;  ///< forms times a vector; M e''; forms added up
 };
 
@@ -45,11 +47,11 @@ struct SpatialInertiaWork {
 /// a = (R'', alpha, e'') with omega the angular velocity in body axes, alpha = d omega/dt.
 ///
 /// Inertia rows, with u = A'R'' and J' = sum J_i e_i':
-///   R      m R'' + A (alpha x sigma + omega x (omega x sigma) + 2 omega x S e' + S e'')
+///   R      m R'' + A (alpha x sigma + omega x (omega x sigma) + 2 omega x S e' + S e'' + Q(e', e'))
 ///   theta  sigma x u + J alpha + J' omega + G e'' + Y(e', e') + omega x (J omega + G e')
 ///   e_i    S_i.u + G_i.alpha + (M e'')_i - 1/2 omega.J_i omega + 2 (sum omega_a B_a e')_i
-/// theta are moments about body axes. Source: Shabana, Dynamics of multibody systems, ch. 5, with the rotation on the
-/// group.
+/// with S = S(e); theta are moments about body axes. Source: Shabana, Dynamics of multibody systems, ch. 5, with the
+/// rotation on the group.
 /// @param A        base exp(x), x = q[3..5]
 /// @param q, v, a  k + 6 each
 void add_spatial_inertia_force(const SpatialInertia& inertia, const Eigen::Matrix3d& A, const Eigen::VectorXd& q,

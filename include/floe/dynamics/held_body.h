@@ -28,25 +28,29 @@ class HeldBody final : public Term {
   mutable body::ElasticityWork work_;
 };
 
-/// A force that keeps its direction, on a place that moves with coordinates of a still frame: r -= S' f(t).
+/// A force that keeps its direction, on a place that moves with coordinates of a still frame by S q + 1/2 Q(q, q):
+/// r -= (S + Q q)' f(t).
 ///
 /// With S = int rho N and f = g it is gravity, with S = int N over a line or surface a uniform load.
 class DeadForce final : public Term {
  public:
   /// @param S      d x k, displacement (or its integral) of the place
   /// @param force  f(t), d, in the frame's axes
-  DeadForce(std::vector<int> coordinates, Eigen::MatrixXd S, std::function<Eigen::VectorXd(double)> force);
+  /// @param Q      of each component, symmetric; empty: zero
+  DeadForce(std::vector<int> coordinates, Eigen::MatrixXd S, std::function<Eigen::VectorXd(double)> force,
+            std::vector<Eigen::MatrixXd> Q = {});
   const std::vector<int>& coordinates() const override { return coordinates_; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
-  void tangent(const Motion&, Weights, Eigen::MatrixXd&) const override {}
+  void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
-  /// Counts -f.S q as potential energy: for forces that are constant in time (gravity).
+  /// Counts -f.(S q + 1/2 Q(q, q)) as potential energy: for forces that are constant in time (gravity).
   bool conservative = false;
 
  private:
   std::vector<int> coordinates_;
   Eigen::MatrixXd S_;
   std::function<Eigen::VectorXd(double)> force_;
+  std::vector<Eigen::MatrixXd> Q_;
 };
 
 }  // namespace floe::dynamics

@@ -12,7 +12,7 @@ enum class Extent { place, directions, motion };
 
 /// A place that joints and loads act on: its pose (x, y, angle) as a function of a body's coordinates.
 ///
-///   p = mass * R + A(theta) (x + S q),   angle = angle0 + theta + psi q
+///   p = mass * R + A(theta) (x + S q + 1/2 Q(q, q)),   angle = angle0 + theta + psi q
 ///
 /// coordinates: the frame's three (when `framed`), then the elastic ones that S and psi refer to. The nodal rotation
 /// psi q is the slope v' itself, not its arc tangent. Without frame and coordinates it is a point of the ground;
@@ -24,6 +24,7 @@ struct Marker {
   Eigen::Vector2d x = Eigen::Vector2d::Zero();
   double angle0 = 0;
   Eigen::Matrix2Xd S;
+  std::vector<Eigen::MatrixXd> Q = {};  ///< x, y, symmetric; empty: zero. Of a density, which joints do not act on
   Eigen::RowVectorXd psi;
   double mass = 1;
 
@@ -35,7 +36,9 @@ struct Pose {
   Eigen::Vector3d y, yd, ydd;
   Eigen::Matrix3Xd P;    ///< dy/dq, 3 x n
   Eigen::Matrix3Xd dyd;  ///< d(yd)/dq at fixed v, 3 x n
-  Eigen::Vector2d arm;   ///< A (x + S q)
+  Eigen::Vector2d arm;   ///< A (x + S q + 1/2 Q(q, q))
+  double angle;          ///< of the frame; 0 without
+  Eigen::Matrix2Xd S;    ///< S + Q q; not set where Q vanishes
 };
 
 /// @param q, v, a  the marker's coordinates and rates

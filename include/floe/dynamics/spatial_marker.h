@@ -11,7 +11,7 @@ using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A place of a body in space, as joints and loads see it: its position and its axes as functions of the coordinates.
 ///
-///   p = mass * R + A (x0 + S e),   D = A exp(~beta) D0,   beta = psi e
+///   p = mass * R + A (x0 + S e + 1/2 Q(e, e)),   D = A exp(~beta) D0,   beta = psi e
 ///
 /// coordinates: the frame's six (R, x) when it is framed, then the elastic ones that S and psi refer to. A framed place
 /// has A = attitude(x); among the velocities of its coordinates the frame's angular velocity in its own axes stands for
@@ -26,6 +26,7 @@ struct SpatialMarker {
   Eigen::Vector3d x0 = Eigen::Vector3d::Zero();         ///< place in the undeformed body
   Eigen::Matrix3d D0 = Eigen::Matrix3d::Identity();     ///< axes of the place there
   Eigen::Matrix3Xd S = Eigen::Matrix3Xd::Zero(3, 0);    ///< displacement of each elastic coordinate, 3 x k
+  std::vector<Eigen::MatrixXd> Q = {};                  ///< of second order: x, y, z, symmetric; empty: zero
   Eigen::Matrix3Xd psi = Eigen::Matrix3Xd::Zero(3, 0);  ///< its nodal rotation, 3 x k
   double mass = 1;
 
@@ -44,10 +45,11 @@ struct SpatialPose {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero(), spin_rate = Eigen::Vector3d::Zero();  ///< of D, in world axes
   Matrix6Xd P;                  ///< directions: (dp, dphi) of each coordinate, 6 x n, without T(x)
   Eigen::Matrix3d A, T;         ///< of the frame; T(x), or I when it stands still
-  Eigen::Vector3d c, c_rate;    ///< body axes: x0 + S e, and its velocity omega x c + S e.
+  Eigen::Vector3d c, c_rate;    ///< body axes: x0 + S e + 1/2 Q(e, e), and its velocity omega x c + S(e) e.
   Eigen::Vector3d omega, turn;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
   Eigen::Vector3d beta, beta_rate;
-  Eigen::Matrix3d bend;  ///< T(beta)
+  Eigen::Matrix3d bend;     ///< T(beta)
+  Eigen::Matrix3Xd S, Qed;  ///< S(e) = S + Q e, Q e'; not set where Q vanishes
 };
 
 /// @param q, v, a  the marker's coordinates and rates
@@ -67,7 +69,7 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
 /// With f = A' w_f, m = A' w_m, in rows and columns (x, e):
 ///
 ///   theta   (~c ~f + ~m) T(x)                    -~f S
-///   e       (S' ~f + psi' T(beta) ~m) T(x)        psi' [d(T(beta) m)/dbeta] psi
+///   e       (S' ~f + psi' T(beta) ~m) T(x)        psi' [d(T(beta) m)/dbeta] psi + f . Q
 void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, double weight,
                              Eigen::MatrixXd& K);
 

@@ -3,7 +3,7 @@
 
 namespace floe::fem {
 
-/// What strains and inertia of the elements leave out, at second order, about a deformed state: S(phi) = 1/2 phi' A phi
+/// What strains of the elements leave out, at second order, about a deformed state: S(phi) = 1/2 phi' A phi
 /// of a small further deformation phi, by cause. Null: no element has it. MATSBAIJ, no conditions.
 ///
 ///   in_plane   shells with von Karman's strains, against Green-Lagrange: membrane forces N on the squares of the
@@ -16,20 +16,14 @@ namespace floe::fem {
 ///              variation of 1/2 int EI kappa^2 + GJ tau^2 less that of the linear curvatures, moments being those of
 ///              the linear ones
 ///
-///   arms       masses m at X that a node carries at an arm c (centroids of beams, offsets of rigid masses, nodes that
-///              follow others): their motion 1/2 theta x (theta x c) in the field of a spin Omega about an axis through
-///              the frame's origin, X_p = X across the axis,
-///                S = -1/2 sum m Omega^2 [(theta.X_p)(theta.c) - (X_p.c) theta^2]
-///
 /// Sources: Hodges & Dowell, NASA TN D-7818, 1974 (curvatures); theory.md.
 struct MissingStiffness {
-  petsc::MatHandle in_plane, coupling, arms;
+  petsc::MatHandle in_plane, coupling;
 };
 
 /// @param q  deformation in the frame [m], [rad]
-/// @param spin  of the frame, in its axes [rad/s]
 /// Collective. A pass over the elements for each cause.
-MissingStiffness missing_stiffness(const Structure& structure, Vec q, const Eigen::Vector3d& spin);
+MissingStiffness missing_stiffness(const Structure& structure, Vec q);
 
 /// Of the strains that the elements have, the same: sum w G'(sigma P) G, sigma the membrane forces at q (without
 /// conditions, MATSBAIJ). Collective.

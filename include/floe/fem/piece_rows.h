@@ -35,9 +35,8 @@ struct MassRows {
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> N;
 };
 
-/// Mass that rotates rigidly, as body::RotatingMass.
-struct RotaryRows {
-  Eigen::Matrix3d moments;
+/// Mass that moves to second order, as body::RotatingMass.
+struct RotaryRows : body::RotatingForms {
   Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> turn;
 };
 

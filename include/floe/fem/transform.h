@@ -21,28 +21,26 @@ Eigen::MatrixXd rigid_arms(const Eigen::Vector3d& first, const Eigen::Vector3d& 
 ///   u_p = u + theta x arm + 1/2 theta x (theta x arm)
 /// Without the last term a rigid region that rotates by theta grows by theta^2/2, and strains what it is joined to.
 struct RigidArm {
-  Eigen::Index point;     ///< of u_p: the first of three dofs of the element
-  Eigen::Index rotation;  ///< of theta: the first of three dofs of the result
+  Eigen::Index point;     ///< of u_p: the first of the d dofs of the element
+  Eigen::Index rotation;  ///< of theta: the first of the three dofs (one in the plane) of the result
   Eigen::Vector3d arm;
 };
 
-/// The corners of a cell in space that follow others at an arm: dofs of its corners, and of the nodes that it acts on.
+/// The corners of a cell that follow others at an arm: dofs of its corners, and of the nodes that it acts on.
 std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell);
-
-/// 1/2 l . theta x (theta x arm) = 1/2 theta' P theta: P = (l arm' + arm l')/2 - (l . arm) 1, of a strain's row l at
-/// u_p.
-Eigen::Matrix3d second_order_arm(const Eigen::Vector3d& l, const Eigen::Vector3d& arm);
 
 /// The element on other dofs, q_e = T q_m: rigid links, offsets, turned nodal axes, dofs held (columns left out).
 ///
 /// Strains and displacements are linear in q or in slopes linear in q, so energy and mass points carry over exactly:
 /// U_m(q_m) = U_e(T q_m), M_m = T'M_e T. Positions of mass points stay.
 /// @param T     dofs of the element x dofs of the result
-/// @param arms  what moves by second-order terms besides, q_e = T q_m + 1/2 R(q_m, q_m): strain points take them to
+/// @param arms      what moves by second-order terms besides, q_e = T q_m + 1/2 R(q_m, q_m): inertia takes them to
 /// second
-///              order, eps = L T q + 1/2 [L R(q, q) + e(T q, T q)]; K_b and mass points do not
+///                  order (rotary)
+/// @param strained  strain points, too: eps = L T q + 1/2 [L R(q, q) + e(T q, T q)]; K_b does not
 /// @throws floe::InputError  rows of T do not match the element
-ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const std::vector<RigidArm>& arms = {});
+ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const std::vector<RigidArm>& arms = {},
+                        bool strained = true);
 
 /// The same for bare samples: loads on what is carried by other dofs.
 std::vector<body::MassPoint> transformed(const std::vector<body::MassPoint>& points, const Eigen::MatrixXd& T);

@@ -9,6 +9,10 @@ namespace floe::math {
 /// ~a, with ~a b = a x b.
 Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 
+/// P with l . theta x (theta x c) = theta' P theta: P = (l c' + c l')/2 - (l . c) 1. An arm c that turns by theta moves
+/// by theta x c + 1/2 theta x (theta x c).
+Eigen::Matrix3d arm_form(const Eigen::Vector3d& l, const Eigen::Vector3d& c);
+
 /// exp(~x).
 Eigen::Matrix3d rotation(const Eigen::Vector3d& x);
 /// The same rotation as a unit quaternion.

@@ -14,12 +14,14 @@
 namespace floe::plan {
 using namespace scene;
 
-/// How a node moves a place in space: u += share u_node + arm theta_node, theta += turn theta_node.
+/// How a node moves a place in space: u += share u_node + arm theta_node + 1/2 theta_node x (theta_node x lead),
+/// theta += turn theta_node.
 struct Lever {
   PetscInt node;  ///< global
   double share;
   Eigen::Matrix3d arm;
   Eigen::Matrix3d turn;
+  Eigen::Vector3d lead = Eigen::Vector3d::Zero();  ///< from it to those that follow it, times their shares
 };
 
 /// A node that something acts on.

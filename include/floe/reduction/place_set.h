@@ -3,7 +3,8 @@
 
 namespace floe::reduction {
 
-/// A node in the mean of a place: x += weight x_node, u += weight u_node + arm theta_node, theta += weight theta_node.
+/// A node in the mean of a place: x += weight x_node, u += weight u_node + arm theta_node, theta += weight theta_node;
+/// where it follows another at an arm, u_node to second order (fem::RigidArm).
 struct WeightedNode {
   PetscInt node;                                  ///< global
   double weight;                                  ///< their sum is 1

@@ -49,6 +49,10 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::St
                                                                    const SpatialFrame& frame,
                                                                    CellsOfPart part = nullptr);
 
+/// Of the mass, or of the length or area, of an element on the columns of V.
+body::Inertia density_inertia(const fem::Structure& structure, const fem::Mesh::Cell& cell, Density density,
+                              const Eigen::MatrixXd& V);
+
 /// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or of line and area.
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
                                                              const fem::Conditions& held, const NodeCoordinates& nodes,

@@ -46,7 +46,20 @@ body::PlanarInertia section() {
   moments.topLeftCorner<2, 2>() = c.mass * arm * arm.transpose();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, k);
   rows.row(2) = turn().transpose();
-  inertia.add(body::RotatingMass{moments, rows});
+  inertia.add(body::RotatingMass(body::RotatingForms(moments), rows));
+  return body::planar(inertia);
+}
+
+/// A point on an arm from that centre, which turns alike.
+body::PlanarInertia arm_of_centre() {
+  body::Inertia inertia(2, k);
+  const body::MassPoint c = centre();
+  inertia.add({c.mass, c.x + arm, c.N + Vector2d(-arm.y(), arm.x()) * turn().transpose()});
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, k);
+  rows.row(2) = turn().transpose();
+  body::RotatingForms forms;
+  forms.add(c.mass, c.x + arm, Eigen::Matrix2d::Identity(), Eigen::Vector3d(arm.x(), arm.y(), 0));
+  inertia.add(body::RotatingMass(forms, rows));
   return body::planar(inertia);
 }
 
@@ -123,8 +136,28 @@ TEST_CASE("a section's kinetic energy is m/2 |r'|^2 + rhoI/2 (theta' + psi')^2 a
   }
 }
 
+TEST_CASE("the kinetic energy of mass on an arm is that of its point, to second order") {
+  Random random(19);
+  const VectorXd q = 2 * random.vector(k + 3), v = random.vector(k + 3);
+  const body::MassPoint c = centre();
+  const auto exact = [&](double s) {  // e, e' times s
+    const auto r = [&](double t) {
+      VectorXd at = q + t * v;
+      at.tail(k) *= s;
+      const double psi = turn().dot(at.tail(k));
+      const Vector2d turned = arm + psi * Vector2d(-arm.y(), arm.x()) - psi * psi / 2 * arm;
+      return Vector2d(at.head<2>() + Eigen::Rotation2Dd(at[2]) * Vector2d(c.x + c.N * at.tail(k) + turned));
+    };
+    return 0.5 * c.mass * testing::derivative(r, 0, 1e-3).squaredNorm();
+  };
+  const double none = exact(0), up = exact(1), down = exact(-1), far_up = exact(2), far_down = exact(-2);
+  const double first = (8 * (up - down) / 2 - (far_up - far_down) / 2) / 6,
+               second = (16 * ((up + down) / 2 - none) - ((far_up + far_down) / 2 - none)) / 12;
+  CHECK(body::kinetic_energy(arm_of_centre(), q, v) == Approx(none + first + second).epsilon(1e-8));
+}
+
 TEST_CASE("inertia force is d/dt(dT/dv) - dT/dq of the deformed body") {
-  const body::PlanarInertia in = GENERATE(false, true) ? section() : inertia();
+  const body::PlanarInertia in = GENERATE(inertia(), section(), arm_of_centre());
   Random random(13);
   for (int i = 0; i < 3; ++i) {
     const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
@@ -154,7 +187,7 @@ TEST_CASE("inertia force of the frame is the rate of the points' momentum and mo
 }
 
 TEST_CASE("inertia tangents in q, v and a are the differences of the force") {
-  const body::PlanarInertia in = GENERATE(false, true) ? section() : inertia();
+  const body::PlanarInertia in = GENERATE(inertia(), section(), arm_of_centre());
   Random random(15);
   const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
   const auto by_q = testing::jacobian([&](const VectorXd& x) { return force(x, v, a, in); }, q, 1e-3);

@@ -28,7 +28,8 @@ std::vector<body::MassPoint> points(int k, const Vector3d& moves = Vector3d::One
   return all;
 }
 
-/// A mass of seven points that rotates rigidly about its centre, theta = turn e.
+/// A mass of six points that rotates rigidly, theta = turn e, about its centre or, with an odd seed, about a point
+/// beside it.
 struct Rotor {
   body::MassPoint centre;
   Eigen::MatrixXd turn;
@@ -41,14 +42,20 @@ struct Rotor {
       arms.push_back(random.vector(3));
       arms.push_back(-arms.back());
     }
+    if (seed % 2 == 0) return;
+    const Vector3d beside = random.vector(3);
+    for (Vector3d& arm : arms) arm += beside;
   }
+  bool about_centre() const { return (arms[0] + arms[1]).isZero(); }
   void add_to(body::Inertia& sum) const {
-    Matrix3d moments = Matrix3d::Zero();
+    Matrix3d second = Matrix3d::Zero();
+    body::RotatingForms forms;
     for (const Vector3d& arm : arms) {
-      moments += centre.mass * arm * arm.transpose();
+      second += centre.mass * arm * arm.transpose();
+      forms.add(centre.mass, centre.x + arm, Matrix3d::Identity(), arm);
       sum.add({centre.mass, centre.x + arm, centre.N - math::skew(arm) * turn});
     }
-    sum.add(body::RotatingMass{moments, turn});
+    sum.add(body::RotatingMass(about_centre() ? body::RotatingForms(second) : forms, turn));
   }
 };
 
@@ -211,7 +218,9 @@ TEST_CASE("a body that moves in the plane has the inertia force of the planar fr
   body::Inertia sum = summed(points(k, {1, 1, 0}));
   Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3, k);
   turn.row(2) = Random(27).vector(k);
-  sum.add(body::RotatingMass{Vector3d(0.3, 0.7, 0).asDiagonal(), turn});
+  body::RotatingForms forms(Matrix3d(Vector3d(0.3, 0.7, 0).asDiagonal()));
+  forms.add(0.4, Vector3d(0.3, -0.8, 0.2), Matrix3d::Identity(), Vector3d(0.5, 0.2, 0));
+  sum.add(body::RotatingMass(forms, turn));
   Random random(25);
   const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
   VectorXd planar = VectorXd::Zero(k + 3), found = VectorXd::Zero(k + 6);

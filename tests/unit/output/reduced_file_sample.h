@@ -23,6 +23,8 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
     all.allocate_rotary();
     for (auto& row : all.W)
       for (auto& W : row) W = matrix(k, k);
+    all.allocate_first();
+    for (auto& Q : all.Q) Q = matrix(k, k);
     return all;
   };
   output::ReducedBodyFile file;
@@ -39,6 +41,8 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
   if (k > 0) file.strain_rate_damping = 1e-4;
   for (const char* name : {"tip", "root/left", "lug"})
     file.places.push_back({name, {matrix(d, 1), matrix(d, k), matrix(d == 2 ? 1 : 3, k)}});
+  if (k > 0)
+    for (int a = 0; a < d; ++a) file.places[1].map.Q.push_back(matrix(k, k));
   for (int i = 0; i < k; ++i) file.columns.push_back({"mode", "mode " + std::to_string(i + 1), 10.0 + i, 0.5, true, 0});
   file.columns.push_back({"derivative", "derivative 1,1", 0, 1e-12, false, 0.25});
   file.columns.push_back({"attachment", "root.moment", 0, 0, false, 0, "repeats tip.moment"});
@@ -69,6 +73,8 @@ inline void check_same(const floe::body::Inertia& a, const floe::body::Inertia& 
   CHECK((same(a.s0, b.s0) && same(a.C0, b.C0) && same(a.S, b.S)));
   for (int i = 0; i < a.dimension(); ++i)
     for (int j = 0; j < a.dimension(); ++j) CHECK((same(a.h[i][j], b.h[i][j]) && same(a.M[i][j], b.M[i][j])));
+  REQUIRE(a.Q.size() == b.Q.size());
+  for (std::size_t i = 0; i < a.Q.size(); ++i) CHECK(same(a.Q[i], b.Q[i]));
   REQUIRE(a.W.size() == b.W.size());
   for (std::size_t i = 0; i < a.W.size(); ++i)
     for (std::size_t j = 0; j < a.W.size(); ++j) CHECK(same(a.W[i][j], b.W[i][j]));
@@ -87,6 +93,8 @@ inline void check_same(const floe::output::ReducedBodyFile& a, const floe::outpu
     const auto &left = a.places[i], &right = b.places[i];
     CHECK(left.name == right.name);
     CHECK((same(left.map.x, right.map.x) && same(left.map.S, right.map.S) && same(left.map.psi, right.map.psi)));
+    REQUIRE(left.map.Q.size() == right.map.Q.size());
+    for (std::size_t j = 0; j < left.map.Q.size(); ++j) CHECK(same(left.map.Q[j], right.map.Q[j]));
   }
   REQUIRE(a.columns.size() == b.columns.size());
   for (std::size_t i = 0; i < a.columns.size(); ++i) {

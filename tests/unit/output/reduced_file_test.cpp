@@ -38,16 +38,20 @@ TEST_CASE("a reduced body without damping, places, columns and times") {
 TEST_CASE("a reduced body of the first version of the format, which has no W, is read") {
   Scratch scratch;
   ReducedBodyFile file = sample_body(3, 4);
-  file.body.inertia.W.clear(), file.body.line.W.clear();
+  for (body::Inertia* inertia : {&file.body.inertia, &file.body.line}) inertia->W.clear(), inertia->Q.clear();
+  file.places[1].map.Q.clear();
   file.version = 1, file.strain_rate_damping = 0;
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
 }
 
-TEST_CASE("a reduced body of the second version of the format, which has no strain_rate_damping, is read") {
+TEST_CASE("a reduced body of the second or third version of the format, without strain_rate_damping or Q, is read") {
   Scratch scratch;
   ReducedBodyFile file = sample_body(3, 4);
-  file.version = 2, file.strain_rate_damping = 0;
+  for (body::Inertia* inertia : {&file.body.inertia, &file.body.line}) inertia->Q.clear();
+  file.places[1].map.Q.clear();
+  file.version = GENERATE(2, 3);
+  if (file.version == 2) file.strain_rate_damping = 0;
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
 }
@@ -87,7 +91,7 @@ U = 0.5 * q @ f["elasticity/bending"][:] @ q + 0.5 * np.sum((F @ np.r_[q, s])**2
 place = list(f["places/names"].asstr()).index("root/left")
 u = f["places/S"][place] @ q
 assert abs(U / {:.17g} - 1) < 1e-12 and np.allclose(u, [{:.17g}, {:.17g}, {:.17g}], rtol=1e-12), (U, u)
-assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 3 and f.attrs["complete"] == 1
+assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 4 and f.attrs["complete"] == 1
 )",
                                                     (scratch / "arm.h5").string(),
                                                     body::energy(file.body.elasticity, q), u[0], u[1], u[2]);
@@ -104,7 +108,7 @@ TEST_CASE("a reduced body is told in a page") {
     CHECK_THAT(text, Contains(part));
   CHECK_THAT(text, Contains("1.59155"));  // 10 rad/s over 2 pi
   // numbers: twice 1+2+4+10+4(5+25) inertia, 25 + 8*11 elastic, 25 damping, 3(2+10+5) places; 6 pairs of two int
-  CHECK(online_bytes(file) == 8 * (2 * (137 + 100) + 25 + 88 + 25 + 51) + 48);
+  CHECK(online_bytes(file) == 8 * (2 * (137 + 100 + 50) + 25 + 88 + 25 + 51 + 50) + 48);
 }
 
 TEST_CASE("what is not to be replaced is refused, and replaced when asked") {

@@ -80,8 +80,7 @@ TEST_CASE("reduced inertia constants of bodies in space are V' times those of th
     for (const auto& cell : s.mesh.cells) {
       MatrixXd pick = MatrixXd::Zero(static_cast<Eigen::Index>(s.cell_dofs(cell).size()), s.dofs());
       for (Eigen::Index i = 0; i < pick.rows(); ++i) pick(i, s.original_dof(s.cell_dofs(cell)[i])) = 1;
-      for (const body::RotatingMass& part : s.maps(cell).rotary)
-        full.add(body::RotatingMass{part.moments, part.turn * pick});
+      for (const body::RotatingMass& part : s.maps(cell).rotary) full.add(body::RotatingMass(part, part.turn * pick));
     }
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
