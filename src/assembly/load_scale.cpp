@@ -73,6 +73,16 @@ double size_of(const Load& load, double t, double extent) {
   }
 }
 
+/// 0 where a formula has no value: a motion that comes to that instant reports it.
+template <class Size>
+double where_defined(const Size& size) {
+  try {
+    return size();
+  } catch (const math::FormulaError&) {
+    return 0;
+  }
+}
+
 }  // namespace
 
 double force_of(const Plan& plan) {
@@ -88,8 +98,9 @@ double force_of(const Plan& plan) {
   const Weight weight(plan.scene);
   for (int i = 0; i <= instants; ++i) {
     const double t = (std::isfinite(end) && end > 0 ? end : 1) * i / instants;
-    most = std::max(most, mass * weight(t).norm());
-    for (const Load& load : plan.scene.loads) most = std::max(most, size_of(load, t, extent));
+    most = std::max(most, where_defined([&] { return mass * weight(t).norm(); }));
+    for (const Load& load : plan.scene.loads)
+      most = std::max(most, where_defined([&] { return size_of(load, t, extent); }));
   }
   return std::isfinite(most) ? most : 0;
 }
