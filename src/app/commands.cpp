@@ -124,6 +124,10 @@ void show(const scene::Scene& scene, scene::Formulation formulation, const RunRe
   fmt::print("offline {:.3g} s, simulation {:.3g} s ({:.3g} us per step)\n", result.offline_seconds,
              result.motion_seconds,
              1e6 * result.motion_seconds / std::max<double>(1, static_cast<double>(result.steps)));
+  for (const auto& body : s["bodies"])
+    if (body.contains("products") && body["products"]["kept"] != body["products"]["of"])
+      fmt::print("body {}: {} of {} products of coordinates in the elastic force\n", body["name"].get<std::string>(),
+                 body["products"]["kept"].get<int>(), body["products"]["of"].get<int>());
   fmt::print("constraint violation at most {:.2g} (rates {:.2g}); energy at the end {:.6g} J\n\n",
              s["constraints"]["greatest_violation"].get<double>(),
              s["constraints"]["greatest_velocity_violation"].get<double>(), s["energy"]["end"].get<double>());

@@ -32,6 +32,7 @@ ordered_json body_json(const assembly::BodyReport& body) {
   if (!body.file.empty()) j["reduced_file"] = body.file;
   if (!body.basis && body.file.empty()) return j;
   j["reduced_coordinates"] = body.columns;
+  j["products"] = {{"kept", body.products}, {"of", body.products + body.omitted_products}};
   for (std::size_t i = 0; i < body.omega.size(); ++i)
     j["frequencies"].push_back(
         {{"rad_per_s", body.omega[i]}, {"Hz", body.omega[i] / (2 * M_PI)}, {"residual", body.residual[i]}});

@@ -10,6 +10,7 @@
 #include "floe/fem/field_rows.h"
 #include "floe/math/nearest.h"
 #include "floe/plan/interface.h"
+#include "floe/reduction/products.h"
 
 namespace floe::assembly {
 
@@ -34,6 +35,18 @@ Eigen::MatrixXd modal_damping(const PlannedBody& body, const ReducedBody& reduce
     C += 2 * ratios[i] / std::pow(modes.omega[i], 3) * force * force.transpose();
   }
   return C;
+}
+
+void omit_products(const ReductionSpec& spec, ReducedBody& reduced) {
+  const std::size_t all = reduced.body.elasticity.pairs.size();
+  if (const double share = spec.products.value_or(0); share > 0) {
+    std::vector<char> follows;
+    for (const reduction::ColumnOrigin& origin : reduced.basis->origins)
+      if (origin.kept) follows.push_back(origin.kind == reduction::ColumnOrigin::Kind::derivative);
+    reduced.body.elasticity = reduction::with_fewer_products(reduced.body, follows, share);
+  }
+  reduced.report.products = static_cast<int>(reduced.body.elasticity.pairs.size());
+  reduced.report.omitted_products = static_cast<int>(all) - reduced.report.products;
 }
 
 }  // namespace
@@ -160,7 +173,10 @@ void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, co
             ReducedBody& reduced) {
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
-  if (body.spec.reduction.linear) reduced.body.elasticity = body::linearised(reduced.body.elasticity);
+  if (body.spec.reduction.linear)
+    reduced.body.elasticity = body::linearised(reduced.body.elasticity);
+  else
+    omit_products(body.spec.reduction, reduced);
   reduced.damping = modal_damping(body, reduced, modes);
   reduced.report.columns = reduced.basis->columns;
   reduced.report.origins = reduced.basis->origins;

@@ -39,26 +39,6 @@ body::Inertia leading(const body::Inertia& inertia, int k) {
   return part;
 }
 
-/// The columns of F that belong to the first coordinates; rows by their triangular factor, where these are fewer.
-body::Elasticity leading(const body::Elasticity& elasticity, int k) {
-  const Eigen::Index all = elasticity.bending.rows();
-  std::vector<Eigen::Index> columns;
-  for (int a = 0; a < k; ++a) columns.push_back(a);
-  body::Elasticity part;
-  part.bending = elasticity.bending.topLeftCorner(k, k);
-  for (std::size_t p = 0; p < elasticity.pairs.size(); ++p) {
-    if (elasticity.pairs[p].second >= k) continue;  // pairs a <= b
-    part.pairs.push_back(elasticity.pairs[p]);
-    columns.push_back(all + static_cast<Eigen::Index>(p));
-  }
-  part.F = elasticity.F(Eigen::all, columns);
-  if (part.F.rows() > part.F.cols()) {
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(part.F);
-    part.F = Eigen::MatrixXd(qr.matrixQR().topRows(part.F.cols()).triangularView<Eigen::Upper>());
-  }
-  return part;
-}
-
 std::vector<reduction::ColumnOrigin> origins_of(const output::ReducedBodyFile& file, Formulation formulation) {
   using Kind = reduction::ColumnOrigin::Kind;
   std::vector<reduction::ColumnOrigin> origins;
@@ -85,7 +65,9 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
   if (formulation == Formulation::lffr) reduced.body.elasticity = body::linearised(file.body.elasticity);
   if (formulation == Formulation::vm) {
     const int k = leading_fields(body);
-    reduced.body = {leading(file.body.inertia, k), leading(file.body.elasticity, k), leading(file.body.line, k)};
+    const std::vector<char> all(file.body.elasticity.pairs.size(), 1);
+    reduced.body = {leading(file.body.inertia, k), body::part(file.body.elasticity, k, all),
+                    leading(file.body.line, k)};
     if (reduced.damping.size() > 0) reduced.damping = reduced.damping.topLeftCorner(k, k).eval();
   }
   BodyReport& report = reduced.report;
@@ -95,6 +77,8 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
   report.dimension = file.dimension;
   report.shapes_in_file = file.has_shapes;
   report.columns = reduced.body.coordinates();
+  report.products = static_cast<int>(reduced.body.elasticity.pairs.size());
+  if (formulation == Formulation::vm_md) report.omitted_products = static_cast<int>(file.omitted_products);
   report.omega = file.omega, report.residual = file.residual;
   report.origins = origins_of(file, formulation);
   return reduced;

@@ -82,6 +82,17 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
                       body.spec.name));
 }
 
+/// From so many on they take most of a step (docs/benchmarks/online.md).
+constexpr int many_products = 300;
+
+void warn_of_products(const PlannedBody& body, const BodyReport& report, std::vector<std::string>& warnings) {
+  if (body.spec.reduction.products || report.products <= many_products) return;
+  warnings.push_back(
+      fmt::format("body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
+                  "(reduction) omits those that hardly move the body, products: all keeps them without this warning",
+                  body.spec.name, report.products));
+}
+
 /// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static
 /// response, the basis holds (V'f)' K_r^-1 (V'f). Says so below one half. Collective.
 void warn_of_loads(const Plan& plan, int index, const Stage& stage, const ReducedBody& reduced,
@@ -297,6 +308,7 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     }
     end_stage(body, stages[b], std::move(derivatives), all[b]);
     warn_of_loads(plan, b, stages[b], all[b], warnings);
+    warn_of_products(body, all[b].report, warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
     if (keep_statics) all[b].statics = std::move(stages[b].statics);
     stages[b] = Stage();

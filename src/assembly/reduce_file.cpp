@@ -154,6 +154,7 @@ output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const
   file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
   file.cells = body.structure.mesh.cell_count;
   file.body = reduced.body;
+  file.omitted_products = report.omitted_products;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     if (plan.bodies[b].spec.name == body.spec.name) file.damping = linear_damping(plan, static_cast<int>(b), reduced);
   file.strain_rate_damping = body.spec.damping.stiffness;

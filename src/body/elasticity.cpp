@@ -1,5 +1,7 @@
 #include "floe/body/elasticity.h"
 
+#include <numeric>
+
 #include "floe/math/matrix_vector.h"
 
 namespace floe::body {
@@ -78,5 +80,24 @@ void add_tangent(const Elasticity& e, const Eigen::VectorXd& q, double weight, E
 }
 
 Elasticity linearised(const Elasticity& e) { return {e.bending, e.F.leftCols(e.bending.rows()), {}}; }
+
+Elasticity part(const Elasticity& e, int coordinates, const std::vector<char>& kept) {
+  const Eigen::Index all = e.bending.rows();
+  std::vector<Eigen::Index> columns(coordinates);
+  std::iota(columns.begin(), columns.end(), 0);
+  Elasticity some;
+  some.bending = e.bending.topLeftCorner(coordinates, coordinates);
+  for (std::size_t p = 0; p < e.pairs.size(); ++p) {
+    if (!kept[p] || e.pairs[p].second >= coordinates) continue;  // pairs a <= b
+    some.pairs.push_back(e.pairs[p]);
+    columns.push_back(all + static_cast<Eigen::Index>(p));
+  }
+  some.F = e.F(Eigen::all, columns);
+  if (some.F.rows() > some.F.cols()) {
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(some.F);
+    some.F = Eigen::MatrixXd(qr.matrixQR().topRows(some.F.cols()).triangularView<Eigen::Upper>());
+  }
+  return some;
+}
 
 }  // namespace floe::body

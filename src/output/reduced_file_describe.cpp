@@ -113,8 +113,10 @@ std::string describe(const ReducedBodyFile& file) {
   text += fmt::format("frame       {}\n", frame_text(file.frame));
   text += fmt::format("basis       {} coordinates of {} candidate vectors\n", kept, file.columns.size());
   text += left_out(file);
-  text += fmt::format("energy      {} squares of {} coordinates and {} products\n", elasticity.F.rows(),
-                      elasticity.bending.rows(), elasticity.pairs.size());
+  const std::string of =
+      file.omitted_products > 0 ? fmt::format(" of {}", elasticity.pairs.size() + file.omitted_products) : "";
+  text += fmt::format("energy      {} squares of {} coordinates and {}{} products\n", elasticity.F.rows(),
+                      elasticity.bending.rows(), elasticity.pairs.size(), of);
   text += fmt::format("damping     {}\n", file.damping.size() ? "yes" : "none");
   text += fmt::format("online      {:.1f} kB\n", static_cast<double>(online_bytes(file)) / 1000);
   text += fmt::format("shapes      {}\n", file.has_shapes ? "of all nodes" : "none");

@@ -44,7 +44,10 @@ class Writer {
     add(name);
     for (const auto& each : all) add(each);
   }
-  /// Left out of the sum, so that a floe that does not know them finds its sum, too.
+  /// Left out of the sum, as the next, so that a floe that does not know them finds its sum, too.
+  void count(const std::string& name, std::int64_t one, const std::string& description) {
+    write_whole<std::int64_t>(file_, name, {}, std::span(&one, 1), {"", description});
+  }
   void remarks(const std::string& name, const std::vector<std::string>& all, const std::string& description) {
     write_texts(file_, name, all, {"", description});
   }
@@ -169,6 +172,8 @@ void put(Writer& to, const ReducedBodyFile& file) {
   put(to, "inertia", file.body.inertia, of_mass);
   put(to, "line", file.body.line, of_line);
   put(to, file.body.elasticity);
+  if (file.omitted_products > 0)
+    to.count("elasticity/omitted", file.omitted_products, "pairs left out, whose products do little");
   to.matrix("damping", file.damping, "s^-1", "of small motions of the coordinates; 0 x 0 for none");
   if (file.version >= 3)
     to.numbers("strain_rate_damping", {}, {file.strain_rate_damping}, "s",

@@ -166,6 +166,8 @@ ReducedBodyFile parse(hid_t file) {
   all.nodes = read_count(file, "body/nodes");
   all.cells = read_count(file, "body/cells");
   all.body.elasticity = read_elasticity(file);
+  if (H5Lexists(file, "elasticity/omitted", H5P_DEFAULT) > 0)
+    all.omitted_products = read_count(file, "elasticity/omitted");
   const int d = all.dimension, k = all.body.coordinates();
   all.body.inertia = read_inertia(file, "inertia", d, k);
   all.body.line = read_inertia(file, "line", d, k);

@@ -67,6 +67,20 @@ DerivativesSpec read_derivatives(Document& document, Reading& reduction, const M
   return derivatives;
 }
 
+std::optional<double> read_products(Document& document, Reading& reduction) {
+  if (!reduction.given("products")) return {};
+  const Value value = *reduction.value("products");
+  if (value.node.IsScalar() && value.node.Scalar() == "all") return 0;
+  const std::string word = value.node.IsScalar() ? value.node.Scalar() : "";
+  if (word.empty() || word.find_first_not_of("+-.0123456789eE %") != std::string::npos) {
+    document.fault(value.where, shown(value.node), describe(reduction.key("products")), word, {"all"});
+    return {};
+  }
+  const std::size_t before = document.fault_count();
+  const double share = read_share(document, value, reduction.key("products"));
+  return document.fault_count() == before ? std::optional(share) : std::nullopt;
+}
+
 }  // namespace
 
 ReductionSpec read_reduction(Document& document, const Value& value, const std::string& body) {
@@ -92,6 +106,7 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
                      "one of them");
   }
   reduction.linear = reading.choice("elastic_force") == "linear";
+  reduction.products = read_products(document, reading);
   reduction.drop_tolerance = reading.number("drop_tolerance");
   return reduction;
 }

@@ -178,6 +178,15 @@ const SchemaSection reduction_section{
         choice("elastic_force", "von_karman",
                "elastic force of reduced models; linear: without quadratic and cubic terms, for small deflections",
                {"von_karman", "linear"}),
+        {"products",
+         Type::products,
+         "",
+         "",
+         "products of two coordinates in the elastic force: all, or a share: products with a modal derivative are "
+         "omitted as long as together they contribute at most this share of the displacement, at deformations of 5 % "
+         "of "
+         "the length of the body (see Choosing a model); absent: all",
+         {0, 1, true, true}},
         {"drop_tolerance",
          Type::number,
          "",

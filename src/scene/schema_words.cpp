@@ -88,6 +88,8 @@ std::string describe(const Key& key, int dimension) {
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
     case Type::derivatives:
       return "all, none, an integer or a list of pairs [i, j]";
+    case Type::products:
+      return "all, a number, or a percentage (1 %)";
     case Type::place:
       return "a place (BODY.NAME, or {body: BODY, node: " + coordinates + "})";
     case Type::places:

@@ -69,6 +69,23 @@ probes:
   bend: {at: panel.right, quantity: deflection}
 """
 
+# Strains of second order: modal derivatives have slopes, too, and a product with every other vector.
+STRIP = """
+title: Strip of shells
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.25, 0], elements: [8, 2]}}
+    section: {thickness: 6e-3}
+    strains: second_order
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    reduction: {modes: 4}
+joints: {root: {type: fixed, between: [ground, strip.left]}}
+loads: {tip: {type: force, at: strip.right, force: [0, 0, "25*sin(30*t)"]}}
+motion: {end: 0.2, step: 1e-3}
+probes: {tip: {at: strip.right}}
+"""
+SHARES = ["all", "1 %", "3 %", "10 %"]
+
 STEPS = [  # name, scene, target in microseconds
     ("plane, 3 modes + 6 derivatives, hinge", BEAM, 8),
     ("space, 5 modes + 15 derivatives, hinge", PANEL.replace("MODES", "5").replace("END", "5"), 20),
@@ -80,12 +97,12 @@ FULL = [  # elements, end of the simulation [s]
 ]
 
 
-def run(floe, text, formulation, folder):
+def run(floe, text, formulation, folder, *options):
     scene, out = os.path.join(folder, "scene.yaml"), os.path.join(folder, formulation)
     with open(scene, "w", encoding="utf-8") as file:
         file.write(text)
     shutil.rmtree(out, ignore_errors=True)
-    done = subprocess.run([floe, "run", scene, "--formulation", formulation, "-o", out], capture_output=True, text=True,
+    done = subprocess.run([floe, "run", scene, "--formulation", formulation, "-o", out, *options], capture_output=True, text=True,
                           check=False)
     if done.returncode:
         raise SystemExit(f"{formulation}:\n{done.stdout}{done.stderr}")
@@ -137,6 +154,39 @@ def measure_full(arguments, folder):
     return found
 
 
+def blade(folder):
+    """The example's scene, its mesh in the folder."""
+    here = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples", "blade")
+    shutil.copy(os.path.join(here, "mesh.py"), folder)
+    subprocess.run([sys.executable, os.path.join(folder, "mesh.py")], check=True, stdout=subprocess.DEVNULL)
+    with open(os.path.join(here, "scene.yaml"), encoding="utf-8") as file:
+        return file.read()
+
+
+def measure_products(arguments, folder):
+    """Of each scene and share: the summaries, and the error of the probe against the full-order model."""
+    found = []
+    for name, text, modes in [("strip", STRIP, "modes: 4"), ("blade (examples/blade)", blade(folder), "modes: 8, products: 3 %")]:
+        print(f"products, {name}", file=sys.stderr)
+        reference = run(arguments.floe, text, "nlffr", folder)
+        for share in SHARES * arguments.repeat:
+            summary, _, values = run(arguments.floe, text.replace(modes, f"{modes.split(',')[0]}, products: {share}"), "vm+md", folder,
+                                     "--no-estimate")
+            found.append((name, share, summary, relative_rms(values, reference[2], range(1, len(values[0])))))
+    return found
+
+
+def product_rows(found):
+    rows = []
+    for name, share in dict.fromkeys((name, share) for name, share, _, _ in found):
+        runs = [(summary, error) for n, s, summary, error in found if (n, s) == (name, share)]
+        body = runs[0][0]["bodies"][0]
+        times = [per_step(summary) for summary, _ in runs]
+        rows.append([name, share, str(body["reduced_coordinates"]), f"{body['products']['kept']} of {body['products']['of']}",
+                     f"{iterations(runs[0][0]):.2f}", f"{min(times):.1f}", f"{max(times):.1f}", f"{100 * runs[0][1]:.2f}"])
+    return rows
+
+
 def step_rows(found):
     rows = []
     for name, _, wanted in STEPS:
@@ -166,7 +216,7 @@ def processor():
         return next((line.split(":")[1].strip() for line in file if line.startswith("model name")), "unknown")
 
 
-def document(steps, full, arguments):
+def document(steps, full, products, arguments):
     origin = next(iter(steps.values()))[0]["provenance"]
     lines = ["# Time per step", "",
              f"{datetime.date.today()}, {processor()}, {os.cpu_count()} cores, load average {os.getloadavg()[0]:.1f}; "
@@ -178,6 +228,10 @@ def document(steps, full, arguments):
               "and 6 modes with their 21 derivatives use the same steps of 5 ms.", ""]
     lines += table(["dofs", "coordinates", "steps", "NLFFR [us]", "reduced [us]", "ratio", "error of the tip [%]",
                     "error of its deflection [%]", "offline [s]"], full_rows(full))
+    lines += ["## Fewer products", "",
+              "`reduction: {products: ...}`: products of two coordinates in the elastic force; error of the probe against the full-order model.", ""]
+    lines += table(["scene", "products", "k", "kept", "Newton iterations per step", "min [us]", "max [us]", "error [%]"],
+                   product_rows(products))
     here = os.path.dirname(os.path.abspath(__file__))
     with open(os.path.join(here, NOTES), encoding="utf-8") as file:
         lines += [file.read()]
@@ -193,7 +247,8 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         steps, full = measure_steps(arguments, folder), measure_full(arguments, folder)
-    text = document(steps, full, arguments)
+        products = measure_products(arguments, folder)
+    text = document(steps, full, products, arguments)
     os.makedirs(arguments.out, exist_ok=True)
     with open(os.path.join(arguments.out, "online.md"), "w", encoding="utf-8") as file:
         file.write(text)

@@ -41,6 +41,7 @@ struct BodyReport {
   std::vector<std::string> notices = {};  ///< of its mesh: what was left out, what may be meant
   int dimension = 2;
   int columns = 0;
+  int products = 0, omitted_products = 0;  ///< of coordinates in the elastic force
   std::vector<double> omega, residual;
   int left_out = 0;              ///< reduction::Modes::left_out
   int free_motions = 0;          ///< rigid motions that the conditions of the modes leave free
@@ -95,9 +96,9 @@ struct ModelProbe {
   std::vector<const dynamics::Connection*> connections = {};
   std::shared_ptr<const dynamics::StateFormula> formula = {};  ///< of quantity formula, on the system's last rank
   std::string unit = {};                                       ///< likewise
-  std::vector<ModelSection> sections = {};            ///< of a section: one, or both sides
-  std::shared_ptr<const ShellPoint> shell = {};       ///< of a shell
-  std::optional<FrameByPlaces> frame = {};  ///< deflection of corotational and split bodies
+  std::vector<ModelSection> sections = {};                     ///< of a section: one, or both sides
+  std::shared_ptr<const ShellPoint> shell = {};                ///< of a shell
+  std::optional<FrameByPlaces> frame = {};                     ///< deflection of corotational and split bodies
 };
 
 /// One side of a joint's limits.

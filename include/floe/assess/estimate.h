@@ -42,7 +42,7 @@ struct Estimate {
   std::vector<double> relative;  ///< of each: error of the deformations, of the maximum root mean square so far
   int samples = 0;               ///< full-order residuals
   int columns = 0;               ///< that the bodies got for the estimate
-  double unbalanced = 0;         ///< maximum |V'r| of what |V'f| is: round-off, or something is missing in r
+  double unbalanced = 0;         ///< maximum |V'r| of what |V'f| is: round-off, or what omitted products do
   double seconds = 0, allowed = 0;
   std::vector<std::string> notes;                                    ///< what was left out, and why
   std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none

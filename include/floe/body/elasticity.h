@@ -35,4 +35,12 @@ void add_tangent(const Elasticity& elasticity, const Eigen::VectorXd& q, double 
 /// The linear body of the same K: pairs dropped.
 Elasticity linearised(const Elasticity& elasticity);
 
+/// The energy of the first coordinates with some of their pairs, the other products taken as zero: again a sum of
+/// squares, with the same linear part. Of the columns of F that are kept, the triangular factor, where that has fewer
+/// rows.
+///
+/// @param coordinates  how many of the first
+/// @param kept         of each pair whether it is; of pairs of other coordinates of no effect
+Elasticity part(const Elasticity& elasticity, int coordinates, const std::vector<char>& kept);
+
 }  // namespace floe::body

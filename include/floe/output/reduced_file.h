@@ -55,6 +55,7 @@ struct ReducedBodyFile {
   int dimension = 2;
   std::int64_t dofs = 0, nodes = 0, cells = 0;  ///< of the mesh
   body::FlexibleBody body;
+  std::int64_t omitted_products = 0;   ///< of coordinates in the elastic force, beside its pairs
   Eigen::MatrixXd damping;             ///< of small motions, k x k, or empty for none [1/s]
   double strain_rate_damping = 0;      ///< beta of Kelvin-Voigt [s]; `damping` includes beta K
   std::vector<ReducedPlace> places;    ///< names differ

@@ -114,6 +114,9 @@ struct ReductionSpec {
   std::vector<std::string> columns;
   Where columns_where;
   bool linear = false;  ///< elastic forces by the linear stiffness alone
+  /// Share of the displacement that omitted products of coordinates in the elastic force may make up; absent, 0: none
+  /// is omitted.
+  std::optional<double> products;
   double drop_tolerance = 1e-7;
 };
 

@@ -29,6 +29,7 @@ enum class Type {
   formula_of_place,
   choice,
   derivatives,
+  products,
   place,
   places,
   own_place,

@@ -153,3 +153,28 @@ TEST_CASE("body_modes gives frequencies and residuals as the reduction asks") {
   CHECK(reports[0].omega[1] == Approx(9.00192).epsilon(1e-3));
   for (double residual : reports[0].residual) CHECK(residual < 1e-8);
 }
+
+TEST_CASE("products of coordinates: all, or as few as the scene says") {
+  const auto report = [](const std::string& reduction) {
+    return built(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 10}}
+    section: {shape: rectangle, width: 0.02, height: 0.01, orientation: [0, 0, 1]}
+    material: {E: 2.1e11, nu: 0.3, rho: 7850}
+    reduction: )yaml" +
+                     reduction + R"yaml(
+joints: {root: {type: fixed, between: [ground, beam.start]}}
+motion: {end: 0.1, step: 0.01}
+)yaml",
+                 Formulation::vm_md)
+        .bodies[0];
+  };
+  const assembly::BodyReport all = report("{modes: 6}"), few = report("{modes: 6, products: 3 %}");
+  CHECK(all.products == 66);
+  CHECK(all.omitted_products == 0);
+  CHECK(report("{modes: 6, products: all}").products == 66);
+  CHECK(few.omitted_products > 0);
+  CHECK(few.products + few.omitted_products == 66);
+  CHECK(report("{modes: 6, elastic_force: linear}").products == 0);
+}

@@ -84,6 +84,28 @@ TEST_CASE("the linearised body has the tangent at rest and nothing else") {
   CHECK(force(e, Eigen::VectorXd::Zero(4)).norm() == 0);
 }
 
+TEST_CASE("part of the coordinates and products is the whole with the others at zero") {
+  const body::Elasticity e = sample();
+  const body::Elasticity whole = body::part(e, 4, std::vector<char>(6, 1));
+  const body::Elasticity some = body::part(e, 4, {1, 0, 1, 1, 0, 0});
+  CHECK(some.pairs == std::vector<std::pair<int, int>>{{0, 0}, {0, 3}, {2, 2}});
+  CHECK((whole.F.rows() == 7 && some.F.rows() == 7));
+  body::Elasticity zeroed = e;
+  for (const int p : {1, 4, 5}) zeroed.F.col(4 + p).setZero();
+  const body::Elasticity first = body::part(e, 3, std::vector<char>(6, 1));
+  CHECK(first.pairs == std::vector<std::pair<int, int>>{{0, 0}, {0, 2}, {2, 2}});
+  CHECK(first.F.rows() == 6);  // the triangle of 7 rows and 3 + 3 columns
+  Random random(12);
+  for (int i = 0; i < 5; ++i) {
+    Eigen::VectorXd q = 3 * random.vector(4);
+    CHECK(body::energy(whole, q) == Approx(body::energy(e, q)).epsilon(1e-13));
+    CHECK(testing::relative_error(force(some, q), force(zeroed, q)) < 1e-13);
+    CHECK(testing::relative_error(tangent(some, q), tangent(zeroed, q)) < 1e-13);
+    q[3] = 0;
+    CHECK(body::energy(first, q.head(3)) == Approx(body::energy(e, q)).epsilon(1e-13));
+  }
+}
+
 TEST_CASE("a body without membrane rows is its bending stiffness") {
   const body::Elasticity e{sample().bending, Eigen::MatrixXd(0, 4), {}};
   const Eigen::VectorXd q = Random(4).vector(4);

@@ -35,6 +35,7 @@ bodies:
       derivative_type: full
       attachment: all
       drop_tolerance: 1e-5
+      products: 2 %
     damping: {mass: 0.1, stiffness: 0.2, modal: [0.01, 0.02]}
     initial:
       position: [1, half]
@@ -115,6 +116,7 @@ TEST_CASE("reductions, other meshes and rigid bodies are read as they stand") {
   CHECK(reduction.derivatives.full);
   CHECK(reduction.attachment == ReductionSpec::Attachment::all);
   CHECK(reduction.drop_tolerance == 1e-5);
+  CHECK(reduction.products == 0.02);
   const Body& arm = scene.bodies[1];
   CHECK(arm.mesh.segments == std::vector<std::array<int, 2>>{{1, 0}, {1, 2}});
   CHECK(arm.mesh.elements == std::vector<int>{3, 4});
@@ -151,7 +153,7 @@ TEST_CASE("joints, loads, motion and probes are read as they stand") {
   CHECK(scene.motion.tolerance == 1e-4);
   CHECK(scene.motion.every == 10);
   CHECK(scene.probes[0].quantity == Probe::Quantity::velocity);
-  CHECK(scene.probes[0].at.where.text() == "full.yaml:47:13: probes.tip.at");
+  CHECK(scene.probes[0].at.where.text() == "full.yaml:48:13: probes.tip.at");
 }
 
 // The grammar's defaults and those of the plain data agree, so that a Scene made in code is one read from a file.
@@ -173,6 +175,7 @@ TEST_CASE("what is absent takes the defaults of the data") {
   CHECK(beam.reduction.derivatives.choice == none.reduction.derivatives.choice);
   CHECK(beam.reduction.attachment == none.reduction.attachment);
   CHECK(beam.reduction.drop_tolerance == none.reduction.drop_tolerance);
+  CHECK_FALSE(beam.reduction.products);
   CHECK(beam.damping.stiffness == none.damping.stiffness);
   CHECK(beam.initial.position == none.initial.position);
   CHECK_FALSE(beam.initial.deformation);
