@@ -157,11 +157,12 @@ std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int 
 
 void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
   const Joint& joint = plan_.scene.joints[j];
+  const std::shared_ptr<const dynamics::Latch> active = own_latch(latches_, joint.name);
   const auto add = [&](const LimitsSpec& limits, Of of) {
     const dynamics::Stop* term = nullptr;
     if (owner_) {
-      auto stop =
-          std::make_unique<dynamics::Stop>(coordinate_of(j, of, placed), law_of(limits, of == Of::turn, plan_.extent));
+      auto stop = std::make_unique<dynamics::Stop>(coordinate_of(j, of, placed),
+                                                   law_of(limits, of == Of::turn, plan_.extent), active);
       term = stop.get();
       connect(j, std::move(stop));
     }
@@ -169,10 +170,10 @@ void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<Mo
   };
   const Of main = joint.kind == Kind::revolute ? Of::turn : Of::slide;
   if (joint.friction && owner_)
-    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, main, placed), law_of(*joint.friction)));
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, main, placed), law_of(*joint.friction), active));
   if (joint.turn_friction && owner_)
-    connect(j,
-            std::make_unique<dynamics::JointForce>(coordinate_of(j, Of::turn, placed), law_of(*joint.turn_friction)));
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, Of::turn, placed), law_of(*joint.turn_friction),
+                                                      active));
   if (joint.limits) add(*joint.limits, main);
   if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
 }

@@ -2,6 +2,7 @@
 
 #include "planar_assembly.h"
 #include "spatial_assembly.h"
+#include "stops.h"
 
 namespace floe::assembly {
 
@@ -15,10 +16,14 @@ dynamics::RelativeCoordinate::Of of_dynamics(JointCoordinate of) {
   return of == JointCoordinate::turn ? Of::turn : of == JointCoordinate::travel ? Of::slide : Of::length;
 }
 
-std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoordinate> of) {
-  return std::make_unique<dynamics::JointForce>(std::move(of), [](double, double) {
-    return dynamics::ForceOnCoordinate{-1, 0, 0, 0};
-  });
+std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoordinate> of,
+                                          std::shared_ptr<const dynamics::Latch> active) {
+  return std::make_unique<dynamics::JointForce>(
+      std::move(of),
+      [](double, double) {
+        return dynamics::ForceOnCoordinate{-1, 0, 0, 0};
+      },
+      std::move(active));
 }
 
 namespace {
@@ -95,8 +100,9 @@ void PlanarAssembly::add_state_loads(Model& model, const Eigen::VectorXd& q) {
       if (!owner_) continue;
       const std::size_t j = joint_index(plan_.scene, load.joint);
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 2));
-      connect(j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, joint_places_[j], q)),
-                                              StateFormula(load.on_joint, sensors(load.on_joint, model, q))));
+      connect(j, std::make_unique<StateForce>(
+                     unit_load(coordinate_of(j, of, joint_places_[j], q), own_latch(latches_, load.joint)),
+                     StateFormula(load.on_joint, sensors(load.on_joint, model, q))));
       continue;
     }
     if (!load.has_sensors()) continue;
@@ -140,8 +146,9 @@ void SpatialAssembly::add_state_loads(Model& model) {
       if (!owner_) continue;
       const auto j = static_cast<int>(joint_index(plan_.scene, load.joint));
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 3));
-      connect(j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j])),
-                                              StateFormula(load.on_joint, sensors(load.on_joint, model))));
+      connect(j,
+              std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_latch(latches_, load.joint)),
+                                           StateFormula(load.on_joint, sensors(load.on_joint, model))));
       continue;
     }
     if (!load.has_sensors()) continue;

@@ -13,6 +13,12 @@ dynamics::FrictionLaw law_of(const FrictionSpec& friction) {
   return {friction.level, friction.viscosity, friction.speed};
 }
 
+std::shared_ptr<const dynamics::Latch> own_latch(const std::map<std::string, JointLatches>& all,
+                                                 const std::string& joint) {
+  const auto found = all.find(joint);
+  return found == all.end() ? nullptr : found->second.joint;
+}
+
 void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::Stop* term, std::vector<ModelStop>& all) {
   if (std::isfinite(limits.lower)) all.push_back({joint.name, false, term});
   if (std::isfinite(limits.upper)) all.push_back({joint.name, true, term});
@@ -26,7 +32,8 @@ std::array<double, 2> stop_gap(const Model& model, std::size_t i, Vec U, Vec V) 
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
-  if (rank == size - 1) {
+  if (rank == size - 1) gap = {1, 0};  // of a joint that is released: never hit
+  if (rank == size - 1 && model.stops[i].term->is_active()) {
     const dynamics::Stop& stop = *model.stops[i].term;
     const Eigen::VectorXd own = q(stop.coordinates()), rates = v(stop.coordinates()),
                           none = Eigen::VectorXd::Zero(own.size());

@@ -9,6 +9,10 @@ dynamics::StopLaw law_of(const LimitsSpec& limits, bool turn, double extent);
 
 dynamics::FrictionLaw law_of(const FrictionSpec& friction);
 
+/// What states whether a joint's own constraints are active; none: no event unlocks it.
+std::shared_ptr<const dynamics::Latch> own_latch(const std::map<std::string, JointLatches>& all,
+                                                 const std::string& joint);
+
 /// Notes the stops of a joint. @param term  null where another rank has it
 void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::Stop* term, std::vector<ModelStop>& all);
 

@@ -264,3 +264,32 @@ probes: {angle: {at: rod.end, quantity: rotation}}
     for (int n = 0; n < 5; ++n) CHECK(peaks[n] == Approx(0.5 - 2 * f / k * (n + 1)).margin(2e-4));
   }
 }
+
+// I w. = -M until the release, then w is constant: friction, stops and loads of a joint end with its constraints.
+TEST_CASE("state loads: a joint that is released exerts no friction, no load, and has no stops") {
+  for (const bool space : {false, true}) {
+    INFO("in space " << space);
+    std::string text = rod(space, R"yaml(
+loads: {motor: {type: moment, joint: hinge, moment: "-1 - 0*hinge.angle"}}
+events: {drop: {unlock: hinge, at: 0.1}}
+motion: {end: 0.5, step: 1e-3}
+probes: {w: {at: rod.end, quantity: angular_velocity}}
+)yaml");
+    const std::string plain = space ? fill("axis: $z}", {{"z", turn(0, 0, 1)}}) : "[ground, rod.start]}";
+    const auto at = text.find(plain);
+    REQUIRE(at != std::string::npos);
+    text.insert(at + plain.size() - 1, ", friction: {level: 4, speed: 1e-3}, limits: {upper: 0.6, stiffness: 1e4}");
+    const std::string shape = space ? "rotation: " + turn.rotation() : "rhoI: 0}";
+    const auto body = text.find(shape);
+    REQUIRE(body != std::string::npos);
+    text.insert(body + shape.size(), space ? fill(", angular_velocity: $w", {{"w", turn(0, 0, 4)}})
+                                           : "\n    initial: {angular_velocity: 4}");
+    const History history = move(text, Formulation::vm_md);
+    double w = 0;
+    if (space)
+      w = (turn.Q.transpose() * vector_at(history, "w", history.t.size() - 1)).z();
+    else
+      w = history["w.z"].back();
+    CHECK(w == Approx(4 - 5 * 0.1).epsilon(1e-6));  // 1.77 rad beyond the start: a stop would have thrown it back
+  }
+}

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "floe/dynamics/connection.h"
+#include "floe/dynamics/event.h"
 #include "floe/dynamics/relative_coordinate.h"
 
 namespace floe::dynamics {
@@ -17,7 +18,9 @@ struct ForceOnCoordinate {
 class JointForce : public Connection {
  public:
   using Law = std::function<ForceOnCoordinate(double x, double rate)>;
-  JointForce(std::unique_ptr<RelativeCoordinate> of, Law law) : of_(std::move(of)), law_(std::move(law)) {}
+  /// @param active  if given, whether the joint's own constraints are; a joint that is released exerts no force
+  JointForce(std::unique_ptr<RelativeCoordinate> of, Law law, std::shared_ptr<const Latch> active = {})
+      : of_(std::move(of)), law_(std::move(law)), active_(std::move(active)) {}
   const std::vector<int>& coordinates() const override { return of_->coordinates(); }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
@@ -25,13 +28,17 @@ class JointForce : public Connection {
   Wrench on_second(const Motion& motion) const override;
   /// x and its rate.
   RelativeCoordinate::Value at(const Motion& motion) const { return of_->see(motion); }
-  void begin_step(const Motion& motion) override { of_->begin_step(motion); }
+  bool is_active() const { return !active_ || active_->closed; }
+  void begin_step(const Motion& motion) override {
+    if (is_active()) of_->begin_step(motion);
+  }
   void save(std::vector<double>& carried) const override { of_->save(carried); }
   void load(std::span<const double> carried) override { of_->load(carried); }
 
  private:
   std::unique_ptr<RelativeCoordinate> of_;
   Law law_;
+  std::shared_ptr<const Latch> active_;
 };
 
 /// Coulomb friction, regularised, and viscous friction of a joint:
