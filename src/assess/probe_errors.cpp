@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace floe::assess {
 
@@ -26,16 +27,21 @@ std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, con
                                     double duration) {
   const std::vector<std::size_t> probe = numbers_of(columns);
   using Kind = ProbeColumn::Kind;
-  std::map<Kind, double> most;  // of each kind, relative to the scales
+  using Group = std::pair<Kind, std::string>;
+  const auto group = [&](const ProbeColumn& column) -> Group {  // formulas of unlike quantities have nothing in common
+    if (column.kind != Kind::formula) return {column.kind, ""};
+    return {column.kind, column.unit.empty() ? column.name : column.unit};
+  };
+  std::map<Group, double> most;  // of each kind, relative to the scales
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    double& one = most[columns[i].kind];
+    double& one = most[group(columns[i])];
     one = std::max(one, sizes[probe[i]] / columns[i].scale);
   }
-  const double part = std::max(1e-10, 1e-7 * std::min(most[Kind::place], 1.0));
+  const double part = std::max(1e-10, 1e-7 * std::min(most[Group{Kind::place, ""}], 1.0));
   std::vector<double> references = sizes;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Kind kind = columns[i].kind;
-    double least = kind == Kind::place ? part : 1e-7 * most[kind];
+    double least = kind == Kind::place ? part : 1e-7 * most[group(columns[i])];
     if (kind == Kind::load) least = std::max(least, 1e-7);
     if (kind == Kind::rate) least = std::max(least, part / (duration > 0 ? duration : 1));
     references[probe[i]] = std::max(references[probe[i]], least * columns[i].scale);

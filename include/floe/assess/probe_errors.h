@@ -20,7 +20,7 @@ std::string probe_of(const ProbeColumn& column);
 ///
 /// what is below is round-off, or of no account. For velocities S = extent / duration (they do not count as q), or 1e-7
 /// of the maximum of them where that is more; of forces and moments 1e-7 of their maximum or of S, a force of the scene
-/// (Model::force; times the extent).
+/// (Model::force; times the extent); of formulas 1e-7 of the maximum of those with the same unit.
 /// @param duration  of the motion [s]; 0: a second
 std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, const std::vector<double>& sizes,
                                     double duration);

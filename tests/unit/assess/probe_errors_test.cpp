@@ -71,3 +71,16 @@ TEST_CASE("errors of forces that are zero up to round-off are of no account") {
   CHECK(of(0.1, 1e-3) == Approx(0.01));
   CHECK(reference_sizes(loads, {0, 5e4}, 1)[0] == Approx(1e-7 * 125 * 200));
 }
+
+TEST_CASE("errors of formulas refer to those of the same unit") {
+  using Kind = ProbeColumn::Kind;
+  const std::vector<ProbeColumn> formulas = {{"power.value", "W", 1, Kind::formula},
+                                             {"error.value", "rad", 1, Kind::formula},
+                                             {"other.value", "rad", 1, Kind::formula},
+                                             {"plain.value", "", 1, Kind::formula}};
+  const std::vector<double> sizes = reference_sizes(formulas, {2e6, 5e-3, 1e-12, 1e-3}, 1);
+  CHECK(sizes[0] == 2e6);
+  CHECK(sizes[1] == 5e-3);  // 1e-7 of the power would be 0.2
+  CHECK(sizes[2] == Approx(5e-10));
+  CHECK(sizes[3] == 1e-3);
+}
