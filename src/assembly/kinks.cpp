@@ -19,10 +19,42 @@ void add_drive(const Joint& joint, const Motion& motion, double end, std::vector
   }
 }
 
+/// Values of a formula's sensors at which its jumps in time are searched: one set may make a jump vanish
+/// (`(1 - slide.travel)*pulse(t, 1, 2)` at 1), or take another branch.
+std::vector<std::vector<double>> sensor_values(std::size_t sensors) {
+  std::vector<std::vector<double>> sets(sensors == 0 ? 1 : 4);
+  for (std::size_t i = 0; i < sensors; ++i) {
+    sets[0].push_back(1);
+    sets[1].push_back(0.37 + 0.29 * static_cast<double>(i));
+    sets[2].push_back(-0.73 - 0.41 * static_cast<double>(i));
+    sets[3].push_back(1.83 - 0.97 * static_cast<double>(i));
+  }
+  return sets;
+}
+
+/// Where a load jumps in time for any value of its sensors: of sensors themselves steps take care as of any state.
 void add_load(const math::Formula& load, double step, double end, std::vector<dynamics::Kink>& kinks) {
-  const math::Breaks all = math::breaks(load, 0, end, std::min(step, end / 1000));
-  for (const math::Break& at : all.at)
-    if (jumps(all, at, 0)) kinks.push_back({at.before, at.after, "", ""});
+  struct Found {
+    double before, after;
+    int times;
+    bool jump;
+  };
+  std::vector<Found> found;
+  const std::size_t sensors = load.has_sensors() ? load.variables().size() - 1 : 0;
+  for (const std::vector<double>& values : sensor_values(sensors)) {
+    const math::Breaks all = math::breaks(load, 0, end, std::min(step, end / 1000), values);
+    for (const math::Break& at : all.at) {
+      const auto same = std::find_if(found.begin(), found.end(), [&](const Found& other) {
+        return at.before <= other.after && other.before <= at.after;
+      });
+      if (same == found.end())
+        found.push_back({at.before, at.after, 1, jumps(all, at, 0)});
+      else
+        ++same->times, same->jump = same->jump || jumps(all, at, 0);
+    }
+  }
+  for (const Found& at : found)  // an instant that moves with the sensors is none of time
+    if (at.jump && (sensors == 0 || at.times > 1)) kinks.push_back({at.before, at.after, "", ""});
 }
 
 /// The later one into the earlier one.

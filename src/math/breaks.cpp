@@ -16,9 +16,29 @@ struct Sample {
   std::vector<signed char> signs;
 };
 
-Sample sample(const Expression& f, double t) {
+/// The formula as a function of its first variable.
+class OfTime {
+ public:
+  OfTime(const Expression& f, std::span<const double> others) : f_(f), variables_(1, 0.0) {
+    variables_.insert(variables_.end(), others.begin(), others.end());
+  }
+  Jet operator()(double t) const {
+    variables_[0] = t;
+    return f_(variables_);
+  }
+  Jet operator()(double t, std::vector<Jet>& switches) const {
+    variables_[0] = t;
+    return f_(variables_, switches);
+  }
+
+ private:
+  const Expression& f_;
+  mutable std::vector<double> variables_;
+};
+
+Sample sample(const OfTime& f, double t) {
   Sample at{t, {}, {}, {}};
-  at.jet = f(std::array{t}, at.switches);
+  at.jet = f(t, at.switches);
   for (const Jet& s : at.switches) at.signs.push_back(s.value > 0 ? 1 : s.value < 0 ? -1 : 0);
   return at;
 }
@@ -30,7 +50,7 @@ double margin(double t, double spacing) { return std::max(4 * (std::nextafter(t,
 
 class Search {
  public:
-  Search(const Expression& f, double from, double spacing, Breaks& found)
+  Search(const OfTime& f, double from, double spacing, Breaks& found)
       : f_(f), from_(from), spacing_(spacing), found_(found) {}
 
   /// Between two samples: at each change of branch.
@@ -57,10 +77,10 @@ class Search {
       before = found_.at.back().before;
       found_.at.pop_back();
     }
-    found_.at.push_back({before, after, values(f_(std::array{before})), values(f_(std::array{after}))});
+    found_.at.push_back({before, after, values(f_(before)), values(f_(after))});
   }
 
-  const Expression& f_;
+  const OfTime& f_;
   double from_, spacing_;
   Breaks& found_;
 };
@@ -75,16 +95,17 @@ void predict(const Sample& at, double begin, double end, std::vector<double>& ti
 
 }  // namespace
 
-Breaks breaks(const Formula& formula, double from, double to, double spacing) {
+Breaks breaks(const Formula& formula, double from, double to, double spacing, std::span<const double> others) {
   constexpr double most = 1e5;
   Breaks found;
-  const Expression* f = formula.expression();
-  if (!f || !f->has_switches() || !(to > from)) return found;
+  const Expression* tree = formula.expression();
+  if (!tree || !tree->has_switches() || !(to > from)) return found;
+  const OfTime f(*tree, others);
   const double count = std::clamp(std::ceil((to - from) / spacing), 1.0, most);
-  Search search(*f, from, spacing, found);
-  Sample low = sample(*f, from);
+  Search search(f, from, spacing, found);
+  Sample low = sample(f, from);
   for (double i = 0; i < count; ++i) {
-    const Sample high = sample(*f, i + 1 < count ? from + (to - from) * (i + 1) / count : to);
+    const Sample high = sample(f, i + 1 < count ? from + (to - from) * (i + 1) / count : to);
     for (int k = 0; const double value : values(high.jet)) {
       if (std::isfinite(value)) found.size[k] = std::max(found.size[k], std::abs(value));
       ++k;
@@ -96,7 +117,7 @@ Breaks breaks(const Formula& formula, double from, double to, double spacing) {
     for (std::size_t k = times.size(); k > 1; --k) times.push_back(0.5 * (times[k - 1] + times[k - 2]));
     std::sort(times.begin(), times.end());
     for (const double t : times) {
-      Sample there = sample(*f, t);
+      Sample there = sample(f, t);
       search.between(std::move(low), there);
       low = std::move(there);
     }

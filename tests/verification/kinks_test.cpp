@@ -147,6 +147,24 @@ probes: {m: {at: bar.middle, quantity: velocity}}
   }
 }
 
+// m u.. = 30 (1 - u) for t1 <= t < t2: u = 1 - cos(w (t - t1)), w^2 = 10; then the speed remains w sin(w (t2 - t1)).
+TEST_CASE("a force of a sensor that jumps in time acts for its exact duration") {
+  const std::string text = R"yaml(
+bodies:
+  bar: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 2}}, section: {rhoA: 3}}
+loads: {push: {type: force, at: bar.middle, force: [0, "30*(1 - d.y)*pulse(t, .1033, .3577)"]}}
+motion: {end: .5, step: .01}
+probes: {d: {at: bar.middle}, m: {at: bar.middle, quantity: velocity}}
+)yaml";
+  const std::vector<dynamics::Kink> kinks = assembly::kinks_of(scene::parse_scene(text, "test.yaml"), 0.5);
+  REQUIRE(kinks.size() == 2);
+  CHECK(kinks[0].before == Approx(0.1033));
+  CHECK(kinks[1].before == Approx(0.3577));
+  const History at = move(text, Formulation::vm_md);
+  const double w = std::sqrt(10.0);
+  CHECK(at["m.y"].back() == Approx(w * std::sin(w * 0.2544)).epsilon(2e-4));
+}
+
 // Steps that resolve the vibrations which the kink excites.
 TEST_CASE("order 2 behind a kink, in every formulation") {
   const auto swing = [](double step, Formulation formulation) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 #include <vector>
 
 #include "floe/math/formula.h"
@@ -25,6 +26,7 @@ struct Breaks {
 /// another; then bisection to neighbouring numbers, so that neither `to` nor the spacing changes what is found. Other
 /// switches that vanish twice between two samples are not seen. None of a formula without derivatives (Formula).
 /// @param from, to  from >= 0 and finite;  @param spacing  > 0
-Breaks breaks(const Formula& formula, double from, double to, double spacing);
+/// @param others  constant values of the variables behind the first one; 1 where none is given
+Breaks breaks(const Formula& formula, double from, double to, double spacing, std::span<const double> others = {});
 
 }  // namespace floe::math
