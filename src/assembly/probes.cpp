@@ -6,6 +6,7 @@
 #include "floe/dynamics/local_indices.h"
 #include "floe/dynamics/state_formula.h"
 #include "floe/math/rotation.h"
+#include "floe/petsc/error.h"
 #include "floe/scene/sensors.h"
 #include "floe/solve/start.h"
 #include "shell_stress.h"
@@ -146,12 +147,22 @@ bool of_section(const ModelProbe& probe) {
   return probe.quantity == Probe::Quantity::section_force || probe.quantity == Probe::Quantity::section_moment;
 }
 
+/// Work of this rank that may fail: then all ranks of the system fail. Collective.
+template <class Work>
+void agree(const Model& model, const Work& work) {
+  int size = 1;
+  MPI_Comm_size(model.system->comm(), &size);
+  petsc::agree_if_parallel(model.system->comm(), size == 1, work);
+}
+
 /// What the cuts of all sections exert on their parts, one after the other. Collective.
 std::vector<dynamics::Wrench> in_sections(const Model& model, double t, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   std::vector<dynamics::Wrench> all;
-  for (const ModelProbe& probe : model.probes)
-    for (const ModelSection& section : probe.sections) all.push_back(on_part(section.cut, t, q, v, a));
+  agree(model, [&] {
+    for (const ModelProbe& probe : model.probes)
+      for (const ModelSection& section : probe.sections) all.push_back(on_part(section.cut, t, q, v, a));
+  });
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(6 * all.size()), MPI_DOUBLE, MPI_SUM, model.system->comm());
   return all;
 }
@@ -185,8 +196,10 @@ void add_section(const ModelProbe& probe, const dynamics::Wrench* wrench, const 
 /// What all probes of shells record, one after the other. Collective.
 std::vector<Eigen::Vector3d> in_shells(const Model& model, double t, const Eigen::VectorXd& q) {
   std::vector<Eigen::Vector3d> all;
-  for (const ModelProbe& probe : model.probes)
-    if (probe.shell) all.push_back(probe.shell->value(t, q));
+  agree(model, [&] {
+    for (const ModelProbe& probe : model.probes)
+      if (probe.shell) all.push_back(probe.shell->value(t, q));
+  });
   if (!all.empty())
     MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM,
                   model.system->comm());
@@ -309,7 +322,8 @@ std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec
   MPI_Comm_size(comm, &size);
   const std::vector<Eigen::Vector3d> of_shells = in_shells(model, t, q);
   std::size_t next = 0, next_shell = 0;
-  if (rank == size - 1)
+  agree(model, [&] {
+    if (rank != size - 1) return;
     for (const ModelProbe& probe : model.probes) {
       if (of_section(probe))
         add_section(probe, &wrenches[next], q, v, values);
@@ -319,6 +333,7 @@ std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec
         add_values(probe, t, q, v, values);
       next += probe.sections.size();
     }
+  });
   if (size > 1) {
     values.resize(probe_columns(model).size());
     MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);

@@ -63,6 +63,13 @@ events:
 gravity: [0, 0, -9.81]
 probes: {tip: {at: arm.end}}
 """
+# friction, a controller beyond pi, a formula of sensors and a section: what they carry from step to step
+SENSORS = (SPACE.replace("pivot: {type: revolute", "pivot: {friction: {level: 0.3, speed: 0.01}, type: revolute")
+           .replace("probes: {tip: {at: arm.end}}", """loads: {motor: {type: moment, joint: pivot, moment: "2*(9*t - pivot.angle) - 0.1*pivot.rate"}}
+probes:
+  tip: {at: arm.end}
+  lag: {formula: "pivot.angle - 9*t", unit: rad}
+  root: {at: arm.middle, quantity: section_moment}"""))
 # the hinge swings against a limit and off it again
 STOPS = (BEAM.replace("beam.start]}", "beam.start], limits: {lower: -0.5, stiffness: 500, damping: 0.1, width: 0.01}}")
          + "events: {never: {stop: true, when: \"t + 1\"}}\n")
@@ -77,6 +84,7 @@ CASES = {
     "plane, full order": (BEAM + EVENTS + FIXED, "nlffr"),
     "space, reduced": (SPACE + FIXED, "vm+md"),
     "space, reduced, adaptive": (SPACE + ADAPTIVE, "vm+md"),
+    "space, friction and sensors": (SENSORS + FIXED, "vm+md"),
     "plane, stops": (STOPS + FIXED, "vm+md"),
     "plane, stops, adaptive": (STOPS + ADAPTIVE, "vm+md"),
     "space, full order": (SPACE.replace("0.6", "0.35") + "motion: {end: 0.4, step: 1e-3}", "nlffr"),
