@@ -82,8 +82,10 @@ def note_rotary(body):
     from reduced_body import in_space
     share = second_order_share(in_space(body))
     if share > 0:
-        print("Note: MBSim has no place for inertia of second order (Q, W): it is left out, and W changes 5 % of the "
+        print("Note: MBSim's format cannot store inertia of second order (Q, W): it is omitted, and W changes 5 % of the "
               f"stiffness at a spin of {(0.05 / share) ** 0.5:.3g} rad/s")
+    elif body.Q.any():
+        print("Note: MBSim's format cannot store inertia of masses at arms of second order (Q): it is omitted")
 
 
 def write(chosen, paths, body, options):

@@ -41,6 +41,7 @@ class Body:
     x: np.ndarray  # places x d
     place_S: np.ndarray  # places x d x k
     place_psi: np.ndarray  # places x 1 or 3 x k
+    place_Q: np.ndarray  # places x d x k x k, displacement 1/2 q'Qq of second order at arms; zero: none, or before version 4
     kinds: list  # of each coordinate: mode, attachment, derivative
     labels: list
     omega: np.ndarray  # of each coordinate, 0 unless it is a mode
@@ -124,12 +125,14 @@ def from_hdf5(file):
     F, pairs = file["elasticity/F"][:], file["elasticity/pairs"][:]
     names = texts(file["places/names"]) if file["places/names"].shape[0] else []
     x, place_S, place_psi = (file[f"places/{name}"][:] for name in ("x", "S", "psi"))
+    place_Q = file["places/Q"][:] if "places/Q" in file else np.zeros((len(names), d, k, k))
     for name, value, shape in (
             ("elasticity/bending", bending, (k, k)), ("elasticity/F", F, (len(F), k + len(pairs))),
             ("inertia/S", inertia["S"], (d, k)), ("inertia/Q", inertia["Q"], (d, k, k)), ("inertia/M", inertia["M"], (d, d, k, k)), ("inertia/W", inertia["W"], (d, d, k, k)),
             ("inertia/h", inertia["h"], (d, d, k)), ("columns/kept", kept, (k,)),
             ("damping", damping, (k, k) if damping.size else damping.shape),
             ("places/x", x, (len(names), d)), ("places/S", place_S, (len(names), d, k)),
+            ("places/Q", place_Q, (len(names), d, k, k)),
             ("places/psi", place_psi, (len(names), 1 if d == 2 else 3, k))):
         if value.shape != shape:
             raise ValueError(f"{name}: expected {shape}, found {value.shape}")
@@ -137,7 +140,7 @@ def from_hdf5(file):
         raise ValueError(f"elasticity/pairs: expected numbers from 0 to {k - 1}")
     return Body(name=texts(file["body/name"])[0], **{**inertia, "m": float(inertia["m"])}, bending=bending, F=F,
                 pairs=pairs, damping=damping if damping.size else np.zeros((k, k)), places=names,
-                x=x, place_S=place_S, place_psi=place_psi,
+                x=x, place_S=place_S, place_psi=place_psi, place_Q=place_Q,
                 kinds=[kinds[i] for i in kept], labels=[labels[i] for i in kept], omega=omega[kept])
 
 
@@ -157,7 +160,7 @@ def in_space(body):
     psi[:, 2] = body.place_psi[:, 0]
     return dataclasses.replace(body, s0=padded(body.s0, [0]), C0=padded(body.C0, [0, 1]), S=padded(body.S, [0]),
                                h=padded(body.h, [0, 1]), M=padded(body.M, [0, 1]), W=padded(body.W, [0, 1]), Q=padded(body.Q, [0]), x=padded(body.x, [1]),
-                               place_S=padded(body.place_S, [1]), place_psi=psi)
+                               place_S=padded(body.place_S, [1]), place_Q=padded(body.place_Q, [1]), place_psi=psi)
 
 
 def on_columns(body, chosen):
@@ -168,4 +171,5 @@ def on_columns(body, chosen):
         Q=body.Q[:, chosen][:, :, chosen], W=body.W[:, :, chosen][:, :, :, chosen],
         bending=body.stiffness[pick], F=np.zeros((0, len(chosen))), pairs=np.zeros((0, 2), int),
         damping=body.damping[pick], place_S=body.place_S[:, :, chosen], place_psi=body.place_psi[:, :, chosen],
+        place_Q=body.place_Q[:, :, chosen][:, :, :, chosen],
         kinds=[body.kinds[i] for i in chosen], labels=[body.labels[i] for i in chosen], omega=body.omega[chosen])

@@ -109,6 +109,7 @@ void check_reduced_path(MPI_Comm comm, const std::filesystem::path& path, bool o
 ///     U = 0.5 * q @ f["elasticity/bending"][:] @ q + 0.5 * np.sum((F @ np.r_[q, s])**2)
 ///     place = list(f["places/names"].asstr()).index("tip")
 ///     u = f["places/S"][place] @ q
+///     if "places/Q" in f: u += 0.5 * q @ f["places/Q"][place] @ q     # places at arms
 ///
 /// @throws InputError  `path` exists and not `overwrite`, or is no regular file
 /// @throws RunError    path and reason; a number that is not finite, sizes that do not fit. Nothing is left, and

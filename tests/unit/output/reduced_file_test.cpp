@@ -82,7 +82,10 @@ TEST_CASE("NumPy reads a reduced body with h5py") {
   const ReducedBodyFile file = sample_body(3, 4);
   write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
   if (scratch.rank() != 0) return;
-  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(4, 0.25, 1), u = file.places[1].map.S * q;
+  const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(4, 0.25, 1);
+  Eigen::Vector3d u = file.places[1].map.S * q;
+  REQUIRE(!file.places[1].map.Q.empty());  // a place at an arm
+  for (int a = 0; a < 3; ++a) u[a] += 0.5 * q.dot(file.places[1].map.Q[a] * q);
   std::ofstream(scratch / "read.py") << fmt::format(R"(import h5py, numpy as np
 q = np.linspace(0.25, 1, 4)
 f = h5py.File("{}"); F = f["elasticity/F"][:]; pairs = f["elasticity/pairs"][:]
@@ -90,6 +93,7 @@ s = np.array([q[a] * q[b] * (0.5 if a == b else 1) for a, b in pairs])
 U = 0.5 * q @ f["elasticity/bending"][:] @ q + 0.5 * np.sum((F @ np.r_[q, s])**2)
 place = list(f["places/names"].asstr()).index("root/left")
 u = f["places/S"][place] @ q
+if "places/Q" in f: u += 0.5 * q @ f["places/Q"][place] @ q
 assert abs(U / {:.17g} - 1) < 1e-12 and np.allclose(u, [{:.17g}, {:.17g}, {:.17g}], rtol=1e-12), (U, u)
 assert f["body/name"].asstr()[()] == "ärm" and f.attrs["version"] == 4 and f.attrs["complete"] == 1
 )",
