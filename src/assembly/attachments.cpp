@@ -208,7 +208,7 @@ bool carries_moment(const Joint& joint, int dimension) {
              std::any_of(joint.rotation_viscosity.begin(), joint.rotation_viscosity.end(), acts);
     }
     case Kind::revolute:
-      return dimension == 3;
+      return dimension == 3 || joint.friction.has_value();
     case Kind::spherical:
     case Kind::distance:
       return false;

@@ -73,6 +73,17 @@ Scene in_parts(const Scene& whole, Formulation formulation) {
   return formulation == Formulation::cfr ? whole : split_frames(whole);
 }
 
+/// Files of versions before 4 have first moments and places at arms to first order only, and do not tell whether there
+/// are any.
+void warn_of_files(ReducedBodies& all) {
+  for (const ReducedBody& body : all.bodies)
+    if (body.report.file_version > 0 && body.report.file_version < 4)
+      all.warnings.push_back(fmt::format(
+          "body {}: \"{}\" is of version {} of the format, which has masses at arms (centroids off the nodes, offset "
+          "masses, rigid links) to first order only; if it has any, write it again with floe reduce",
+          body.report.name, body.report.file, body.report.file_version));
+}
+
 ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool keep_offline = false) {
   ReducedBodies all{formulation, plan.comm, std::vector<ReducedBody>(plan.bodies.size()), {}};
   if (is_reduced(formulation)) {
@@ -80,6 +91,7 @@ ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool kee
         plan, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(plan, linear); },
         all.warnings, keep_offline);
     for (std::size_t b = 0; b < all.bodies.size(); ++b) join_start(plan.bodies[b], all.bodies[b]);
+    warn_of_files(all);
     return all;
   }
   for (std::size_t b = 0; b < all.bodies.size(); ++b)
@@ -87,6 +99,7 @@ ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool kee
       all.bodies[b] = rigid(plan.bodies[b]);
     else if (plan.bodies[b].spec.reduced)
       all.bodies[b] = from_file(plan.bodies[b], formulation);
+  warn_of_files(all);
   return all;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "drive.h"
 #include "planar_assembly.h"
 
@@ -39,6 +41,18 @@ double speed_of(const Plan& plan, std::size_t j, const Eigen::Vector3d& directio
   if (joint.kind == Kind::driven) return drive_of(joint, plan.scene.motion).rate(0) * (joint.first.ground() ? 1 : -1);
   const Point& w = plan.bodies[place_of(plan, j).body].spec.initial.angular_velocity;
   return direction.dot(Eigen::Vector3d::Map(w.data()));
+}
+
+/// Initial angular velocities are those of the steady rotation, or not given.
+void refuse_other_speeds(const Plan& plan, const solve::RotationAxis& axis, double speed, const std::string& where) {
+  for (const PlannedBody& body : plan.bodies) {
+    const Eigen::Vector3d w = Eigen::Vector3d::Map(body.spec.initial.angular_velocity.data());
+    if (w.isZero(0) || (w - speed * axis.direction).norm() <= 1e-9 * std::abs(speed)) continue;
+    throw InputError(
+        fmt::format("{}: is steady_rotation at {:.6g} rad/s, and body {} has another initial angular_velocity; "
+                    "expected that of the rotation, or none",
+                    where, speed, body.spec.name));
+  }
 }
 
 }  // namespace
@@ -91,18 +105,26 @@ void start_in_rotation(const Plan& plan, Model& model) {
   const double speed = speed_of(plan, j, axis.direction);
   if (speed == 0)
     throw InputError(
-        fmt::format("{}: is steady_rotation, but joint {} does not turn at t = 0; expected a drive with a "
+        fmt::format("{}: is steady_rotation, but joint {} does not rotate at t = 0; expected a drive with a "
                     "speed there, or an initial angular_velocity of the body at the hinge",
                     where, hub->name));
+  refuse_other_speeds(plan, axis, speed, where);
   const solve::RotatingSystem rotating = rotating_system(plan.scene, model, axis);
+  solve::BranchJump jump;
   try {
     solve::check_turns(rotating, model.U);
-    solve::steady_rotation(rotating, 0, speed, model.U);
+    solve::steady_rotation(rotating, 0, speed, model.U, &jump);
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   } catch (const RunError& error) {
     throw RunError(where + ": " + error.what());
   }
+  if (jump.ratio > 0)
+    model.warnings.push_back(
+        fmt::format("{}: between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is "
+                    "{:.2g} times that predicted by the tangents (limit {:.2g}). The simulation starts on the other "
+                    "branch; for the intended one give a start (`start: given`, `initial`)",
+                    where, jump.from, jump.to, jump.ratio, solve::least_jump));
   solve::rotating_velocities(rotating, speed, model.U, model.V);
 }
 

@@ -88,6 +88,11 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
                      const MeshAxes& axes) {
   Anchor found;
   const bool named_centre = body.mass && !place.point && place.name == "centre";
+  if (named_centre && places.contains("centre"))
+    throw InputError(
+        fmt::format("{}: centre is the centre of mass of body {}, and its mesh has a group of this name; "
+                    "expected coordinates (node) for the group",
+                    place.where.text(), place.body));
   if ((place.point && body.rigid) || named_centre) {
     const Point& x = named_centre ? body.mass->centre : *place.point;
     found.x = axes.axes.transpose() * (Eigen::Vector3d::Map(x.data()) - axes.origin);

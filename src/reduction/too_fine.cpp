@@ -95,8 +95,8 @@ RunError too_fine(const fem::Structure& structure, const std::string& what) {
   if (const PetscInt lone = structure.dimension() == 3 ? lone_quadrilaterals(structure) : 0; lone > 0)
     return RunError(fmt::format(
         "{}: {} of {} elements {} of second order (S8R) without an edge in common with another shell; by reduced "
-        "integration two motions of such an element cost no energy, and the joints leave them free; take two or more "
-        "of them side by side, elements of first order, or joints that hold one of its edges",
+        "integration two motions of such an element cost no energy, which is the cause if the joints leave them free; "
+        "take two or more of them side by side, elements of first order, or joints that constrain one of its edges",
         what, lone, structure.mesh.cell_count, lone == 1 ? "is a quadrilateral" : "are quadrilaterals"));
   const Cells cells = cells_of(structure);
   const double length = fem::extent(structure);
