@@ -10,6 +10,7 @@
 #include "floe/fem/field_rows.h"
 #include "floe/math/nearest.h"
 #include "floe/plan/interface.h"
+#include "floe/reduction/condensation.h"
 #include "floe/reduction/products.h"
 
 namespace floe::assembly {
@@ -37,14 +38,18 @@ Eigen::MatrixXd modal_damping(const PlannedBody& body, const ReducedBody& reduce
   return C;
 }
 
+/// Of each coordinate whether it is a derivative's.
+std::vector<char> following(const reduction::Basis& basis) {
+  std::vector<char> follows;
+  for (const reduction::ColumnOrigin& origin : basis.origins)
+    if (origin.kept) follows.push_back(origin.kind == reduction::ColumnOrigin::Kind::derivative);
+  return follows;
+}
+
 void omit_products(const ReductionSpec& spec, ReducedBody& reduced) {
   const std::size_t all = reduced.body.elasticity.pairs.size();
-  if (const double share = spec.products.value_or(0); share > 0) {
-    std::vector<char> follows;
-    for (const reduction::ColumnOrigin& origin : reduced.basis->origins)
-      if (origin.kept) follows.push_back(origin.kind == reduction::ColumnOrigin::Kind::derivative);
-    reduced.body.elasticity = reduction::with_fewer_products(reduced.body, follows, share);
-  }
+  if (const double share = spec.products.value_or(0); share > 0)
+    reduced.body.elasticity = reduction::with_fewer_products(reduced.body, following(*reduced.basis), share);
   reduced.report.products = static_cast<int>(reduced.body.elasticity.pairs.size());
   reduced.report.omitted_products = static_cast<int>(all) - reduced.report.products;
 }
@@ -169,14 +174,17 @@ reduction::DerivativeColumns derivatives_of(const PlannedBody& body, const Stage
   return some;
 }
 
-void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
-            ReducedBody& reduced) {
+void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
+            const reduction::Modes& modes, ReducedBody& reduced) {
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
-  if (body.spec.reduction.linear)
+  if (body.spec.reduction.linear) {
     reduced.body.elasticity = body::linearised(reduced.body.elasticity);
-  else
+  } else {
+    reduced.body.elasticity =
+        reduction::condensed(body.structure, *reduced.basis, statics, reduced.body, following(*reduced.basis));
     omit_products(body.spec.reduction, reduced);
+  }
   reduced.damping = modal_damping(body, reduced, modes);
   reduced.report.columns = reduced.basis->columns;
   reduced.report.origins = reduced.basis->origins;
@@ -190,7 +198,7 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
   put_on(body,
          std::make_shared<reduction::Basis>(
              reduction::basis_of(body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
-         stage.generators.modes, reduced);
+         *stage.statics, stage.generators.modes, reduced);
   reduced.report.seconds_projection = MPI_Wtime() - start;
 }
 

@@ -132,7 +132,7 @@ const ReducedBody& Pool::Parts::reduced_body(std::size_t b, const std::vector<ch
   put_on(plan,
          std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
              plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance)),
-         source.stage.generators.modes, one);
+         *source.statics, source.stage.generators.modes, one);
   one.report.seconds_projection = MPI_Wtime() - start;
   one.statics = source.statics;
   join_start(plan, one);

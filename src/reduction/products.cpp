@@ -164,6 +164,12 @@ MatrixXd fewer_squares(const body::Elasticity& e, const std::vector<Sample>& sam
 
 }  // namespace
 
+std::vector<VectorXd> sampled_deformations(const body::FlexibleBody& body, const std::vector<char>& follows) {
+  std::vector<VectorXd> all;
+  for (Sample& sample : samples_of(body, follows)) all.push_back(std::move(sample.q));
+  return all;
+}
+
 body::Elasticity with_fewer_products(const body::FlexibleBody& body, const std::vector<char>& follows, double share) {
   const std::vector<Sample> samples = body.elasticity.pairs.empty() ? std::vector<Sample>() : samples_of(body, follows);
   if (samples.empty()) return body.elasticity;

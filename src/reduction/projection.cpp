@@ -77,18 +77,20 @@ class BendingSum {
   Eigen::MatrixXd sum_;
 };
 
-/// Adds the rows [ L V | e(V_a, V_b) ] of strain points to a QR.
+/// Adds the rows [ L V | e(V_a, V_b) | L W ] of strain points to a QR.
 class StrainStack {
  public:
-  StrainStack(const fem::FieldRows& V, const std::vector<int>& sloped, Eigen::Index pairs)
+  /// @param more  columns of W
+  StrainStack(const fem::FieldRows& V, const std::vector<int>& sloped, Eigen::Index pairs, Eigen::Index more = 0)
       : V_(V),
         sloped_(sloped),
-        qr_(V.cols() + pairs),
+        qr_(V.cols() + pairs + more),
+        more_(fem::most_strains, more),
         linear_(fem::most_strains, V.cols()),
         bilinear_(fem::most_strains, pairs) {}
-  /// @param strained  V for L
+  /// @param strained  V for L;  @param others  W likewise, if there is any
   void add(const fem::Structure& structure, const fem::PieceRows& piece, const fem::StrainRows& point,
-           const fem::Strained& strained, const fem::DofRanges& ranges) {
+           const fem::Strained& strained, const fem::DofRanges& ranges, const fem::Strained* others = nullptr) {
     const Eigen::Index s = point.L.rows(), g = point.G.rows(), k = V_.cols();
     fem::multiply(point.L, strained, structure.dofs_per_node, linear_.data());
     bilinear_.topRows(s).setZero();
@@ -100,7 +102,23 @@ class StrainStack {
     }
     auto rows = qr_.rows(s);
     rows.leftCols(k) = linear_.topRows(s);
-    rows.rightCols(bilinear_.cols()) = bilinear_.topRows(s);
+    rows.middleCols(k, bilinear_.cols()) = bilinear_.topRows(s);
+    if (!others) return;
+    fem::multiply(point.L, *others, structure.dofs_per_node, more_.data());
+    rows.rightCols(more_.cols()) = more_.topRows(s);
+  }
+  /// The bending of a piece, which is linear.
+  void add_bending(const fem::PieceRows& piece, int dofs_per_node, const fem::Strained& strained,
+                   const fem::Strained& others) {
+    for (Eigen::Index first = 0; first < piece.bending.rows(); first += fem::most_strains) {
+      const Eigen::Index s = std::min<Eigen::Index>(fem::most_strains, piece.bending.rows() - first);
+      fem::multiply(piece.bending.middleRows(first, s), strained, dofs_per_node, linear_.data());
+      fem::multiply(piece.bending.middleRows(first, s), others, dofs_per_node, more_.data());
+      auto rows = qr_.rows(s);
+      rows.setZero();
+      rows.leftCols(V_.cols()) = linear_.topRows(s);
+      rows.rightCols(more_.cols()) = more_.topRows(s);
+    }
   }
   Eigen::MatrixXd factor() { return qr_.factor(); }
 
@@ -119,7 +137,7 @@ class StrainStack {
   const fem::FieldRows& V_;
   const std::vector<int>& sloped_;
   TallSkinnyQr qr_;
-  fem::FieldRows linear_, slope_, steep_, bilinear_;
+  fem::FieldRows more_, linear_, slope_, steep_, bilinear_;
 };
 
 /// Local rows (foreign nodes included) of the basis.
@@ -167,6 +185,27 @@ body::FlexibleBody project(const fem::Structure& structure, const Basis& basis) 
   sum_over_ranks(comm, body.elasticity.bending.data(), body.elasticity.bending.size());
   body.elasticity.F = combine(comm, strain.factor());
   return body;
+}
+
+Eigen::MatrixXd strain_factor(const fem::Structure& structure, const Basis& basis,
+                              const std::vector<std::pair<int, int>>& pairs, const Columns& W) {
+  const fem::FieldRows V = local_rows(structure, basis), more = fem::gather(structure, W);
+  const fem::DofRanges ranges = fem::dof_ranges(structure, V), others = fem::dof_ranges(structure, more);
+  std::vector<int> sloped;  // in their order, each with itself
+  for (const auto& [a, b] : pairs)
+    if (a == b) sloped.push_back(a);
+  StrainStack strain(V, sloped, static_cast<Eigen::Index>(pairs.size()), more.cols());
+  std::vector<fem::PieceRows> pieces;
+  fem::Strained of_V, of_W;
+  for (const auto& cell : structure.mesh.cells) {
+    fem::piece_rows(structure, cell, {true, true, false, false}, pieces);
+    for (const fem::PieceRows& piece : pieces) {
+      fem::take_strained(structure, piece, V, ranges, of_V), fem::take_strained(structure, piece, more, others, of_W);
+      strain.add_bending(piece, structure.dofs_per_node, of_V, of_W);
+      for (const fem::StrainRows& point : piece.strain) strain.add(structure, piece, point, of_V, ranges, &of_W);
+    }
+  }
+  return combine(structure.mesh.comm, strain.factor());
 }
 
 PartMasses part_masses(const fem::Structure& structure, const Basis& basis, const std::vector<char>& only) {

@@ -54,7 +54,7 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
 
 /// The body on a basis, with its modal damping; `reduced` gets all but statics and what the report knows of modes.
 /// Collective.
-void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Modes& modes,
-            ReducedBody& reduced);
+void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
+            const reduction::Modes& modes, ReducedBody& reduced);
 
 }  // namespace floe::assembly

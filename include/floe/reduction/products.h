@@ -27,4 +27,7 @@ namespace floe::reduction {
 /// Rank-local: the same on every rank where the body is. Cost O(samples r p k), r x (k + p) the size of F.
 body::Elasticity with_fewer_products(const body::FlexibleBody& body, const std::vector<char>& follows, double share);
 
+/// The sampled deformations, [modes and what follows them]; none: the body has no derivatives, or no elastic energy.
+std::vector<Eigen::VectorXd> sampled_deformations(const body::FlexibleBody& body, const std::vector<char>& follows);
+
 }  // namespace floe::reduction

@@ -13,6 +13,12 @@ namespace floe::reduction {
 /// + p)^2), p the number of pairs, at most k^2/2; memory: V once more on every rank, and O((k + p)^2).
 body::FlexibleBody project(const fem::Structure& structure, const Basis& basis);
 
+/// R of a QR of the rows sqrt(w) D^(1/2) [L V | e(V_a, V_b) for the pairs | L W] of every strain point, and of those of
+/// bending, which are linear: V'K V = R_V'R_V. Collective; the same on all ranks.
+/// @param pairs  as project() gives them
+Eigen::MatrixXd strain_factor(const fem::Structure& structure, const Basis& basis,
+                              const std::vector<std::pair<int, int>>& pairs, const Columns& W);
+
 /// Inertia constants of some of the cells on the columns of V, of their mass and of unit density per length (area).
 /// @param only  of each of this rank's cells whether it counts. Collective; the same on all ranks.
 struct PartMasses {

@@ -1,0 +1,31 @@
+#pragma once
+#include "floe/body/flexible_body.h"
+#include "floe/reduction/basis.h"
+#include "floe/reduction/statics.h"
+
+namespace floe::reduction {
+
+/// The elastic energy of a body whose strains of third order are condensed statically.
+///
+/// On modes phi and derivatives theta, of amplitudes q_a and q_d ~ q_a^2, the strain has parts of first, second and
+/// third order, L phi q_a; L theta q_d + 1/2 e(phi, phi) q_a^2; e(phi, theta) q_a q_d. The displacement of second order
+/// makes the second part small where the body can bend without stretching or shearing. The third part has no such
+/// displacement in the basis: with stiff membranes or shear it costs EA e(phi, theta)^2 q^6 that the body avoids, and
+/// the reduced body locks where its slopes are 0.1 to 0.3. Its displacement is of no account, its energy is not. So the
+/// strain of every product with a derivative is taken less the part that static displacements W beyond the basis can
+/// cancel:
+///
+///   e_c  <-  e_c - P e_c,   P the projector on the strains of W,  V'K W = 0,
+///   K w_n = -sum_g w_g L'D e(u_n, v_n)   at sampled deformations, u_n of modes, v_n of derivatives (products.h)
+///
+/// The energy stays a sum of squares, with the linear part and, as V'K W = 0, all terms up to the fifth order in q_a as
+/// they were: those follow from displacements of first and second order alone (2n + 1 theorem).
+///
+/// Of bodies with strains of second order; others return as they are. Bending becomes one of the squares (F).
+///
+/// @param follows  of each coordinate whether it is a derivative's; if none is, nothing changes
+/// Collective. Some 32 solves with the factor of `statics`, and the factor F once more with as many columns besides.
+body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, const Statics& statics,
+                           const body::FlexibleBody& body, const std::vector<char>& follows);
+
+}  // namespace floe::reduction

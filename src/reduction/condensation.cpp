@@ -1,0 +1,105 @@
+#include "floe/reduction/condensation.h"
+
+#include <algorithm>
+
+#include "floe/petsc/stage.h"
+#include "floe/petsc/values.h"
+#include "floe/reduction/products.h"
+#include "floe/reduction/projection.h"
+
+namespace floe::reduction {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using petsc::check;
+
+namespace {
+
+/// Whether any part of the body has strains of second order.
+bool has_second_order(const fem::Structure& structure) {
+  return std::any_of(structure.sections.begin(), structure.sections.end(), [](const fem::Section& section) {
+    if (const auto* shell = std::get_if<fem::ShellSection>(&section))
+      return shell->strains == fem::Strains::second_order;
+    const auto* beam = std::get_if<fem::SpatialBeam>(&section);
+    return beam && beam->strain.strains == fem::Strains::second_order;
+  });
+}
+
+/// V q at the local dofs. Collective.
+VectorXd lifted(const fem::Structure& structure, const Basis& basis, const VectorXd& q) {
+  const petsc::VecHandle field = fem::field(structure);
+  VectorXd coefficients = q;
+  check(BVMultVec(basis.V, 1, 0, field, coefficients.data()));
+  return structure.exchange.gather(field);
+}
+
+/// -sum_g w_g L'D e(u, v) for each sample. Collective.
+Columns strain_loads(const fem::Structure& structure, const Basis& basis, const std::vector<char>& follows,
+                     const std::vector<VectorXd>& samples) {
+  std::vector<VectorXd> of_modes, of_derivatives, sums;
+  for (const VectorXd& q : samples) {
+    VectorXd leads = q, others = q;
+    for (Index i = 0; i < q.size(); ++i) (follows[static_cast<std::size_t>(i)] ? leads : others)[i] = 0;
+    of_modes.push_back(lifted(structure, basis, leads)), of_derivatives.push_back(lifted(structure, basis, others));
+    sums.push_back(VectorXd::Zero(of_modes.back().size()));
+  }
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    const fem::ElementMaps maps = structure.maps(cell);
+    const auto dofs = structure.cell_dofs(cell);
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      const VectorXd u = of_modes[n](dofs), v = of_derivatives[n](dofs);
+      VectorXd f = VectorXd::Zero(u.size());
+      for (const fem::StrainPoint& g : maps.membrane)
+        f.noalias() -= g.weight * g.L.transpose() * (g.D * g.bilinear(g.G * u, g.G * v));
+      sums[n](dofs) += f;
+    }
+  }
+  Columns loads;
+  for (const VectorXd& sum : sums) {
+    loads.push_back(fem::field(structure));
+    structure.exchange.add(sum, loads.back());
+  }
+  return loads;
+}
+
+/// An orthonormal basis of the columns of A without what they have in common with those of B.
+MatrixXd beyond(const MatrixXd& A, const MatrixXd& B) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> known(B);
+  MatrixXd rest = A;
+  const MatrixXd Q = MatrixXd(known.householderQ()).leftCols(known.rank());
+  for (int pass = 0; pass < 2; ++pass) rest -= Q * (Q.transpose() * rest).eval();
+  for (Index j = 0; j < rest.cols(); ++j)
+    if (const double norm = rest.col(j).norm(); norm > 1e-10 * A.col(j).norm()) rest.col(j) /= norm;
+  const Eigen::BDCSVD<MatrixXd> main(rest, Eigen::ComputeThinU);
+  const double least = 1e-8 * (main.singularValues().size() > 0 ? main.singularValues()[0] : 0);
+  return main.matrixU().leftCols((main.singularValues().array() > least).count());
+}
+
+}  // namespace
+
+body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, const Statics& statics,
+                           const body::FlexibleBody& body, const std::vector<char>& follows) {
+  const body::Elasticity& e = body.elasticity;
+  const Index k = body.coordinates(), pairs = static_cast<Index>(e.pairs.size());
+  const auto with_derivative = [&](const std::pair<int, int>& pair) {
+    return follows[pair.first] || follows[pair.second];
+  };
+  if (!has_second_order(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return e;
+  const std::vector<VectorXd> samples = sampled_deformations(body, follows);
+  if (samples.empty()) return e;
+  const petsc::Stage stage("condensation");
+  const Columns W = statics.solve(strain_loads(structure, basis, follows, samples));
+  const MatrixXd R = strain_factor(structure, basis, e.pairs, W);
+  const MatrixXd free = beyond(R.rightCols(R.cols() - k - pairs), R.leftCols(k));
+  body::Elasticity result{MatrixXd::Zero(k, k), {}, e.pairs};  // bending is among the squares
+  MatrixXd F = R.leftCols(k + pairs);
+  for (Index p = 0; p < pairs; ++p)
+    if (with_derivative(e.pairs[static_cast<std::size_t>(p)]))
+      F.col(k + p) -= free * (free.transpose() * F.col(k + p)).eval();
+  const Index rows = std::min(F.rows(), F.cols());
+  result.F = Eigen::HouseholderQR<MatrixXd>(F).matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  return result;
+}
+
+}  // namespace floe::reduction
