@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <array>
+
 #include "drive.h"
 #include "floe/assembly/offline.h"
 #include "floe/assembly/reduce_once.h"
@@ -12,10 +14,26 @@
 
 namespace floe::assembly {
 
+namespace {
+
+/// As scenes have it.
+const char* name_of_kind(Joint::Kind kind) {
+  constexpr std::array names{"fixed",     "revolute",  "prismatic", "driven",   "spring",       "cylindrical",
+                             "spherical", "universal", "planar",    "distance", "driven_slide", "bushing"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
 Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced) {
   Model model = plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced).model()
                                           : PlanarAssembly(plan, formulation, reduced).model();
   model.force = force_of(plan);
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    const auto& [one, two] = plan.joints[j];
+    const Joint& joint = plan.scene.joints[j];
+    model.joint_places.push_back({joint.name, name_of_kind(joint.kind), {{{one.body, one.x}, {two.body, two.x}}}});
+  }
   return model;
 }
 

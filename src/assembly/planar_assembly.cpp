@@ -238,7 +238,10 @@ Model PlanarAssembly::model() {
   if (plan_.extent > 0) model.extent = plan_.extent;
   add_coordinates();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
+    const std::size_t before = terms_.size();
     add_body_terms(static_cast<int>(b));
+    auto& own = body_terms_.emplace_back();
+    for (std::size_t i = before; i < terms_.size(); ++i) own.push_back(terms_[i].get());
     add_gravity(static_cast<int>(b));
     BodyReport report = reduced_[b].report;
     const fem::Mesh& mesh = plan_.bodies[b].structure.mesh;

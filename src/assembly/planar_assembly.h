@@ -88,6 +88,7 @@ class PlanarAssembly {
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::array<dynamics::Marker, 2>> joint_places_;
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::vector<std::vector<const dynamics::Term*>> body_terms_;    // of each body, among terms_
   Connections connections_;                                       // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
   std::vector<int> undetermined_;                                 // joints whose multipliers are not determined

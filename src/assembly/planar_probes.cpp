@@ -1,7 +1,9 @@
 #include <cmath>
 
 #include "floe/scene/places.h"
+#include "floe/scene/sensors.h"
 #include "planar_assembly.h"
+#include "probe_sources.h"
 
 namespace floe::assembly {
 
@@ -55,7 +57,7 @@ std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) 
 void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
-    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
+    const Anchor place = has_place(spec) ? plan_.probes[p][0] : Anchor{};
     ModelProbe probe{spec.name, spec.quantity, marker(place), {}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     probe.frame = frame_of_deflection(p);
     if (spec.quantity == Probe::Quantity::deflection && place.body >= 0 && compact(place.body) && !probe.frame)
@@ -63,6 +65,13 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[place.body].body.inertia.m) < 1e-9)
         model.warnings.push_back(never_deflects(spec, plan_.bodies[place.body].spec));
     probe.unit = spec.unit;
+    probe.terms = terms_of_body(body_terms_, plan_, spec.body);
+    if (spec.quantity == Probe::Quantity::drive || spec.quantity == Probe::Quantity::power) {
+      const std::size_t j = joint_index(plan_.scene, spec.joint);
+      probe.drive = driven_coordinate(plan_, j, spec);
+      probe.other = joint_places_[j][0], probe.marker = joint_places_[j][1];
+      if (owner_) probe.start_relative = pose_at(*probe.other, q);
+    }
     probe.connections = measured(connections_, plan_.scene, spec);
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
     if (owner_) {

@@ -22,10 +22,13 @@ struct Meaning {
   ProbeColumn::Kind kind;
 };
 
-Meaning meaning_of(Probe::Quantity quantity, const Model& model) {
+Meaning meaning_of(const ModelProbe& probe, const Model& model) {
+  const Probe::Quantity quantity = probe.quantity;
   constexpr double unknown = 1e-100;  // any force is large beside it
   const double extent = model.extent, force = model.force > 0 ? model.force : unknown;
   using Kind = ProbeColumn::Kind;
+  if (quantity == Probe::Quantity::drive)
+    return probe.drive.turn ? Meaning{"N m", force * extent, Kind::load} : Meaning{"N", force, Kind::load};
   switch (quantity) {
     case Probe::Quantity::rotation:
       return {"rad", 1, Kind::place};
@@ -51,6 +54,17 @@ Meaning meaning_of(Probe::Quantity quantity, const Model& model) {
       return {"N/m", force / extent, Kind::load};
     case Probe::Quantity::bending_moment:
       return {"N", force, Kind::load};
+    case Probe::Quantity::strain:
+      return {"", 1, Kind::strain};
+    case Probe::Quantity::acceleration:
+      return {"m/s2", extent, Kind::acceleration};
+    case Probe::Quantity::angular_acceleration:
+      return {"rad/s2", 1, Kind::acceleration};
+    case Probe::Quantity::power:
+      return {"W", 1, Kind::energy};
+    case Probe::Quantity::kinetic_energy:
+    case Probe::Quantity::strain_energy:
+      return {"J", 1, Kind::energy};
     case Probe::Quantity::formula:
       return {"", 1, Kind::formula};
     default:
@@ -63,7 +77,7 @@ Meaning meaning_of(Probe::Quantity quantity, const Model& model) {
 std::vector<ProbeColumn> probe_columns(const Model& model) {
   std::vector<ProbeColumn> columns;
   for (const ModelProbe& probe : model.probes) {
-    const Meaning meaning = meaning_of(probe.quantity, model);
+    const Meaning meaning = meaning_of(probe, model);
     for (const std::string& component : components_of(probe.quantity, probe.spatial ? 3 : 2))
       columns.push_back({probe.name + "." + component,
                          meaning.kind == ProbeColumn::Kind::formula ? probe.unit : meaning.unit, meaning.scale,
@@ -79,21 +93,21 @@ struct Placed {
 };
 
 Placed placed(const dynamics::Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
-  Eigen::VectorXd own(n), rate(n);
-  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  Eigen::VectorXd own, rate;
+  dynamics::pick(marker.coordinates, q, own);
+  dynamics::pick(marker.coordinates, v, rate);
   dynamics::Pose pose;
-  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(own.size()), pose);
   return {pose.y, pose.yd};
 }
 
 dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen::VectorXd& q,
                              const Eigen::VectorXd& v) {
-  const Eigen::Index n = static_cast<Eigen::Index>(marker.coordinates.size());
-  Eigen::VectorXd own(n), rate(n);
-  for (Eigen::Index i = 0; i < n; ++i) own[i] = q[marker.coordinates[i]], rate[i] = v[marker.coordinates[i]];
+  Eigen::VectorXd own, rate;
+  dynamics::pick(marker.coordinates, q, own);
+  dynamics::pick(marker.coordinates, v, rate);
   dynamics::SpatialPose pose;
-  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(n), pose);
+  dynamics::pose(marker, own, rate, Eigen::VectorXd::Zero(own.size()), pose);
   return pose;
 }
 
@@ -193,6 +207,85 @@ void add_section(const ModelProbe& probe, const dynamics::Wrench* wrench, const 
   values.insert(values.end(), sum.data() + first, sum.data() + behind);
 }
 
+bool of_acceleration(const ModelProbe& probe) {
+  return probe.quantity == Probe::Quantity::acceleration || probe.quantity == Probe::Quantity::angular_acceleration;
+}
+
+/// Of a place, in world axes or in those of the other place.
+void add_acceleration(const ModelProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                      const Eigen::VectorXd& a, std::vector<double>& values) {
+  const bool angular = probe.quantity == Probe::Quantity::angular_acceleration;
+  Eigen::VectorXd own, rate, second;
+  const auto pick_all = [&](const std::vector<int>& coordinates) {
+    dynamics::pick(coordinates, q, own);
+    dynamics::pick(coordinates, v, rate);
+    dynamics::pick(coordinates, a, second);
+  };
+  if (probe.spatial) {
+    pick_all(probe.spatial->marker.coordinates);
+    dynamics::SpatialPose at;
+    dynamics::pose(probe.spatial->marker, own, rate, second, at);
+    Eigen::Vector3d value = angular ? at.spin_rate : at.acceleration;
+    if (probe.spatial->relative_to) value = placed(*probe.spatial->relative_to, q, v).D.transpose() * value;
+    values.insert(values.end(), value.data(), value.data() + 3);
+    return;
+  }
+  pick_all(probe.marker.coordinates);
+  dynamics::Pose at;
+  dynamics::pose(probe.marker, own, rate, second, at);
+  if (angular) return values.push_back(at.ydd[2]);
+  Eigen::Vector2d value = at.ydd.head<2>();
+  if (probe.relative_to) value = turn(-placed(*probe.relative_to, q, v).y[2]) * value;
+  values.insert(values.end(), {value.x(), value.y()});
+}
+
+/// Of a place in the plane as one in space.
+dynamics::SpatialPose in_space(const dynamics::Marker& marker, double start, const Eigen::VectorXd& q,
+                               const Eigen::VectorXd& v) {
+  const Placed at = placed(marker, q, v);
+  dynamics::SpatialPose pose;
+  pose.p << at.y.head<2>(), 0;
+  pose.velocity << at.yd.head<2>(), 0;
+  pose.spin << 0, 0, at.yd[2];
+  pose.D = Eigen::AngleAxisd(at.y[2] - start, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return pose;
+}
+
+/// What a joint exerts on its coordinate, or does on both places: the opposite wrench acts on the first, on the same
+/// line.
+double drive_or_power(const ModelProbe& probe, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  const dynamics::SpatialPose one = probe.spatial ? placed(*probe.spatial->other, q, v)
+                                                  : in_space(*probe.other, probe.start_relative[2], q, v),
+                              two =
+                                  probe.spatial ? placed(probe.spatial->marker, q, v) : in_space(probe.marker, 0, q, v);
+  const dynamics::Wrench wrench = exerted(probe.connections, t, q, v);
+  const Eigen::Vector3d f = wrench.head<3>(), m = wrench.tail<3>(), apart = two.p - one.p;
+  if (probe.quantity == Probe::Quantity::power)
+    return f.dot(two.velocity - one.velocity - one.spin.cross(apart)) + m.dot(two.spin - one.spin);
+  if (probe.drive.length) return f.dot(apart.normalized());
+  return (one.D * probe.drive.axis).dot(probe.drive.turn ? m : f);
+}
+
+/// Energies of the bodies of all probes that measure one, one after the other. Collective.
+std::vector<double> of_bodies(const Model& model, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  std::vector<double> all;
+  Eigen::VectorXd own, rate;
+  for (const ModelProbe& probe : model.probes) {
+    const bool kinetic = probe.quantity == Probe::Quantity::kinetic_energy;
+    if (!kinetic && probe.quantity != Probe::Quantity::strain_energy) continue;
+    double& sum = all.emplace_back(0);
+    for (const dynamics::Term* term : probe.terms) {
+      dynamics::pick(term->coordinates(), q, own);
+      dynamics::pick(term->coordinates(), v, rate);
+      const dynamics::Energy energy = term->energy({t, own, rate, Eigen::VectorXd::Zero(own.size())});
+      sum += kinetic ? energy.kinetic : energy.elastic;
+    }
+  }
+  if (!all.empty())
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, model.system->comm());
+  return all;
+}
+
 /// What all probes of shells record, one after the other. Collective.
 std::vector<Eigen::Vector3d> in_shells(const Model& model, double t, const Eigen::VectorXd& q) {
   std::vector<Eigen::Vector3d> all;
@@ -220,6 +313,8 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
                 std::vector<double>& values) {
   if (probe.quantity == Probe::Quantity::force || probe.quantity == Probe::Quantity::moment)
     return add_exerted(probe, t, q, v, values);
+  if (probe.quantity == Probe::Quantity::drive || probe.quantity == Probe::Quantity::power)
+    return values.push_back(drive_or_power(probe, t, q, v));
   if (probe.quantity == Probe::Quantity::formula) return values.push_back(value_of(*probe.formula, t, q, v));
   if (probe.spatial) return add_values(*probe.spatial, probe.quantity, q, v, values);
   Placed at = placed(probe.marker, q, v);
@@ -311,17 +406,19 @@ std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec
   model.system->gather(V, v);
   std::vector<double> values;
   std::vector<dynamics::Wrench> wrenches;
-  if (std::any_of(model.probes.begin(), model.probes.end(), of_section)) {
+  const bool sections = std::any_of(model.probes.begin(), model.probes.end(), of_section);
+  if (sections || std::any_of(model.probes.begin(), model.probes.end(), of_acceleration)) {
     whole = q;
     find_accelerations(model, t, U, V, A, whole, a);
-    wrenches = in_sections(model, t, whole, v, a);
+    if (sections) wrenches = in_sections(model, t, whole, v, a);
   }
   const MPI_Comm comm = model.system->comm();
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
   const std::vector<Eigen::Vector3d> of_shells = in_shells(model, t, q);
-  std::size_t next = 0, next_shell = 0;
+  const std::vector<double> energies = of_bodies(model, t, q, v);
+  std::size_t next = 0, next_shell = 0, next_body = 0;
   agree(model, [&] {
     if (rank != size - 1) return;
     for (const ModelProbe& probe : model.probes) {
@@ -329,6 +426,10 @@ std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec
         add_section(probe, &wrenches[next], q, v, values);
       else if (probe.shell)
         add_shell(probe.quantity, of_shells[next_shell++], values);
+      else if (of_acceleration(probe))
+        add_acceleration(probe, q, v, a, values);
+      else if (probe.quantity == Probe::Quantity::kinetic_energy || probe.quantity == Probe::Quantity::strain_energy)
+        values.push_back(energies[next_body++]);
       else
         add_values(probe, t, q, v, values);
       next += probe.sections.size();

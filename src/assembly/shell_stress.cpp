@@ -153,8 +153,31 @@ Matrix3d turned(double angle) {
   return T;
 }
 
+/// The layers that a probe of stresses or strains is of: the one that it names, or all.
+std::vector<fem::ShellLayer> layers_of(const Probe& probe, const fem::StressPoints& points) {
+  const auto refuse = [&](const char* key, const std::string& what) {
+    throw InputError(fmt::format("{}.{}: {}", probe.where.text(), key, what));
+  };
+  const std::vector<fem::ShellLayer>& all = points.layers;
+  if (all.empty())
+    refuse("quantity",
+           "the section there is given by its stiffness, without layers; expected membrane_force or "
+           "bending_moment");
+  if (probe.layer > static_cast<int>(all.size()))
+    refuse("layer", fmt::format("is {}, but the section there has {} layer{}; expected 1 to {}", probe.layer,
+                                all.size(), all.size() > 1 ? "s" : "", all.size()));
+  if (probe.layer > 0) return {all[static_cast<std::size_t>(probe.layer - 1)]};
+  for (const fem::ShellLayer& one : all)
+    if (probe.quantity != Probe::Quantity::strain && (one.Q - all.front().Q).norm() > 1e-9 * one.Q.norm())
+      refuse("quantity",
+             "the section there is a laminate, whose stresses jump between layers; expected layer: N (from "
+             "1 at the bottom), or membrane_force or bending_moment");
+  return all;
+}
+
 /// (3 x 6) of the quantity from (e, kappa) in the section's axes.
-Eigen::Matrix<double, 3, 6> quantity_of(const Probe& probe, const fem::ShellSection& section) {
+Eigen::Matrix<double, 3, 6> quantity_of(const Probe& probe, const fem::ShellSection& section,
+                                        const fem::StressPoints& points) {
   Eigen::Matrix<double, 3, 6> H = Eigen::Matrix<double, 3, 6>::Zero();
   if (probe.quantity == Probe::Quantity::membrane_force) {
     H.leftCols<3>() = section.A;
@@ -164,18 +187,13 @@ Eigen::Matrix<double, 3, 6> quantity_of(const Probe& probe, const fem::ShellSect
     H << section.coupling.transpose() * section.A, section.bending;
     return H;
   }
-  const double h = std::sqrt(12 * section.bending.trace() / section.A.trace()), middle = section.coupling(0, 0);
-  const Matrix3d one = Matrix3d::Identity(), D = section.A * h * h / 12;
-  if ((D - section.bending).norm() > 1e-6 * D.norm() ||
-      (section.coupling - middle * one).norm() > 1e-6 * (h + std::abs(middle)))
-    throw InputError(fmt::format(
-        "{}.quantity: the stresses of a laminate or a section of given stiffness are not available; expected "
-        "membrane_force or bending_moment",
-        probe.where.text()));
-  const double z = middle + (probe.surface == Probe::Surface::top      ? h / 2
-                             : probe.surface == Probe::Surface::bottom ? -h / 2
-                                                                       : 0);
-  H << section.A / h, section.A / h * (z * one - section.coupling);
+  const std::vector<fem::ShellLayer> layers = layers_of(probe, points);
+  const double bottom = layers.front().bottom, top = layers.back().top;
+  const double z = probe.surface == Probe::Surface::top      ? top
+                   : probe.surface == Probe::Surface::bottom ? bottom
+                                                             : (bottom + top) / 2;
+  H << Matrix3d::Identity(), z * Matrix3d::Identity() - section.coupling;  // eps = e - C kappa
+  if (probe.quantity != Probe::Quantity::strain) H = layers.front().Q * H;
   return H;
 }
 
@@ -255,7 +273,7 @@ std::vector<PatchSample> patch_samples(const Plan& plan, std::size_t p) {
     if (weights.size() == 0 && rings == 3) weights = simpler_weights(cloud);
     if (weights.size() > 0) break;
   }
-  const Eigen::Matrix<double, 3, 6> H = quantity_of(probe, section);
+  const Eigen::Matrix<double, 3, 6> H = quantity_of(probe, section, body.points[reference.part]);
   int rank = 0;
   MPI_Comm_rank(structure.mesh.comm, &rank);
   std::vector<PatchSample> patch;

@@ -322,7 +322,10 @@ Model SpatialAssembly::model() {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
     const PlannedBody& body = plan_.bodies[b];
+    const std::size_t before = terms_.size();
     add_body(index);
+    auto& own = body_terms_.emplace_back();
+    for (std::size_t i = before; i < terms_.size(); ++i) own.push_back(terms_[i].get());
     add_gravity(index);
     BodyReport report = reduced_[b].report;
     const fem::Mesh& mesh = body.structure.mesh;

@@ -1,5 +1,7 @@
 #include "floe/math/rotation.h"
 #include "floe/scene/places.h"
+#include "floe/scene/sensors.h"
+#include "probe_sources.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -60,8 +62,15 @@ SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& pla
 void SpatialAssembly::add_probes(Model& model) {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& spec = plan_.scene.probes[p];
-    const Anchor place = spec.quantity == Probe::Quantity::formula ? Anchor{} : plan_.probes[p][0];
+    const Anchor place = has_place(spec) ? plan_.probes[p][0] : Anchor{};
     SpatialProbe probe{marker(place), {}};
+    DrivenCoordinate drive;
+    if (spec.quantity == Probe::Quantity::drive || spec.quantity == Probe::Quantity::power) {
+      const std::size_t j = joint_index(plan_.scene, spec.joint);
+      drive = driven_coordinate(plan_, j, spec);
+      probe.other = placed_[j].places[0], probe.marker = placed_[j].places[1];
+      if (owner_) probe.other->D0 = probe.other->D0 * start_of(*probe.other).D.transpose();
+    }
     const int b = place.body;
     const std::vector<Anchor>& whole = plan_.probe_frames[p];
     if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b) && whole.empty())
@@ -88,6 +97,8 @@ void SpatialAssembly::add_probes(Model& model) {
                             measured(connections_, plan_.scene, spec),
                             {},
                             spec.unit});
+    model.probes.back().drive = drive;
+    model.probes.back().terms = terms_of_body(body_terms_, plan_, spec.body);
     if (spec.of_shell()) model.probes.back().shell = shell_point(p);
   }
 }

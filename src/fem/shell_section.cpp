@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floe/error.h"
+#include "floe/fem/section_points.h"
 
 namespace floe::fem {
 namespace {
@@ -98,6 +99,22 @@ ShellSection shell_section(const std::vector<Ply>& plies, double offset, const E
   section.mass_radius = mass > 0 ? std::sqrt(second / mass - centre * centre) : 0;
   section.axis = axis;
   return section;
+}
+
+std::vector<ShellLayer> shell_layers(const std::vector<Ply>& plies, double offset) {
+  double z = offset;
+  for (const Ply& ply : plies) z -= ply.thickness / 2;
+  std::vector<ShellLayer> layers;
+  for (const Ply& ply : plies) {
+    layers.push_back({stiffness(ply), z, z + ply.thickness});
+    z += ply.thickness;
+  }
+  return layers;
+}
+
+std::vector<Eigen::Vector2d> rectangle_corners(double width, double height) {
+  const double y = width / 2, z = height / 2;
+  return {{y, z}, {-y, z}, {-y, -z}, {y, -z}};
 }
 
 }  // namespace floe::fem

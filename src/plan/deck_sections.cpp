@@ -78,6 +78,7 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
     if (o.name == orientation) axis = axis_of(o);
   try {
     deck.parts[section.number] = fem::shell_section(plies, -section.offset * thickness, axis);
+    deck.points[section.number] = {fem::shell_layers(plies, -section.offset * thickness)};
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), thickness});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
@@ -136,6 +137,23 @@ Eigen::Vector2d extent_of(const mesh::BeamSection& section) {
   }
 }
 
+/// Extreme fibres; of an ellipse or a general profile none are known.
+fem::StressPoints points_of(const mesh::BeamSection& section, double E) {
+  const std::vector<double>& d = section.dimensions;
+  fem::StressPoints points;
+  points.E = E;
+  const bool round = section.profile == mesh::Profile::pipe ||
+                     (section.profile == mesh::Profile::circle && (d.size() == 1 || d[0] == d[1]));
+  if (round) {
+    points.radius = d[0];
+  } else if (section.profile != mesh::Profile::general && section.profile != mesh::Profile::circle) {
+    Eigen::Vector2d size = extent_of(section);
+    if (section.quarter_turn) std::swap(size[0], size[1]);
+    points.fibres = fem::rectangle_corners(size[0], size[1]);
+  }
+  return points;
+}
+
 /// Greatest dimension of a profile.
 double size_of(const mesh::BeamSection& section) {
   if (section.profile == mesh::Profile::general) return std::sqrt(section.dimensions[0]);
@@ -165,6 +183,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
     for (int i : {0, 1})
       if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;
     deck.parts[section.number] = beam;
+    deck.points[section.number] = points_of(section, material.E);
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), size_of(section)});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());

@@ -16,8 +16,9 @@ struct DeckPart {
 };
 
 struct DeckSections {
-  std::map<int, fem::Section> parts;  ///< by the number of RawMesh::parts
-  std::vector<DeckPart> described;    ///< the same parts
+  std::map<int, fem::Section> parts;        ///< by the number of RawMesh::parts
+  std::vector<DeckPart> described;          ///< the same parts
+  std::map<int, fem::StressPoints> points;  ///< likewise
 };
 
 /// Sections of a deck's parts, as floe's elements take them. Section axes: y is the deck's 1-direction, z its

@@ -6,9 +6,7 @@
 #include <numeric>
 
 namespace floe::plan {
-namespace {
 
-/// Nodes of what stands for an element in pictures: itself, or between the nodes of one of second order several.
 std::vector<std::vector<int>> pictured(fem::CellKind kind) {
   switch (kind) {
     case fem::CellKind::line3:
@@ -23,6 +21,8 @@ std::vector<std::vector<int>> pictured(fem::CellKind kind) {
       return {all};
   }
 }
+
+namespace {
 
 output::ReducedShapes::Kind vtk_kind(std::size_t nodes) {
   using Kind = output::ReducedShapes::Kind;

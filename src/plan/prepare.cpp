@@ -135,6 +135,10 @@ PlannedBody prepare_body(const Body& spec, MPI_Comm comm) {
   }
   PlannedBody body{spec, std::move(structure), std::move(frame), nodes.origin, nodes.angle, {}, {}, {}, {}, {}, {}};
   body.frame_places = {Anchor{-1, nodes.a, Eigen::Vector3d::Zero()}, Anchor{-1, nodes.b, {nodes.chord, 0, 0}}};
+  fem::StressPoints points;
+  points.E = spec.section.E;
+  if (spec.section.fibre > 0) points.fibres = {{spec.section.fibre, 0}, {-spec.section.fibre, 0}};
+  body.points.assign(spec.mesh.segments.size(), points);
   for (const Place& place : spec.reduction.interface) {
     const Eigen::Vector2d x = turn(-nodes.angle) * (planar(place_point(spec.mesh, place)) - nodes.origin);
     const fem::NearestNode nearest = fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0});

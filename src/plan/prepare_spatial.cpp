@@ -150,6 +150,7 @@ PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, co
   body.parts = std::move(mesh.parts);
   body.notices = std::move(mesh.notices);
   body.strains = std::move(mesh.strains);
+  body.points = std::move(mesh.points);
   body.origin = choice.origin;
   body.axes = choice.axes;
   if (host) body.host = shared.host, body.host_joint = shared.joint;

@@ -30,6 +30,7 @@ struct Source {
   std::map<int, fem::Section> parts;  ///< a deck's own, by the number of RawMesh::parts
   std::vector<std::string> notices;
   std::vector<mesh::Follower> followers = {};
+  std::map<int, fem::StressPoints> points = {};  ///< of the deck's own sections
 };
 
 /// Parts that the scene gives a section by name.
@@ -81,7 +82,8 @@ Source read_file(const Body& body, MPI_Comm comm) {
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
     add_masses(read, deck.parts);
     std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
-    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers)};
+    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers),
+              std::move(deck.points)};
   } else {
     throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh, .inp, .bdf, .nas or .dat",
                                  body.mesh.where.text(), file.path));
@@ -134,9 +136,18 @@ void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
   if (!faults.empty()) throw InputError(faults);
 }
 
-/// A section for each part of the mesh: the scene's by name, the deck's, the scene's for all.
-std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
-  std::vector<fem::Section> sections;
+/// A section for each part of the mesh, and where its stresses are taken.
+struct Sections {
+  std::vector<fem::Section> of_parts;
+  std::vector<fem::StressPoints> points;
+};
+
+/// The scene's by name, the deck's, the scene's for all.
+Sections sections_of(const Body& body, const Source& source) {
+  Sections sections;
+  const auto add = [&](const fem::Section& section, const fem::StressPoints& points) {
+    sections.of_parts.push_back(section), sections.points.push_back(points);
+  };
   std::vector<std::string> faults;
   const auto find = [&](const std::vector<PartSpec>& specs, const std::string& name) {
     return std::find_if(specs.begin(), specs.end(), [&](const PartSpec& spec) { return spec.part == name; });
@@ -146,7 +157,8 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
     auto spec = find(body.parts, part);
     if (spec == body.parts.end()) {
       if (const auto own = source.parts.find(static_cast<int>(number)); own != source.parts.end()) {
-        sections.push_back(own->second);
+        const auto points = source.points.find(static_cast<int>(number));
+        add(own->second, points == source.points.end() ? fem::StressPoints{} : points->second);
         continue;
       }
       spec = find(body.parts, "");
@@ -156,7 +168,7 @@ std::vector<fem::Section> sections_of(const Body& body, const Source& source) {
           fmt::format("{}: no section for part \"{}\" of the mesh; expected section, or parts: {{{}: ...}}",
                       body.where.text(), part, part));
     else
-      sections.push_back(spec->section);
+      add(spec->section, spec->points);
   }
   for (const PartSpec& spec : body.parts) {
     std::vector<std::string> known;
@@ -247,7 +259,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
     if (rank == 0) linked.push_back({f.node, f.leader});
   const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
   refuse_faults(body, inspection);
-  std::vector<fem::Section> sections = sections_of(body, source);
+  auto [sections, points] = sections_of(body, source);
   int size = 1;
   MPI_Comm_size(comm, &size);
   const std::vector<int> ranks =
@@ -261,7 +273,8 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
                       std::move(places),
                       source.mesh.parts,
                       {},
-                      strains};
+                      strains,
+                      std::move(points)};
     found.notices = std::move(source.notices);
     add_middle(body, found);
     found.notices.insert(found.notices.end(), inspection.notices.begin(), inspection.notices.end());

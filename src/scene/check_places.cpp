@@ -88,6 +88,9 @@ void check_places(Document& document, const Scene& scene) {
   }
   for (const Probe& probe : scene.probes) {
     check_place(document, scene, probe.at, false);
+    Where where = probe.where;
+    where.key += ".body";
+    if (!probe.body.empty()) find_body(document, scene, probe.body, where, false);
     if (probe.relative_to) check_place(document, scene, *probe.relative_to, false);
     if (probe.toward) check_place(document, scene, *probe.toward, false);
     if (probe.of_section() || probe.of_shell()) check_inner(document, scene, probe);

@@ -49,6 +49,8 @@ Section read_section(Document& document, Reading& body, bool rigid) {
     section.EI = material->E * I;
     section.rhoA = material->rho * A;
   }
+  if (material) section.E = material->E;
+  section.fibre = number_of(document, reading, "fibre", !direct, false);
   section.GA = reading.optional_number("GA");
   section.rhoI = reading.optional_number("rhoI").value_or(material ? material->rho * I : 0.0);
   return section;

@@ -35,7 +35,7 @@ fem::ShellMaterial shell_material(Document& document, const Material& m) {
   return fem::isotropic(m.E.value_or(NAN), m.nu.value_or(NAN), m.rho);
 }
 
-fem::Section shell_of(Document& document, Reading& reading, const Material& material) {
+fem::Section shell_of(Document& document, Reading& reading, const Material& material, fem::StressPoints& points) {
   const fem::ShellMaterial of = shell_material(document, material);
   std::vector<fem::Ply> plies;
   if (const auto thickness = reading.optional_number("thickness")) plies.push_back({of, *thickness, 0});
@@ -50,7 +50,10 @@ fem::Section shell_of(Document& document, Reading& reading, const Material& mate
     }
   }
   const Point axis = reading.given("axis") ? reading.point("axis") : Point{};
-  return fem::shell_section(plies, reading.number("offset"), Eigen::Vector3d(axis[0], axis[1], axis[2]));
+  const double offset = reading.number("offset");
+  const fem::ShellSection section = fem::shell_section(plies, offset, Eigen::Vector3d(axis[0], axis[1], axis[2]));
+  points.layers = fem::shell_layers(plies, offset);
+  return section;
 }
 
 fem::SectionShape shape_of(Document& document, Reading& reading) {
@@ -76,7 +79,27 @@ fem::SectionShape shape_of(Document& document, Reading& reading) {
   return shape == "box" ? fem::box(width, height, wall, wall) : fem::i_section(width, height, measure("flange"), wall);
 }
 
-fem::Section beam_of(Document& document, Reading& reading, const Material& material) {
+/// Extreme fibres of a shape, or those that are given.
+fem::StressPoints fibres_of(Document& document, Reading& reading) {
+  fem::StressPoints points;
+  if (const auto given = reading.value("fibres")) {
+    Key pair = reading.key("fibres");
+    pair.type = Type::numbers;
+    for (const Value& fibre : read_list(document, *given, reading.key("fibres")))
+      if (const auto at = read_list(document, fibre, pair, 2); at.size() == 2)
+        points.fibres.emplace_back(read_number(document, at[0], pair), read_number(document, at[1], pair));
+  }
+  if (!reading.given("shape")) return points;
+  const std::string shape = reading.choice("shape");
+  if (shape == "circle" || shape == "tube")
+    points.radius = reading.optional_number("radius").value_or(0);
+  else
+    points.fibres = fem::rectangle_corners(reading.optional_number("width").value_or(0),
+                                           reading.optional_number("height").value_or(0));
+  return points;
+}
+
+fem::Section beam_of(Document& document, Reading& reading, const Material& material, fem::StressPoints& points) {
   const std::size_t before = document.fault_count();
   if (!material.E) document.fault(material.where, "has no E", "E with nu or G for beams");
   if (!material.nu && !material.G) document.fault(material.where, "has neither nu nor G", "one of them for beams");
@@ -91,7 +114,9 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
   if (!reading.given("orientation"))
     document.fault(reading.where(), "has no orientation", "a vector that orients the section of beams");
   const Point y = reading.given("orientation") ? reading.point("orientation") : Point{};
+  points = fibres_of(document, reading);
   if (document.fault_count() != before) return fem::SpatialBeam{};
+  points.E = *material.E;
   const double E = *material.E, G = material.G ? *material.G : fem::shear_modulus(E, *material.nu);
   fem::SpatialBeam beam{fem::spatial_section(shape, {E, G, material.rho}, {centroid[0], centroid[1]}),
                         Eigen::Vector3d(y[0], y[1], y[2]),
@@ -108,7 +133,7 @@ std::vector<std::string> keys_of(const std::string& kind) {
   const auto add = [&](std::initializer_list<const char*> more) {
     keys.insert(keys.begin(), more.begin(), more.end());
   };
-  if (kind == "A") add({"A", "Iy", "Iz", "Iyz", "J"});
+  if (kind == "A") add({"A", "Iy", "Iz", "Iyz", "J", "fibres"});
   if (kind == "rectangle") add({"shape", "width", "height"});
   if (kind == "circle") add({"shape", "radius"});
   if (kind == "tube") add({"shape", "radius", "wall"});
@@ -128,7 +153,7 @@ void refuse_other_keys(Document& document, const Reading& reading, const std::st
                      fmt::format("one of {}", fmt::join(keys, ", ")));
 }
 
-fem::Section section_of(Document& document, const Value& value, const Material& material) {
+fem::Section section_of(Document& document, const Value& value, const Material& material, fem::StressPoints& points) {
   Reading reading(document, value, "spatial section");
   const bool shell = reading.given("thickness") || reading.given("plies");
   const bool beam = reading.given("shape") || reading.given("A");
@@ -141,7 +166,7 @@ fem::Section section_of(Document& document, const Value& value, const Material& 
   if (document.fault_count() != before) return fem::SpatialBeam{};
   refuse_other_keys(document, reading, shell ? "shells" : shape.empty() ? "A" : shape);
   try {
-    return shell ? shell_of(document, reading, material) : beam_of(document, reading, material);
+    return shell ? shell_of(document, reading, material, points) : beam_of(document, reading, material, points);
   } catch (const InputError& error) {
     if (document.fault_count() == before) document.fault(value.where, error.what());
   }
@@ -159,7 +184,10 @@ std::vector<PartSpec> read_parts(Document& document, Reading& body) {
     if (!made) return document.fault(where, "has no material", "material, here or in the body");
     const std::size_t before = document.fault_count();
     const Material read = read_material(document, *made);
-    if (document.fault_count() == before) parts.push_back({name, section_of(document, *of, read), of->where});
+    if (document.fault_count() != before) return;
+    fem::StressPoints points;
+    fem::Section made_of = section_of(document, *of, read, points);
+    parts.push_back({name, std::move(made_of), of->where, std::move(points)});
   };
   if (const auto named = body.value("parts")) {
     for (const auto& entry : read_mapping(document, *named, describe(body.key("parts")))) {

@@ -121,6 +121,9 @@ const SchemaSection section_section{
     {
         {"A", Type::number, "m2", "", "cross-sectional area; with material", positive},
         {"I", Type::number, "m4", "", "second moment of area; with material", positive},
+        {"fibre", Type::number, "m", "",
+         "distance of the extreme fibres from the line of centroids, for stresses (floe stress); with material",
+         positive},
         {"EA", Type::number, "N", "", "axial stiffness; without material", positive},
         {"EI", Type::number, "N m2", "", "bending stiffness; without material", positive},
         {"rhoA", Type::number, "kg/m", "", "mass per length; without material", positive},

@@ -180,14 +180,16 @@ const SchemaSection motion_section{
 
 const SchemaSection probe_section{
     "probe",
-    "A quantity recorded at a place, of a joint or of sensors, named by its key. Exactly one of at, joint, formula.",
+    "A quantity recorded at a place, of a joint, of a body or of sensors, named by its key. Exactly one of at, joint, "
+    "body, formula.",
     "at: beam.end\nquantity: displacement",
     {
         {"at", Type::place, "", "", "place where the quantity is recorded"},
         {"joint", Type::text, "", "",
          "instead: name of a joint, spring or bushing, whose force or moment on its second place is recorded, end "
          "stops "
-         "included (joint reactions, drive moments)"},
+         "included (joint reactions, drive moments), or its coordinate"},
+        {"body", Type::text, "", "", "instead: name of a body, whose energy is recorded"},
         {"formula", Type::load_force, "", "",
          "instead: a formula of t and sensors (see `load`), as \"elbow.angle - ref(t)\"; its column is NAME.value"},
         {"unit", Type::text, "", "", "unit of the formula's value; absent: none"},
@@ -196,15 +198,47 @@ const SchemaSection probe_section{
             "position, displacement since the start, velocity, angular_velocity: in world axes; deflection: relative "
             "to the floating frame, of a body in several frames to that of the whole body; rotation: of the section "
             "(in "
-            "spatial scenes a rotation vector of length at most pi); force, moment (about the second place): of a "
-            "joint, in world axes; section_force (N, Vy, Vz; in "
+            "spatial scenes a rotation vector of length at most pi); acceleration, angular_acceleration: in world "
+            "axes, "
+            "or in those of relative_to (accelerometers); force, moment (about the second place): of a "
+            "joint, in world axes; drive: of a joint along or about its axis, positive where it increases travel, "
+            "length "
+            "or angle; power: what a joint does on both its places; angle, rate, travel, speed, length, length_rate: "
+            "of "
+            "a joint, since the start; kinetic_energy, strain_energy: of a body; section_force (N, Vy, Vz; in "
             "planar scenes N, V), section_moment (about the place: T, My, Mz; M): of a beam, what the part beyond the "
             "section (towards increasing x of the elements) exerts on the part before it, in the axes of the section "
             "as it rotates; of a shell, in axes x, y on its surface: "
-            "membrane_force and bending_moment per length (positive moments stretch the top), stress, principal_stress "
-            "and von_mises_stress at `surface`. Absent: displacement, of a joint force",
-            {"position", "displacement", "deflection", "velocity", "rotation", "angular_velocity", "force", "moment",
-             "section_force", "section_moment", "stress", "principal_stress", "von_mises_stress", "membrane_force",
+            "membrane_force and bending_moment per length (positive moments stretch the top), stress, "
+            "principal_stress, von_mises_stress and strain at `surface` of the shell or of its `layer`. Absent: "
+            "displacement, of a joint force, of a body strain_energy",
+            {"position",
+             "displacement",
+             "deflection",
+             "velocity",
+             "rotation",
+             "angular_velocity",
+             "acceleration",
+             "angular_acceleration",
+             "force",
+             "moment",
+             "drive",
+             "power",
+             "angle",
+             "rate",
+             "travel",
+             "speed",
+             "length",
+             "length_rate",
+             "kinetic_energy",
+             "strain_energy",
+             "section_force",
+             "section_moment",
+             "stress",
+             "principal_stress",
+             "von_mises_stress",
+             "strain",
+             "membrane_force",
              "bending_moment"}),
         {"relative_to", Type::place, "", "",
          "reference place; components in axes that rotate with its section; absent: world. Of a joint, the axes alone "
@@ -213,8 +247,12 @@ const SchemaSection probe_section{
          "section_force, section_moment: the section just beside the place, on the element that leads towards this "
          "place; absent: the mean of both sides, which differ where a load or a joint acts on the place. Of shells: on "
          "the part and plane that lead there, where several meet"},
-        in_space(choice("surface", "middle", "of a shell, for stresses; top is where the normal of its elements points",
+        in_space(choice("surface", "middle",
+                        "of a shell or its layer, for stresses and strains; top is where the normal of its elements "
+                        "points",
                         {"middle", "top", "bottom"})),
+        in_space({"layer", Type::integer, "", "",
+                  "of a laminate, for stresses and strains: number of the ply, from 1 at the bottom", counts}),
         in_space({"axis", Type::point, "", "",
                   "axis x of the components of a shell, mesh axes, projected on the surface; absent: that of the "
                   "section, or x (y where x is normal to the shell)"}),

@@ -90,6 +90,8 @@ const SchemaSection spatial_section_section{
         {"Iz", Type::number, "m4", "", "second moment of area, int y2 dA", positive},
         {"Iyz", Type::number, "m4", "0", "product moment of area, int y z dA"},
         {"J", Type::number, "m4", "", "torsion constant", positive},
+        {"fibres", Type::points, "m", "",
+         "beams without shape: [y, z] of the extreme fibres from the centroid, for stresses (floe stress)"},
         {"orientation", Type::point, "", "",
          "beams: the local y axis lies in the plane of the beam axis and this vector; required for beams"},
         {"centroid", Type::numbers, "m", "[0, 0]", "beams: [y, z] of the centroid relative to the line of the nodes"},

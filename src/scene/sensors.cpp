@@ -68,6 +68,12 @@ std::vector<std::string> components_of(Probe::Quantity quantity, int dimension) 
       return {"first", "second"};
     case Probe::Quantity::von_mises_stress:
       return {"mises"};
+    case Probe::Quantity::drive:
+    case Probe::Quantity::power:
+    case Probe::Quantity::kinetic_energy:
+    case Probe::Quantity::strain_energy:
+      return {"value"};
+    case Probe::Quantity::strain:
     case Probe::Quantity::stress:
     case Probe::Quantity::membrane_force:
     case Probe::Quantity::bending_moment:
@@ -77,7 +83,9 @@ std::vector<std::string> components_of(Probe::Quantity quantity, int dimension) 
   }
   if (quantity == Probe::Quantity::rotation)
     return plane ? std::vector<std::string>{"angle"} : std::vector<std::string>{"rx", "ry", "rz"};
-  if (plane && (quantity == Probe::Quantity::angular_velocity || quantity == Probe::Quantity::moment)) return {"z"};
+  if (plane && (quantity == Probe::Quantity::angular_velocity || quantity == Probe::Quantity::angular_acceleration ||
+                quantity == Probe::Quantity::moment))
+    return {"z"};
   return plane ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
 }
 
@@ -158,6 +166,8 @@ void check_sensor(Document& document, const Scene& scene, const Where& where, co
                       probe.quantity == Probe::Quantity::formula ? "another formula"
                       : !probe.joint.empty()                     ? "a reaction, which itself depends on the loads"
                       : probe.of_section() || probe.of_shell() ? "an internal force, which itself depends on the loads"
+                      : probe.of_acceleration()                ? "an acceleration, which itself depends on the loads"
+                      : probe.of_body()                        ? "an energy"
                                                                : "a deflection"),
           "positions, rotations and their rates");
   std::vector<std::string> names;

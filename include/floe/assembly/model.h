@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -69,7 +70,15 @@ struct SpatialProbe {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();  ///< position; relative to the other place, if there is one
   Eigen::Matrix3d mesh =
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
-  std::optional<SpatialFrameByPlaces> frame = {};  ///< deflection of split bodies
+  std::optional<SpatialFrameByPlaces> frame = {};     ///< deflection of split bodies
+  std::optional<dynamics::SpatialMarker> other = {};  ///< drive, power: the first place of the joint, marker its second
+};
+
+/// The free or driven coordinate of a joint, along which its drive acts.
+struct DrivenCoordinate {
+  bool turn = false;                                ///< about the axis, not along it
+  bool length = false;                              ///< along the line of both places
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< at the start, world; rotates with the first place
 };
 
 /// A section through a beam, by the part of the body on one of its sides.
@@ -99,6 +108,9 @@ struct ModelProbe {
   std::vector<ModelSection> sections = {};                     ///< of a section: one, or both sides
   std::shared_ptr<const ShellPoint> shell = {};                ///< of a shell
   std::optional<FrameByPlaces> frame = {};                     ///< deflection of corotational and split bodies
+  std::optional<dynamics::Marker> other = {};                  ///< drive, power: the first place of the joint
+  DrivenCoordinate drive = {};                                 ///< likewise
+  std::vector<const dynamics::Term*> terms = {};  ///< of a body's energy: this rank's, which are the system's
 };
 
 /// One side of a joint's limits.
@@ -112,6 +124,17 @@ struct ModelStop {
 struct JointMultipliers {
   int first = 0;
   std::vector<int> rows;
+};
+
+/// A joint, for pictures: its kind and its two places.
+struct JointPlaces {
+  std::string name, kind;
+  struct End {
+    int body = -1;  ///< index of Model::bodies; -1: ground
+    Eigen::Vector3d
+        x;  ///< in the axes of its frame; of the ground in the world, not a number where it follows the other
+  };
+  std::array<End, 2> ends;
 };
 
 /// What a reduced model was made from: its meshes, bases and factors.
@@ -139,6 +162,7 @@ struct Model {
   double force = 0;                ///< a force of the scene [N]; 0: none is known
   double velocity_correction = 0;  ///< relative change that made the velocities at the start fit the joints
   std::vector<JointMultipliers> joints;
+  std::vector<JointPlaces> joint_places = {};
   std::shared_ptr<Offline> offline = {};  ///< if it was to be kept
 };
 
@@ -182,7 +206,7 @@ struct ProbeColumn {
   std::string name, unit;
   /// Beside which its values are small or not: the scene's extent [m], 1 rad, a force of the scene [N].
   double scale = 1;
-  enum class Kind { place, rate, load, stress, formula } kind = Kind::place;
+  enum class Kind { place, rate, acceleration, load, stress, strain, energy, formula } kind = Kind::place;
 };
 std::vector<ProbeColumn> probe_columns(const Model& model);
 /// How far each of model.stops is from being hit [rad], [m]; negative: hit, by this depth. For events. Collective.
@@ -194,8 +218,8 @@ int moving_frames(const Model& model);
 /// Their attitudes at an instant, unit quaternions (w, x, y, z), w >= 0. Collective.
 std::vector<double> attitudes(const Model& model, Vec U);
 /// Values at an instant, the same on all ranks of the system. Collective.
-/// @param A  accelerations, which forces in bodies need; null: those that are consistent with U and V (one
-/// factorisation
+/// @param A  accelerations, which forces in bodies and accelerations of places need; null: those that are consistent
+/// with U and V (one factorisation
 ///           where a probe needs them)
 std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec A = nullptr);
 

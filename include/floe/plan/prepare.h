@@ -60,6 +60,7 @@ struct PlannedBody {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();        ///< in space: of the frame, as columns in mesh axes
   std::vector<std::string> parts = {};                       ///< in space: names
+  std::vector<fem::StressPoints> points = {};                ///< of each part
   std::vector<std::string> notices = {};                     ///< in space: of the mesh
   std::string strains = {};                                  ///< in space: which, and of a default why
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();    ///< in space: axes of the frame at the start, world

@@ -9,7 +9,8 @@ struct SpatialMesh {
   std::map<std::string, std::vector<PetscInt>> places;  ///< global nodes by name, the same on all ranks
   std::vector<std::string> parts;                       ///< names
   std::vector<std::string> notices;
-  std::string strains;  ///< which, and of a default the number that decides (fem::StrainsChoice)
+  std::string strains;                         ///< which, and of a default the number that decides (fem::StrainsChoice)
+  std::vector<fem::StressPoints> points = {};  ///< of each part
 };
 /// @param scene  its joints make rigid regions of the places that they hold (holds_a_piece)
 /// @throws InputError  the same on all ranks. Collective.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "floe/fem/section_points.h"
 #include "floe/fem/structure.h"
 #include "floe/math/formula.h"
 #include "floe/output/reduced_file.h"
@@ -64,6 +65,8 @@ struct MeshSpec {
 struct Section {
   double EA = 0, EI = 0, rhoA = 0, rhoI = 0;
   std::optional<double> GA;  ///< absent: rigid in shear
+  double E = 0;              ///< with material [N/m2]; 0: not known
+  double fibre = 0;          ///< distance of the extreme fibres from the line of centroids [m]; 0: not known
   Where where;
 };
 
@@ -72,6 +75,7 @@ struct PartSpec {
   std::string part;
   fem::Section section;
   Where where;
+  fem::StressPoints points = {};
 };
 
 enum class Strain { averaged, pointwise };
@@ -271,11 +275,12 @@ struct Motion {
   Where where;
 };
 
-/// What is recorded at a place, or of a joint.
+/// What is recorded at a place, of a joint or of a body.
 struct Probe {
   std::string name;
   Place at;           ///< of a joint: its second place, or the first where the second is the ground
-  std::string joint;  ///< instead of a place: what this joint exerts on its second place
+  std::string joint;  ///< instead of a place: what this joint exerts on its second place, or its power
+  std::string body;   ///< instead: whose energy it is
   enum class Quantity {
     position,
     displacement,
@@ -283,14 +288,21 @@ struct Probe {
     velocity,
     rotation,
     angular_velocity,
+    acceleration,
+    angular_acceleration,
     force,
     moment,
+    drive,
+    power,
+    kinetic_energy,
+    strain_energy,
     formula,
     section_force,
     section_moment,
     stress,
     principal_stress,
     von_mises_stress,
+    strain,
     membrane_force,
     bending_moment,
   } quantity = Quantity::displacement;
@@ -298,7 +310,8 @@ struct Probe {
   std::string unit;                  ///< likewise
   std::optional<Place> relative_to;  ///< measured from this place, in axes that rotate with it
   std::optional<Place> toward;       ///< sections and shells: just beside the place, on the element that leads there
-  enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell, for stresses
+  enum class Surface { middle, top, bottom } surface = Surface::middle;  ///< of a shell or its layer
+  int layer = 0;              ///< of a shell, from 1, the lowest; 0: the whole, for stresses of one material
   std::optional<Point> axis;  ///< of shells: the first axis of components, projected on the surface; mesh axes
   /// Of a deflection in a split body: places that define the frame of the whole: both ends (pinned), one (clamped), or
   /// one of each part (mean axes).
@@ -306,8 +319,13 @@ struct Probe {
   Where where;
 
   bool of_section() const { return quantity == Quantity::section_force || quantity == Quantity::section_moment; }
-  bool of_stress() const { return quantity >= Quantity::stress && quantity <= Quantity::von_mises_stress; }
+  bool of_stress() const { return quantity >= Quantity::stress && quantity <= Quantity::strain; }
   bool of_shell() const { return quantity >= Quantity::stress; }
+  bool of_joint() const { return quantity >= Quantity::force && quantity <= Quantity::power; }
+  bool of_body() const { return quantity == Quantity::kinetic_energy || quantity == Quantity::strain_energy; }
+  bool of_acceleration() const {
+    return quantity == Quantity::acceleration || quantity == Quantity::angular_acceleration;
+  }
 };
 
 /// Something that happens once: a joint lets go or is locked where it is, or the motion ends.
