@@ -3,6 +3,8 @@
 #include <petscsys.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
@@ -40,21 +42,21 @@ void write_columns(output::ResultFile& file, const std::string& group, const ass
                  "motion/attitude), of the reduced coordinates; -1: fixed frame, none"});
 }
 
-/// Column j of the basis at this rank's nodes.
-void copy_column(const assembly::BodyReport& body, int j, std::span<double> values) {
+/// Column j of a basis at this rank's nodes.
+void copy_column(const assembly::BodyReport& body, const reduction::Basis& basis, int j, std::span<double> values) {
   Vec column = nullptr;
-  check(BVGetColumn(body.basis->V, j, &column));
+  check(BVGetColumn(basis.V, j, &column));
   {
     petsc::Values own(column);
     std::copy(own.begin(), own.begin() + values.size(), values.begin());
   }
-  check(BVRestoreColumn(body.basis->V, j, &column));
+  check(BVRestoreColumn(basis.V, j, &column));
   body.mesh->let_follow(values);
 }
 
 void write_mesh(output::ResultFile& file, const std::string& group, const assembly::BodyReport& body) {
   output::ReducedShapes shapes = body.mesh->shapes;
-  shapes.column = [&](int j, std::span<double> values) { copy_column(body, j, values); };
+  shapes.column = [&](int j, std::span<double> values) { copy_column(body, *body.basis, j, values); };
   file.write_shapes(group + "/shapes", body.nodes, body.basis ? body.columns : 0, shapes,
                     {"",
                      "displacements, rotations at each node for a unit of each reduced coordinate, in the axes of "
@@ -84,6 +86,28 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
            "dependent node"});
 }
 
+/// Of full order, the rotations about line hinges that nodes have of their own.
+void write_spins(output::ResultFile& file, const std::string& group, const assembly::Model& model,
+                 const assembly::BodyReport& body) {
+  const assembly::BodyMesh& mesh = *body.mesh;
+  const MPI_Comm comm = model.system->comm();
+  std::vector<double> rows;
+  for (const fem::Mesh::Spin& spin : mesh.spins) {
+    if (spin.node >= static_cast<int>(mesh.shapes.nodes.size())) continue;
+    const int dof = body.first_dof + 6 * spin.node + 3 + fem::spin_slot(spin.axis);
+    rows.insert(rows.end(), {static_cast<double>(mesh.shapes.nodes[static_cast<std::size_t>(spin.node)]),
+                             column_of(model, dof), spin.axis.x(), spin.axis.y(), spin.axis.z()});
+  }
+  std::int64_t mine = std::ssize(rows) / 5, all = mine, first = 0;
+  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, comm);
+  MPI_Exscan(&mine, &first, 1, MPI_INT64_T, MPI_SUM, comm);
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (all == 0) return;
+  file.write_distributed_rows(group + "/spins_of_motion", all, 5, rank == 0 ? 0 : first, rows,
+                              {"", "node; column of motion/U of its own rotation about its line hinge; axis"});
+}
+
 /// Whether local unknown x is a rotation of one of the body's own nodes.
 bool turns_node(const assembly::BodyReport& body, int x) {
   const int at = x - body.first_dof;
@@ -110,9 +134,33 @@ petsc::VecHandle shown_state(const assembly::Model& model, Vec U) {
   return shown;
 }
 
+namespace {
+
+/// For pictures: joints/NAME/kind, and places, a row each: body (its number in the summary, from 0; -1: ground), x.
+void write_joints(output::ResultFile& file, const assembly::Model& model) {
+  for (const assembly::JointPlaces& joint : model.joint_places) {
+    std::array<double, 8> rows{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& end = joint.ends[i];
+      rows[4 * i] = end.body;
+      for (int d = 0; d < 3; ++d)  // of the ground at the other place: none
+        rows[4 * i + 1 + static_cast<std::size_t>(d)] = std::isfinite(end.x[d]) ? end.x[d] : 0;
+      if (!end.x.allFinite()) rows[4 * i] = -2;
+    }
+    file.write_text("joints/" + joint.name + "/kind", joint.kind);
+    file.write_array("joints/" + joint.name + "/places", {2, 4}, rows,
+                     {"",
+                      "body by its number in the summary, -1: ground, -2: ground where the other place is at the "
+                      "start; place in the axes of the floating frame or the world"});
+  }
+}
+
+}  // namespace
+
 void write_bodies(output::ResultFile& file, const assembly::Model& model) {
   const double dimension[1] = {model.bodies.empty() ? 0. : model.bodies.front().dimension};
   file.write_array("motion/dimension", {}, dimension, {"", "2: in the plane, 3: in space"});
+  write_joints(file, model);
   for (const assembly::BodyReport& body : model.bodies) {
     const std::string group = "bodies/" + body.name;
     write_frame(file, group, body);
@@ -121,7 +169,35 @@ void write_bodies(output::ResultFile& file, const assembly::Model& model) {
     if (body.shapes_in_file) file.write_link(group + "/shapes", body.file, "/shapes");
     if (!body.mesh) continue;
     write_mesh(file, group, body);
-    if (body.first_dof >= 0) write_nodes(file, group, model, body);
+    if (body.first_dof < 0) continue;
+    write_nodes(file, group, model, body);
+    write_spins(file, group, model, body);
+  }
+}
+
+void write_deviation(output::ResultFile& file, const assembly::Model& model, const assess::Estimate& estimate) {
+  if (estimate.deviations.empty() || estimate.bases.size() != model.bodies.size()) return;
+  const auto rows = static_cast<std::int64_t>(estimate.deviations.size());
+  const auto width = static_cast<std::int64_t>(estimate.deviations.front().size());
+  std::vector<double> all;
+  for (const Eigen::VectorXd& d : estimate.deviations) all.insert(all.end(), d.data(), d.data() + d.size());
+  file.write_array("estimate/deviation", {rows, width}, all,
+                   {"", "estimated error of the reduced coordinates, on the basis and estimate_basis, body by body"});
+  std::int64_t first = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const assembly::BodyReport& body = model.bodies[b];
+    const auto& basis = estimate.bases[b];
+    const std::int64_t columns = basis ? basis->columns : body.columns;
+    const double at[1] = {static_cast<double>(first)};
+    first += columns;
+    if (!body.mesh || !body.basis || !basis) continue;
+    const std::string group = "bodies/" + body.name;
+    file.write_array(group + "/estimate_columns", {1}, at, {"", "first column of estimate/deviation"});
+    if (columns == body.columns) continue;
+    output::ReducedShapes shapes = body.mesh->shapes;
+    shapes.column = [&](int j, std::span<double> values) { copy_column(body, *basis, body.columns + j, values); };
+    file.write_vectors(group + "/estimate_basis", body.nodes, columns - body.columns, shapes,
+                       {"", "further vectors of the error estimate, as shapes/basis"});
   }
 }
 

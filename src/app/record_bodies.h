@@ -1,5 +1,6 @@
 #pragma once
 #include "floe/assembly/model.h"
+#include "floe/assess/estimate.h"
 #include "floe/output/result_file.h"
 
 namespace floe::app {
@@ -13,6 +14,10 @@ namespace floe::app {
 /// bodies/NAME: frame_at_start, columns_of_motion, shapes (mesh and basis; of a body from a file a link to it), and of
 /// full order nodes_of_motion. Collective.
 void write_bodies(output::ResultFile& file, const assembly::Model& model);
+
+/// What the error estimate found that the motion lacks, for what is recovered from it (floe stress): bodies/NAME:
+/// estimate_basis, estimate_columns; estimate/deviation, of the coordinates on [basis estimate_basis]. Collective.
+void write_deviation(output::ResultFile& file, const assembly::Model& model, const assess::Estimate& estimate);
 
 /// U as files have it: of corotational nodes in space the rotation vector of the whole turn of the node's frame from
 /// the undeformed body, world axes, where U has the turn within a step (dynamics::Attitude). Null: U itself.

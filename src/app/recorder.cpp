@@ -190,6 +190,7 @@ void Recorder::write_estimate() {
   if (columns > 0)
     file_->write_array("estimate/probes", {rows, columns}, errors,
                        {"", "estimated error of each column of probes.csv: full-order model minus this model"});
+  write_deviation(*file_, model_, estimate);
 }
 
 void Recorder::store_state(Vec U, Vec V) {

@@ -74,7 +74,7 @@ int flushed() {
 
 bool is_command(const std::string& word) {
   for (const char* name : {"run", "compare", "tradeoff", "sweep", "static", "campbell", "modes", "reduce", "info",
-                           "motion", "plot", "report", "export", "check", "schema"})
+                           "motion", "stress", "plot", "report", "export", "check", "schema"})
     if (word == name) return true;
   return false;
 }

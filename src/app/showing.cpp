@@ -61,6 +61,35 @@ void add_motion(CLI::App& app, Showing& showing, std::function<void()>& work) {
   command->callback([&] { work = [&] { write_motion(showing); }; });
 }
 
+void add_stress(CLI::App& app, Showing& showing, std::function<void()>& work) {
+  CLI::App* command = app.add_subcommand(
+      "stress", "recover stresses of a run's flexible bodies: extremes, fields for ParaView, histories as CSV");
+  StressRequest& request = showing.stress;
+  command->add_option("DIR", request.folder, "folder with the results of floe run or static")->required();
+  command->add_option("-o,--out", request.out,
+                      "FILE.xdmf, with FILE.h5 and FILE.csv beside it (default: DIR/stress.xdmf)");
+  command
+      ->add_option("--at", request.at,
+                   "instants of the fields, T1,T2,... [s] (default: those of the maximum stress of each body)")
+      ->delimiter(',');
+  command->add_option("--frames", request.frames, "fields at this number of equally spaced instants")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option(
+      "--history", request.histories,
+      "element with a history in FILE.csv: BODY:X,Y,Z in the axes of its mesh, the nearest (repeatable; "
+      "default: where each body has its maximum)");
+  command->add_option("--scene", request.scene,
+                      "the scene, where the run's own has been moved or was selected by --accuracy");
+  command->add_flag("--uncorrected", request.uncorrected,
+                    "the stresses of the reduced model alone, without the correction by its error estimate");
+  add_amplify(command, showing);
+  command->add_flag("--force", request.force, "replace these files if they exist");
+  command->callback([&] {
+    request.amplify = std::strtod(showing.amplify.c_str(), nullptr);
+    work = [&] { stress(request, PETSC_COMM_WORLD); };
+  });
+}
+
 std::vector<std::string> plot_words(const Showing& showing) {
   std::vector<std::string> words = showing.paths;
   const auto add = [&](const char* name, const std::string& value) {
@@ -78,6 +107,7 @@ std::vector<std::string> plot_words(const Showing& showing) {
   add("--frames", fmt::format("{}", showing.pictures));
   add("--fps", fmt::format("{}", showing.fps));
   add("--dpi", fmt::format("{}", showing.dpi));
+  if (showing.components) words.push_back("--components");
   return words;
 }
 
@@ -101,6 +131,8 @@ void add_plot(CLI::App& app, Showing& showing) {
       ->check(CLI::IsMember({"png", "svg", "pdf"}));
   command->add_option("--probes", showing.probes, "columns of probes.csv, separated by commas: tip.x (default: all)")
       ->delimiter(',');
+  command->add_flag("--components", showing.components,
+                    "compare: a panel for each component of the probes (default: one for each probe, with its error)");
   command->add_option("--times", showing.times, "instants of deformed shapes, A,B,C [s] (default: six)");
   add_amplify(command, showing);
   command->add_option("--view", showing.view,
@@ -138,6 +170,7 @@ std::vector<std::string> export_words(const Showing& showing) {
   std::vector<std::string> words = {"--out=" + showing.out.value_or("")};
   if (!showing.format.empty()) words.push_back("--format=" + showing.format);
   if (!showing.columns.empty()) words.push_back("--columns=" + showing.columns);
+  if (!showing.gyroscopic_columns.empty()) words.push_back("--gyroscopic-columns=" + showing.gyroscopic_columns);
   if (showing.with_shapes) words.push_back("--shapes");
   if (showing.no_geometric_stiffness) words.push_back("--no-geometric-stiffness");
   if (showing.force) words.push_back("--force");
@@ -147,20 +180,31 @@ std::vector<std::string> export_words(const Showing& showing) {
 
 void add_export(CLI::App& app, Showing& showing) {
   CLI::App* command = app.add_subcommand(
-      "export", "export a reduced body to other programs: NumPy, Standard Input Data (SID), MBSim, Matrix Market");
+      "export",
+      "export a reduced body to other programs: NumPy, Standard Input Data (SID), MBSim, Exudyn, Matrix "
+      "Market");
   command->add_option("BODY", showing.folder, "file written by floe reduce")->required();
   command
       ->add_option("-o,--out", showing.out,
                    "the file; its extension selects the format: .npz, .sid .SID_FEM, .xml (MBSim, nonlinear), .h5mbs "
                    "(MBSim, linear), .mtx (NAME-K.mtx, NAME-M.mtx, NAME-C.mtx)")
       ->required();
-  command->add_option("--format", showing.format, "npz | sid | mbsim | mbsim-hdf5 | mtx (default: by the extension)")
-      ->check(CLI::IsMember({"npz", "sid", "mbsim", "mbsim-hdf5", "mtx"}));
+  command
+      ->add_option("--format", showing.format,
+                   "npz | sid | mbsim | mbsim-hdf5 | mtx | exudyn (an .npz; default: by the extension)")
+      ->check(CLI::IsMember({"npz", "sid", "mbsim", "mbsim-hdf5", "mtx", "exudyn"}));
   command->add_flag("--shapes", showing.with_shapes, "npz: include the mesh and the basis at all nodes");
   command
       ->add_option("--columns", showing.columns,
-                   "sid: modes (with attachment modes; derivatives act by geometric stiffness) | all (default: modes)")
+                   "sid, exudyn: modes (with attachment modes; in sid derivatives act by geometric stiffness) | all "
+                   "(default: modes)")
       ->check(CLI::IsMember({"modes", "all"}));
+  command
+      ->add_option(
+          "--gyroscopic-columns", showing.gyroscopic_columns,
+          "sid, columns of Gr and Ge: axis (all coordinates of an axis together, as FEMBS has them) | coordinate "
+          "(default: axis)")
+      ->check(CLI::IsMember({"axis", "coordinate"}));
   command->add_flag("--no-geometric-stiffness", showing.no_geometric_stiffness,
                     "sid: omit the geometric stiffness terms");
   command->add_flag("--force", showing.force, "replace the file if it exists");
@@ -171,6 +215,7 @@ void add_export(CLI::App& app, Showing& showing) {
 
 void add_showing(CLI::App& app, Showing& showing, std::function<void()>& work) {
   add_motion(app, showing, work);
+  add_stress(app, showing, work);
   add_plot(app, showing);
   add_report(app, showing);
   add_export(app, showing);

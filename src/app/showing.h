@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "stress.h"
+
 namespace CLI {
 class App;
 }
@@ -23,12 +25,13 @@ struct Showing {
   std::optional<std::string> out;
   int frames = 200, pictures = 100, dpi = 150, shapes = 6;  ///< frames: of motion; pictures: of an animation
   double fps = 20;
-  bool force = false, with_shapes = false, no_geometric_stiffness = false;
-  std::string columns;           ///< of what is exported
+  bool force = false, with_shapes = false, no_geometric_stiffness = false, components = false;
+  std::string columns, gyroscopic_columns;  ///< of what is exported
+  StressRequest stress;
   std::optional<Script> script;  ///< to become, instead of working in a session
 };
 
-/// Adds `motion`, `plot`, `report` and `export`. @param work  of motion
+/// Adds `motion`, `stress`, `plot`, `report` and `export`. @param work  of motion and stress
 void add_showing(CLI::App& app, Showing& showing, std::function<void()>& work);
 
 }  // namespace floe::app

@@ -213,7 +213,8 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     std::vector<double> gap = values(solve::deviated(system, state, d, rate, second_rate));
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] -= was[i];
     probes.add(gap, was);
-    const double e = deformations(more, d).squaredNorm();
+    estimate.deviations.push_back(deformations(more, d));
+    const double e = estimate.deviations.back().squaredNorm();
     error += e, size += deformations(more, state.q).squaredNorm();
     estimate.t.push_back(state.t);
     estimate.errors.push_back(std::move(gap));
@@ -235,6 +236,7 @@ void make(const Model& model, const KeptMotion& motion, const Allowance& time, E
   Residuals residuals(model, offline, full_order(offline));
   sample(model, motion, time, residuals, estimate);
   const std::vector<ReducedBody> bodies = enriched(offline, residuals, time, estimate);
+  for (const ReducedBody& body : bodies) estimate.bases.push_back(body.basis);
   const Model more = assemble(offline.plan, Formulation::vm_md, bodies);
   follow(model, more, motion, time, estimate);
 }

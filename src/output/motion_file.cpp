@@ -58,7 +58,50 @@ void write_frame(MPI_Comm comm, hid_t file, const MovingBody& body, std::size_t 
                {"m", "in world axes, not enlarged"});
 }
 
-std::string grid_text(const MovingBody& body, std::size_t frame, double t, std::int64_t size, const std::string& data) {
+/// Some of the columns of rows of `width` numbers.
+std::vector<double> part_of(const std::vector<double>& rows, int width, int from, int count) {
+  std::vector<double> part;
+  for (std::size_t row = 0; row < rows.size(); row += static_cast<std::size_t>(width))
+    part.insert(part.end(), rows.begin() + static_cast<std::ptrdiff_t>(row) + from,
+                rows.begin() + static_cast<std::ptrdiff_t>(row) + from + count);
+  return part;
+}
+
+int width_of(const std::vector<CellField>& fields) {
+  int width = 0;
+  for (const CellField& field : fields) width += field.width;
+  return width;
+}
+
+/// @param group  NAME/ or NAME/frame_I/
+void write_fields(MPI_Comm comm, hid_t file, const MovingBody& body, const std::string& group,
+                  const std::vector<CellField>& fields, const CellRows& order, const std::vector<double>& values) {
+  const int width = width_of(fields);
+  if (width == 0) return;
+  const std::vector<double> rows = order.in_order(values, width);
+  int from = 0;
+  for (const CellField& field : fields) {
+    Extent shape{hsize_t(body.cells)};
+    if (field.width > 1) shape.push_back(hsize_t(field.width));
+    write_shared(comm, file, group + field.name, shape, order.first(), part_of(rows, width, from, field.width),
+                 {field.unit, field.description});
+    from += field.width;
+  }
+}
+
+std::string fields_text(const MovingBody& body, const std::string& group, const std::vector<CellField>& fields,
+                        const std::string& data) {
+  std::string text;
+  for (const CellField& field : fields)
+    text += xdmf_attribute(
+        field.name, field.width > 1 ? "Vector" : "Scalar", "Cell",
+        xdmf_item(field.width > 1 ? fmt::format("{} {}", body.cells, field.width) : fmt::format("{}", body.cells),
+                  false, data, group + field.name));
+  return text;
+}
+
+std::string grid_text(const MovingBody& body, std::size_t frame, double t, std::int64_t size, const CellFields* fields,
+                      const std::string& data) {
   return fmt::format("      <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n", escaped(body.name),
                      t) +
          xdmf_mesh(body.cells, body.name + "/cells", size, body.nodes, dataset(body, frame, "positions"), data) +
@@ -66,17 +109,27 @@ std::string grid_text(const MovingBody& body, std::size_t frame, double t, std::
                         xdmf_item(fmt::format("{}", body.cells), true, data, body.name + "/part")) +
          xdmf_attribute("deformation", "Vector", "Node",
                         xdmf_item(fmt::format("{} 3", body.nodes), false, data, dataset(body, frame, "deformation"))) +
+         (fields ? fields_text(body, body.name + "/", fields->constants, data) +
+                       fields_text(body, dataset(body, frame, ""), fields->fields, data)
+                 : std::string()) +
          "      </Grid>\n";
+}
+
+const CellFields* fields_of(const MotionRequest& request, const MovingBody& body) {
+  if (!request.cells) return nullptr;
+  const auto found = request.cells->find(body.name);
+  return found == request.cells->end() ? nullptr : &found->second;
 }
 
 /// A collection over time for each body: readers then call it the same at all times.
 std::string text_of(const std::vector<MovingBody>& bodies, const std::vector<double>& times,
-                    const std::vector<std::int64_t>& sizes, const std::string& data) {
+                    const std::vector<std::int64_t>& sizes, const MotionRequest& request, const std::string& data) {
   std::string text;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     text += fmt::format("    <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
                         escaped(bodies[b].name));
-    for (std::size_t f = 0; f < times.size(); ++f) text += grid_text(bodies[b], f, times[f], sizes[b], data);
+    for (std::size_t f = 0; f < times.size(); ++f)
+      text += grid_text(bodies[b], f, times[f], sizes[b], fields_of(request, bodies[b]), data);
     text += "    </Grid>\n";
   }
   return xdmf_document(text);
@@ -85,34 +138,53 @@ std::string text_of(const std::vector<MovingBody>& bodies, const std::vector<dou
 }  // namespace
 
 MotionWritten write_motion(MPI_Comm comm, const MotionRequest& request) {
-  const XdmfPair pair{request.xdmf, "motion", "floe motion"};
+  const XdmfPair pair{request.xdmf, request.what, "floe " + request.what};
   std::optional<MotionSource> source;
   petsc::agree(comm, [&] { source.emplace(comm, request.results); });
   const Claim claim = claim_file(comm, pair.xdmf);
   check_pair(comm, pair, request.overwrite);
-  const std::vector<std::size_t> rows = chosen_rows(source->times(), request.frames);
+  const std::vector<std::size_t> rows =
+      request.rows.empty() ? chosen_rows(source->times(), request.frames) : request.rows;
   MotionWritten written;
   written.without = source->without();
+  std::vector<MovingBody> bodies;
+  for (const MovingBody& body : source->bodies())
+    if (!request.cells || fields_of(request, body)) bodies.push_back(body);
   for (const std::size_t row : rows) written.t.push_back(source->times()[row]);
   std::uint64_t bytes = 0;
-  for (const MovingBody& body : source->bodies()) {
+  for (const MovingBody& body : bodies) {
     written.bodies.push_back(body.name);
     written.nodes += body.nodes, written.cells += body.cells;
     bytes += 8 * (7 * body.cells + 6 * body.nodes * rows.size()) + 4096 * (2 + 2 * rows.size());
+    if (const CellFields* fields = fields_of(request, body))
+      bytes += 8 * body.cells * (width_of(fields->constants) + width_of(fields->fields) * rows.size()) +
+               4096 * (fields->constants.size() + fields->fields.size() * rows.size());
   }
   std::vector<std::int64_t> sizes;
   write_pair(
       comm, pair, bytes,
       [&](hid_t file) {
-        for (const MovingBody& body : source->bodies()) sizes.push_back(write_cells(comm, file, *source, body));
+        std::vector<std::optional<CellRows>> orders(bodies.size());
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+          sizes.push_back(write_cells(comm, file, *source, bodies[b]));
+          const CellFields* fields = fields_of(request, bodies[b]);
+          if (!fields) continue;
+          orders[b].emplace(comm, bodies[b].nodes, bodies[b].cells, fields->cells);
+          write_fields(comm, file, bodies[b], bodies[b].name + "/", fields->constants, *orders[b],
+                       fields->constant_values);
+        }
         for (std::size_t f = 0; f < rows.size(); ++f) {
           MotionRow row;
           petsc::agree(comm, [&] { row = source->row(rows[f]); });
-          for (const MovingBody& body : source->bodies())
-            write_frame(comm, file, body, f, moved(body, row, request.amplify));
+          for (std::size_t b = 0; b < bodies.size(); ++b) {
+            write_frame(comm, file, bodies[b], f, moved(bodies[b], row, request.amplify));
+            if (const CellFields* fields = fields_of(request, bodies[b]))
+              write_fields(comm, file, bodies[b], dataset(bodies[b], f, ""), fields->fields, *orders[b],
+                           fields->values(f));
+          }
         }
       },
-      [&] { return text_of(source->bodies(), written.t, sizes, pair.data().filename().string()); });
+      [&] { return text_of(bodies, written.t, sizes, request, pair.data().filename().string()); });
   return written;
 }
 

@@ -63,7 +63,8 @@ MotionSource::MotionSource(MPI_Comm comm, const std::filesystem::path& folder) :
     if (!has(file_, "motion/t") || !has(file_, "motion/dimension"))
       throw Fault("result.h5 has no node positions of the bodies; run the scene again with this version");
     dimension_ = static_cast<int>(read_whole<double>(file_, "motion/dimension", {}).front());
-    const auto summary = nlohmann::json::parse(read_text(file_, "summary"));
+    summary_ = nlohmann::json::parse(read_text(file_, "summary"));
+    const nlohmann::json& summary = summary_;
     in_world_ = summary.value("formulation", "") == "cfr";
     read_times();
     unknowns_ = extent_of(file_, "motion/U")[1];

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,13 @@ class MotionSource {
   const std::vector<MovingBody>& bodies() const { return bodies_; }
   const std::vector<std::string>& without() const { return without_; }
   MotionRow row(std::size_t index) const;
+  hid_t file() const { return file_; }
+  const nlohmann::json& summary() const { return summary_; }
+  /// How many unknowns follow the first reduced coordinate of the body, at most: formulation vm has fewer than the
+  /// basis.
+  std::int64_t coordinates_of(const MovingBody& body) const {
+    return body.elastic < 0 ? 0 : static_cast<std::int64_t>(unknowns_) - body.elastic;
+  }
   /// Rows (four nodes, part, kind) of this rank's share of the cells; and where it begins.
   Integers cells(const MovingBody& body, std::int64_t& first) const;
 
@@ -54,6 +62,7 @@ class MotionSource {
   MPI_Comm comm_;
   std::filesystem::path folder_;
   Hid file_;
+  nlohmann::json summary_;
   int dimension_ = 3;
   bool in_world_ = false;
   std::vector<double> times_;

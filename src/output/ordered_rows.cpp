@@ -86,6 +86,59 @@ Integers cells_in_order(MPI_Comm comm, const Shares& shares, const std::vector<R
   return all;
 }
 
+namespace {
+
+Integers first_nodes(const std::vector<ReducedShapes::Cell>& cells) {
+  Integers firsts;
+  for (const auto& cell : cells) firsts.push_back(cell.nodes[0]);
+  return firsts;
+}
+
+/// Of the cells that come to this rank, by (nodes, part, kind). Collective.
+std::vector<std::size_t> cell_order(const Route& route, const std::vector<ReducedShapes::Cell>& cells) {
+  Integers rows;
+  for (const auto& cell : cells) {
+    rows.insert(rows.end(), cell.nodes.begin(), cell.nodes.end());
+    rows.insert(rows.end(), {cell.part, static_cast<std::int64_t>(cell.kind)});
+  }
+  const Integers came = route.send<std::int64_t>(rows, cell_width);
+  std::vector<std::size_t> order(came.size() / cell_width);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto at = came.begin();
+    return std::lexicographical_compare(at + cell_width * a, at + cell_width * (a + 1), at + cell_width * b,
+                                        at + cell_width * (b + 1));
+  });
+  return order;
+}
+
+Integers numbers_from(std::int64_t first, std::size_t count) {
+  Integers all(count);
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+}  // namespace
+
+CellRows::CellRows(MPI_Comm comm, std::int64_t nodes, std::int64_t cells, const std::vector<ReducedShapes::Cell>& mine)
+    : to_nodes_(comm, Shares(comm, nodes), first_nodes(mine)),
+      order_(cell_order(to_nodes_, mine)),
+      to_shares_(comm, Shares(comm, cells), numbers_from(sum_before(comm, std::ssize(order_)), order_.size())) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  first_ = Shares(comm, cells).first(rank);
+}
+
+std::vector<double> CellRows::in_order(std::span<const double> rows, int width) const {
+  const auto came = to_nodes_.send<double>(rows, width);
+  std::vector<double> sorted;
+  sorted.reserve(came.size());
+  for (const std::size_t i : order_)
+    sorted.insert(sorted.end(), came.begin() + static_cast<std::ptrdiff_t>(i * width),
+                  came.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
+  return to_shares_.send<double>(sorted, width);
+}
+
 Integers columns_of(const Integers& rows, int from, int count) {
   Integers part;
   for (auto row = rows.begin(); row != rows.end(); row += cell_width)

@@ -47,6 +47,22 @@ constexpr int cell_width = 6;  ///< four nodes (cells are sorted by them), part,
 int corners(ReducedShapes::Kind kind);
 /// Cells at the share of their first node, in ascending order there: an order that no partition changes. Collective.
 Integers cells_in_order(MPI_Comm comm, const Shares& shares, const std::vector<ReducedShapes::Cell>& cells);
+/// Rows of elements as they came, put in that order and spread over the ranks in equal shares.
+class CellRows {
+ public:
+  /// @param nodes  of the mesh, of all ranks. Collective.
+  CellRows(MPI_Comm comm, std::int64_t nodes, std::int64_t cells, const std::vector<ReducedShapes::Cell>& mine);
+  /// Of this rank's share. Collective.
+  std::vector<double> in_order(std::span<const double> rows, int width) const;
+  std::int64_t first() const { return first_; }  ///< of this rank's share
+
+ private:
+  Route to_nodes_;
+  std::vector<std::size_t> order_;  ///< of what came, ascending
+  Route to_shares_;
+  std::int64_t first_;
+};
+
 /// Some of the cell_width columns of such rows.
 Integers columns_of(const Integers& rows, int from, int count);
 

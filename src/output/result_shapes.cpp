@@ -23,6 +23,16 @@ void ResultFile::write_shapes(const std::string& group, std::int64_t nodes, std:
   });
 }
 
+void ResultFile::write_vectors(const std::string& name, std::int64_t nodes, std::int64_t columns,
+                               const ReducedShapes& shapes, const Label& label) {
+  open_draft();
+  reserve_in_draft(8 * nodes * columns * shapes.dofs_per_node);
+  writing(path_, [&] {
+    const Shares shares(comm_, nodes);
+    write_columns(comm_, draft_, name, columns, nodes, NodeRows(comm_, shares, shapes.nodes), shapes, label);
+  });
+}
+
 void ResultFile::write_of_nodes(const std::string& name, std::int64_t nodes, std::int64_t columns,
                                 const ReducedShapes& shapes, std::span<const double> rows, const Label& label) {
   open_draft();

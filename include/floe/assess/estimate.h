@@ -46,6 +46,9 @@ struct Estimate {
   double seconds = 0, allowed = 0;
   std::vector<std::string> notes;                                    ///< what was left out, and why
   std::vector<std::shared_ptr<const reduction::Columns>> responses;  ///< W of each body; null: none
+  /// [V W] of each body, and of each instant the deviation of the coordinates on these, body by body.
+  std::vector<std::shared_ptr<const reduction::Basis>> bases;
+  std::vector<Eigen::VectorXd> deviations;
 };
 
 /// What an estimate may take of a run [s]: a tenth of it, or a second.

@@ -2,10 +2,30 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "floe/output/reduced_file.h"
+
 namespace floe::output {
+
+/// Numbers of each element, of all of these fields one after the other.
+struct CellField {
+  std::string name;
+  int width = 1;  ///< 1 or 3
+  std::string unit = {}, description = {};
+};
+
+/// What goes with the elements of a body: each rank gives that of some of them, which it names.
+struct CellFields {
+  std::vector<ReducedShapes::Cell> cells;  ///< of this rank, as in the body's mesh (plan::mesh_copy)
+  std::vector<CellField> fields;           ///< of each instant
+  std::function<std::vector<double>(std::size_t frame)> values;
+  std::vector<CellField> constants;  ///< the same at all instants
+  std::vector<double> constant_values;
+};
 
 /// Which instants of a run are written, and how far deformations are enlarged.
 struct MotionRequest {
@@ -14,6 +34,9 @@ struct MotionRequest {
   double amplify = 1;             ///< factor of the deformations
   int frames = 200;               ///< at most so many, at equal distances in time; 0: all that the run kept
   bool overwrite = false;
+  std::string what = "motion";                               ///< for messages, and the data's format `floe WHAT`
+  std::vector<std::size_t> rows = {};                        ///< of the instants that the run kept; empty: by `frames`
+  const std::map<std::string, CellFields>* cells = nullptr;  ///< by the bodies' names; those without are left out
 };
 
 /// What was written, for those who asked for it.

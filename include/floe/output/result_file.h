@@ -62,6 +62,9 @@ class ResultFile {
   /// Collective.
   void write_shapes(const std::string& group, std::int64_t nodes, std::int64_t columns, const ReducedShapes& shapes,
                     const Label& basis = {});
+  /// Vectors of the dofs at the nodes alone, columns x nodes x dofs, as the basis of write_shapes. Collective.
+  void write_vectors(const std::string& name, std::int64_t nodes, std::int64_t columns, const ReducedShapes& shapes,
+                     const Label& label);
   /// Some numbers of each node, nodes x columns, in original order; each rank gives those of shapes.nodes. Collective.
   void write_of_nodes(const std::string& name, std::int64_t nodes, std::int64_t columns, const ReducedShapes& shapes,
                       std::span<const double> rows, const Label& label = {});

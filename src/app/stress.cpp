@@ -1,0 +1,292 @@
+#include "stress.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "floe/assess/stress_fields.h"
+#include "floe/error.h"
+#include "floe/output/folder.h"
+#include "floe/output/progress.h"
+#include "floe/output/series_file.h"
+#include "floe/output/table.h"
+#include "floe/petsc/error.h"
+#include "floe/petsc/rank.h"
+#include "floe/scene/scene.h"
+#include "stress_extremes.h"
+
+namespace floe::app {
+namespace {
+
+using assess::BodyStress;
+using fem::SmallRows;
+
+/// The scene of the run, as it was then.
+scene::Scene scene_of(const StressRequest& request, const output::NodeMotion& motion) {
+  const std::string path = request.scene.empty() ? motion.scene_file() : request.scene;
+  scene::Scene scene = scene::read_scene(path);
+  if (request.scene.empty() && scene.text != motion.scene_text())
+    throw InputError(fmt::format("stress '{}': scene {} has changed since the run; expected the same, or --scene FILE",
+                                 request.folder, path));
+  return scene;
+}
+
+/// Rows of the instants nearest to those that are asked for, or at equal distances; empty: neither.
+std::vector<std::size_t> chosen_rows(const StressRequest& request, const std::vector<double>& times) {
+  std::set<std::size_t> rows;
+  std::vector<double> wanted = request.at;
+  for (int f = 0; f < request.frames; ++f)
+    wanted.push_back(times.front() + (times.back() - times.front()) * f / std::max(1, request.frames - 1));
+  const double slack = 1e-9 * std::max(std::abs(times.front()), std::abs(times.back()));
+  for (const double t : wanted) {
+    if (!(t >= times.front() - slack && t <= times.back() + slack))
+      throw InputError(
+          fmt::format("--at {}: is not within the simulation; expected {} to {} s", t, times.front(), times.back()));
+    const auto after = std::lower_bound(times.begin(), times.end(), t);
+    auto row = static_cast<std::size_t>(std::min<std::ptrdiff_t>(after - times.begin(), std::ssize(times) - 1));
+    if (row > 0 && t - times[row - 1] < times[row] - t) --row;
+    rows.insert(row);
+  }
+  return {rows.begin(), rows.end()};
+}
+
+/// A body, its stresses and what is known of them.
+struct Recovered {
+  std::string name;
+  std::unique_ptr<BodyStress> stress;
+  Extremes extremes;
+  std::vector<char> watched = {};  ///< of its cells: which have a history
+};
+
+/// Fields at some rows, of all cells, in groups that fit into memory.
+class Frames {
+ public:
+  Frames(const BodyStress& stress, std::vector<std::size_t> rows) : stress_(stress), rows_(std::move(rows)) {}
+  std::vector<double> values(std::size_t frame) {
+    const auto cells = static_cast<Eigen::Index>(stress_.cells().size()), width = Eigen::Index{stress_.width()};
+    if (frame < first_ || frame >= first_ + kept_.size()) {
+      constexpr std::size_t most = std::size_t{1} << 26;  // numbers
+      const std::size_t each = std::max<std::size_t>(1, static_cast<std::size_t>(cells * width));
+      first_ = frame;
+      std::size_t count = std::min(rows_.size() - frame, std::max<std::size_t>(1, most / each));
+      MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_UINT64_T, MPI_MIN, PETSC_COMM_WORLD);
+      kept_.assign(count, std::vector<double>(each * static_cast<std::size_t>(cells > 0)));
+      stress_.evaluate({rows_.data() + frame, count}, [&](std::size_t cell, std::size_t at, const SmallRows& values) {
+        for (Eigen::Index t = 0; t < values.cols(); ++t)
+          Eigen::Map<Eigen::VectorXd>(
+              kept_[at + static_cast<std::size_t>(t)].data() + static_cast<std::ptrdiff_t>(cell) * width, width) =
+              values.col(t);
+      });
+    }
+    return kept_[frame - first_];
+  }
+
+ private:
+  const BodyStress& stress_;
+  std::vector<std::size_t> rows_;
+  std::size_t first_ = 0;
+  std::vector<std::vector<double>> kept_;
+};
+
+/// The cell of all ranks whose middle is nearest to a point. Collective. @return  among this rank's; -1: another has it
+std::ptrdiff_t nearest_cell(const BodyStress& stress, const Eigen::Vector3d& x, MPI_Comm comm) {
+  struct {
+    double distance;
+    int rank;
+  } best{1e300, petsc::rank_of(comm)}, all;
+  std::ptrdiff_t found = -1;
+  for (std::size_t c = 0; c < stress.centres().size(); ++c)
+    if (const double d = (stress.centres()[c] - x).norm(); d < best.distance * (1 - 1e-9))
+      best.distance = d, found = static_cast<std::ptrdiff_t>(c);
+  MPI_Allreduce(&best, &all, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm);
+  return all.rank == best.rank ? found : -1;
+}
+
+/// `BODY:x,y,z`.
+std::pair<std::string, Eigen::Vector3d> place_of(const std::string& word, const std::vector<Recovered>& bodies) {
+  const auto colon = word.rfind(':');
+  const std::string name = word.substr(0, colon);
+  std::vector<std::string> names;
+  for (const Recovered& body : bodies) names.push_back(body.name);
+  if (colon == std::string::npos || std::find(names.begin(), names.end(), name) == names.end())
+    throw InputError(fmt::format("--history {}: names no body with stresses; expected BODY:X,Y,Z with one of {}", word,
+                                 fmt::join(names, ", ")));
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  std::size_t at = colon + 1;
+  for (int i = 0; i < 3; ++i) {
+    char* end = nullptr;
+    x[i] = std::strtod(word.c_str() + at, &end);
+    const auto behind = static_cast<std::size_t>(end - word.c_str());
+    const bool last = behind == word.size();
+    if (behind == at || !std::isfinite(x[i]) || (!last && word[behind] != ',') || (last && i < 1))
+      throw InputError(fmt::format("--history {}: expected BODY:X,Y,Z, coordinates in the axes of its mesh", word));
+    if (last) return {name, x};
+    at = behind + 1;
+  }
+  throw InputError(fmt::format("--history {}: has more than three coordinates", word));
+}
+
+/// A place with a history.
+struct Watched {
+  std::size_t body;
+  std::ptrdiff_t cell;  ///< of this rank; -1: of another
+};
+
+std::vector<output::SeriesColumn> columns_of(const std::string& prefix, const BodyStress& stress) {
+  std::vector<output::SeriesColumn> columns;
+  for (const output::CellField& field : stress.fields()) {
+    if (field.width == 1) {
+      columns.push_back({fmt::format("{}.{}", prefix, field.name), field.unit});
+      continue;
+    }
+    const bool force = field.name == "section_force", moment = field.name.starts_with("section_moment");
+    const std::array<const char*, 3> parts = force    ? std::array{"N", "Vy", "Vz"}
+                                             : moment ? std::array{"T", "My", "Mz"}
+                                                      : std::array{"xx", "yy", "xy"};
+    for (const char* part : parts) columns.push_back({fmt::format("{}.{}.{}", prefix, field.name, part), field.unit});
+  }
+  return columns;
+}
+
+void write_histories(const std::vector<Recovered>& bodies, const std::vector<Watched>& watched,
+                     const std::vector<double>& times, const std::filesystem::path& path, MPI_Comm comm) {
+  std::vector<std::size_t> rows(times.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  std::vector<output::SeriesColumn> columns;
+  std::vector<int> starts;
+  for (std::size_t w = 0; w < watched.size(); ++w) {
+    const Recovered& body = bodies[watched[w].body];
+    starts.push_back(static_cast<int>(columns.size()));
+    const auto own = columns_of(fmt::format("{}.{}", body.name, w + 1), *body.stress);
+    columns.insert(columns.end(), own.begin(), own.end());
+  }
+  const auto width = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(width, static_cast<Eigen::Index>(times.size()));
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    std::vector<char> wanted(bodies[b].stress->cells().size(), 0);
+    for (const Watched& one : watched)
+      if (one.body == b && one.cell >= 0) wanted[static_cast<std::size_t>(one.cell)] = 1;
+    bodies[b].stress->evaluate(
+        rows,
+        [&](std::size_t cell, std::size_t first, const SmallRows& values) {
+          for (std::size_t w = 0; w < watched.size(); ++w)
+            if (watched[w].body == b && watched[w].cell == static_cast<std::ptrdiff_t>(cell))
+              all.block(starts[w], static_cast<Eigen::Index>(first), values.rows(), values.cols()) = values;
+        },
+        &wanted);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, comm);
+  output::SeriesFile file(comm, path, columns);
+  petsc::agree(comm, [&] {
+    for (std::size_t i = 0; i < times.size(); ++i)
+      file.row(times[i], {all.data() + static_cast<std::ptrdiff_t>(i) * width, static_cast<std::size_t>(width)});
+  });
+  file.finish();
+}
+
+void show(const std::vector<Recovered>& bodies, const std::vector<double>& times) {
+  output::Table table;
+  table.columns = {{"body", ""},  {"", ""},      {"von Mises", "Pa", 5}, {"t", "s", 5},
+                   {"x", "m", 4}, {"y", "m", 4}, {"z", "m", 4},          {"remark", ""}};
+  for (const Recovered& body : bodies)
+    for (const bool regular : {false, true}) {
+      const Peak& peak = regular ? body.extremes.regular : body.extremes.greatest;
+      if (!(peak.value >= 0) || (regular && peak.singular == body.extremes.greatest.singular)) continue;
+      table.rows.push_back({body.name, regular ? "elsewhere" : "maximum", peak.value, times[peak.row], peak.at[0],
+                            peak.at[1], peak.at[2], words_of(peak.singular)});
+    }
+  if (!table.rows.empty()) fmt::print("{}", output::to_text(table));
+}
+
+}  // namespace
+
+void stress(const StressRequest& request, MPI_Comm comm) {
+  std::optional<output::NodeMotion> motion;
+  scene::Scene whole;
+  petsc::agree(comm, [&] {
+    motion.emplace(comm, request.folder);
+    whole = scene_of(request, *motion);
+  });
+  const output::Waiting waiting(comm, "recovering stresses");
+  const scene::Scene scene = motion->formulation() == "cfr" ? whole : plan::split_frames(whole);
+  const plan::Plan plan = plan::prepare(scene, comm);
+  const std::vector<double>& times = motion->times();
+  std::vector<std::size_t> all(times.size()), rows;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  petsc::agree(comm, [&] { rows = chosen_rows(request, times); });
+  std::vector<Recovered> bodies;
+  std::vector<std::string> notes;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const scene::Body& spec = plan.bodies[b].spec;
+    if (spec.rigid) continue;
+    if (spec.reduced || !motion->has(spec.name)) {
+      notes.push_back(
+          fmt::format("body {} has no elements in the scene or no mesh in the results, and is omitted", spec.name));
+      continue;
+    }
+    bodies.push_back(
+        {spec.name, std::make_unique<BodyStress>(plan, static_cast<int>(b), *motion, !request.uncorrected), {}});
+    bodies.back().extremes = find_extremes(*bodies.back().stress, all, comm);
+    if (!(bodies.back().extremes.greatest.value >= 0))
+      notes.push_back(
+          fmt::format("body {}: its sections are given by their stiffness: forces and moments, no stresses "
+                      "(fibre or fibres of a section of beams)",
+                      spec.name));
+  }
+  if (bodies.empty()) throw InputError(fmt::format("stress '{}': no flexible body has a mesh", request.folder));
+  std::vector<Watched> watched;
+  std::vector<std::string> places;
+  for (const std::string& word : request.histories) {
+    std::pair<std::string, Eigen::Vector3d> place;
+    petsc::agree(comm, [&] { place = place_of(word, bodies); });
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      if (bodies[b].name == place.first) watched.push_back({b, nearest_cell(*bodies[b].stress, place.second, comm)});
+    places.push_back(word);
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Peak& peak = bodies[b].extremes.greatest;
+    if (!(peak.value >= 0)) continue;
+    if (request.histories.empty()) {
+      watched.push_back({b, peak.rank == petsc::rank_of(comm) ? static_cast<std::ptrdiff_t>(peak.cell) : -1});
+      places.push_back(fmt::format("{}, where von Mises' stress is greatest", bodies[b].name));
+    }
+    if (request.at.empty() && request.frames == 0) rows.push_back(peak.row);
+  }
+  if (rows.empty()) rows.push_back(times.size() - 1);
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+
+  std::map<std::string, output::CellFields> cells;
+  std::vector<std::unique_ptr<Frames>> frames;
+  for (const Recovered& body : bodies) {
+    output::CellFields& of = cells[body.name];
+    of.cells = body.stress->cells(), of.fields = body.stress->fields();
+    frames.push_back(std::make_unique<Frames>(*body.stress, rows));
+    of.values = [own = frames.back().get()](std::size_t frame) { return own->values(frame); };
+    of.constants = constant_fields();
+    of.constant_values = constant_values(body.extremes, *body.stress, times);
+  }
+  output::MotionRequest file;
+  file.results = request.folder;
+  file.xdmf = request.out ? *request.out : (file.results / "stress.xdmf").string();
+  file.amplify = request.amplify, file.overwrite = request.force, file.what = "stress";
+  file.rows = rows, file.cells = &cells;
+  const output::MotionWritten written = output::write_motion(comm, file);
+  const std::filesystem::path csv = std::filesystem::path(file.xdmf).replace_extension(".csv");
+  if (!watched.empty()) write_histories(bodies, watched, times, csv, comm);
+  if (!petsc::first_rank(comm)) return;
+  show(bodies, times);
+  fmt::print("{} instants, {} of them with fields, {} elements of {}{}\n", times.size(), written.t.size(),
+             written.cells, fmt::join(written.bodies, ", "),
+             !request.uncorrected && motion->has_correction() ? "; with the correction of the error estimate" : "");
+  for (const std::string& note : notes) fmt::print("Note: {}\n", note);
+  fmt::print("For ParaView: {}\n", file.xdmf.string());
+  for (std::size_t w = 0; w < places.size(); ++w) fmt::print("History {} in {}: {}\n", w + 1, csv.string(), places[w]);
+}
+
+}  // namespace floe::app

@@ -1,0 +1,245 @@
+"""`floe stress` against closed forms, published tables, full order, CalculiX: run.py FLOE."""
+import pathlib
+import shutil
+import sys
+import tempfile
+
+import h5py
+import numpy as np
+
+import calculix
+from fields import CLAMPED, LAMINATE, PLANAR, ROLLED, SHAKEN, SPATIAL, STRIP, Fields, close, floe, recovered, table
+
+FLOE = pathlib.Path(sys.argv[1]).resolve()
+
+
+def strip_under_force(folder):
+    """Bending 6 M / (b t^2) on top and bottom, tension N / (b t), nu = 0; in every formulation. M = F (L - x) in the linear
+    one; the tension straightens the others, M = F sinh(k (L - x)) / (k cosh k L), k^2 = N / EI."""
+    pull, k = 2 / (0.05 * 2e-3), np.sqrt(2 / (7e10 * 0.05 * 2e-3**3 / 12))
+    for cells in ("quadrilaterals", "triangles"):
+        for formulation in ("vm+md", "nlffr", "lffr", "cfr"):
+            path, _ = recovered(FLOE, folder, STRIP.replace("CELLS", cells), formulation=formulation)
+            found = Fields(path, "strip")
+            inner = found.x[:, 0] > 0.03  # beside the clamp the strip stays as wide, which nu = 0 allows, but not its rows
+            x = found.x[inner, 0]
+            moment = 0.01 * ((1 - x) if formulation == "lffr" else np.sinh(k * (1 - x)) / (k * np.cosh(k)))
+            for name, sign in (("stress_top", -1), ("stress_bottom", 1)):
+                close(found[name][inner, 0], pull + sign * 6 * moment / (0.05 * 2e-3**2), 0.01, f"{cells} {formulation} {name}")
+            close(found["membrane_force"][inner, 0], 0 * x + 2 / 0.05, 1e-3, f"{cells} {formulation} N")
+            close(found["bending_moment"][inner, 0], -moment / 0.05, 0.01, f"{cells} {formulation} M")
+            close(found["strain_top"][inner], found["stress_top"][inner] / 7e10 * [1, 1, 2], 1e-9, "strain")
+            worst = np.maximum(np.abs(found["stress_top"][:, 0]), np.abs(found["stress_bottom"][:, 0]))
+            close(found["von_mises"][inner], worst[inner], 5e-3, "von Mises")
+            close(found["stress_max"][inner], found["stress_bottom"][inner, 0], 5e-3, "principal stress")
+            close(found["von_mises_of_motion"], found["von_mises"], 1e-6, "maximum of equilibria that are all the same")
+
+
+def plate_under_pressure(folder):
+    """Taylor and Govindjee 2004: M = 0.0229051 q a^2 in the middle, -0.0513338 q a^2 at the edges, nu = 0.3; here at the
+    middles of the elements beside them."""
+    path, said = recovered(FLOE, folder, CLAMPED, formulation="nlffr")
+    found = Fields(path, "plate")
+    middle = np.argsort(np.linalg.norm(found.x - [0.5, 0.5, 0], axis=1))[:4]
+    close(found["bending_moment"][middle, :2], 10 * 0.0229051 + np.zeros((4, 2)), 0.015, "moment in the middle")
+    close(found["von_mises_top"][middle], 6 * 10 * 0.0229051 / 0.01**2 + np.zeros(4), 0.015, "von Mises in the middle")
+    row = np.abs(found.x[:, 1] - found.x[middle[0], 1]) < 1e-9
+    x, M = found.x[row, 0], found["bending_moment"][row, 0]
+    edge = np.polyval(np.polyfit(x[x < 0.2], M[x < 0.2], 2), 0)
+    close(edge, -10 * 0.0513338, 0.03, "moment at the edge")
+    assert "singular" not in said, said  # all edges are held: their corners are no ends
+
+
+def layers(folder):
+    """Pull of a cross-ply laminate with nu = 0: eps = N / sum E h, each layer E eps."""
+    path, _ = recovered(FLOE, folder, LAMINATE)
+    found = Fields(path, "strip")
+    inner = (found.x[:, 0] > 0.2) & (found.x[:, 0] < 0.8)
+    eps = 100 / 0.1 / (2 * 1.4e11 * 1e-3 + 1e10 * 1e-3)
+    for layer, E in ((1, 1.4e11), (2, 1e10), (3, 1.4e11)):
+        close(found[f"stress_layer_{layer}"][inner, 0], E * eps + np.zeros(inner.sum()), 1e-3, f"layer {layer}")
+    close(found["von_mises"][inner], 1.4e11 * eps + np.zeros(inner.sum()), 1e-3, "of all layers")
+
+
+def beams(folder):
+    """N / A and M c / I: exact at both ends of the elements under a force at the tip."""
+    for formulation in ("vm+md", "nlffr", "cfr"):
+        path, _ = recovered(FLOE, folder, PLANAR, formulation=formulation)
+        found = Fields(path, "beam")
+        start = found.x[:, 0] - 0.1
+        close(found["section_force"][:, 0], 500 + 0 * start, 1e-3, f"{formulation} N")
+        k = np.sqrt(500 / (2e11 * 1.0666666666666667e-7))  # tension straightens: M = -V sinh(k (L - x)) / (k cosh k L)
+        moment = lambda x: -3 * np.sinh(k * (2 - x)) / (k * np.cosh(2 * k))  # noqa: E731
+        close(found["section_moment_start"][:, 2], moment(start), 0.01, f"{formulation} M")
+        worst = 500 / 8e-4 + np.abs(moment(start)) * 0.02 / 1.0666666666666667e-7
+        close(found["stress_max"], worst, 0.01, f"{formulation} fibres")
+        path, _ = recovered(FLOE, folder, SPATIAL, formulation=formulation)
+        found = Fields(path, "beam")
+        left = 1.5 - (found.x[:, 1] - 1.5 / 24)  # from the start of the element to the tip
+        # x along +y, y along +x (width 0.03), z = x cross y along -z (height 0.05)
+        Iy, Iz = 0.03 * 0.05**3 / 12, 0.05 * 0.03**3 / 12
+        bend = 2 * left * 0.015 / Iz + 3 * left * 0.025 / Iy
+        close(found["stress_max"], 100 / 0.0015 + bend, 0.01, f"{formulation} corners")
+        close(found["stress_min"], 100 / 0.0015 - bend, 0.01, f"{formulation} corners")
+        close(found["section_force"], np.tile([100, 2, 3], (12, 1)), 0.01, f"{formulation} forces")
+
+
+def large_rotations(folder):
+    """Pure bending: M t / 2 I everywhere, at any rotation."""
+    moment = 7e10 * 0.05 * 2e-3**3 / 12 * np.pi / 3
+    path, _ = recovered(FLOE, folder, ROLLED.replace("MOMENT", repr(moment)), formulation="cfr")
+    found = Fields(path, "strip")
+    inner = (found.x[:, 0] > 0.1) & (found.x[:, 0] < 0.9)
+    stress = 7e10 * 1e-3 * np.pi / 3
+    close(found["stress_top"][inner, 0], -stress + np.zeros(inner.sum()), 0.01, "top")
+    close(found["membrane_force"][inner], np.zeros((inner.sum(), 3)) + 1e-2 * stress * 2e-3, 1.5, "no membrane force")
+    line = ROLLED.replace("MOMENT", repr(moment)).replace(
+        "{plate: {along: [1, 0, 0], across: [0, 0.05, 0], elements: [24, 2], cells: quadrilaterals}}",
+        "{line: {from: [0, 0, 0], to: [1, 0, 0], elements: 12}}").replace(
+        "{thickness: 2e-3}", "{shape: rectangle, width: 0.05, height: 2e-3, orientation: [0, 1, 0]}").replace(
+        "strip.left", "strip.start").replace("strip.right", "strip.end")
+    path, _ = recovered(FLOE, folder, line, formulation="cfr")
+    found = Fields(path, "strip")
+    close(found["stress_max"], stress + np.zeros(12), 1e-3, "fibres of a beam")
+    close(np.abs(found["section_moment_end"][:, 1]), moment + np.zeros(12), 1e-3, "its moment")
+
+
+def reduced_against_full_order(folder):
+    """4 modes and their derivatives: von Mises' stress of all elements over the motion, with and without correction."""
+    histories, fields = {}, {}
+    for name, formulation, words in (("full", "nlffr", ()), ("corrected", "vm+md", ()), ("plain", "vm+md", ("--uncorrected",))):
+        path, said = recovered(FLOE, folder, SHAKEN, *words, "--at", "0.02", "--history", "plate:0.2,0.15",
+                               command="run", formulation=formulation)
+        assert ("correction" in said) == (name == "corrected"), said
+        fields[name] = Fields(path, "plate")
+        histories[name] = table(folder / "out/stress.csv")
+    exact = histories["full"]
+    assert exact["t"][-1] == 0.03
+    error = {name: np.sqrt(np.mean((history["plate.1.von_mises"] - exact["plate.1.von_mises"])**2)
+                           / np.mean(exact["plate.1.von_mises"]**2)) for name, history in histories.items()}
+    assert error["corrected"] < 0.02 and error["corrected"] < 0.5 * error["plain"], error
+    regular = (fields["full"]["singular"] == 0)
+    close(fields["corrected"]["von_mises_of_motion"][regular], fields["full"]["von_mises_of_motion"][regular], 0.03,
+          "extremes over the motion")
+    return error
+
+
+def the_same_on_ranks(folder):
+    """Fields, extremes and histories on 1, 2 and 3 ranks, of reduced and full-order results."""
+    for formulation in ("vm+md", "nlffr"):
+        (folder / "scene.yaml").write_text(SHAKEN)
+        floe(FLOE, folder, "run", "scene.yaml", "--formulation", formulation, "-o", "out", "--force", "--no-estimate")
+        said, found = [], []
+        for ranks in (1, 2, 3):
+            said.append(floe(FLOE, folder, "stress", "out", "-o", f"on{ranks}.xdmf", "--frames", "3", "--force", ranks=ranks))
+            with h5py.File(folder / f"on{ranks}.h5", "r") as file:
+                values = {}
+                file.visititems(lambda name, each: values.update({name: each[()]}) if isinstance(each, h5py.Dataset) else None)
+            found.append((values, table(folder / f"on{ranks}.csv")))
+        for values, history in found[1:]:
+            assert values.keys() == found[0][0].keys()
+            for name, expected in found[0][0].items():
+                if name.endswith("time_of_maximum"):
+                    continue  # ties of a symmetric plate
+                assert np.allclose(values[name], expected, rtol=1e-7, atol=1e-9 * max(1, np.abs(expected).max())), name
+            for name, expected in found[0][1].items():
+                assert np.allclose(history[name], expected, rtol=1e-6, atol=1e-9 * np.abs(expected).max()), name
+        assert said[0].splitlines()[:5] == said[1].splitlines()[:5] == said[2].splitlines()[:5], said
+
+
+def mesh_of_l(path, n):
+    """Gmsh 2.2: an L of three squares of side 1 in n x n quadrilaterals each."""
+    numbers, nodes, cells = {}, [], []
+
+    def node(i, j):
+        if (i, j) not in numbers:
+            numbers[i, j] = len(nodes) + 1
+            nodes.append((i / n, j / n))
+        return numbers[i, j]
+    for i in range(2 * n):
+        for j in range(2 * n):
+            if i < n or j < n:
+                cells.append([node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
+    edges = [(node(0, j), node(0, j + 1)) for j in range(2 * n)]
+    ends = [(node(2 * n, j), node(2 * n, j + 1)) for j in range(n)]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", '1 1 "root"', '1 2 "end"', '2 3 "skin"',
+             "$EndPhysicalNames", "$Nodes", str(len(nodes))]
+    lines += [f"{i + 1} {x} {y} 0" for i, (x, y) in enumerate(nodes)] + ["$EndNodes", "$Elements"]
+    rows = [(1, 1, e) for e in edges] + [(1, 2, e) for e in ends] + [(3, 3, c) for c in cells]
+    lines.append(str(len(rows)))
+    lines += [f"{i + 1} {kind} 2 {tag} {tag} {' '.join(map(str, at))}" for i, (kind, tag, at) in enumerate(rows)]
+    path.write_text("\n".join([*lines, "$EndElements", ""]))
+
+
+def singular_places(folder):
+    """The re-entrant corner of an L grows with refinement and is named; so are the ends of its held edge and a point load."""
+    worst = []
+    for n in (4, 8, 16):
+        mesh_of_l(folder / "l.msh", n)
+        path, said = recovered(FLOE, folder, """
+bodies:
+  l:
+    mesh: {file: {path: l.msh}}
+    section: {thickness: 0.02}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints: {root: {type: fixed, between: [ground, l.root]}}
+loads:
+  pull: {type: force, at: l.end, force: [0, 1000, 0]}
+motion: {end: 1, step: 0.1}
+""", formulation="lffr")
+        found = Fields(path, "l")
+        corner = found["singular"] == 3
+        assert corner.sum() == 3 and np.all(np.linalg.norm(found.x[corner] - [1, 1, 0], axis=1) < 1 / n)
+        ends = found["singular"] == 2
+        assert ends.sum() == 2 and np.all(found.x[ends, 0] < 1 / n)
+        worst.append(found["von_mises"][corner].max())
+    assert worst[0] * 1.2 < worst[1] and worst[1] * 1.2 < worst[2], worst
+    assert "singular" in said
+    path, _ = recovered(FLOE, folder, STRIP.replace("CELLS", "triangles").replace("at: strip.right", "at: strip.p3"))
+    found = Fields(path, "strip")
+    assert np.all(np.linalg.norm(found.x[found["singular"] == 1] - [1, 0.05, 0], axis=1) < 0.03)
+
+
+def refusals(folder):
+    """One line, exit code 2, nothing written."""
+    (folder / "scene.yaml").write_text(PLANAR)
+    floe(FLOE, folder, "run", "scene.yaml", "-o", "out", "--force", "--no-estimate")
+    for words, phrase in ((["out", "--at", "7"], "--at 7: is not within the simulation; expected 0 to 1 s"),
+                          (["out", "--history", "boom:1,0"], "--history boom:1,0: names no body with stresses"),
+                          (["out", "--history", "beam:1,x"], "--history beam:1,x: expected BODY:X,Y,Z"),
+                          (["nothing"], "motion 'nothing': is not there"),
+                          (["out", "-o", "a.txt"], "stress 'a.txt': expected a name that ends in .xdmf")):
+        told = floe(FLOE, folder, "stress", *words, code=2)
+        assert phrase in told and told.count("\n") == 1, told
+    assert not (folder / "out/stress.h5").exists()
+    floe(FLOE, folder, "stress", "out")
+    assert "exists; use another name, or replace it with --force" in floe(FLOE, folder, "stress", "out", code=2)
+    (folder / "scene.yaml").write_text(PLANAR.replace("500", "600"))
+    assert "has changed since the run; expected the same, or --scene FILE" in floe(FLOE, folder, "stress", "out", "--force", code=2)
+    (folder / "other.yaml").write_text(PLANAR.replace("elements: 10", "elements: 12"))
+    told = floe(FLOE, folder, "stress", "out", "--force", "--scene", "other.yaml", code=2)
+    assert "body beam: has 11 nodes in the results and 13 in the scene" in told, told
+    (folder / "scene.yaml").write_text(PLANAR.replace(", fibre: 0.02", ""))
+    floe(FLOE, folder, "run", "scene.yaml", "-o", "out", "--force", "--no-estimate")
+    said = floe(FLOE, folder, "stress", "out", "--force")
+    assert "its sections are given by their stiffness" in said, said
+
+
+def main():
+    tests = [strip_under_force, plate_under_pressure, layers, beams, large_rotations, reduced_against_full_order,
+             the_same_on_ranks, singular_places, refusals]
+    if shutil.which("ccx"):
+        tests.append(lambda folder: calculix.plate_of_second_order(FLOE, folder))
+    else:
+        print("SKIPPED: CalculiX is not installed")
+    wanted = sys.argv[2:]
+    for test in tests:
+        if wanted and test.__name__ not in wanted:
+            continue
+        with tempfile.TemporaryDirectory() as name:
+            said = test(pathlib.Path(name))
+            print(f"passed: {test.__name__}" + (f" {said}" if said else ""), flush=True)
+
+
+if __name__ == "__main__":
+    main()
