@@ -9,7 +9,7 @@ sys.dont_write_bytecode = True
 from reduced_body import Fault, damage, open_file, read  # noqa: E402
 
 ENDINGS = {".npz": "npz", ".sid": "sid", ".sid_fem": "sid", ".xml": "mbsim", ".h5mbs": "mbsim-hdf5", ".mtx": "mtx"}
-FORMATS = ["npz", "sid", "mbsim", "mbsim-hdf5", "mtx"]
+FORMATS = ["npz", "sid", "mbsim", "mbsim-hdf5", "mtx", "exudyn"]
 
 
 def format_of(options):
@@ -19,10 +19,14 @@ def format_of(options):
         raise Fault(f"--out {options.out}: expected a name that ends in {' '.join(ENDINGS)}, or --format")
     if chosen not in FORMATS:
         raise Fault(f"--format {chosen}: expected one of {', '.join(FORMATS)}")
-    for given, name, needs in ((options.shapes, "--shapes", "npz"), (options.columns is not None, "--columns", "sid"),
-                               (options.no_geometric_stiffness, "--no-geometric-stiffness", "sid")):
-        if given and chosen != needs:
-            raise Fault(f"{name}: is of the format {needs}, not of {chosen}")
+    for given, name, needs in ((options.shapes, "--shapes", ["npz"]),
+                               (options.columns is not None, "--columns", ["sid", "exudyn"]),
+                               (options.gyroscopic_columns is not None, "--gyroscopic-columns", ["sid"]),
+                               (options.no_geometric_stiffness, "--no-geometric-stiffness", ["sid"])):
+        if given and chosen not in needs:
+            raise Fault(f"{name}: is of the format {' and '.join(needs)}, not of {chosen}")
+    if options.gyroscopic_columns not in (None, "axis", "coordinate"):
+        raise Fault(f"--gyroscopic-columns {options.gyroscopic_columns}: expected axis or coordinate")
     if options.columns not in (None, "all", "modes"):
         raise Fault(f"--columns {options.columns}: expected modes or all")
     return chosen
@@ -100,7 +104,13 @@ def write(chosen, paths, body, options):
         geometric = not options.no_geometric_stiffness
         if geometric and not len(body.pairs):
             print("Note: the body's elastic force is linear, so its geometric stiffness is zero")
-        sid.write(paths[0], body, geometric, options.columns == "all")
+        sid.write(paths[0], body, geometric, options.columns == "all", options.gyroscopic_columns != "coordinate")
+    elif chosen == "exudyn":
+        import exudyn_file
+        with open_file(options.body) as source:
+            exudyn_file.write(paths[0], source, body, options.columns == "all")
+        if len(body.pairs):
+            print("Note: ObjectFFRFreducedOrder has a linear stiffness: the linear body is written")
     elif chosen == "mbsim":
         import mbsim
         mbsim.write_xml(paths[0], body)
@@ -127,7 +137,7 @@ def read_options():
     parser = Parser(prog="floe export", description=__doc__)
     parser.add_argument("body")
     parser.add_argument("-o", "--out", required=True)
-    for name in ("--format", "--columns"):
+    for name in ("--format", "--columns", "--gyroscopic-columns"):
         parser.add_argument(name)
     for name in ("--shapes", "--no-geometric-stiffness", "--force"):
         parser.add_argument(name, action="store_true")

@@ -55,13 +55,22 @@ def by_load(stiffnesses):
     return stiffnesses.transpose(1, 2, 0)
 
 
-def terms(whole, body, stiffness_of):
+def by_axis(blocks):
+    """Columns of rows x 3k, three for each coordinate, as k for each axis."""
+    rows = len(blocks)
+    return blocks.reshape(rows, -1, 3).transpose(0, 2, 1).reshape(rows, -1)
+
+
+def terms(whole, body, stiffness_of, axis_first):
     """All expansions of the body, name -> (m0, m1 or None).
 
     @param whole         the body with all its columns, whose stresses stiffness_of knows; reference loads are its
     @param body          on the columns that stay
     @param stiffness_of  loads on all columns -> n x k x k on those that stay
+    @param axis_first    columns of Gr and Ge: all coordinates of an axis together, as FEMBS has them, else all axes of a
+                         coordinate
     """
+    ordered = by_axis if axis_first else lambda blocks: blocks
     geometric = lambda reference: by_load(stiffness_of(-reference))  # noqa: E731  inertia acts against acceleration
     return {
         "mdCM": (body.s0[:, None], body.S[:, :, None]),
@@ -69,8 +78,8 @@ def terms(whole, body, stiffness_of):
         "Ct": (body.S.T, geometric(whole.S.T) + body.Q.transpose(1, 2, 0)),
         "Cr": (inertia_terms.Cr0(body), inertia_terms.Cr1(body) + geometric(inertia_terms.Cr0(whole))),
         "Me": (body.mass_matrix, None),
-        "Gr": (inertia_terms.Gr0(body), None),
-        "Ge": (inertia_terms.Ge0(body), None),
+        "Gr": (ordered(inertia_terms.Gr0(body)), None),
+        "Ge": (ordered(inertia_terms.Ge0(body)), None),
         "Oe": (inertia_terms.Oe0(body), inertia_terms.Oe1(body) + geometric(inertia_terms.Oe0(whole))),
         "ksigma": (np.zeros((body.k, 1)), None),
         "Ke": (body.stiffness, None),
@@ -106,7 +115,7 @@ def heading(body, geometric, all_columns):
     return f"{len(body.places):5d} {body.k:5d}    :No. nodes, No. modes: " + "; ".join(about)
 
 
-def lines_of(whole, geometric, all_columns):
+def lines_of(whole, geometric, all_columns, axis_first):
     whole = in_space(whole)
     all_stiffness = (geometric_stiffness.geometric_stiffness if geometric else geometric_stiffness.none)(whole)
     chosen = [i for i, kind in enumerate(whole.kinds) if all_columns or kind != "derivative"]
@@ -130,13 +139,14 @@ def lines_of(whole, geometric, all_columns):
             yield from taylor(name, body.k, *expansion, depth=4)
         yield f"{INDENT * 3}end node"
     yield f"{INDENT * 2}end frame"
-    for name, expansion in terms(whole, body, stiffness_of).items():
+    for name, expansion in terms(whole, body, stiffness_of, axis_first).items():
         yield from taylor(name, body.k, *expansion)
     yield from [f"{INDENT}end modal", "end part"]
 
 
-def write(path, body, geometric=True, all_columns=False):
+def write(path, body, geometric=True, all_columns=False, axis_first=True):
     """@param geometric  whether the terms of first order hold geometric stiffness
-    @param all_columns  else modes and static columns; the derivatives then act by geometric stiffness alone"""
+    @param all_columns  else modes and static columns; the derivatives then act by geometric stiffness alone
+    @param axis_first   of terms()"""
     with open(path, "w", encoding="utf-8") as file:
-        file.writelines(line + "\n" for line in lines_of(body, geometric, all_columns))
+        file.writelines(line + "\n" for line in lines_of(body, geometric, all_columns, axis_first))

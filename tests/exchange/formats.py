@@ -82,6 +82,10 @@ def sid_holds_the_inertia(folder):
             spin = (truth.quadratic(e, omega, zero) - truth.quadratic(-e, omega, zero)) / 2
             found = sid_quadratic(sid, e, omega, zero) - sid_quadratic(sid, zero, omega, zero)
             close(found, spin, 1e-11, "centrifugal terms of first order")
+        other = readers.Sid(export(folder, name, ".sid", "--columns", "all", "--no-geometric-stiffness",
+                                   "--gyroscopic-columns", "coordinate"))
+        close(sid_quadratic(other, e, omega, rate, False), sid_quadratic(sid, e, omega, rate), 1e-14, "other columns")
+        genuine_files_satisfy(sid)
         close(sid.terms["Ke"].m0, truth.stiffness(), 1e-13, "Ke")
         close(sid.terms["De"].m0, truth.damping if truth.damping.size else np.zeros((truth.k,) * 2), 1e-13, "De")
         assert not np.any(sid.terms["ksigma"].m0)
@@ -93,13 +97,28 @@ def sid_holds_the_inertia(folder):
             close(node["AP"].at(e) @ v, v + np.cross(turn, v), 1e-13, "AP")
 
 
+def genuine_files_satisfy(sid):
+    """J1 = sym(Gr) and Ge = 2 Cr1, as files of FEMBS do with the columns of an axis together."""
+    k = sid.mode_count
+    Gr = sid.terms["Gr"].m0.reshape(3, 3, k)
+    J1 = np.stack([six_as_matrix(sid.terms["J"].m1[:, j, 0]) for j in range(k)], axis=2)
+    close((Gr + Gr.transpose(1, 0, 2)) / 2, J1, 1e-12, "J1 = sym(Gr)")
+    Cr1 = sid.terms["Cr"].m1
+    gyroscopic = (Cr1 - Cr1.transpose(1, 0, 2)) / 2  # without rotary inertia of second order, which is symmetric
+    close(sid.terms["Ge"].m0.reshape(k, 3, k), 2 * gyroscopic.transpose(0, 2, 1), 1e-12, "Ge = 2 Cr1")
+
+
 def tilde(v):
     return np.cross(np.eye(3), v)
 
 
-def sid_J(sid, q):
-    xx, yy, zz, xy, xz, yz = sid.terms["J"].at(q)[:, 0]
+def six_as_matrix(six):
+    xx, yy, zz, xy, xz, yz = six
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def sid_J(sid, q):
+    return six_as_matrix(sid.terms["J"].at(q)[:, 0])
 
 
 def sid_mass(sid, q):
@@ -108,12 +127,15 @@ def sid_mass(sid, q):
                      [Ct, Cr, sid.terms["Me"].at(q)]])
 
 
-def sid_quadratic(sid, q, omega, rate):
+def sid_quadratic(sid, q, omega, rate, axis_first=True):
     k = sid.mode_count
     c, Ct = sid.terms["mdCM"].at(q)[:, 0], sid.terms["Ct"].at(q)
     x, y, z = omega
-    Gr = np.einsum("ajb,j->ab", sid.terms["Gr"].at(q).reshape(3, k, 3), rate)
-    Ge = np.einsum("ija,j->ia", sid.terms["Ge"].at(q).reshape(k, k, 3), rate)
+    Gr, Ge = sid.terms["Gr"].at(q).reshape(3, -1), sid.terms["Ge"].at(q).reshape(k, -1)
+    if axis_first:  # all coordinates of an axis together
+        Gr, Ge = (np.einsum("abj,j->ab", each.reshape(len(each), 3, k), rate) for each in (Gr, Ge))
+    else:
+        Gr, Ge = (np.einsum("ajb,j->ab", each.reshape(len(each), k, 3), rate) for each in (Gr, Ge))
     return np.concatenate([
         2 * np.cross(omega, Ct.T @ rate) + np.cross(omega, np.cross(omega, c)),
         Gr @ omega + np.cross(omega, sid_J(sid, q) @ omega),
@@ -187,6 +209,81 @@ def a_pressed_cantilever_buckles(folder):
     loads = 1 / np.linalg.eigvals(np.linalg.solve(K, -tip)).real
     found = min(load for load in loads if load > 0)
     close(found, np.pi**2 / 4, 1e-3, "buckling load")
+
+
+def exudyn_has_the_inertia(folder):
+    """Sums over the point masses of the body, as Exudyn makes them of a mesh, in place of its integrals."""
+    for name in ("cantilever", "plate", "blade"):
+        truth = Truth(folder / f"{name}.h5")
+        with np.load(export(folder, name, ".npz", "--format", "exudyn", "--columns", "all")) as found:
+            k, n = truth.k, len(truth.one)
+            root = truth.one  # of each point's mass
+            Psi = np.concatenate([truth.N[p] for p in range(n)])  # times the root of the mass, 3n x k
+            skews = np.concatenate([np.concatenate([tilde(truth.N[p, :, j]) for j in range(k)], axis=1)
+                                    for p in range(n)])
+            x = np.concatenate([tilde(truth.place[p]) for p in range(n)])
+            one = np.concatenate([np.eye(3) * root[p] for p in range(n)])
+            for key, expected in (("mPsiTildePsi", skews.T @ Psi), ("mPsiTildePsiTilde", skews.T @ skews),
+                                  ("mPhitTPsi", one.T @ Psi), ("mPhitTPsiTilde", one.T @ skews),
+                                  ("mXRefTildePsi", x.T @ Psi), ("mXRefTildePsiTilde", x.T @ skews),
+                                  ("physicsInertia", x.T @ x)):
+                close(found[key], expected, 1e-11, key)
+            close(found["physicsCenterOfMass"] * found["physicsMass"], truth.place.T @ root, 1e-12, "centre of mass")
+            close(found["stiffnessMatrixReduced"], truth.stiffness(), 1e-13, "stiffness")
+            nodes = found["referencePositions"].reshape(-1, 3)
+            modes = found["modeBasis"].reshape(len(nodes), 3, k)
+            place = "p3" if name == "plate" else "end"
+            i = truth.places.index(place)
+            node = found["placeNodes"][i]
+            close(nodes[node], truth.x[i], 1e-12, f"position of {place}")
+            close(modes[node], truth.S[i], 1e-9, f"modes at {place}")
+
+
+def exudyn_loads_it(folder):
+    """The shipped script, against a stand-in for Exudyn's interface that takes what the real one documents."""
+    import types
+    made = []
+
+    class Matrix:
+        def SetWithDenseMatrix(self, matrix, useDenseMatrix):
+            self.matrix = np.array(matrix)
+
+    def ffrf(**words):
+        assert set(words) == {"nodeNumbers", "massMatrixReduced", "stiffnessMatrixReduced", "dampingMatrixReduced",
+                              "modeBasis", "referencePositions", "physicsMass", "physicsInertia", "physicsCenterOfMass",
+                              "mPsiTildePsi", "mPsiTildePsiTilde", "mPhitTPsi", "mPhitTPsiTilde", "mXRefTildePsi",
+                              "mXRefTildePsiTilde"}, words
+        return words
+
+    exudyn = types.ModuleType("exudyn")
+    exudyn.MatrixContainer = Matrix
+    exudyn.itemInterface = types.ModuleType("exudyn.itemInterface")
+    exudyn.itemInterface.NodeRigidBodyEP = exudyn.itemInterface.NodeGenericODE2 = dict
+    exudyn.itemInterface.ObjectFFRFreducedOrder = ffrf
+    exudyn.rigidBodyUtilities = types.ModuleType("exudyn.rigidBodyUtilities")
+    exudyn.rigidBodyUtilities.AngularVelocity2EulerParameters_t = lambda omega, turn: [0, *omega]
+    exudyn.rigidBodyUtilities.RotationMatrix2EulerParameters = lambda rotation: [1, 0, 0, 0]
+    mbs = types.SimpleNamespace(AddNode=lambda node: made.append(node) or len(made) - 1,
+                                AddObject=lambda body: made.append(body) or 0)
+    names = ("exudyn", "exudyn.itemInterface", "exudyn.rigidBodyUtilities")
+    sys.modules.update(zip(names, (exudyn, exudyn.itemInterface, exudyn.rigidBodyUtilities)))
+    scripts = pathlib.Path(__file__).resolve().parents[2] / "src" / "exchange"
+    sys.path.insert(0, str(scripts))
+    try:
+        import load_in_exudyn
+        path = export(folder, "plate", ".npz", "--format", "exudyn")
+        number, places = load_in_exudyn.add_body(mbs, str(path), position=(1, 2, 3), angular_velocity=(0, 0, 5))
+    finally:
+        sys.path.remove(str(scripts))
+        for name in names:
+            del sys.modules[name]
+    truth = Truth(folder / "plate.h5")
+    assert number == 0 and set(places) == set(truth.places)
+    frame, elastic, body = made
+    assert frame["referenceCoordinates"] == [1, 2, 3, 1, 0, 0, 0] and frame["initialVelocities"][-1] == 5
+    k = len(modes_of(truth))
+    assert elastic["numberOfODE2Coordinates"] == k and body["nodeNumbers"] == [0, 1]
+    close(body["massMatrixReduced"].matrix, np.eye(k), 1e-10, "mass")
 
 
 def mbsim_has_the_energy(folder):
@@ -294,7 +391,7 @@ def main():
         make(FLOE, folder)
         for test in (numpy_is_the_file, matrices_give_the_frequencies, sid_holds_the_inertia, sid_closed_forms,
                      geometric_stiffness_is_that_of_the_energy, a_spinning_cantilever_stiffens,
-                     a_pressed_cantilever_buckles, mbsim_has_the_energy, mbsim_says_what_it_leaves_out, mbsim_hdf5_is_the_linear_body,
+                     a_pressed_cantilever_buckles, exudyn_has_the_inertia, exudyn_loads_it, mbsim_has_the_energy, mbsim_says_what_it_leaves_out, mbsim_hdf5_is_the_linear_body,
                      mbsim_hdf5_is_read_in_the_order_of_creation):
             test(folder)
             print(f"passed: {test.__name__}")
