@@ -5,7 +5,7 @@ import numpy as np
 
 from deformed import need_bodies, titled
 from style import Fault, MAP, drafted, pyplot
-from view import Box, View, draw_mesh, draw_scale, set_frame, with_scale
+from view import Box, View, draw_joints, draw_mesh, draw_scale, set_frame, with_scale
 
 WIDTH = 6.4  # inches
 
@@ -56,7 +56,9 @@ def draw(run, path, dpi, count=100, fps=20.0, amplify=1.0, direction=(-60.0, 25.
             axes.clear()
             moved = [(body, *run.moved(body, row, amplify)) for body in run.bodies]
             for body, x, lengths in sorted(moved, key=lambda m: view.paper(m[1])[:, 2].mean()):
-                draw_mesh(axes, view, body.mesh, x, lengths, norm, width=2.2)
+                draw_mesh(axes, view, body.mesh, x, None if body.rigid else lengths, norm, width=2.2, colour="0.45",
+                          fill="0.6")
+            draw_joints(axes, view, run, row, amplify)
             set_frame(axes, view, low, high)
             if run.dimension == 3:
                 draw_scale(axes, view, low, high)

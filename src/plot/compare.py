@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the formulations of one scene above each other: a panel per probe component, and their errors relative to the reference.
+"""Draws the formulations of one scene: for each probe its size versus time, and beside it the error relative to the reference;
+with components a panel for each of them.
 
 DIR/compare.json names the runs, the probes and the reference; each run's series is the CSV file that floe wrote.
 """
@@ -11,7 +12,7 @@ import sys
 sys.dont_write_bytecode = True
 from style import COLOURS, DASHES, Fault, guarded, pyplot, read_json, read_series, save, span, with_unit  # noqa: E402
 
-PANEL_HEIGHT, WIDTH = 2.1, 7.6  # inches
+PANEL_HEIGHT, WIDTH, BOTH, MOST_PROBES = 2.1, 7.6, 10.4, 12  # inches
 
 
 def interpolated(times, values, at):
@@ -70,12 +71,12 @@ def give_styles(description):
         run["line"].update(run.get("style") or {})
 
 
-def value_range(description, column):
+def value_range(description, values_of):
     """Of the reference where there is one, half its span wider: a formulation that diverges does not flatten the others."""
     runs = description["runs"]
     shown = [run for run in runs if run["name"] == description.get("reference")] or runs
-    values = [value for run in shown for value in run["series"][column] if math.isfinite(value)]
-    every = [value for run in runs for value in run["series"][column] if math.isfinite(value)]
+    values = [value for run in shown for value in values_of(run) if math.isfinite(value)]
+    every = [value for run in runs for value in values_of(run) if math.isfinite(value)]
     if not values or min(values) == max(values):
         return None
     wide = span(values)
@@ -83,14 +84,33 @@ def value_range(description, column):
     return low - 0.06 * wide, high + 0.06 * wide
 
 
-def draw_values(axes, description, probe):
+def draw_values(axes, description, columns, name, unit):
+    """Of one column its values, of several the length of the vector."""
+    def values_of(run):
+        series = [run["series"][column] for column in columns]
+        return series[0] if len(series) == 1 else [math.hypot(*at) for at in zip(*series)]
+
     for run in description["runs"]:
-        axes.plot(run["series"]["t"], run["series"][probe["column"]], label=run["label"], **run["line"])
-    limits = value_range(description, probe["column"])
+        axes.plot(run["series"]["t"], values_of(run), label=run["label"], **run["line"])
+    limits = value_range(description, values_of)
     if limits:
         axes.set_ylim(*limits)
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
-    axes.set_ylabel(with_unit(probe["column"], probe.get("unit", "")))
+    axes.set_ylabel(with_unit(name if len(columns) == 1 else f"|{name}|", unit))
+
+
+def name_of(columns):
+    """Of a probe: `tip` of `tip.x`, `tip.y`; a probe of one column by itself."""
+    return columns[0].rpartition(".")[0] or columns[0] if len(columns) > 1 else columns[0]
+
+
+def probes_of(description):
+    """Columns and unit of each probe, in their order."""
+    found = {}
+    for probe in description["probes"]:
+        columns = components(description, probe)
+        found.setdefault(tuple(columns), probe.get("unit", ""))
+    return list(found.items())
 
 
 def components(description, probe):
@@ -109,11 +129,11 @@ def moving(description):
     return shown or description["probes"]
 
 
-def draw_errors(axes, description, probe):
+def draw_errors(axes, description, columns, unit):
     """|p - p_ref|, a vector's length, at the times of each run; the axis shows the good runs whole and cuts one that diverges."""
     runs = {run["name"]: run for run in description["runs"]}
     reference = runs[description["reference"]]
-    columns, medians, greatest = components(description, probe), [], 0.0
+    medians, greatest = [], 0.0
     for name, run in runs.items():
         if name == description["reference"]:
             continue
@@ -133,45 +153,64 @@ def draw_errors(axes, description, probe):
         widest = max(span(reference["series"][column]) for column in columns)
         high = min(2 * greatest, 10 * widest or math.inf)
         axes.set_ylim(max(min(medians) / 100, 1e-12 * high), high)
-    what = columns[0].rpartition(".")[0] if len(columns) > 1 else probe["column"]
-    axes.set_ylabel(f"error of {with_unit(what, probe.get('unit', ''))}\nagainst {reference['label']}")
+    axes.set_ylabel(f"error of {with_unit(name_of(columns), unit)}\nagainst {reference['label']}")
 
 
 def place_legend(figure, axes):
     """Above the panels, in as many columns as fit; returns the height of title and legend [inches]."""
     handles, labels = axes.get_legend_handles_labels()
-    for columns in (3, 2, 1):
+    for columns, size in ((5, 9), (4, 9), (3, 9), (2, 9), (1, 9), (1, 7), (1, 5)):
         legend = figure.legend(handles, labels, loc="upper center", ncol=columns, frameon=False, handlelength=4,
-                               bbox_to_anchor=(0.5, 1 - 0.28 / figure.get_figheight()))
+                               fontsize=size, bbox_to_anchor=(0.5, 1 - 0.28 / figure.get_figheight()))
         legend.set_in_layout(False)
         extent = legend.get_window_extent(figure.canvas.get_renderer())
-        if extent.width < 0.98 * figure.bbox.width or columns == 1:
+        if extent.width < 0.98 * figure.bbox.width or size == 5:
             return 0.28 + extent.height / figure.dpi
         legend.remove()
 
 
-def draw(description, path, dpi):
-    plt = pyplot()
+def draw(description, path, dpi, by_component=False):
     give_styles(description)
-    probes = moving(description)
-    main = main_probe(description)
     with_errors = description.get("reference") is not None and len(description["runs"]) > 1
-    panels = len(probes) + with_errors
-    figure, axes = plt.subplots(panels, 1, sharex=True, squeeze=False, figsize=(WIDTH, PANEL_HEIGHT * panels + 1))
-    axes = axes[:, 0]
-    for panel, probe in zip(axes, probes):
-        draw_values(panel, description, probe)
-    if with_errors:
-        draw_errors(axes[-1], description, main)
-    axes[-1].set_xlabel(with_unit("time", description.get("time_unit", "s")))
-    axes[-1].set_xlim(min(run["series"]["t"][0] for run in description["runs"]),
-                      max(run["series"]["t"][-1] for run in description["runs"]))
+    figure, axes = (draw_components if by_component else draw_probes)(description, with_errors)
+    for panel in axes[-1]:
+        panel.set_xlabel(with_unit("time", description.get("time_unit", "s")))
+    axes[-1, 0].set_xlim(min(run["series"]["t"][0] for run in description["runs"]),
+                         max(run["series"]["t"][-1] for run in description["runs"]))
     figure.align_ylabels(axes)
     height = figure.get_figheight()
     figure.suptitle(description.get("title", ""), y=1 - 0.08 / height, va="top", fontsize=11).set_in_layout(False)
-    head = place_legend(figure, axes[0])
+    head = place_legend(figure, axes[0, 0])
     figure.tight_layout(rect=(0, 0, 1, 1 - head / height))
     save(figure, path, dpi)
+
+
+def draw_probes(description, with_errors):
+    """A row for each probe: its size, its error."""
+    probes = probes_of(description)
+    shown, left = probes[:MOST_PROBES], probes[MOST_PROBES:]
+    figure, axes = pyplot().subplots(len(shown), 1 + with_errors, sharex=True, squeeze=False,
+                                     figsize=(BOTH if with_errors else WIDTH, PANEL_HEIGHT * len(shown) + 1.2))
+    for row, (columns, unit) in zip(axes, shown):
+        draw_values(row[0], description, columns, name_of(columns), unit)
+        if with_errors:
+            draw_errors(row[1], description, columns, unit)
+    if left:
+        axes[-1, 0].set_title(f"and {len(left)} more probes, in compare.csv", fontsize=8, color="0.3", loc="left")
+    return figure, axes
+
+
+def draw_components(description, with_errors):
+    """A panel for each component that moves, and the error of the probe that moves most."""
+    probes = moving(description)
+    panels = len(probes) + with_errors
+    figure, axes = pyplot().subplots(panels, 1, sharex=True, squeeze=False, figsize=(WIDTH, PANEL_HEIGHT * panels + 1))
+    for panel, probe in zip(axes[:, 0], probes):
+        draw_values(panel, description, [probe["column"]], probe["column"], probe.get("unit", ""))
+    if with_errors:
+        main = main_probe(description)
+        draw_errors(axes[-1, 0], description, components(description, main), main.get("unit", ""))
+    return figure, axes
 
 
 def main_probe(description):
@@ -186,13 +225,14 @@ def main():
     parser.add_argument("folder", help="folder written by floe compare: compare.json and its runs")
     parser.add_argument("-o", "--output", help="picture: .png, .svg or .pdf (default: compare.png in the folder)")
     parser.add_argument("--dpi", type=int, default=150, help="of a PNG (default: 150)")
+    parser.add_argument("--components", action="store_true", help="a panel for each component of the probes")
     arguments = parser.parse_args()
     path = arguments.output or os.path.join(arguments.folder, "compare.png")
     if os.path.splitext(path)[1] not in (".png", ".svg", ".pdf"):
         raise Fault(f"{path}: a picture ends in .png, .svg or .pdf")
     if arguments.dpi < 1:
         raise Fault(f"--dpi {arguments.dpi}: must be positive")
-    draw(load(arguments.folder), path, arguments.dpi)
+    draw(load(arguments.folder), path, arguments.dpi, arguments.components)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 import numpy as np
 
 from style import Fault, MAP, pyplot, save
-from view import Box, View, draw_mesh, draw_scale, set_frame, with_scale
+from view import Box, View, draw_joints, draw_mesh, draw_scale, set_frame, with_scale
 
 WIDTH = 7.6  # inches
 
@@ -58,7 +58,9 @@ def draw_planar(run, rows, amplify, path, dpi):
     for i, row in enumerate(rows):
         colour = cm.get_cmap(MAP)(0.92 * i / max(1, len(rows) - 1))
         for body, x in zip(run.bodies, moved[row]):
-            draw_mesh(axes, view, body.mesh, x, colour=colour, width=2.0, fill=colour, order=2 + i)
+            draw_mesh(axes, view, body.mesh, x, colour="0.45" if body.rigid else colour, width=3.0 if body.rigid else 2.0,
+                      fill=colour, order=2 + i)
+        draw_joints(axes, view, run, row, amplify, colour)
         axes.plot([], [], color=colour, linewidth=2.4, label=f"{run.t[row]:.4g} s")
     set_frame(axes, view, low, high)
     axes.legend(title="time", frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -90,7 +92,8 @@ def draw_spatial(run, rows, amplify, view, path, dpi):
         panel.set_axis_off()
     for panel, row in zip(panels.flat, rows):
         for body, (x, lengths) in sorted(zip(run.bodies, moved[row]), key=lambda b: view.paper(b[1][0])[:, 2].mean()):
-            draw_mesh(panel, view, body.mesh, x, lengths, norm)
+            draw_mesh(panel, view, body.mesh, x, None if body.rigid else lengths, norm, colour="0.45", fill="0.6")
+        draw_joints(panel, view, run, row, amplify, size=3)
         set_frame(panel, view, low, high)
         panel.set_title(f"t = {run.t[row]:.4g} s", fontsize=9)
     draw_scale(panels.flat[0], view, low, high)

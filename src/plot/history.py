@@ -1,7 +1,7 @@
 """Probes of a run versus time: a panel for each probe, a line for each of its components."""
 import os
 
-from style import COLOURS, DASHES, Fault, pyplot, save, with_unit
+from style import COLOURS, DASHES, Fault, label_events, pyplot, save, with_unit
 
 PANEL_HEIGHT, WIDTH, MOST_PANELS = 1.9, 7.6, 10  # inches
 
@@ -38,14 +38,16 @@ def draw(run, path, dpi, wanted=()):
         panel.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
         if len(columns) > 1:
             panel.legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.6)
-    for event in run.summary.get("events") or []:
+    events = run.summary.get("events") or []
+    for event in events:
         for panel in panels[:, 0]:
             panel.axvline(event["t"], color="0.4", linewidth=0.9, linestyle=":")
-        panels[0, 0].annotate(event["name"], (event["t"], 1), xycoords=("data", "axes fraction"), xytext=(2, 1),
-                              textcoords="offset points", fontsize=8, color="0.3")
     panels[-1, 0].set_xlabel(run.time_label)
     panels[-1, 0].set_xlim(series["t"][0], series["t"][-1] if series["t"][-1] > series["t"][0] else series["t"][0] + 1)
     more = f" (and {len(left)} more: --probes {left[0][0]}, ...)" if left else ""
     figure.suptitle(f"{run.title}: {run.summary.get('label', os.path.basename(run.folder))}{more}", fontsize=11)
+    if events:
+        figure.draw_without_rendering()  # places the panels
+        label_events(figure, panels[0, 0], events)
     save(figure, path, dpi)
     return path

@@ -50,7 +50,7 @@ def of_body(run, body, rows):
             etas.append(U[body.elastic:body.elastic + len(body.basis)])
         elif body.dofs is not None:
             us.append(u)
-    data = {"name": body.name, "nodes": len(mesh.positions), "k": len(etas[0]) if etas else 0,
+    data = {"name": body.name, "rigid": body.rigid, "nodes": len(mesh.positions), "k": len(etas[0]) if etas else 0,
             "X": packed(mesh.positions, "<f4"), "frames": packed(frames, "<f4"), "lines": packed(mesh.lines, "<u4"),
             "triangles": packed(triangles_of(mesh), "<u4"), "edges": packed(edges_of(mesh), "<u4")}
     if etas:
@@ -58,6 +58,19 @@ def of_body(run, body, rows):
     if us:
         data["u"] = packed(us, "<f4")
     return data, greatest
+
+
+def joint_data(run):
+    """Of each joint one end on a body: its number, the node, the way from there; and places on the ground."""
+    numbers, found = {body.name: i for i, body in enumerate(run.bodies)}, []
+    for joint in run.joints:
+        body, node, way = next(end for end in joint.ends if end[0] is not None)
+        found.append({"name": joint.name, "kind": joint.kind, "body": numbers[body.name], "node": node,
+                      "way": [float(x) for x in way]})
+        if joint.grounded:
+            at = [x for (of, *_), x in zip(joint.ends, joint.at(run, 0)) if of is None]
+            found[-1]["ground"] = [float(x) for x in at[0]] if at else None
+    return found
 
 
 def script_data(run):
@@ -71,5 +84,6 @@ def script_data(run):
         return None, "the meshes are too large for a page; floe motion writes them for ParaView"
     made = [of_body(run, body, rows) for body in run.bodies]
     data = {"dimension": run.dimension, "t": [float(run.t[row]) for row in rows],
-            "greatest": max(greatest for _, greatest in made) or 1.0, "bodies": [body for body, _ in made]}
+            "greatest": max(greatest for _, greatest in made) or 1.0, "bodies": [body for body, _ in made],
+            "joints": joint_data(run)}
     return "window.floeMotion = " + json.dumps(data).replace("</", "<\\/") + ";", ""

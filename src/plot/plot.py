@@ -67,7 +67,7 @@ def target(options, path, kind, several):
 def draw(kind, path, out, options, run):
     if kind == "compare":
         import compare
-        compare.draw(compare.load(path), out, options.dpi)
+        compare.draw(compare.load(path), out, options.dpi, options.components)
     elif kind == "tradeoff":
         import tradeoff
         tradeoff.draw(*tradeoff.load(path), out, options.dpi)
@@ -113,6 +113,7 @@ def read_options():
     parser.add_argument("--view", default="-60,25")
     parser.add_argument("--amplify", type=float, default=1.0)
     parser.add_argument("--fps", type=float, default=20.0)
+    parser.add_argument("--components", action="store_true")
     for name, default in (("--shapes", 6), ("--frames", 100), ("--dpi", 150)):
         parser.add_argument(name, type=int, default=default)
     options = parser.parse_args()
@@ -129,7 +130,8 @@ def work():
     for path in options.paths:
         kinds, at = wanted_kinds(path, options.kind)
         chosen += [(kind, at) for kind in kinds]
-    asked = {kind: word for word, kind in (("probes", "probes"), ("times", "deformed"), ("body", "shapes"))
+    asked = {kind: word for word, kind in (("probes", "probes"), ("times", "deformed"), ("body", "shapes"),
+                                           ("components", "compare"))
              if getattr(options, word)}
     for kind, word in asked.items():
         if kind not in (one for one, _ in chosen):

@@ -242,7 +242,7 @@ def image(path, caption):
 def pictures(folder, kinds, run):
     import plot
 
-    options = argparse.Namespace(dpi=110, probes=[], times=[], amplify=1.0, view=(-60.0, 25.0), shapes=6, body="")
+    options = argparse.Namespace(dpi=110, probes=[], times=[], amplify=1.0, view=(-60.0, 25.0), shapes=6, body="", components=False)
     text = ""
     with tempfile.TemporaryDirectory() as scratch:
         for kind in kinds:

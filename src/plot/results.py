@@ -119,6 +119,50 @@ def turned(q):
                      [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
+class Joint:
+    """What a joint connects: of each end the body, its node nearest to the place and the way from there, in the frame's
+    axes; or a point of the ground."""
+
+    def __init__(self, name, kind, ends):
+        self.name, self.kind, self.ends = name, kind, ends
+
+    @property
+    def grounded(self):
+        return any(body is None for body, *_ in self.ends)
+
+    def at(self, run, row, amplify=1.0):
+        """Places of the ends in the world; those that are known."""
+        found = []
+        for body, node, way in self.ends:
+            if body is None and way is None:  # of the ground, where the other end is at the start
+                other = next(((b, n, w) for b, n, w in self.ends if b is not None), None)
+                if other:
+                    found.append(run.place(*other, 0, 1.0))
+            elif body is None:
+                found.append(way)
+            else:
+                found.append(run.place(body, node, way, row, amplify))
+        return found
+
+
+def joints_of(file, names, bodies):
+    found, known = [], {body.name: body for body in bodies}
+    for name in file["joints"] if "joints" in file else []:
+        group, ends = file["joints"][name], []
+        for number, *x in group["places"][()]:
+            body = known.get(names[int(number)]) if number >= 0 else None
+            if number >= 0 and body is None:
+                continue  # without mesh in the results
+            if body is None:
+                ends.append((None, None, np.array(x) if number == -1 else None))
+                continue
+            node = int(np.argmin(np.linalg.norm(body.mesh.positions - x, axis=1)))
+            ends.append((body, node, np.array(x) - body.mesh.positions[node]))
+        if any(body is not None for body, *_ in ends):
+            found.append(Joint(name, text_of(group["kind"][()]), ends))
+    return found
+
+
 class Run:
     """The folder of a run: the summary at once, the rest when it is asked for."""
 
@@ -176,11 +220,24 @@ class Run:
                 self.without.append(name)
                 continue
             self._bodies.append(Body(name, group, self.dimension, summary.get("formulation") == "cfr", attitude))
+            self._bodies[-1].rigid = bool(next(b for b in summary["bodies"] if b["name"] == name).get("rigid"))
+        self._joints = joints_of(file, [body["name"] for body in summary["bodies"]], self._bodies)
 
     @property
     def bodies(self):
         self.load()
         return self._bodies
+
+    @property
+    def joints(self):
+        """Joints with an end on a body that has a mesh here; none of results of versions that did not write them."""
+        self.load()
+        return self._joints
+
+    def place(self, body, node, way, row, amplify):
+        """A place on a body beside one of its nodes, in the world."""
+        _, A = body.frame_at(self.U[row], self.attitude_at(row))
+        return self.moved(body, row, amplify)[0][node] + A @ way
 
     def row_at(self, t):
         self.load()

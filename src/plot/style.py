@@ -10,6 +10,7 @@ import sys
 import warnings
 
 COLOURS = ["#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F"]  # Okabe and Ito 2008, by contrast
+MORE_COLOURS = COLOURS + ["#332288", "#117733", "#882255", "#999933", "#44AA99", "#AA4499", "#000000"]  # Tol 2021, muted
 DASHES = [(), (6, 2), (2, 1.5), (7, 2, 1.5, 2), (10, 2.5), (4, 1.5, 1, 1.5, 1, 1.5), (1, 1)]
 MARKS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 MAP = "viridis"  # of numbers: even in lightness, also for those who see few colours
@@ -152,6 +153,36 @@ def pyplot():
     matplotlib.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.9", "axes.axisbelow": True,
                                 "axes.spines.top": False, "axes.spines.right": False, "svg.hashsalt": "floe"})
     return plt
+
+
+def label_events(figure, panel, events, rows=4):
+    """Names above a panel at their times, in rows so that none covers another; those that find no place are left out."""
+    from matplotlib.transforms import blended_transform_factory
+    renderer, ends, left = figure.canvas.get_renderer(), [-math.inf] * rows, 0
+    texts = []
+    for event in sorted(events, key=lambda event: event["t"]):
+        text = panel.text(event["t"], 1, " " + event["name"], fontsize=8, color="0.3", va="bottom",
+                          transform=blended_transform_factory(panel.transData, panel.transAxes))
+        box = text.get_window_extent(renderer)
+        row = next((i for i, end in enumerate(ends) if box.x0 > end), None)
+        if row is None or box.x1 > figure.bbox.x1:
+            left += row is None
+            if row is None:
+                text.remove()
+                continue
+            text.set_ha("right")  # at the right edge of the picture, to the left of its line
+            box = text.get_window_extent(renderer)
+            row = next((i for i, end in enumerate(ends) if box.x0 > end), None)
+            if row is None:
+                left += 1
+                text.remove()
+                continue
+        ends[row] = box.x1
+        text.set_y(1 + row * 1.05 * box.height / panel.bbox.height)
+        texts.append(text)
+    if left:
+        panel.text(1, 1, f"and {left} more events", transform=panel.transAxes, fontsize=8, color="0.3", ha="right", va="top")
+    return texts
 
 
 def span(values):

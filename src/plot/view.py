@@ -53,6 +53,34 @@ def draw_mesh(axes, view, mesh, x, values=None, norm=None, colour="0.3", width=1
                                            colors=colours(lines) if values is not None else colour))
 
 
+MARKS = {"fixed": "s", "prismatic": "D", "driven_slide": "D", "cylindrical": "D", "planar": "D", "bushing": "h"}
+
+
+def draw_joints(axes, view, run, row, amplify=1.0, colour="black", size=4.5, order=8):
+    """Joints as marks at their places (squares hold, diamonds slide, circles turn), springs and rods as lines between
+    theirs, the ground as a triangle below, arms of rigid bodies as lines from their middle."""
+    middles = {}
+    for joint in run.joints:
+        at = [view.paper(x) for x in joint.at(run, row, amplify)]
+        if joint.kind in ("spring", "distance") and len(at) == 2:
+            axes.plot(*np.array(at)[:, :2].T, color=colour, linewidth=0.9, linestyle=(0, (2, 1)), zorder=order)
+        if joint.grounded:
+            grounds = [view.paper(x) for (body, *_), x in zip(joint.ends, joint.at(run, row, amplify)) if body is None]
+            for x in grounds or at[:1]:
+                axes.plot(x[0], x[1], marker=6, markersize=1.9 * size, color="0.55", zorder=order)
+        for (body, node, way) in joint.ends:
+            if body is not None and getattr(body, "rigid", False):
+                if body.name not in middles:
+                    middles[body.name] = view.paper(run.moved(body, row, amplify)[0].mean(0))
+                x = view.paper(run.place(body, node, way, row, amplify))
+                axes.plot([middles[body.name][0], x[0]], [middles[body.name][1], x[1]], color="0.45", linewidth=2.2,
+                          solid_capstyle="round", zorder=order - 2)
+        moving = [x for (body, *_), x in zip(joint.ends, at) if body is not None] or at
+        for x in moving[:1] if joint.kind not in ("spring", "distance") else moving:
+            axes.plot(x[0], x[1], marker=MARKS.get(joint.kind, "o"), markersize=size, markerfacecolor="white",
+                      markeredgecolor=colour, markeredgewidth=1.0, zorder=order + 1)
+
+
 class Box:
     """The paper that drawn points need."""
 

@@ -9,7 +9,7 @@
   const reals = text => new Float32Array(bytes(text)), numbers = text => new Uint32Array(bytes(text));
 
   const bodies = motion.bodies.map(b => ({
-    name: b.name, nodes: b.nodes, k: b.k, X: reals(b.X), frames: reals(b.frames),
+    name: b.name, rigid: b.rigid, nodes: b.nodes, k: b.k, X: reals(b.X), frames: reals(b.frames),
     basis: b.k ? reals(b.basis) : null, eta: b.k ? reals(b.eta) : null, u: b.u ? reals(b.u) : null,
     lines: numbers(b.lines), triangles: numbers(b.triangles), edges: numbers(b.edges),
     deformation: new Float32Array(3 * b.nodes), x: new Float32Array(3 * b.nodes)
@@ -93,10 +93,42 @@
       body.tubes = geometry;
     }
   }
+  // --- joints: balls, boxes where they fix or slide; the ground as a grey pyramid below
+  let joints = [];
+  function makeJoints() {
+    const radius = 0.011 * size, dark = new THREE.MeshLambertMaterial({ color: 0x333333 }),
+      grey = new THREE.MeshLambertMaterial({ color: 0x9a9a9a });
+    joints = (motion.joints || []).map(joint => {
+      const slides = ["fixed", "prismatic", "driven_slide", "cylindrical", "planar"].includes(joint.kind);
+      const ball = new THREE.Mesh(slides ? new THREE.BoxGeometry(1.7 * radius, 1.7 * radius, 1.7 * radius)
+        : new THREE.SphereGeometry(radius, 16, 12), dark);
+      scene.add(ball);
+      if (joint.ground) {
+        const foot = new THREE.Mesh(new THREE.ConeGeometry(2 * radius, 2.6 * radius, 4), grey);
+        if (motion.dimension === 3) foot.rotation.x = Math.PI / 2;
+        foot.position.set(...joint.ground);
+        foot.position[motion.dimension === 3 ? "z" : "y"] -= 1.9 * radius;
+        scene.add(foot);
+      }
+      return { ball, joint };
+    });
+  }
+  function placeJoints(frame) {
+    for (const { ball, joint } of joints) {
+      const body = bodies[joint.body], at = 12 * frame, F = body.frames, way = joint.way;
+      const x = [0, 1, 2].map(d => body.x[3 * joint.node + d] + F[at + 3 + 3 * d] * way[0] + F[at + 4 + 3 * d] * way[1]
+        + F[at + 5 + 3 * d] * way[2]);
+      ball.position.set(...x);
+    }
+  }
+  const shade = (body, i, to, at) => {  // rigid bodies are grey
+    if (body.rigid) to[at] = to[at + 1] = to[at + 2] = 0.55;
+    else colour(length(body.deformation, i) / motion.greatest, to, at);
+  };
   function drawSurface(body) {
     const position = body.surface.getAttribute("position"), colours = body.surface.getAttribute("color");
     position.array.set(body.x);
-    for (let i = 0; i < body.nodes; ++i) colour(length(body.deformation, i) / motion.greatest, colours.array, 3 * i);
+    for (let i = 0; i < body.nodes; ++i) shade(body, i, colours.array, 3 * i);
     position.needsUpdate = colours.needsUpdate = true;
     body.surface.computeVertexNormals();
   }
@@ -123,7 +155,7 @@
             normal.array[at + d] = c * v[d] + sn * w[d];
             position.array[at + d] = x[3 * ends[end] + d] + radius * normal.array[at + d];
           }
-          colour(length(body.deformation, ends[end]) / motion.greatest, colours.array, at);
+          shade(body, ends[end], colours.array, at);
         }
     }
     position.needsUpdate = normal.needsUpdate = colours.needsUpdate = true;
@@ -156,6 +188,7 @@
       if (body.surface) drawSurface(body);
       if (body.tubes) drawTubes(body);
     }
+    placeJoints(state.frame);
     slider.value = state.frame;
     clock.textContent = "t = " + Number(motion.t[state.frame].toPrecision(4)) + " s";
     render();
@@ -222,6 +255,7 @@
     lamp = new THREE.DirectionalLight(0xffffff, 0.55);
     scene.add(new THREE.AmbientLight(0xffffff, 0.65), lamp);
     bodies.forEach(makeBody);
+    makeJoints();
     box.appendChild(renderer.domElement);
     renderer.domElement.setAttribute("aria-label", "The mechanism in motion; drag to rotate");
     resize();

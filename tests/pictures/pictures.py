@@ -157,6 +157,88 @@ def numbers_of_the_files(folder):
     assert np.allclose(next(line for line in lines if line.get_label() == "1").get_xydata(), expected)
 
 
+def vibrations_are_followed(folder):
+    """Frequencies that cross: each line of the diagram is one of them; one that ends and one that begins are others."""
+    import campbell
+    from style import MORE_COLOURS
+
+    of = [lambda x: 30 + 0.6 * x, lambda x: 60 + 0.02 * x, lambda x: 80 - 0.35 * x, lambda x: 120 - 0.001 * x * x]
+    speeds = {float(x): [(f, False) for f in sorted(line(x) for line in of)] for x in range(0, 101, 5)}
+    lines = campbell.tracked(speeds)
+    assert len(lines) == 4
+    for line, points in zip(of, lines):
+        assert np.allclose(points, [(x, line(x)) for x in sorted(speeds)]), points
+    speeds[105.0] = speeds[100.0][1:]  # the lowest is not there any more
+    assert sorted(len(points) for points in campbell.tracked(speeds)) == [21, 22, 22, 22]
+    assert len(set(MORE_COLOURS)) == len(MORE_COLOURS) >= 14
+
+
+def names_of_events_are_apart(folder):
+    """Many events close to one another, and at the right edge: no name covers another or is cut."""
+    import history
+    from results import Run
+
+    run = Run(str(folder / "crank"))
+    run.summary["events"] = [{"name": f"event {i}", "t": t} for i, t in enumerate(
+        [1e-3, 1.1e-3, 1.15e-3, 2e-3, 9.9e-3, 9.95e-3])] + [{"name": "far", "t": 5e-3}]
+    figure = kept(history, history.draw, run, "", 100)
+    figure.canvas.draw()
+    boxes = [text.get_window_extent() for text in figure.axes[0].texts]
+    assert len(boxes) == 7
+    for i, a in enumerate(boxes):
+        assert a.x0 >= 0 and a.x1 <= figure.bbox.x1 and a.y1 <= figure.bbox.y1, figure.axes[0].texts[i]
+        for b in boxes[:i]:
+            assert a.x1 <= b.x0 + 1 or b.x1 <= a.x0 + 1 or a.y1 <= b.y0 + 1 or b.y1 <= a.y0 + 1, (a, b)
+    run.summary["events"] = [{"name": f"stop {i}", "t": 1e-3 + 1e-5 * i} for i in range(30)]
+    figure = kept(history, history.draw, run, "", 100)
+    assert any("more events" in text.get_text() for text in figure.axes[0].texts)
+
+
+def joints_are_where_they_hold(folder):
+    """The pin between crank and rod is at both their ends, the motor at the ground; in space the hinge of the panel."""
+    import deformed
+    import mechanism
+    from results import Run
+
+    run = Run(str(folder / "crank"))
+    joints = {joint.name: joint for joint in run.joints}
+    assert set(joints) == {"motor", "pin"} and joints["motor"].grounded and not joints["pin"].grounded
+    for row in (0, 50, 100):
+        one, two = joints["pin"].at(run, row)
+        assert np.allclose(one, two, atol=1e-6) and np.allclose(one[:2], 0.15 * np.array([np.cos(150 * run.t[row]), np.sin(150 * run.t[row])]), atol=1e-6)
+        assert np.allclose(joints["motor"].at(run, row), 0, atol=1e-9)
+    assert [body.rigid for body in run.bodies] == [True, False]
+    axes = kept(deformed, deformed.draw, run, "", 100, [0.004]).axes[0]
+    marks = [line.get_xydata()[0] for line in axes.lines if line.get_marker() == "o"]
+    assert any(np.allclose(mark, joints["pin"].at(run, run.row_at(0.004))[0][:2]) for mark in marks), marks
+    data = mechanism.joint_data(run)
+    assert [one["kind"] for one in data] == ["driven", "revolute"] and data[0]["ground"] == [0, 0, 0]
+    panel = Run(str(folder / "panel"))
+    for joint in panel.joints:
+        one, two = joint.at(panel, len(panel.t) - 1)
+        if joint.kind == "spherical":
+            assert np.linalg.norm(one - two) < 1e-6, (joint.name, one, two)
+    assert "hinge" in {joint.name for joint in panel.joints}
+
+
+def comparisons(folder):
+    """A row for each probe: the length of its vector, and its error; components on request."""
+    import compare
+
+    description = compare.load(str(folder / "compare"))
+    figure = kept(compare, compare.draw, description, "", 100)
+    assert [axes.get_ylabel() for axes in figure.axes] == ["|tip| [m]", "error of tip [m]\nagainst NLFFR"]
+    series = next(run["series"] for run in description["runs"] if run["name"] == "nlffr")
+    line = next(line for line in figure.axes[0].lines if line.get_color() == "black")
+    assert np.allclose(line.get_ydata(), np.hypot(series["tip.x"], series["tip.y"]))
+    legend = figure.legends[0].get_window_extent(figure.canvas.get_renderer())
+    assert legend.x0 >= 0 and legend.x1 <= figure.bbox.x1
+    labels = [axes.get_ylabel() for axes in kept(compare, compare.draw, description, "", 100, True).axes]
+    assert labels[:2] == ["tip.x [m]", "tip.y [m]"] and len(labels) == 3
+    floe(FLOE, folder, "plot", "compare", "--components", "-o", "components.png")
+    drawn(folder / "components.png")
+
+
 def faults(folder):
     """One line, exit code 2, nothing written."""
     for words, phrase in (
@@ -195,7 +277,8 @@ def main():
             floe(FLOE, folder, "run", f"{scene}.yaml", "-o", scene)
         write(folder, "beam.yaml", BEAM)
         write(folder, "turning.yaml", BEAM, **{"joints: {clamp: {type: fixed": "joints: {clamp: {type: driven, angle: 0*t"})
-        for case in (each_kind, of_several_runs, endings, numbers_of_the_files, faults):
+        for case in (each_kind, of_several_runs, endings, numbers_of_the_files, vibrations_are_followed,
+                     names_of_events_are_apart, joints_are_where_they_hold, comparisons, faults):
             case(folder)
 
 
