@@ -83,6 +83,8 @@ def draw(folder, path, dpi, orders=6):
         panel.plot([0, end], [0, order * end / (2 * math.pi)], color="0.6", linewidth=0.8, linestyle="--", zorder=1)
         beyond = order * end / (2 * math.pi) > top  # leaves through the top, else on the right
         at = (2 * math.pi * top / order, top) if beyond else (end, order * end / (2 * math.pi))
+        if not beyond and order > 1 and end / (2 * math.pi) < 0.035 * top and order < orders:
+            continue  # lines that lie close to one another: the first and the last have names
         panel.annotate(f"{order}×", at, xytext=(0, 2) if beyond else (3, 0), textcoords="offset points", fontsize=8,
                        color="0.35", ha="center" if beyond else "left", va="bottom" if beyond else "center",
                        annotation_clip=False)

@@ -47,7 +47,7 @@ TEST_CASE("keys that do not belong to the kind of section are refused") {
                "orientation, centroid, shear_factor, wagner"});
   CHECK(of_beam("A: 1, Iy: 1, Iz: 1, J: 1, height: 2, orientation: [0, 1, 0]").at(0) ==
         "s.yaml:4:49: bodies.b.section.height: does not apply to beams without shape; expected one of A, Iy, Iz, Iyz, "
-        "J, orientation, centroid, shear_factor, wagner");
+        "J, fibres, orientation, centroid, shear_factor, wagner");
 }
 
 TEST_CASE("materials are complete, of one kind, and know what the section needs") {
@@ -204,7 +204,7 @@ TEST_CASE("keys of the plane in space, and of space in the plane") {
   const Faults plane = faults_of(one_body(flat, testing::thickness + "    material: {E: 1, rho: 1}\n"));
   REQUIRE(plane.size() == 3);
   CHECK(plane.back() ==
-        "s.yaml:4:15: bodies.b.section.thickness: unknown key; expected one of A, I, EA, EI, rhoA, rhoI, GA");
+        "s.yaml:4:15: bodies.b.section.thickness: unknown key; expected one of A, I, fibre, EA, EI, rhoA, rhoI, GA");
   CHECK(faults_of(one_body(flat, "    section: {EA: 1, EI: 1, rhoA: 1}\n    parts: {a: {}}\n")) ==
         Faults{"s.yaml:5:5: bodies.b.parts: does not apply here; expected this key only in spatial scenes"});
   CHECK(faults_of(one_body(testing::line, testing::tube + testing::metal + "    frame: {type: clamped, at: [0, 0]}\n"))
