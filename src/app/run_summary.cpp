@@ -31,6 +31,7 @@ ordered_json body_json(const assembly::BodyReport& body) {
   if (!body.strains.empty()) j["strains"] = body.strains;
   if (!body.file.empty()) j["reduced_file"] = body.file;
   if (!body.basis && body.file.empty()) return j;
+  if (!body.reduction_of.empty()) j["reduction_of"] = body.reduction_of;
   j["reduced_coordinates"] = body.columns;
   j["products"] = {{"kept", body.products}, {"of", body.products + body.omitted_products}};
   for (std::size_t i = 0; i < body.omega.size(); ++i)

@@ -9,6 +9,7 @@
 #include "attachments.h"
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/mode_warnings.h"
+#include "floe/assembly/shared_reduction.h"
 #include "floe/plan/interface.h"
 #include "floe/plan/mesh_copy.h"
 #include "floe/reduction/ranking.h"
@@ -95,12 +96,16 @@ void warn_of_products(const PlannedBody& body, const BodyReport& report, std::ve
 
 /// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static
 /// response, the basis holds (V'f)' K_r^-1 (V'f). Says so below one half. Collective.
-void warn_of_loads(const Plan& plan, int index, const Stage& stage, const ReducedBody& reduced,
-                   std::vector<std::string>& warnings) {
+/// @param stage, reduced  of the body, or of the one whose reduction it has
+void warn_of_loads(const Plan& plan, int index, const fem::Placement& placement, const Stage& stage,
+                   const ReducedBody& reduced, std::vector<std::string>& warnings) {
   const PlannedBody& body = plan.bodies[index];
   if (body.structure.dimension() == 2) return;
-  const std::vector<reduction::Attachment> loads = loads_on(plan, index);
+  std::vector<reduction::Attachment> loads = loads_on(plan, index);
   if (loads.empty()) return;
+  fem::Placement back = placement;
+  back.rotation.transposeInPlace();
+  for (reduction::Attachment& load : loads) load.load = fem::placed(body.structure, back, load.load);
   reduction::Columns copies;
   for (const reduction::Attachment& load : loads) {
     petsc::VecHandle one = fem::field(body.structure);
@@ -145,7 +150,8 @@ Eigen::MatrixXd coordinates_of_fields(const Stage& stage, const ReducedBody& red
 /// Pairs of the bodies whose derivatives are chosen by count, after one linear run. @return their weights
 std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation formulation,
                                                  const InteractionRun& linear_run, std::vector<Stage>& stages,
-                                                 const std::vector<ReducedBody>& begun) {
+                                                 const std::vector<ReducedBody>& begun,
+                                                 const std::vector<SharedReduction>& shared) {
   std::vector<std::vector<double>> weights(stages.size());
   auto chooses = [&](std::size_t b) {
     const Body& spec = plan.bodies[b].spec;
@@ -162,6 +168,10 @@ std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation f
       linear[b] = from_file(plan.bodies[b], Formulation::lffr);
       continue;
     }
+    if (shared[b].of >= 0) {
+      linear[b] = shared_body(plan, static_cast<int>(b), shared[b], linear[shared[b].of]);
+      continue;
+    }
     end_stage(plan.bodies[b], stages[b], {}, linear[b]);
     linear[b].body.elasticity = body::linearised(linear[b].body.elasticity);
     linear[b].of_fields = coordinates_of_fields(stages[b], linear[b]);
@@ -172,6 +182,12 @@ std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation f
       rank_pairs(plan.bodies[b], stages[b], interaction[b], plan.bodies[b].spec.reduction.derivatives.count,
                  weights[b]);
   return weights;
+}
+
+/// Not factored before they solve. Collective.
+std::shared_ptr<const reduction::Statics> statics_of(const PlannedBody& body) {
+  return std::make_shared<const reduction::Statics>(body.structure, body.frame,
+                                                    fem::holding(body.structure, body.frame, held_by_modes(body)));
 }
 
 /// Formulation vm without a number of its own: as many modes as modes and derivatives together keep columns.
@@ -242,6 +258,7 @@ BodyFields fields_of_body(const Plan& plan, int index) {
 
 std::vector<BodyReport> modes_of_bodies(const Plan& plan) {
   std::vector<BodyReport> reports;
+  const std::vector<SharedReduction> shared = shared_reductions(plan);
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const PlannedBody& body = plan.bodies[b];
     BodyReport report;
@@ -254,8 +271,15 @@ std::vector<BodyReport> modes_of_bodies(const Plan& plan) {
       reports.push_back(from_file(body, Formulation::vm_md).report);
       continue;
     }
+    if (shared[b].of >= 0) {
+      ReducedBody original;
+      original.report = reports[shared[b].of];
+      report = shared_body(plan, static_cast<int>(b), shared[b], original).report;
+      report.name = body.spec.name;
+      report.notices = body.notices;
+    }
     Stage stage;
-    if (!report.rigid) begin_stage(plan, static_cast<int>(b), count_of_modes(body), stage, report);
+    if (!report.rigid && shared[b].of < 0) begin_stage(plan, static_cast<int>(b), count_of_modes(body), stage, report);
     reports.push_back(std::move(report));
   }
   return reports;
@@ -268,6 +292,7 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
   std::vector<Stage> stages(count);
   std::vector<ReducedBody> all(count);
   std::vector<std::vector<std::string>> labels(count);
+  const std::vector<SharedReduction> shared = shared_reductions(plan);
   for (int b = 0; b < count; ++b) {
     const PlannedBody& body = plan.bodies[b];
     const ReductionSpec& spec = body.spec.reduction;
@@ -277,6 +302,10 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     }
     if (body.spec.reduced) {
       all[b] = from_file(body, formulation);
+      continue;
+    }
+    if (shared[b].of >= 0) {
+      warn(plan, b, formulation, warnings);
       continue;
     }
     const bool stated = alone && spec.modes.alone > 0;
@@ -291,10 +320,10 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     if (all[b].report.left_out > 0) warnings.push_back(left_out_text(body.spec.name, all[b].report));
   }
   refuse_unknown(plan, labels);
-  const std::vector<std::vector<double>> weights = choose_by_count(plan, formulation, linear_run, stages, all);
+  const std::vector<std::vector<double>> weights = choose_by_count(plan, formulation, linear_run, stages, all, shared);
   for (int b = 0; b < count; ++b) {
     const PlannedBody& body = plan.bodies[b];
-    if (body.spec.rigid || body.spec.reduced) continue;
+    if (body.spec.rigid || body.spec.reduced || shared[b].of >= 0) continue;
     reduction::DerivativeColumns derivatives;
     if (alone) {
       if (body.spec.reduction.modes.alone == 0 && body.spec.reduction.columns.empty())
@@ -307,11 +336,18 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
       all[b].report.seconds_derivatives = MPI_Wtime() - start;
     }
     end_stage(body, stages[b], std::move(derivatives), all[b]);
-    warn_of_loads(plan, b, stages[b], all[b], warnings);
+    warn_of_loads(plan, b, {}, stages[b], all[b], warnings);
     warn_of_products(body, all[b].report, warnings);
+    for (int copy = b + 1; copy < count; ++copy)
+      if (shared[copy].of == b) warn_of_loads(plan, copy, shared[copy].placement, stages[b], all[b], warnings);
     stages[b].solver.reset();  // before the statics whose factor it uses
     if (keep_statics) all[b].statics = std::move(stages[b].statics);
     stages[b] = Stage();
+    for (int copy = b + 1; copy < count; ++copy) {
+      if (shared[copy].of != b) continue;
+      all[copy] = shared_body(plan, copy, shared[copy], all[b]);
+      if (keep_statics && !all[copy].statics) all[copy].statics = statics_of(plan.bodies[copy]);
+    }
   }
   return all;
 }

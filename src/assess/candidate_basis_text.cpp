@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "floe/scene/copies.h"
+
 namespace floe::assess {
 
 namespace {
@@ -60,7 +62,7 @@ class MovedPaths {
 std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
                       const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
                       const std::filesystem::path& folder) {
-  YAML::Node root = YAML::Load(scene.text);
+  YAML::Node root = load_resolved(scene.text);
   if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
   for (const Body& body : scene.bodies) {
     if (body.rigid || body.reduced) continue;
@@ -85,8 +87,8 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
       continue;
     }
     if (labels.empty()) continue;  // responses alone
-    YAML::Node reduction = node["reduction"];
-    if (!reduction.IsMap()) reduction = YAML::Node(YAML::NodeType::Map);
+    YAML::Node reduction(YAML::NodeType::Map);
+    if (node["reduction"].IsMap()) reduction = YAML::Clone(node["reduction"]);  // copies of the body may have it, too
     write_columns(reduction, labels, selection.linear);
     node["reduction"] = reduction;
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <tuple>
 
 #include "floe/math/nearest.h"
 
@@ -18,6 +20,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// `bodies.blade.section.A` without the name of the entry, which copies of a body differ in.
+std::string without_entry(const std::string& key) {
+  const auto first = key.find('.');
+  if (first == std::string::npos) return key;
+  const auto second = key.find('.', first + 1);
+  return key.substr(0, first) + (second == std::string::npos ? "" : key.substr(second));
+}
+
 }  // namespace
 
 std::string Where::text() const {
@@ -29,15 +39,15 @@ std::string Where::text() const {
 
 void Document::fault(const Where& where, const std::string& wrong, const std::string& expected, const std::string& word,
                      const std::vector<std::string>& known) {
-  std::string text = fmt::format("{}: {}", where.text(), wrong);
-  if (!expected.empty()) text += "; expected " + expected;
+  std::string said = wrong;
+  if (!expected.empty()) said += "; expected " + expected;
   if (const std::string near = math::nearest(word, known); !near.empty())
-    text += fmt::format("; did you mean \"{}\"?", near);
-  faults_.push_back({where.line, where.column, one_line(text)});
+    said += fmt::format("; did you mean \"{}\"?", near);
+  faults_.push_back({where.line, where.column, one_line(where.text() + ": " + said), without_entry(where.key) + said});
 }
 
 void Document::fault(const Where& where, const InputError& error) {
-  for (const auto& text : error.faults()) faults_.push_back({where.line, where.column, one_line(text)});
+  for (const auto& text : error.faults()) faults_.push_back({where.line, where.column, one_line(text), text});
 }
 
 void Document::throw_faults() const {
@@ -47,9 +57,9 @@ void Document::throw_faults() const {
     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
   });
   std::vector<std::string> texts;
-  for (const auto& fault : sorted) {
-    if (!std::count(texts.begin(), texts.end(), fault.text)) texts.push_back(fault.text);
-  }
+  std::set<std::tuple<int, int, std::string>> said;  // once, however many copies have the value
+  for (const auto& fault : sorted)
+    if (said.emplace(fault.line, fault.column, fault.said).second) texts.push_back(fault.text);
   throw InputError(texts);
 }
 

@@ -48,6 +48,7 @@ class Document {
   struct Fault {
     int line, column;
     std::string text;
+    std::string said;  ///< the same of copies of one entry
   };
   std::vector<Fault> faults_;
   std::map<std::string, std::shared_ptr<const output::ReducedBodyFile>> reduced_files_;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "copies.h"
 #include "readers.h"
 #include "variation.h"
 
@@ -59,7 +60,7 @@ bool unknown_dimension(Document& document, const YAML::Node& bodies) {
 
 // A scene is in space as soon as a mesh has a point of three coordinates, is a plate or comes from a file, or a reduced
 // body is.
-bool in_space(Document& document, const YAML::Node& root) {
+bool is_spatial(Document& document, const YAML::Node& root) {
   const auto three = [](const YAML::Node& point) { return point && point.IsSequence() && point.size() == 3; };
   const YAML::Node bodies = root["bodies"];
   if (!bodies || !bodies.IsMap()) return false;
@@ -102,7 +103,9 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.text = text;
   Reading reading(document, root, "scene");
   if (!root.node.IsMap()) document.throw_faults();
-  scene.dimension = document.dimension = in_space(document, root.node) ? 3 : 2;
+  resolve_copies(document, root.node);
+  document.throw_faults();  // what a copy lacks would only follow
+  scene.dimension = document.dimension = is_spatial(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   if (const auto functions = reading.value("functions")) read_functions(document, *functions);
   scene.tables = document.tables;

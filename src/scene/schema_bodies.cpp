@@ -12,6 +12,9 @@ const SchemaSection body_section{
     "0.0078}\n"
     "frame: pinned\nreduction: {modes: 12}",
     {
+        {"like", Type::text, "", "",
+         "name of another body, all of whose keys this one has unless they are given here (a mapping or list as a "
+         "whole). Bodies whose reduction is the same, also up to a rotation, are reduced once"},
         part("mesh", Type::section, "",
              "the undeformed shape in mesh axes; required but for rigid bodies with given mass", "mesh"),
         {"reduced", Type::text, "", "",

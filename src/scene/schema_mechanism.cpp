@@ -36,6 +36,7 @@ const SchemaSection joint_section{
     "Connects two places, named by its key. Types in planar scenes: fixed, revolute, prismatic, driven, spring.",
     "type: revolute\nbetween: [ground, arm.start]\naxis: [0, 0, 1]",
     {
+        like("joint"),
         choice("type", required,
                "fixed: no relative motion; revolute: rotation about axis; prismatic: translation along axis; driven: "
                "revolute with prescribed angle; spring: spring and damper; cylindrical: translation along axis and "
@@ -116,6 +117,7 @@ const SchemaSection load_section{
     "displacements, rotations and their rates are numbers.",
     "type: moment\njoint: elbow\nmoment: \"-k*(elbow.angle - ref(t)) - d*elbow.rate\"",
     {
+        like("load"),
         choice("type", required,
                "force or moment at a place, force distributed along all beams of a body, or pressure on its shells",
                {"force", "moment", "distributed", "pressure"}),
@@ -184,6 +186,7 @@ const SchemaSection probe_section{
     "body, formula.",
     "at: beam.end\nquantity: displacement",
     {
+        like("probe"),
         {"at", Type::place, "", "", "place where the quantity is recorded"},
         {"joint", Type::text, "", "",
          "instead: name of a joint, spring or bushing, whose force or moment on its second place is recorded, end "

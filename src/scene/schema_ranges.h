@@ -31,6 +31,12 @@ inline Key in_space(Key key) {
   key.dimension = 3;
   return key;
 }
+/// Resolved before anything is read (copies.h).
+inline Key like(const char* of) {
+  return {"like", Type::text, "", "",
+          "name of another " + std::string(of) +
+              ", all of whose keys this one has unless they are given here (a mapping or list as a whole)"};
+}
 /// For these kinds of the section alone.
 inline Key only(std::vector<std::string> kinds, Key key) {
   key.kinds = std::move(kinds);

@@ -33,8 +33,9 @@ using namespace scene;
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
 struct BodyReport {
   std::string name;
-  std::string file = {};  ///< of a body that was reduced before
-  int file_version = 0;   ///< of its format
+  std::string file = {};          ///< of a body that was reduced before
+  std::string reduction_of = {};  ///< the body whose reduction it has (shared_reduction.h)
+  int file_version = 0;           ///< of its format
   PetscInt dofs = 0, nodes = 0, elements = 0;
   bool rigid = false;
   std::string frame = {};                 ///< pinned, clamped, mean-axis, or of another body; set by body_sizes
