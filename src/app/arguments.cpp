@@ -197,18 +197,25 @@ void add_compare(CLI::App& app, Arguments& given, Work& work) {
 
 void add_tradeoff(CLI::App& app, Arguments& given, Work& work) {
   CLI::App* command = app.add_subcommand("tradeoff",
-                                         "simulate a hierarchy of reduced models and compare them with the "
-                                         "full-order model: error versus computing time, one picture");
+                                         "simulate a hierarchy of models and compare them with a converged reference: "
+                                         "total error versus computing time, one picture");
   add_scene(command, given);
-  command->add_option("--reference", given.reference, "nlffr | cfr")->capture_default_str();
-  command->add_option("--accuracy", given.tradeoff.accuracy, "select the cheapest model with at most this error")
+  command->add_option("--reference", given.reference,
+                      "nlffr | cfr; absent: cfr where it can simulate the scene within the time budget, else nlffr");
+  command
+      ->add_option("--time-budget", given.tradeoff.most_seconds,
+                   "seconds of processor time that one simulation of the reference in formulation cfr, or of a "
+                   "full-order model, may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--accuracy", given.tradeoff.accuracy, "point out the fastest model with at most this error")
       ->check(CLI::Range(1e-9, 1.0))
       ->capture_default_str();
   add_folder(command, given);
   command->callback([&given, &work] {
     work = [&given] {
-      given.tradeoff.reference = scene::formulation_of(given.reference);
-      if (given.reference != "nlffr" && given.reference != "cfr")
+      if (!given.reference.empty()) given.tradeoff.reference = scene::formulation_of(given.reference);
+      if (!given.reference.empty() && given.reference != "nlffr" && given.reference != "cfr")
         throw InputError("--reference: is " + given.reference + "; expected nlffr or cfr, the full-order models");
       tradeoff(read_moving(given.scene), PETSC_COMM_WORLD, given.tradeoff, folder_of(given, "tradeoff"), given.force);
     };

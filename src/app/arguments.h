@@ -15,7 +15,7 @@ namespace floe::app {
 
 /// What the commands that compute were asked for; must live as long as the command line is read.
 struct Arguments {
-  std::string scene, formulation = "vm+md", body, reference = "nlffr";
+  std::string scene, formulation = "vm+md", body, reference;
   std::vector<std::string> formulations, varied;
   std::optional<std::string> out, matrices, restart, checkpoint, accuracy, explicit_scene;
   std::optional<double> at, until;

@@ -26,6 +26,7 @@ struct RunResult {
   std::string label;  ///< `12 VMs + 5 MDs`
   PetscInt coordinates = 0;
   double offline_seconds = 0, motion_seconds = 0;
+  double motion_processor = 0;  ///< processor time of the motion on this rank [s]
   PetscInt steps = 0;
   double end = 0;  ///< reached [s]
   std::vector<std::string> warnings;

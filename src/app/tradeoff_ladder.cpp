@@ -1,9 +1,11 @@
+#include "tradeoff_ladder.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "tradeoff.h"
+#include "refined.h"
 
 namespace floe::app {
 
@@ -12,11 +14,12 @@ using scene::Formulation;
 using scene::Scene;
 using Choice = scene::DerivativesSpec::Choice;
 
+bool meshed(const Body& body) { return !body.rigid && !body.reduced; }
+
 namespace {
 
-constexpr int most_columns = 60;  // of a body with all derivatives
-
-bool meshed(const Body& body) { return !body.rigid && !body.reduced; }
+constexpr int most_columns = 60;   // of a body with all derivatives
+constexpr double products = 0.03;  // of the displacement, that omitted products may make up
 
 /// The scene with something else about its flexible bodies.
 template <class Change>
@@ -25,6 +28,22 @@ Scene changed(Scene scene, Change&& change) {
     if (meshed(body)) change(body);
   return scene;
 }
+
+}  // namespace
+
+Scene with_modes(const Scene& scene, int m, Choice derivatives, int count) {
+  return changed(scene, [&](Body& body) {
+    body.reduction.modes.count = m;
+    body.reduction.modes.alone = m;
+    body.reduction.modes.given = true;
+    body.reduction.derivatives.choice = derivatives;
+    body.reduction.derivatives.count = count;
+    body.reduction.derivatives.pairs.clear();
+    body.reduction.columns.clear();
+  });
+}
+
+namespace {
 
 /// The greatest number of modes that any body asks for.
 int greatest_modes(const Scene& scene) {
@@ -39,17 +58,6 @@ std::set<int> counts(int most) {
   for (const int m : {1, 2, 3, 5, 8, 12})
     if (m < most) all.insert(m);
   return all;
-}
-
-Scene with_modes(const Scene& scene, int m, Choice derivatives, int count = 0) {
-  return changed(scene, [&](Body& body) {
-    body.reduction.modes.count = m;
-    body.reduction.modes.alone = m;
-    body.reduction.modes.given = true;
-    body.reduction.derivatives.choice = derivatives;
-    body.reduction.derivatives.count = count;
-    body.reduction.derivatives.pairs.clear();
-  });
 }
 
 std::string modes_word(int m) { return fmt::format("{} mode{}", m, m == 1 ? "" : "s"); }
@@ -88,18 +96,26 @@ void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
   }
 }
 
+void add_forces(const Scene& scene, std::vector<Candidate>& members) {
+  members.push_back({"elastic force", "linear elastic force",
+                     changed(scene, [](Body& body) { body.reduction.linear = true; }), Formulation::vm_md});
+  const auto omits = [](const Body& body) { return meshed(body) && body.reduction.products.value_or(0) > 0; };
+  const bool some = std::any_of(scene.bodies.begin(), scene.bodies.end(), omits);
+  members.push_back({"elastic force", some ? "all products" : fmt::format("products {:g} %", 100 * products),
+                     changed(scene, [&](Body& body) { body.reduction.products = some ? 0 : products; }),
+                     Formulation::vm_md});
+}
+
 void add_steps(const Scene& scene, std::vector<Candidate>& members) {
   if (!scene.motion.tolerance)
     for (const int times : {2, 4, 8}) {
       Scene longer = scene;
       longer.motion.step *= times;
-      longer.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
       members.push_back({"step", fmt::format("step {}x", times), longer, Formulation::vm_md});
     }
   for (const double tolerance : {1e-3, 1e-5}) {
     Scene adaptive = scene;
     adaptive.motion.tolerance = tolerance;
-    adaptive.motion.output = scene.motion.output.value_or(scene.motion.step * scene.motion.every);
     members.push_back({"step", fmt::format("adaptive, {:.0e}", tolerance), adaptive, Formulation::vm_md});
   }
   for (const double radius : {0.0, 0.9}) {
@@ -109,24 +125,30 @@ void add_steps(const Scene& scene, std::vector<Candidate>& members) {
   }
 }
 
+void add_selected(const Scene& scene, std::vector<Candidate>& members) {
+  Scene any = scene;
+  any.motion.tolerance.reset();
+  for (const double accuracy : {0.05, 0.01, 0.002})
+    members.push_back(
+        {"accuracy", fmt::format("selected for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
+}
+
 }  // namespace
 
-std::vector<Candidate> ladder(const Scene& scene) {
+std::vector<Candidate> ladder(const Scene& as_written) {
+  const Scene scene = at_equal_times(as_written);
   std::vector<Candidate> members;
   const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.rigid; });
   members.push_back({"scene", "the scene's own model", scene, Formulation::vm_md});
   if (!flexible) return members;
-  members.push_back({"linear", "LFFR", scene, Formulation::lffr});
   members.push_back({"rigid", "rigid bodies", changed(scene, [](Body& body) { body.rigid = true; }), Formulation::vm});
   add_models(scene, members);
   add_attachments(scene, members);
+  add_forces(scene, members);
+  add_discretisations(scene, members);
   add_steps(scene, members);
-  for (const double accuracy : {0.05, 0.01, 0.002}) {
-    scene::Scene any = scene;
-    any.motion.tolerance.reset();
-    members.push_back(
-        {"accuracy", fmt::format("selected for {:g} %", 100 * accuracy), any, Formulation::vm_md, accuracy});
-  }
+  add_full_order(scene, members);
+  add_selected(scene, members);
   return members;
 }
 

@@ -1,19 +1,32 @@
 #include "tradeoff_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "floe/math/rounded.h"
 
 namespace floe::app {
 
 using nlohmann::ordered_json;
 
-double Rung::worst() const {
-  double most = stopped.empty() ? 0 : std::numeric_limits<double>::infinity();
-  for (const double error : rms)
-    if (!(error <= most)) most = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The greatest; infinity where one is no number.
+double greatest_error(const std::vector<double>& errors) {
+  double most = 0;
+  for (const double error : errors)
+    if (!(error <= most)) most = std::isfinite(error) ? error : infinite;
   return most;
 }
+
+}  // namespace
+
+double Rung::worst() const { return stopped.empty() ? greatest_error(total) : infinite; }
 
 std::vector<std::size_t> pareto_front(const std::vector<Rung>& rungs) {
   std::vector<std::size_t> order, front;
@@ -29,7 +42,6 @@ std::vector<std::size_t> pareto_front(const std::vector<Rung>& rungs) {
 
 std::optional<std::size_t> choice(const std::vector<Rung>& rungs, double accuracy) {
   const std::vector<std::size_t> front = pareto_front(rungs);
-  if (front.empty()) return {};
   const auto found =
       std::find_if(front.begin(), front.end(), [&](std::size_t i) { return rungs[i].worst() <= accuracy; });
   return found == front.end() ? std::nullopt : std::optional(*found);
@@ -37,58 +49,107 @@ std::optional<std::size_t> choice(const std::vector<Rung>& rungs, double accurac
 
 namespace {
 
+const output::Cell nothing = std::string();
+
 /// Errors of divergent models have no digits worth showing.
 output::Cell per_cent(double share) {
   if (!std::isfinite(share)) return std::string("-");
   return 100 * share;
 }
+output::Cell per_cent(const std::vector<double>& errors) {
+  return errors.empty() ? nothing : per_cent(greatest_error(errors));
+}
+output::Cell per_cent(const std::vector<double>& errors, std::size_t p) {
+  return p < errors.size() ? per_cent(errors[p]) : nothing;
+}
 
-std::vector<output::Cell> cells(const Rung& rung, const Rung& reference, std::size_t probes, bool full) {
-  const auto at = [&](const std::vector<double>& values, std::size_t p) {
-    return p < values.size() ? per_cent(values[p]) : output::Cell(std::string());
-  };
-  const bool stands = rung.stopped.empty();
-  std::vector<output::Cell> row = {stands ? rung.name : rung.name + ": " + rung.stopped};
-  if (full) row.insert(row.begin(), rung.family), row.emplace_back(rung.formulation);
-  row.emplace_back(stands ? output::Cell(rung.coordinates) : output::Cell(std::string()));
-  if (full) row.push_back(stands ? output::Cell(rung.offline) : output::Cell(std::string()));
-  row.push_back(stands ? output::Cell(1e6 * rung.motion / std::max<double>(1, static_cast<double>(rung.steps)))
-                       : output::Cell(std::string()));
-  if (full) row.push_back(stands ? output::Cell(rung.motion) : output::Cell(std::string()));
-  row.push_back(stands && rung.motion > 0 ? output::Cell(reference.motion / rung.motion) : output::Cell(std::string()));
-  for (std::size_t p = 0; p < probes; ++p) {
-    row.push_back(at(rung.rms, p));
-    row.push_back(at(rung.estimate, p));
-    if (full) row.push_back(at(rung.peak, p));
-  }
-  if (full) row.push_back(stands && &rung != &reference ? per_cent(rung.energy) : output::Cell(std::string()));
+/// The estimate, with a mark where it lacks a part.
+output::Cell estimated(const Rung& rung) {
+  const output::Cell cell = per_cent(rung.estimate);
+  if (rung.lacks.empty() || !std::holds_alternative<double>(cell)) return cell;
+  return math::rounded(std::get<double>(cell), 2) + " *";
+}
+
+double per_step(const Rung& rung) { return 1e6 * rung.motion / std::max<double>(1, static_cast<double>(rung.steps)); }
+
+std::vector<output::Cell> short_cells(const Rung& rung, const output::Cell& place) {
+  if (!rung.stopped.empty())
+    return {rung.name + ": " + rung.stopped, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
+  return {rung.name,
+          place,
+          rung.coordinates,
+          per_step(rung),
+          rung.motion,
+          per_cent(rung.reduction),
+          per_cent(rung.total),
+          estimated(rung)};
+}
+
+std::vector<output::Cell> all_cells(const Rung& rung, const output::Cell& place, std::size_t probes) {
+  const bool ended = rung.stopped.empty();
+  std::vector<output::Cell> row = {rung.family, rung.name, rung.formulation, place};
+  if (ended)
+    row.insert(row.end(), {rung.coordinates, rung.offline, per_step(rung), rung.motion});
+  else
+    row.insert(row.end(), 4, nothing);
+  for (std::size_t p = 0; p < probes; ++p)
+    for (const auto* errors : {&rung.reduction, &rung.total, &rung.estimate, &rung.peak})
+      row.push_back(ended ? per_cent(*errors, p) : nothing);
+  row.push_back(ended ? per_cent(rung.energy) : nothing);
+  row.push_back(rung.lacks);
+  row.push_back(rung.stopped);
   return row;
 }
 
 }  // namespace
 
-output::Table tradeoff_table(const std::vector<std::string>& probes, const Rung& reference, const Rung* own,
-                             const std::vector<Rung>& rungs, std::optional<std::size_t> chosen, bool full) {
+output::Table tradeoff_table(const std::vector<std::string>& probes, const std::vector<Rung>& rungs, bool full) {
   output::Table table;
-  table.columns = {{"model", ""}};
-  if (full) table.columns.insert(table.columns.begin(), {"family", ""}), table.columns.push_back({"formulation", ""});
-  table.columns.push_back({"unknowns", ""});
-  if (full) table.columns.push_back({"offline", "s", 3});
-  table.columns.push_back({"per step", "us", 3});
-  if (full) table.columns.push_back({"motion", "s", 3});
-  table.columns.push_back({"speed-up", "", 3});
-  for (const std::string& probe : probes) {
-    table.columns.push_back({probe + " error", "%", 2});
-    table.columns.push_back({probe + " estimate", "%", 2});
-    if (full) table.columns.push_back({probe + " peak error", "%", 2});
+  if (full) {
+    table.columns = {{"family", ""},   {"model", ""},       {"formulation", ""},   {"front", ""},
+                     {"unknowns", ""}, {"offline", "s", 3}, {"per step", "us", 3}, {"simulation", "s", 3}};
+    for (const std::string& probe : probes)
+      for (const char* what : {"reduction", "total", "estimate", "peak"})
+        table.columns.push_back({probe + " " + what, "%", 2});
+    table.columns.push_back({"energy", "%", 2});
+    table.columns.push_back({"estimate lacks", ""});
+    table.columns.push_back({"stopped", ""});
+  } else {
+    table.columns = {{"model", ""},          {"front", ""},         {"unknowns", ""},  {"per step", "us", 3},
+                     {"simulation", "s", 3}, {"reduction", "%", 2}, {"total", "%", 2}, {"estimate", "%", 2}};
   }
-  if (full) table.columns.push_back({"energy error", "%", 2});
-  table.rows.push_back(cells(reference, reference, probes.size(), full));
-  if (own) table.rows.push_back(cells(*own, reference, probes.size(), full));
+  const std::vector<std::size_t> front = pareto_front(rungs);
   for (std::size_t i = 0; i < rungs.size(); ++i) {
-    Rung rung = rungs[i];
-    if (chosen == i) rung.name += " <- selected";
-    table.rows.push_back(cells(rung, reference, probes.size(), full));
+    const auto at = std::find(front.begin(), front.end(), i);
+    const output::Cell place =
+        at == front.end() ? nothing : output::Cell(static_cast<std::int64_t>(at - front.begin() + 1));
+    table.rows.push_back(full ? all_cells(rungs[i], place, probes.size()) : short_cells(rungs[i], place));
+  }
+  return table;
+}
+
+output::Table selections_table(const std::vector<Rung>& rungs) {
+  output::Table table;
+  table.columns = {{"required", "%", 2},  {"true", "%", 2},      {"estimated", "%", 2},
+                   {"model", ""},         {"per step", "us", 3}, {"simulation", "s", 3},
+                   {"selection", "s", 2}, {"time ratio", "", 2}, {"to the fastest other model as accurate", ""}};
+  for (const Rung& rung : rungs) {
+    if (rung.required == 0) continue;
+    std::vector<output::Cell> row = {100 * rung.required};
+    if (!rung.stopped.empty()) {
+      row.insert(row.end(), {nothing, nothing, rung.stopped, nothing, nothing, nothing, nothing, nothing});
+      table.rows.push_back(row);
+      continue;
+    }
+    const Rung* fastest = nullptr;
+    for (const Rung& other : rungs)
+      if (other.required == 0 && other.worst() <= rung.required && (!fastest || other.motion < fastest->motion))
+        fastest = &other;
+    row.insert(row.end(),
+               {per_cent(rung.worst()), estimated(rung), rung.selected, per_step(rung), rung.motion, rung.offline,
+                fastest ? output::Cell(rung.motion / fastest->motion) : output::Cell(std::string("-")),
+                fastest ? fastest->name : std::string("there is none")});
+    table.rows.push_back(row);
   }
   return table;
 }
@@ -103,27 +164,29 @@ ordered_json numbers(const std::vector<double>& values) {
 
 std::vector<double> numbers_of(const ordered_json& j) {
   std::vector<double> values;
-  for (const ordered_json& value : j)
-    values.push_back(value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>());
+  for (const ordered_json& value : j) values.push_back(value.is_null() ? infinite : value.get<double>());
   return values;
 }
 
 }  // namespace
 
 ordered_json to_json(const Rung& rung) {
-  return {{"family", rung.family},
-          {"name", rung.name},
-          {"formulation", rung.formulation},
-          {"stopped", rung.stopped},
-          {"unknowns", rung.coordinates},
-          {"offline", rung.offline},
-          {"motion", rung.motion},
-          {"steps", rung.steps},
-          {"rms", numbers(rung.rms)},
-          {"reduction", numbers(rung.reduction)},
-          {"peak", numbers(rung.peak)},
-          {"energy", numbers({rung.energy})},
-          {"estimate", numbers(rung.estimate)}};
+  ordered_json j = {{"family", rung.family},
+                    {"name", rung.name},
+                    {"formulation", rung.formulation},
+                    {"stopped", rung.stopped},
+                    {"unknowns", rung.coordinates},
+                    {"offline", rung.offline},
+                    {"motion", rung.motion},
+                    {"steps", rung.steps},
+                    {"total", numbers(rung.total)},
+                    {"reduction", numbers(rung.reduction)},
+                    {"peak", numbers(rung.peak)},
+                    {"energy", numbers({rung.energy})},
+                    {"estimate", numbers(rung.estimate)},
+                    {"estimate_lacks", rung.lacks}};
+  if (rung.required > 0) j["required"] = rung.required, j["selected"] = rung.selected;
+  return j;
 }
 
 Rung rung_of(const ordered_json& j) {
@@ -131,9 +194,19 @@ Rung rung_of(const ordered_json& j) {
   rung.family = j["family"], rung.name = j["name"], rung.formulation = j["formulation"], rung.stopped = j["stopped"];
   rung.coordinates = j["unknowns"], rung.steps = j["steps"];
   rung.offline = j["offline"], rung.motion = j["motion"];
-  rung.rms = numbers_of(j["rms"]), rung.reduction = numbers_of(j["reduction"]), rung.peak = numbers_of(j["peak"]);
+  rung.total = numbers_of(j["total"]), rung.reduction = numbers_of(j["reduction"]), rung.peak = numbers_of(j["peak"]);
   rung.energy = numbers_of(j["energy"]).at(0), rung.estimate = numbers_of(j["estimate"]);
+  rung.lacks = j["estimate_lacks"], rung.required = j.value("required", 0.0);
+  rung.selected = j.value("selected", std::string());
   return rung;
+}
+
+ordered_json to_json(const TradeoffReference& reference) {
+  ordered_json j = {{"name", scene::name_of(reference.formulation)}, {"words", reference.words}};
+  if (!reference.why.empty()) j["not_cfr"] = reference.why;
+  j["error"] = numbers({reference.error}).at(0);
+  if (!reference.error_lacks.empty()) j["error_lacks"] = reference.error_lacks;
+  return j;
 }
 
 }  // namespace floe::app

@@ -346,12 +346,15 @@ def of_compare(folder, description):
 
 
 def of_tradeoff(folder, description):
-    words = ""
+    reference = description["reference"]
+    words = f"<p>Total errors are relative to {escaped(reference['words'])}.</p>"
     if "choice" in description:
         rung = description["rungs"][description["choice"]]
-        words = (f"<p><b>Selected: {escaped(rung['name'])}</b> ({escaped(rung['formulation'])}): the cheapest model with an error of at most "
-                 f"{100 * description['accuracy']:g} % of {escaped(description['reference']['name'])} in every probe.</p>")
-    return [("choice", "Model selection", words or "<p>No model has the requested accuracy.</p>"),
+        words += (f"<p><b>{escaped(rung['name'])}</b> ({escaped(rung['formulation'])}) is the fastest model with a total error of at most "
+                  f"{100 * description['accuracy']:g} % in every probe.</p>")
+    else:
+        words += f"<p>No model has a total error of at most {100 * description['accuracy']:g} %.</p>"
+    return [("choice", "Model selection", words),
             ("pictures", "Pictures", pictures(folder, ["tradeoff"], None)),
             ("table", "Models", table_of_file(os.path.join(folder, "tradeoff.csv")))], ""
 

@@ -1,23 +1,34 @@
 #!/usr/bin/env python3
-"""Draws error versus computing time for the models of one scene: the Pareto front, and the model selected for an accuracy.
+"""Draws total error versus computing time for the models of one scene, the Pareto front, and the models selected by accuracy.
 
 DIR/tradeoff.json is written by floe tradeoff. Time is that of the simulation; the error is the maximum over the probes.
 """
 import argparse
-import math
 import os
 import sys
 
 sys.dont_write_bytecode = True
-from style import COLOURS, MARKS, Fault, duration, guarded, per_cent, pyplot, read_json, save  # noqa: E402
+from style import COLOURS, Fault, duration, guarded, per_cent, pyplot, read_json, save  # noqa: E402
 
-WIDTH, HEIGHT = 7.6, 4.4  # inches, of the diagram; the key of the front comes below
+WIDTH, HEIGHT = 8.2, 4.9  # inches, of the diagram; the key of the front comes below
 LINE = 0.19
+NEAR = 11  # points: numbers of the front that are closer are written together
+
+# Groups of the legend: marker, its size, colour (Okabe and Ito), families of models.
+GROUPS = {"the scene's own model": ("*", 13, COLOURS[0], ("scene",)),
+          "modes only, rigid": ("^", 6.5, COLOURS[5], ("rigid", "modes")),
+          "modes and derivatives": ("D", 5.5, COLOURS[1], ("modes and derivatives", "attachment modes", "elastic force")),
+          "reduced, other frames": ("v", 6.5, COLOURS[3], ("frames",)),
+          "reduced, other mesh or strains": ("P", 7, COLOURS[4], ("mesh", "strains")),
+          "reduced, other step": ("X", 6.5, COLOURS[2], ("step", "integrator")),
+          "full order: nlffr, lffr": ("p", 7, COLOURS[6], ("full order",)),
+          "full order: cfr": ("s", 6.5, COLOURS[0], ("cfr",)),
+          "selected by accuracy": ("o", 10, "black", ("accuracy",))}
 
 
 def worst(rung):
     """Maximum error of the probes; None where the model stopped or has no number."""
-    errors = rung["rms"]
+    errors = rung["total"]
     if rung["stopped"] or not errors or any(error is None for error in errors):
         return None
     return max(errors)
@@ -30,8 +41,8 @@ def load(folder):
         for rung in description["rungs"]:
             rung["error"] = worst(rung)
         description["front"] = [description["rungs"][i] for i in description["pareto_front"]]
-        description["chosen"] = description["rungs"][description["choice"]] if "choice" in description else None
         shown = [rung for rung in description["rungs"] if rung["error"] and rung["motion"] > 0]
+        description["reference"]["error"], description["reference"]["words"]  # pylint: disable=pointless-statement
     except (KeyError, TypeError, IndexError) as error:
         raise Fault(f"{path}: has no {error}") from error
     if not shown:
@@ -39,71 +50,93 @@ def load(folder):
     return description, shown
 
 
+def title_of(rung):
+    """`selected for 1 %`: and what was selected."""
+    name = rung["name"] if rung["name"].startswith(rung["formulation"]) else f"{rung['name']} ({rung['formulation']})"
+    return f"{name}: {rung['selected']}" if rung.get("selected") else name
+
+
 def key_lines(description):
     lines = []
     for number, rung in enumerate(description["front"], start=1):
-        words = f"{number}  {rung['name']} ({rung['formulation']}): {per_cent(rung['error'])}, {duration(rung['motion'])}"
-        if rung is description["chosen"]:
-            words += f"   ← selected for {per_cent(description['accuracy'])}"
-        lines.append(words)
+        words = f"{title_of(rung)}: {per_cent(rung['error'])}, {duration(rung['motion'])}"
+        lines.append((f"{number:>2}  {shortened(words, 124)}", bool(rung.get("required"))))
     stopped = [rung for rung in description["rungs"] if rung["error"] is None]
-    lines += [f"–  {rung['name']} ({rung['formulation']}): {rung['stopped'] or 'no number'}"[:118] for rung in stopped]
+    lines += [(shortened(f" –  {title_of(rung)}: {rung['stopped'] or 'no number'}", 124), False)
+              for rung in stopped]
     return lines
 
 
-def copy_of_size(line, size):
-    from matplotlib.lines import Line2D
-    copy = Line2D([], [])
-    copy.update_from(line)
-    copy.set_markersize(size)
-    return copy
+def shortened(words, most):
+    return words if len(words) <= most else words[:most - 1] + "…"
+
+
+def draw_models(axes, shown):
+    """Each group in its own mark; those of the selected models are black, and lie above the others."""
+    for group, (marker, size, colour, families) in GROUPS.items():
+        members = [rung for rung in shown if rung["family"] in families]
+        if members:
+            axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none", marker=marker,
+                      markersize=size, color=colour, markeredgecolor="white", markeredgewidth=0.6,
+                      zorder=3 + (size > 9) + (colour == "black"), label=group)
+
+
+def draw_front(axes, front):
+    """The line, and the numbers of the key: those of neighbours together. Below and left of the front there is nothing else."""
+    points = [(r["motion"], 100 * r["error"]) for r in front]
+    axes.plot(*zip(*points), color="black", linewidth=1.3, zorder=2, label="Pareto front")
+    places = axes.transData.transform(points) * 72 / axes.figure.dpi
+    groups = []
+    for i, place in enumerate(places):
+        if groups and max(abs(place - places[groups[-1][-1]])) < NEAR:
+            groups[-1].append(i)
+        else:
+            groups.append([i])
+    for group in groups:
+        text = f"{group[0] + 1}" if len(group) == 1 else f"{group[0] + 1}–{group[-1] + 1}"
+        at = points[group[len(group) // 2]]
+        axes.annotate(text, at, xytext=(-6, -5), textcoords="offset points", ha="right", va="top", fontsize=8)
+
+
+def draw_selected(axes, shown):
+    for rung in shown:
+        if rung.get("required"):
+            axes.annotate(f"accuracy: {per_cent(rung['required'])}", (rung["motion"], 100 * rung["error"]),
+                          xytext=(7, 5), textcoords="offset points", ha="left", va="bottom", fontsize=8.5,
+                          fontweight="bold", zorder=7,
+                          bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.75})
 
 
 def draw(description, shown, path, dpi):
     plt = pyplot()
     lines = key_lines(description)
-    below = LINE * (len(lines) + 1.4)
-    figure = plt.figure(figsize=(WIDTH, HEIGHT + below))
+    below = LINE * (len(lines) + 2.4)
     whole = HEIGHT + below
-    axes = figure.add_axes([0.09, (below + 0.5) / whole, 0.64, (HEIGHT - 0.95) / whole])
+    figure = plt.figure(figsize=(WIDTH, whole))
+    axes = figure.add_axes([0.085, (below + 0.5) / whole, 0.62, (HEIGHT - 0.95) / whole])
     axes.set_xscale("log")
     axes.set_yscale("log")
-    front = description["front"]
-    axes.plot([r["motion"] for r in front], [100 * r["error"] for r in front], color="black", linewidth=1.2, zorder=2,
-              label="Pareto front")
-    for i, family in enumerate(dict.fromkeys(rung["family"] for rung in shown)):
-        members = [rung for rung in shown if rung["family"] == family]
-        chosen_by_floe = family == "accuracy"
-        axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none",
-                  marker="o" if chosen_by_floe else MARKS[i % len(MARKS)], markersize=7,
-                  color="black" if chosen_by_floe else COLOURS[i % len(COLOURS)],
-                  markeredgecolor="white", markeredgewidth=0.6, zorder=3,
-                  label="selected by floe" if chosen_by_floe else family)
-    chosen = description["chosen"]
-    if chosen:
-        axes.plot(chosen["motion"], 100 * chosen["error"], linestyle="none", marker="o", markersize=15,
-                  markerfacecolor="none", markeredgecolor="black", markeredgewidth=1.4, zorder=4, label="selected")
+    times, errors = [r["motion"] for r in shown], [100 * r["error"] for r in shown]
+    axes.set_xlim(min(times) / 3.5, max(times) * 1.6)
+    axes.set_ylim(max(min(errors) / 5, 1e-7), min(max(errors) * 2, 300))
+    draw_models(axes, shown)
+    draw_front(axes, description["front"])
+    draw_selected(axes, shown)
     reference = description["reference"]
-    axes.axvline(reference["motion"], color="0.35", linestyle=(0, (6, 2)), linewidth=1.1,
-                 label=f"{reference['name']}: {duration(reference['motion'])}")
-    own = worst(description["reference_itself"]) if "reference_itself" in description else None
-    if own:
-        axes.axhline(100 * own, color="0.35", linestyle=(0, (1, 1.5)), linewidth=1.2,
-                     label=f"error of its mesh: {per_cent(own)}")
-    for number, rung in enumerate(front, start=1):  # below and left of the front there is nothing else
-        axes.annotate(str(number), (rung["motion"], 100 * rung["error"]), xytext=(-6, -6), textcoords="offset points",
-                      ha="right", va="top", fontsize=8, fontweight="bold")
-    axes.margins(0.1)
+    own = reference["error"]
+    if own and 100 * own > axes.get_ylim()[0]:
+        axes.axhspan(axes.get_ylim()[0], 100 * own, color="0.9", zorder=0, label=f"error of the reference: {per_cent(own)}")
     axes.set_xlabel("computing time of the simulation [s]")
-    axes.set_ylabel("maximum relative error of the probes [%]")
+    axes.set_ylabel("total error, maximum of the probes [%]")
     handles, labels = axes.get_legend_handles_labels()
-    handles = [copy_of_size(handle, 9) if label == "selected" else handle for handle, label in zip(handles, labels)]
-    figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.745, (below + HEIGHT - 0.42) / whole),
+    figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.715, (below + HEIGHT - 0.42) / whole),
                   frameon=False, fontsize=8, handlelength=2.2)
     figure.text(0.5, 1 - 0.1 / whole, description.get("title", ""), ha="center", va="top", fontsize=11)
-    for i, words in enumerate(lines):
-        figure.text(0.03, (below - 0.1 - LINE * (i + 1)) / whole, words, fontsize=8, va="bottom",
-                    fontweight="bold" if chosen and "← selected" in words else "normal")
+    figure.text(0.03, (below - 0.1 - LINE) / whole, f"Reference: {reference['words']}. Pareto front:", fontsize=8,
+                va="bottom", style="italic")
+    for i, (words, bold) in enumerate(lines):
+        figure.text(0.03, (below - 0.1 - LINE * (i + 2)) / whole, words, fontsize=8, va="bottom",
+                    fontweight="bold" if bold else "normal")
     save(figure, path, dpi, 256)
 
 

@@ -57,14 +57,38 @@ def of_several_runs(folder):
         (folder / kind / f"{kind}.png").unlink(missing_ok=True)
         assert floe(FLOE, folder, "plot", kind) == f"Picture: {kind}/{kind}.png\n"
         drawn(folder / kind / f"{kind}.png")
-    rung = {"name": "2 modes", "family": "modes", "formulation": "vm", "rms": [0.02], "stopped": "", "motion": 1e-3}
+    rung = {"name": "2 modes", "family": "modes", "formulation": "vm", "total": [0.02], "stopped": "", "motion": 1e-3}
     (folder / "tradeoff").mkdir()
     (folder / "tradeoff/tradeoff.json").write_text(json.dumps(
-        {"title": "Ladder", "accuracy": 0.01, "choice": 1, "pareto_front": [0, 1],
-         "rungs": [rung, {**rung, "name": "4 modes", "rms": [0.004], "motion": 3e-3}],
-         "reference": {"name": "nlffr", "motion": 0.1}}))
+        {"title": "Hierarchy", "accuracy": 0.01, "choice": 1, "pareto_front": [0, 1],
+         "rungs": [rung, {**rung, "name": "selected for 1 %", "family": "accuracy", "total": [0.004], "motion": 3e-3,
+                          "required": 0.01, "selected": "2 of 9 basis vectors"},
+                   {**rung, "name": "gone", "stopped": "diverged at t = 1 s", "total": []}],
+         "reference": {"name": "cfr", "words": "cfr, extrapolated", "error": 1e-4}}))
     floe(FLOE, folder, "plot", "tradeoff")
     drawn(folder / "tradeoff/tradeoff.png")
+
+
+def of_a_tradeoff(folder):
+    """The line is the Pareto front, and the selected model has its label, at its place."""
+    import tradeoff
+    floe(FLOE, folder, "tradeoff", "beam.yaml", "-o", "measured")
+    drawn(folder / "measured/tradeoff.png")
+    description, shown = tradeoff.load(folder / "measured")
+    figure = kept(tradeoff, tradeoff.draw, description, shown, None, 100)
+    axes = figure.axes[0]
+    front = [description["rungs"][i] for i in description["pareto_front"]]
+    line = next(one for one in axes.lines if one.get_label() == "Pareto front")
+    assert np.allclose(line.get_xdata(), [one["motion"] for one in front])
+    assert np.allclose(line.get_ydata(), [100 * max(one["total"]) for one in front])
+    assert all(a > b for a, b in zip(line.get_ydata(), line.get_ydata()[1:])), "the front goes down"
+    labels = {one.get_text(): one.xy for one in axes.texts if one.get_text().startswith("accuracy")}
+    for one in description["rungs"]:
+        if one.get("required") and not one["stopped"]:
+            at = labels[f"accuracy: {100 * one['required']:g} %"]
+            assert np.allclose(at, (one["motion"], 100 * max(one["total"]))), (at, one)
+    assert len(labels) >= 2, labels
+    assert "cfr" in description["reference"]["words"]
 
 
 def endings(folder):
@@ -277,7 +301,7 @@ def main():
             floe(FLOE, folder, "run", f"{scene}.yaml", "-o", scene)
         write(folder, "beam.yaml", BEAM)
         write(folder, "turning.yaml", BEAM, **{"joints: {clamp: {type: fixed": "joints: {clamp: {type: driven, angle: 0*t"})
-        for case in (each_kind, of_several_runs, endings, numbers_of_the_files, vibrations_are_followed,
+        for case in (each_kind, of_several_runs, of_a_tradeoff, endings, numbers_of_the_files, vibrations_are_followed,
                      names_of_events_are_apart, joints_are_where_they_hold, comparisons, faults):
             case(folder)
 

@@ -1,9 +1,11 @@
 #include "../../../src/app/tradeoff.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
+#include "../../../src/app/tradeoff_run.h"
 #include "../../../src/app/tradeoff_table.h"
 
 using namespace floe;
@@ -14,7 +16,8 @@ namespace {
 Rung rung(const std::string& name, double motion, double error) {
   Rung one;
   one.name = name, one.motion = motion, one.steps = 10, one.coordinates = 7;
-  one.rms = {error / 2, error}, one.peak = {error, error}, one.estimate = {error, error};
+  one.total = {error / 2, error}, one.peak = {error, error}, one.estimate = {error, error};
+  one.reduction = {0.1 * error, 0.2 * error};
   return one;
 }
 
@@ -54,50 +57,103 @@ TEST_CASE("trade-off: the front has nothing that is slower and worse, and nothin
 
 TEST_CASE("trade-off: a rung with errors that are no numbers is on no front") {
   std::vector<Rung> all = rungs();
-  all[0].rms[1] = NAN;
+  all[0].total[1] = NAN;
   CHECK(pareto_front(all) == std::vector<std::size_t>{3, 2});
   CHECK(std::isinf(all[0].worst()));
 }
 
 TEST_CASE("trade-off: rungs go between ranks as they are") {
-  for (const Rung& one : rungs()) {
+  std::vector<Rung> all = rungs();
+  all[1].lacks = "model", all[2].required = 0.01, all[2].selected = "rigid";
+  for (const Rung& one : all) {
     const Rung back = rung_of(to_json(one));
     CHECK(back.name == one.name);
     CHECK(back.stopped == one.stopped);
-    CHECK(back.rms == one.rms);
+    CHECK(back.total == one.total);
+    CHECK(back.reduction == one.reduction);
+    CHECK(back.lacks == one.lacks);
+    CHECK(back.required == one.required);
+    CHECK(back.selected == one.selected);
     CHECK(back.estimate == one.estimate);
     CHECK(back.motion == one.motion);
   }
 }
 
-TEST_CASE("trade-off: a table has a row for the reference, for its own error and for every rung") {
-  const Rung reference = rung("nlffr", 8, 0), own = rung("nlffr, finer", 30, 1e-3);
+TEST_CASE("trade-off: a table has a row for every model, the worst probe, and the place on the front") {
+  std::vector<Rung> all = rungs();
+  all[2].lacks = "model";
   for (const bool full : {false, true}) {
-    const output::Table table = tradeoff_table({"tip", "end"}, reference, &own, rungs(), 2, full);
-    REQUIRE(table.rows.size() == 7);
+    const output::Table table = tradeoff_table({"tip", "end"}, all, full);
+    REQUIRE(table.rows.size() == all.size());
     for (const auto& row : table.rows) CHECK(row.size() == table.columns.size());
   }
-  const std::string text = output::to_text(tradeoff_table({"tip", "end"}, reference, nullptr, rungs(), 2, false));
-  CHECK(text.find("fair <- selected") != std::string::npos);
-  CHECK(text.find("gone: diverged at t = 1 s") != std::string::npos);
+  const output::Table table = tradeoff_table({"tip", "end"}, all, false);
+  const std::vector<output::Cell>& fair = table.rows[2];
+  CHECK(std::get<std::int64_t>(fair[1]) == 2);      // behind the fast and poor one
+  CHECK(std::get<double>(fair[3]) == Approx(2e5));  // 2 s in 10 steps
+  CHECK(std::get<double>(fair[5]) == Approx(0.16));
+  CHECK(std::get<double>(fair[6]) == Approx(0.8));
+  CHECK(std::get<std::string>(fair[7]) == "0.8 *");
+  CHECK(std::get<std::string>(table.rows[1][1]).empty());
+  CHECK(std::get<std::string>(table.rows[4][0]) == "gone: diverged at t = 1 s");
 }
 
-TEST_CASE("trade-off: the ladder varies one thing at a time and leaves rigid bodies alone") {
+TEST_CASE("trade-off: selected models beside the fastest other one as accurate") {
+  std::vector<Rung> all = rungs();
+  CHECK(selections_table(all).rows.empty());
+  Rung one = rung("selected for 1 %", 1.5, 0.009);
+  one.required = 0.01, one.selected = "2 of 9 basis vectors", one.estimate = {0.007, 0.006};
+  all.push_back(one);
+  one.required = 1e-5;
+  all.push_back(one);
+  const output::Table table = selections_table(all);
+  REQUIRE(table.rows.size() == 2);
+  CHECK(std::get<double>(table.rows[0][0]) == Approx(1));
+  CHECK(std::get<double>(table.rows[0][1]) == Approx(0.9));
+  CHECK(std::get<double>(table.rows[0][2]) == Approx(0.7));
+  CHECK(std::get<std::string>(table.rows[0][3]) == "2 of 9 basis vectors");
+  CHECK(std::get<double>(table.rows[0][7]) == Approx(0.75));  // of 2 s
+  CHECK(std::get<std::string>(table.rows[0][8]) == "fair");
+  CHECK(std::get<std::string>(table.rows[1][8]) == "there is none");
+}
+
+TEST_CASE("trade-off: the ladder varies frames, meshes, basis, steps and formulation, and leaves rigid bodies alone") {
   std::set<std::string> names, families;
   for (const Candidate& member : ladder(arm())) {
+    INFO(member.name);
     CHECK(names.insert(member.family + member.name).second);
     families.insert(member.family);
+    CHECK(member.impossible.empty());
     CHECK(member.scene.bodies[1].rigid);
+    CHECK(*member.scene.motion.output == Approx(4e-2));  // as often as the scene's
+    const scene::Body& body = member.scene.bodies[0];
     if (member.family == "modes") CHECK(member.formulation == scene::Formulation::vm);
     if (member.name == "3 modes + all MDs") {
-      CHECK(member.scene.bodies[0].reduction.modes.count == 3);
-      CHECK(member.scene.bodies[0].reduction.derivatives.pairs.empty());
+      CHECK(body.reduction.modes.count == 3);
+      CHECK(body.reduction.derivatives.pairs.empty());
     }
-    if (member.name == "step 4x") {
-      CHECK(member.scene.motion.step == Approx(4e-2));
-      CHECK(*member.scene.motion.output == Approx(4e-2));  // as often as the scene's
+    if (member.name == "step 4x" || member.name == "nlffr, step 4x") CHECK(member.scene.motion.step == Approx(4e-2));
+    if (member.name == "8 frames, twice the elements" || member.name == "nlffr, 8 frames, twice the elements") {
+      CHECK(body.frames == 8);
+      CHECK(body.mesh.elements[0] == 16);  // two in each frame
     }
+    if (member.name == "half the elements" || member.name == "cfr, half the elements")
+      CHECK(body.mesh.elements[0] == 4);
+    if (member.family == "cfr") CHECK(member.formulation == scene::Formulation::cfr);
   }
-  CHECK(families == std::set<std::string>{"scene", "linear", "rigid", "modes", "modes and derivatives",
-                                          "attachment modes", "step", "integrator", "accuracy"});
+  CHECK(families == std::set<std::string>{"scene", "rigid", "modes", "modes and derivatives", "attachment modes",
+                                          "elastic force", "frames", "mesh", "step", "integrator", "full order", "cfr",
+                                          "accuracy"});
+  for (const char* name : {"2 frames", "4 frames", "nlffr, 2 frames", "nlffr", "cfr", "lffr", "twice the elements"})
+    CHECK(std::any_of(names.begin(), names.end(), [&](const std::string& one) { return one.ends_with(name); }));
+}
+
+TEST_CASE("trade-off: full-order models are told apart by mesh, frames and step") {
+  std::set<std::string> keys;
+  std::size_t full = 0;
+  for (const Candidate& member : ladder(arm()))
+    if (member.formulation == scene::Formulation::nlffr) ++full, keys.insert(full_order_key(member.scene));
+  CHECK(full == 9);  // as written; 2, 4 and 8 frames; half and twice the elements; 2, 4 and 8 times the step
+  CHECK(keys.size() == full);
+  CHECK(full_order_key(ladder(arm())[0].scene) == full_order_key(ladder(arm())[3].scene));  // another basis alone
 }

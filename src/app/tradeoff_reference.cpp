@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "exact_motion.h"
+#include "floe/math/rounded.h"
+#include "refined.h"
+#include "tradeoff.h"
+
+namespace floe::app {
+
+using scene::Formulation;
+using scene::Scene;
+
+namespace {
+
+constexpr double smallest_required = 0.002;  // of the models that are selected
+
+bool has_imported_mesh(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const scene::Body& body) { return body.mesh.file.has_value() && !body.rigid; });
+}
+bool has_generated_mesh(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const scene::Body& body) { return !body.mesh.file && !body.rigid && !body.reduced; });
+}
+
+/// The scene on elements half as long, where they are generated, in steps of a quarter, stored as often.
+Scene finer(const Scene& scene) {
+  Scene fine = refined(scene);
+  fine.motion = scene.motion;
+  fine.motion.step /= 4;
+  if (!scene.motion.output) fine.motion.every *= 4;
+  if (scene.motion.tolerance) *fine.motion.tolerance /= 16;
+  return fine;
+}
+
+TradeoffReference of_exact(const ExactMotion& exact) {
+  TradeoffReference reference;
+  reference.formulation = Formulation::cfr;
+  const int halvings = static_cast<int>(exact.of_mesh.size()) - 1;
+  reference.words = fmt::format("cfr, {}steps 1/{} as long, extrapolated",
+                                exact.mesh_refined ? fmt::format("elements 1/{} as long, ", 1 << halvings) : "",
+                                1 << exact.halved_steps);
+  reference.series = exact.series, reference.error = exact.error;
+  if (!exact.mesh_refined) reference.error_lacks = "the error of the imported mesh";
+  return reference;
+}
+
+/// The finer full-order model errs by a quarter of the mesh error and a sixteenth of the step error, so by a third at
+/// most of what lies between it and the scene's own one.
+TradeoffReference of_full_order(const Scene& scene, const Series& own, MPI_Comm comm) {
+  TradeoffReference reference;
+  reference.formulation = Formulation::nlffr;
+  const bool halved = has_generated_mesh(scene);
+  reference.words = fmt::format("nlffr, {}steps 1/4 as long", halved ? "elements 1/2 as long, " : "");
+  if (scene.motion.tolerance) reference.words += ", a sixteenth of the tolerance";
+  reference.series = run(finer(scene), Formulation::nlffr, comm, std::nullopt).series;
+  reference.error = worst_error(own, reference.series) / (halved ? 3 : 15);
+  reference.error_lacks = "the error of strains and floating frames";
+  if (has_imported_mesh(scene)) reference.error_lacks += ", the error of the imported mesh";
+  return reference;
+}
+
+}  // namespace
+
+TradeoffReference tradeoff_reference(const Scene& scene, const TradeoffRequest& request, const Series& own,
+                                     MPI_Comm comm) {
+  if (request.reference == Formulation::nlffr) return of_full_order(scene, own, comm);
+  const ExactMotion exact = exact_motion(scene, smallest_required, request.most_seconds, comm);
+  if (exact.none.empty()) return of_exact(exact);
+  if (request.reference == Formulation::cfr)
+    throw InputError(fmt::format("{}: --reference cfr: {}; expected --reference nlffr, or a longer --time-budget",
+                                 scene.file, exact.none));
+  TradeoffReference reference = of_full_order(scene, own, comm);
+  reference.why = exact.none;
+  return reference;
+}
+
+}  // namespace floe::app
