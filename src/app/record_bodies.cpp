@@ -190,10 +190,10 @@ void write_deviation(output::ResultFile& file, const assembly::Model& model, con
     const std::int64_t columns = basis ? basis->columns : body.columns;
     const double at[1] = {static_cast<double>(first)};
     first += columns;
-    if (!body.mesh || !body.basis || !basis) continue;
+    if (columns == 0) continue;
     const std::string group = "bodies/" + body.name;
     file.write_array(group + "/estimate_columns", {1}, at, {"", "first column of estimate/deviation"});
-    if (columns == body.columns) continue;
+    if (!body.mesh || !body.basis || !basis || columns == body.columns) continue;
     output::ReducedShapes shapes = body.mesh->shapes;
     shapes.column = [&](int j, std::span<double> values) { copy_column(body, *basis, body.columns + j, values); };
     file.write_vectors(group + "/estimate_basis", body.nodes, columns - body.columns, shapes,

@@ -78,6 +78,9 @@ void add_stress(CLI::App& app, Showing& showing, std::function<void()>& work) {
       "--history", request.histories,
       "element with a history in FILE.csv: BODY:X,Y,Z in the axes of its mesh, the nearest (repeatable; "
       "default: where each body has its maximum)");
+  command->add_option("--source", request.sources,
+                      "BODY:SCENE.yaml: the scene from which the file of a reduced body was made, with its elements "
+                      "(repeatable)");
   command->add_option("--scene", request.scene,
                       "the scene, where the run's own has been moved or was selected by --accuracy");
   command->add_flag("--uncorrected", request.uncorrected,

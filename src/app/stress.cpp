@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 
 #include "floe/assess/stress_fields.h"
@@ -156,7 +157,7 @@ std::vector<output::SeriesColumn> columns_of(const std::string& prefix, const Bo
 void write_histories(const std::vector<Recovered>& bodies, const std::vector<Watched>& watched,
                      const std::vector<double>& times, const std::filesystem::path& path, MPI_Comm comm) {
   std::vector<std::size_t> rows(times.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = i;
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
   std::vector<output::SeriesColumn> columns;
   std::vector<int> starts;
   for (std::size_t w = 0; w < watched.size(); ++w) {
@@ -189,6 +190,82 @@ void write_histories(const std::vector<Recovered>& bodies, const std::vector<Wat
   file.finish();
 }
 
+/// A scene and its plan, which refers to it.
+struct Planned {
+  scene::Scene scene;
+  plan::Plan plan;
+  Planned(scene::Scene of, MPI_Comm comm) : scene(std::move(of)), plan(plan::prepare(scene, comm)) {}
+  Planned(const Planned&) = delete;
+  Planned& operator=(const Planned&) = delete;
+};
+
+/// What bodies from files were reduced from, by their names.
+using Sources = std::map<std::string, std::unique_ptr<Planned>>;
+
+Sources sources_of(const StressRequest& request, const plan::Plan& plan, MPI_Comm comm) {
+  Sources sources;
+  for (const std::string& word : request.sources) {
+    const auto colon = word.find(':');
+    const std::string name = word.substr(0, colon);
+    scene::Scene scene;
+    petsc::agree(comm, [&] {
+      std::vector<std::string> names;
+      for (const plan::PlannedBody& body : plan.bodies)
+        if (body.spec.reduced) names.push_back(body.spec.name);
+      if (colon == std::string::npos || std::find(names.begin(), names.end(), name) == names.end())
+        throw InputError(fmt::format("--source {}: names no body from a file; expected BODY:SCENE.yaml{}", word,
+                                     names.empty() ? "" : fmt::format(" with one of {}", fmt::join(names, ", "))));
+      scene = scene::read_scene(word.substr(colon + 1));
+    });
+    sources[name] = std::make_unique<Planned>(std::move(scene), comm);
+  }
+  return sources;
+}
+
+/// The body that a file was made from: of its name there, or the only one with elements. @throws InputError
+int body_in(const plan::Plan& source, const plan::PlannedBody& from) {
+  std::vector<int> all;
+  for (std::size_t b = 0; b < source.bodies.size(); ++b) {
+    const scene::Body& spec = source.bodies[b].spec;
+    if (spec.rigid || spec.reduced) continue;
+    all.push_back(static_cast<int>(b));
+    if (spec.name == from.spec.reduced->file->name) return all.back();
+  }
+  if (all.size() == 1) return all.front();
+  throw InputError(fmt::format("--source: {} has {} flexible bodies, and none is called {}", source.scene.file,
+                               all.size(), from.spec.reduced->file->name));
+}
+
+/// All flexible bodies whose elements are known. Collective.
+std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& plan, const Sources& sources,
+                               const output::NodeMotion& motion, MPI_Comm comm, std::vector<std::string>& notes) {
+  std::vector<std::size_t> all(motion.times().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<Recovered> bodies;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const scene::Body& spec = plan.bodies[b].spec;
+    const auto source = sources.find(spec.name);
+    if (spec.rigid) continue;
+    if (!motion.has(spec.name) || (spec.reduced && source == sources.end())) {
+      notes.push_back(fmt::format(
+          "body {} {}, and is omitted", spec.name,
+          spec.reduced ? "is from a file without elements (--source BODY:SCENE.yaml)" : "has no mesh in the results"));
+      continue;
+    }
+    const plan::Plan& of = spec.reduced ? source->second->plan : plan;
+    const int number = spec.reduced ? body_in(of, plan.bodies[b]) : static_cast<int>(b);
+    bodies.push_back(
+        {spec.name, std::make_unique<BodyStress>(of, number, spec.name, motion, !request.uncorrected), {}});
+    bodies.back().extremes = find_extremes(*bodies.back().stress, all, comm);
+    if (!(bodies.back().extremes.greatest.value >= 0))
+      notes.push_back(
+          fmt::format("body {}: its sections are given by their stiffness: forces and moments, no stresses "
+                      "(fibre or fibres of a section of beams)",
+                      spec.name));
+  }
+  return bodies;
+}
+
 void show(const std::vector<Recovered>& bodies, const std::vector<double>& times) {
   output::Table table;
   table.columns = {{"body", ""},  {"", ""},      {"von Mises", "Pa", 5}, {"t", "s", 5},
@@ -213,31 +290,13 @@ void stress(const StressRequest& request, MPI_Comm comm) {
     whole = scene_of(request, *motion);
   });
   const output::Waiting waiting(comm, "recovering stresses");
-  const scene::Scene scene = motion->formulation() == "cfr" ? whole : plan::split_frames(whole);
-  const plan::Plan plan = plan::prepare(scene, comm);
+  const Planned planned(motion->formulation() == "cfr" ? whole : plan::split_frames(whole), comm);
+  const Sources sources = sources_of(request, planned.plan, comm);
   const std::vector<double>& times = motion->times();
-  std::vector<std::size_t> all(times.size()), rows;
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<std::size_t> rows;
   petsc::agree(comm, [&] { rows = chosen_rows(request, times); });
-  std::vector<Recovered> bodies;
   std::vector<std::string> notes;
-  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
-    const scene::Body& spec = plan.bodies[b].spec;
-    if (spec.rigid) continue;
-    if (spec.reduced || !motion->has(spec.name)) {
-      notes.push_back(
-          fmt::format("body {} has no elements in the scene or no mesh in the results, and is omitted", spec.name));
-      continue;
-    }
-    bodies.push_back(
-        {spec.name, std::make_unique<BodyStress>(plan, static_cast<int>(b), *motion, !request.uncorrected), {}});
-    bodies.back().extremes = find_extremes(*bodies.back().stress, all, comm);
-    if (!(bodies.back().extremes.greatest.value >= 0))
-      notes.push_back(
-          fmt::format("body {}: its sections are given by their stiffness: forces and moments, no stresses "
-                      "(fibre or fibres of a section of beams)",
-                      spec.name));
-  }
+  const std::vector<Recovered> bodies = recover(request, planned.plan, sources, *motion, comm, notes);
   if (bodies.empty()) throw InputError(fmt::format("stress '{}': no flexible body has a mesh", request.folder));
   std::vector<Watched> watched;
   std::vector<std::string> places;

@@ -15,6 +15,7 @@ struct StressRequest {
   std::vector<double> at;              ///< instants [s]; the nearest that the run kept
   int frames = 0;                      ///< at equal distances; neither: those of the greatest stress of each body
   std::vector<std::string> histories;  ///< BODY:x,y,z
+  std::vector<std::string> sources;    ///< BODY:SCENE.yaml: of bodies from files, what they were reduced from
   double amplify = 1;
   bool uncorrected = false, force = false;
 };

@@ -83,8 +83,10 @@ struct BodyStress::Fields {
   Eigen::Index instants() const { return std::max(coefficients.cols(), states.cols()); }
 };
 
-BodyStress::BodyStress(const Plan& plan, int body, const output::NodeMotion& motion, bool corrected)
+BodyStress::BodyStress(const Plan& plan, int body, std::string name_there, const output::NodeMotion& motion,
+                       bool corrected)
     : body_(plan.bodies[static_cast<std::size_t>(body)]),
+      name_(std::move(name_there)),
       motion_(motion),
       corrected_(corrected && motion.has_correction()),
       corotational_(motion.formulation() == "cfr"),
@@ -92,7 +94,7 @@ BodyStress::BodyStress(const Plan& plan, int body, const output::NodeMotion& mot
   const fem::Mesh& mesh = body_.structure.mesh;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) nodes_.push_back(mesh.original_node(static_cast<int>(i)));
   petsc::agree(mesh.comm, [&] {
-    const std::string& name = body_.spec.name;
+    const std::string& name = name_;
     const auto refuse = [&](const std::string& what) {
       throw InputError(fmt::format("body {}: {}; expected the scene and meshes of the run", name, what));
     };
@@ -291,18 +293,18 @@ void BodyStress::evaluate(std::span<const std::size_t> rows,
                           const std::vector<char>* wanted) const {
   const fem::Mesh& mesh = body_.structure.mesh;
   std::vector<SmallRows> values;
-  const std::size_t most = motion_.reduced(body_.spec.name) ? most_instants : most_states;
+  const std::size_t most = motion_.reduced(name_) ? most_instants : most_states;
   for (std::size_t first = 0; first < rows.size(); first += most) {
     const auto some = rows.subspan(first, std::min(most, rows.size() - first));
     Fields fields;
     petsc::agree(mesh.comm, [&] {
-      if (motion_.reduced(body_.spec.name)) {
-        fields.coefficients = motion_.coordinates(body_.spec.name, some, corrected_);
+      if (motion_.reduced(name_)) {
+        fields.coefficients = motion_.coordinates(name_, some, corrected_);
         return;
       }
       fields.states.resize(body_.structure.local_dofs(), static_cast<Eigen::Index>(some.size()));
       for (std::size_t i = 0; i < some.size(); ++i)
-        fields.states.col(static_cast<Eigen::Index>(i)) = motion_.state(body_.spec.name, nodes_, some[i]);
+        fields.states.col(static_cast<Eigen::Index>(i)) = motion_.state(name_, nodes_, some[i]);
     });
     std::size_t number = 0;
     for (const fem::Mesh::Cell& cell : mesh.cells) {

@@ -97,6 +97,12 @@ void MotionSource::read_body(const std::string& name, int& frames_in_space) {
   body.name = name;
   const auto columns = read_whole<double>(file_, group + "/columns_of_motion", {2});
   body.frame = std::lround(columns[0]), body.elastic = std::lround(columns[1]);
+  if (body.elastic >= 0) {
+    body.coordinates = static_cast<std::int64_t>(unknowns_) - body.elastic;
+    for (const auto& of : summary_.at("bodies"))
+      if (of.at("name") == name)
+        body.coordinates = std::min(body.coordinates, of.value("reduced_coordinates", body.coordinates));
+  }
   if (dimension_ == 3 && body.frame >= 0) body.attitude = 4 * static_cast<std::int64_t>(frames_in_space++);
   if (!has(file_, group + "/shapes")) {
     without_.push_back(name);
@@ -125,7 +131,7 @@ void MotionSource::read_nodes(MovingBody& body, const std::string& group) {
     Extent shape = series_extent(file_, group + "/shapes/basis");
     if (shape.size() != 3 || shape[1] != all[0] || shape[2] != width)
       fail(group + "/shapes/basis", "columns x nodes x dofs", "another shape");
-    const hsize_t k = std::min(shape[0], unknowns_ - static_cast<hsize_t>(body.elastic));  // vm: the first ones
+    const hsize_t k = std::min(shape[0], static_cast<hsize_t>(body.coordinates));
     const auto numbers = read_block<double>(file_, group + "/shapes/basis", shape, {0, first, 0}, {k, own, width});
     body.basis = Eigen::MatrixXd::Zero(3 * own, k);
     const hsize_t moves = width == 6 ? 3 : 2;

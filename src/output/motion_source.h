@@ -23,6 +23,7 @@ struct MovingBody {
   std::vector<std::int64_t> columns;      ///< full order: of motion/U, of each own node
   Eigen::Matrix3Xd arms;                  ///< full order
   std::int64_t frame = -1, elastic = -1;  ///< columns of motion/U
+  std::int64_t coordinates = 0;           ///< reduced ones; fewer than the basis has in formulation vm
   std::int64_t attitude = -1;             ///< column of motion/attitude
   Eigen::Vector3d place;                  ///< of the frame at the start
   Eigen::Matrix3d axes;                   ///< likewise
@@ -47,11 +48,6 @@ class MotionSource {
   MotionRow row(std::size_t index) const;
   hid_t file() const { return file_; }
   const nlohmann::json& summary() const { return summary_; }
-  /// How many unknowns follow the first reduced coordinate of the body, at most: formulation vm has fewer than the
-  /// basis.
-  std::int64_t coordinates_of(const MovingBody& body) const {
-    return body.elastic < 0 ? 0 : static_cast<std::int64_t>(unknowns_) - body.elastic;
-  }
   /// Rows (four nodes, part, kind) of this rank's share of the cells; and where it begins.
   Integers cells(const MovingBody& body, std::int64_t& first) const;
 

@@ -75,8 +75,7 @@ Eigen::MatrixXd NodeMotion::basis(const std::string& name, std::span<const std::
     const Extent extent = series_extent(file, dataset);
     return extent.empty() ? Eigen::Index{0} : static_cast<Eigen::Index>(extent[0]);
   };
-  const Eigen::Index k = std::min<Eigen::Index>(count(own), source_->coordinates_of(body)),
-                     extra = corrected ? count(more) : 0;
+  const Eigen::Index k = std::min<Eigen::Index>(count(own), body.coordinates), extra = corrected ? count(more) : 0;
   Eigen::MatrixXd fields(body.width * static_cast<Eigen::Index>(nodes.size()), k + extra);
   for (Eigen::Index j = 0; j < k + extra; ++j) {
     const std::vector<double> rows = rows_at(file, j < k ? own : more, j < k ? j : j - k, nodes);
@@ -90,13 +89,12 @@ Eigen::MatrixXd NodeMotion::coordinates(const std::string& name, std::span<const
   const MovingBody& body = body_of(name);
   const hid_t file = source_->file();
   const Extent own = series_extent(file, "bodies/" + name + "/shapes/basis");
-  const Eigen::Index k =
-      std::min<Eigen::Index>(own.empty() ? 0 : static_cast<Eigen::Index>(own[0]), source_->coordinates_of(body));
+  const Eigen::Index k = std::min<Eigen::Index>(own.empty() ? 0 : static_cast<Eigen::Index>(own[0]), body.coordinates);
   const auto instants = static_cast<Eigen::Index>(rows.size());
   Eigen::Index extra = 0, first = 0;
   std::vector<double> t, d;
   Eigen::Index width = 0;
-  if (corrected) {
+  if (corrected && there(file, "bodies/" + name + "/estimate_columns")) {
     const Extent more = series_extent(file, "bodies/" + name + "/estimate_basis");
     if (!more.empty()) extra = static_cast<Eigen::Index>(more[0]);
     first = std::lround(read_whole<double>(file, "bodies/" + name + "/estimate_columns", {1}).front());
@@ -109,7 +107,7 @@ Eigen::MatrixXd NodeMotion::coordinates(const std::string& name, std::span<const
   for (Eigen::Index i = 0; i < instants; ++i) {
     const MotionRow row = source_->row(rows[static_cast<std::size_t>(i)]);
     all.col(i).head(k) = Eigen::Map<const Eigen::VectorXd>(row.U.data() + body.elastic, k);
-    if (!corrected) continue;
+    if (d.empty()) continue;
     const auto after = std::lower_bound(t.begin(), t.end(), row.t - 1e-12 * std::abs(row.t));
     const auto deviation = [&](std::ptrdiff_t at) -> Eigen::VectorXd {  // zero before the first
       if (at < 0) return Eigen::VectorXd::Zero(k + extra);

@@ -56,7 +56,7 @@ class Mesh:
 
 
 class Body:
-    def __init__(self, name, group, dimension, in_world, attitude):
+    def __init__(self, name, group, dimension, in_world, attitude, coordinates=None):
         self.name, self.dimension, self.in_world, self.attitude = name, dimension, in_world, attitude
         self.frame, self.elastic = (int(c) for c in group["columns_of_motion"][()])
         start = group["frame_at_start"][()]
@@ -64,6 +64,7 @@ class Body:
         shapes = group["shapes"]
         self.mesh = Mesh.of(shapes)
         self.basis = self.dofs = None
+        self.coordinates = np.inf if coordinates is None else coordinates
         if self.elastic >= 0 and "basis" in shapes:
             basis = shapes["basis"][()]
             self.basis = np.zeros((len(basis), len(self.mesh.positions), 3))
@@ -86,7 +87,7 @@ class Body:
         """Of each node, in the axes of the floating frame."""
         u = np.zeros_like(self.mesh.positions)
         if self.basis is not None:
-            k = min(len(self.basis), len(U) - self.elastic)  # of a body from a file, modes alone: the first ones
+            k = min(len(self.basis), len(U) - self.elastic, self.coordinates)  # formulation vm: the first ones
             u = np.tensordot(U[self.elastic:self.elastic + k], self.basis[:k], 1)
         if self.dofs is not None:
             if self.dimension == 3 and self.in_world:  # places and rotation vectors
@@ -219,8 +220,10 @@ class Run:
             except KeyError:  # none, or the file that it is in is not there any more
                 self.without.append(name)
                 continue
-            self._bodies.append(Body(name, group, self.dimension, summary.get("formulation") == "cfr", attitude))
-            self._bodies[-1].rigid = bool(next(b for b in summary["bodies"] if b["name"] == name).get("rigid"))
+            said = next(b for b in summary["bodies"] if b["name"] == name)
+            self._bodies.append(Body(name, group, self.dimension, summary.get("formulation") == "cfr", attitude,
+                                     said.get("reduced_coordinates")))
+            self._bodies[-1].rigid = bool(said.get("rigid"))
         self._joints = joints_of(file, [body["name"] for body in summary["bodies"]], self._bodies)
 
     @property

@@ -50,6 +50,21 @@ def plate_under_pressure(folder):
     assert "singular" not in said, said  # all edges are held: their corners are no ends
 
 
+def navier(folder):
+    """Simply supported square plate under pressure, nu = 0.3: M = 0.0478864 q a^2 in the middle, by Navier's series."""
+    series = sum(16 / (np.pi**4 * m * n) * (m**2 + 0.3 * n**2) / (m**2 + n**2)**2 * np.sin(m * np.pi / 2) * np.sin(n * np.pi / 2)
+                 for m in range(1, 200, 2) for n in range(1, 200, 2))
+    hinged = CLAMPED
+    for edge, axis in (("left", "[0, 1, 0]"), ("right", "[0, 1, 0]"), ("bottom", "[1, 0, 0]"), ("top", "[1, 0, 0]")):
+        hinged = hinged.replace(f"{{type: fixed, between: [ground, plate.{edge}]}}",
+                                f"{{type: revolute, between: [ground, plate.{edge}], axis: {axis}}}")
+    path, _ = recovered(FLOE, folder, hinged, formulation="lffr")
+    found = Fields(path, "plate")
+    middle = np.argsort(np.linalg.norm(found.x - [0.5, 0.5, 0], axis=1))[:4]
+    close(found["bending_moment"][middle, :2], 10 * series + np.zeros((4, 2)), 0.01, "moment in the middle")
+    close(found["stress_bottom"][middle, 0], -6 * 10 * series / 0.01**2 + np.zeros(4), 0.01, "stress in the middle")
+
+
 def layers(folder):
     """Pull of a cross-ply laminate with nu = 0: eps = N / sum E h, each layer E eps."""
     path, _ = recovered(FLOE, folder, LAMINATE)
@@ -122,6 +137,29 @@ def reduced_against_full_order(folder):
     close(fields["corrected"]["von_mises_of_motion"][regular], fields["full"]["von_mises_of_motion"][regular], 0.03,
           "extremes over the motion")
     return error
+
+
+def body_from_a_file(folder):
+    """The scene from which a file was made has its elements: the same stresses as without the file."""
+    shaken = SHAKEN.replace("{type: pressure, body: plate, pressure: \"400*smooth(t, 0, 0.01)\"}",
+                            "{type: force, at: plate.top, force: [0, 0, \"20*smooth(t, 0, 0.01)\"]}")
+    assert shaken != SHAKEN
+    path, _ = recovered(FLOE, folder, shaken, "--uncorrected", "--at", "0.02", command="run", more=["--no-estimate"])
+    expected = Fields(path, "plate")
+    (folder / "source.yaml").write_text(shaken)
+    floe(FLOE, folder, "reduce", "source.yaml", "-o", "plate.h5", "--force")
+    scene = "bodies: {wing: {reduced: plate.h5}}\n" + shaken[shaken.index("joints:"):].replace("plate.", "wing.")
+    (folder / "scene.yaml").write_text(scene)
+    floe(FLOE, folder, "run", "scene.yaml", "-o", "out", "--force", "--no-estimate")
+    told = floe(FLOE, folder, "stress", "out", "--force", code=2)
+    assert "no flexible body has a mesh" in told, told
+    floe(FLOE, folder, "stress", "out", "--force", "--at", "0.02", "--source", "wing:source.yaml")
+    found = Fields(folder / "out/stress.h5", "wing")
+    for name in ("stress_top", "von_mises_of_motion", "membrane_force"):
+        close(found[name], expected[name], 1e-6, name)
+    for source, phrase in (("wong:source.yaml", "--source wong:source.yaml: names no body from a file; expected BODY:SCENE.yaml with one of wing"),
+                           ("wing:nothing.yaml", "nothing.yaml")):
+        assert phrase in floe(FLOE, folder, "stress", "out", "--force", "--source", source, code=2)
 
 
 def the_same_on_ranks(folder):
@@ -226,7 +264,7 @@ def refusals(folder):
 
 
 def main():
-    tests = [strip_under_force, plate_under_pressure, layers, beams, large_rotations, reduced_against_full_order,
+    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, large_rotations, reduced_against_full_order, body_from_a_file,
              the_same_on_ranks, singular_places, refusals]
     if shutil.which("ccx"):
         tests.append(lambda folder: calculix.plate_of_second_order(FLOE, folder))

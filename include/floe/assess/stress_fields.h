@@ -25,9 +25,10 @@ enum class Singular { none = 0, point = 1, end_of_edge = 2, corner = 3 };
 /// Formulation cfr: q is what is left of the nodes' displacements and rotations in the mean axes of the element.
 class BodyStress {
  public:
+  /// @param name       of the body in the results
   /// @param corrected  with the deviation of the error estimate
   /// @throws InputError  the body is not that of the results. Collective.
-  BodyStress(const Plan& plan, int body, const output::NodeMotion& motion, bool corrected);
+  BodyStress(const Plan& plan, int body, std::string name, const output::NodeMotion& motion, bool corrected);
 
   const std::vector<output::ReducedShapes::Cell>& cells() const { return cells_; }
   const std::vector<Eigen::Vector3d>& centres() const { return centres_; }  ///< of cells(), undeformed, mesh axes
@@ -53,6 +54,7 @@ class BodyStress {
   void add_beam(const fem::Mesh::Cell& cell, const Fields& fields, std::vector<fem::SmallRows>& values) const;
 
   const PlannedBody& body_;
+  std::string name_;
   const output::NodeMotion& motion_;
   bool corrected_, corotational_, linear_;
   std::vector<std::int64_t> nodes_;  // original numbers of the local ones
