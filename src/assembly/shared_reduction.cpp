@@ -46,13 +46,13 @@ bool whole(const fem::Conditions& conditions) {
 }
 
 /// What begin_stage() makes of the conditions of frame, joints and interface.
-struct Conditions {
+struct HeldConditions {
   fem::Conditions modes, statics;
   Eigen::Index free_motions;
 };
 
 /// Collective.
-Conditions conditions_of(const PlannedBody& body) {
+HeldConditions conditions_of(const PlannedBody& body) {
   const fem::Holding statics = fem::holding(body.structure, body.frame, held_by_modes(body)),
                      modes = of_frame(body) ? holding_of_modes(body) : statics;
   return {modes.held, statics.statics, modes.left.cols()};
@@ -62,7 +62,7 @@ bool same_conditions(const PlannedBody& a, const PlannedBody& b, bool rotates) {
   if (a.frame.kind != b.frame.kind || a.frame.conditions != b.frame.conditions) return false;
   if (a.frame_places[0].node != b.frame_places[0].node || a.frame_places[1].node != b.frame_places[1].node)
     return false;
-  const Conditions one = conditions_of(a), other = conditions_of(b);
+  const HeldConditions one = conditions_of(a), other = conditions_of(b);
   if (one.modes != other.modes || one.statics != other.statics || one.free_motions != other.free_motions) return false;
   return !rotates || (whole(a.frame.conditions) && whole(one.modes) && whole(one.statics));
 }
@@ -125,7 +125,7 @@ bool same_attachments(const PlannedBody& b, const fem::Placement& placement, con
   return true;
 }
 
-constexpr std::string_view attachment = "attachment ";  // how labels of their origins begin
+constexpr std::string_view attachment_prefix = "attachment ";  // how labels of their origins begin
 
 /// The text with other labels of attachment modes in it, `derivative 1,root.fx`.
 std::string renamed(const std::string& text, const std::map<std::string, std::string>& labels) {
@@ -188,9 +188,9 @@ ReducedBody shared_body(const Plan& plan, int index, const SharedReduction& shar
   std::map<std::string, std::string> labels;
   const Attachments own = attachments_of(plan, index), others = attachments_of(plan, shared.of);
   for (std::size_t i = 0; i < own.size(); ++i) labels[others[i].label] = own[i].label;
-  using Kind = reduction::ColumnOrigin::Kind;
   std::erase_if(reduced.report.origins, [&](const reduction::ColumnOrigin& origin) {
-    return origin.kind == Kind::attachment && !origin.kept && labels.count(origin.label.substr(attachment.size())) == 0;
+    return origin.kind == reduction::ColumnOrigin::Kind::attachment && !origin.kept &&
+           labels.count(origin.label.substr(attachment_prefix.size())) == 0;
   });
   for (reduction::ColumnOrigin& origin : reduced.report.origins)
     origin.label = renamed(origin.label, labels), origin.dropped = renamed(origin.dropped, labels);

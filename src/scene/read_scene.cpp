@@ -103,8 +103,9 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   scene.text = text;
   Reading reading(document, root, "scene");
   if (!root.node.IsMap()) document.throw_faults();
+  const std::size_t before = document.fault_count();
   resolve_copies(document, root.node);
-  document.throw_faults();  // what a copy lacks would only follow
+  if (document.fault_count() != before) document.throw_faults();  // what a copy lacks would only follow
   scene.dimension = document.dimension = is_spatial(document, root.node) ? 3 : 2;
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   if (const auto functions = reading.value("functions")) read_functions(document, *functions);

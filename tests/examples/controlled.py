@@ -62,7 +62,6 @@ def main():
         (folder / "rotor" / "blade.inp").unlink(missing_ok=True)
         subprocess.run([sys.executable, folder / "rotor" / "mesh.py"], check=True)
         assert (folder / "rotor" / "blade.inp").read_text() == (EXAMPLES / "rotor" / "blade.inp").read_text()
-        floe("reduce", folder / "rotor" / "blade.yaml", "-o", folder / "rotor" / "blade.h5", "--force")
         rotor = moved(folder / "rotor" / "scene.yaml", folder)
         before = rotor[next(iter(rotor))] < 0.0995  # the gust
         assert numpy.ptp(rotor["root.y"][before]) < 0.02, "the flap moment swings before the gust"

@@ -37,7 +37,7 @@ probes:
   p1: {at: one.right, relative_to: one.left, quantity: position}
   p2: {at: two.right, relative_to: two.left, quantity: position}
   p3: {at: three.right, relative_to: three.left, quantity: position}
-  stress: {at: two.left, quantity: stress, surface: top, axis: [1, 0, 0]}
+  stress: {at: {body: two, node: [0.2, 0, 0.0275]}, quantity: stress, surface: top, axis: [1, 0, 0]}
 )yaml",
               {{"words", words}, {"second", second}});
 }
