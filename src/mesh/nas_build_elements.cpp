@@ -134,9 +134,13 @@ void NasBuild::add_shells() {
     if (has_axes(*own)) axis = axis_of(shell).unaryExpr([](double x) { return rounded(x); });
     const int part = part_of(shell.property, {thickness, shell.offset, axis[0], axis[1], axis[2]}, own->name,
                              [&](int number) { add_shell_section(shell, *own, thickness, axis, number); });
-    if (mine(i))
-      mesh.cells.push_back(
-          {shell.id, shell.count == 3 ? CellKind::triangle : CellKind::quadrilateral, part, shell.nodes, shell.where});
+    if (!mine(i)) continue;
+    auto nodes = no_nodes<long long>();
+    std::copy_n(shell.nodes.begin(), shell.count, nodes.begin());
+    if (shell.quadratic) std::copy_n(shell.middles.begin(), shell.count, nodes.begin() + shell.count);
+    const CellKind kind = shell.count == 3 ? (shell.quadratic ? CellKind::triangle6 : CellKind::triangle)
+                                           : (shell.quadratic ? CellKind::quadrilateral8 : CellKind::quadrilateral);
+    mesh.cells.push_back({shell.id, kind, part, nodes, shell.where});
   }
 }
 

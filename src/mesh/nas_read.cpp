@@ -41,14 +41,15 @@ void read_defaults(NasReader& r) {
 using Read = void (*)(NasReader&);
 const std::map<std::string, Read>& nas_readers() {
   static const std::map<std::string, Read> all{
-      {"GRID", read_grid},     {"GRDSET", read_defaults}, {"BAROR", read_defaults}, {"BEAMOR", read_defaults},
-      {"CORD1R", read_axes},   {"CORD1C", read_axes},     {"CORD1S", read_axes},    {"CORD2R", read_axes},
-      {"CORD2C", read_axes},   {"CORD2S", read_axes},     {"CQUAD4", read_shell},   {"CQUADR", read_shell},
-      {"CTRIA3", read_shell},  {"CTRIAR", read_shell},    {"CBAR", read_beam},      {"CBEAM", read_beam},
-      {"PSHELL", read_pshell}, {"PCOMP", read_pcomp},     {"PCOMPG", read_pcomp},   {"PBAR", read_pbar},
-      {"PBARL", read_pbarl},   {"PBEAM", read_pbeam},     {"PBEAML", read_pbarl},   {"MAT1", read_mat1},
-      {"MAT2", read_mat2},     {"MAT8", read_mat8},       {"CONM2", read_conm2},    {"RBE2", read_rbe2},
-      {"RBAR", read_rbar},     {"SPC", read_spc},         {"SPC1", read_spc},       {"PARAM", read_param}};
+      {"GRID", read_grid},    {"GRDSET", read_defaults}, {"BAROR", read_defaults}, {"BEAMOR", read_defaults},
+      {"CORD1R", read_axes},  {"CORD1C", read_axes},     {"CORD1S", read_axes},    {"CORD2R", read_axes},
+      {"CORD2C", read_axes},  {"CORD2S", read_axes},     {"CQUAD4", read_shell},   {"CQUADR", read_shell},
+      {"CTRIA3", read_shell}, {"CTRIAR", read_shell},    {"CQUAD8", read_shell},   {"CTRIA6", read_shell},
+      {"CBAR", read_beam},    {"CBEAM", read_beam},      {"PSHELL", read_pshell},  {"PCOMP", read_pcomp},
+      {"PCOMPG", read_pcomp}, {"PBAR", read_pbar},       {"PBARL", read_pbarl},    {"PBEAM", read_pbeam},
+      {"PBEAML", read_pbarl}, {"MAT1", read_mat1},       {"MAT2", read_mat2},      {"MAT8", read_mat8},
+      {"CONM2", read_conm2},  {"RBE2", read_rbe2},       {"RBAR", read_rbar},      {"SPC", read_spc},
+      {"SPC1", read_spc},     {"PARAM", read_param}};
   return all;
 }
 
@@ -99,7 +100,7 @@ const std::map<std::string, std::string>& nas_ignored() {
 const std::map<std::string, std::string>& nas_others() {
   static const auto all = reasons_of(
       {{"a solid", {"CTETRA", "CHEXA", "CPENTA", "CPYRAM", "CTRIAX6", "CTRIAX", "CQUADX", "CQUADX4", "CQUADX8"}},
-       {"a shell of second order", {"CQUAD8", "CTRIA6", "CQUAD"}},
+       {"a shell of nine nodes; use CQUAD8", {"CQUAD"}},
        {"a beam of second order or a curved one", {"CBEAM3", "CBEND"}},
        {"a shear panel", {"CSHEAR"}},
        {"a rod", {"CROD", "CONROD", "CTUBE"}},

@@ -27,6 +27,8 @@ struct NasShell {
   double thickness;  // mean of T1..T4; 0: that of the property
   bool ratio;        // of the property's thickness
   Where where;
+  std::array<long long, 4> middles{-1, -1, -1, -1};  // of its edges from each corner to the next; of second order alone
+  bool quadratic = false;
 };
 
 struct NasBeam {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A plate and a frame as .inp, .bdf (small, large and free field) and .msh (2.2): the same frequencies to 1e-10; plates,
-a curved panel and the frame of second order as .inp and .msh. Where ccx is installed also within 1 % of CalculiX on the
+a curved panel and the frame of second order as .inp and .msh, the panel as .bdf. Where ccx is installed also within 1 % of CalculiX on the
 same nodes (2 % for triangles of second order).
 
     tests/decks/formats.py FLOE"""
@@ -181,7 +181,7 @@ def bdf(model, form, torsion=None):
     for k, (x, y, z) in model["nodes"].items():
         text += card("free" if form == "free" else "large", "GRID", k, None, *(short(float(v)) if form != "free" else float(v) for v in (x, y, z)))
     for i, c in enumerate(model["shells"]):
-        text += card(form, "CQUAD4", i + 1, 3, *c)
+        text += card(form, {4: "CQUAD4", 6: "CTRIA6", 8: "CQUAD8"}[len(c)], i + 1, 3, *c)
     for i, (a, b, g) in enumerate(model["beams"]):
         text += card(form, "CBAR", i + 1, 5, a, b, *map(float, DIRECTIONS[g]))
     text += card("free", "MAT1", 1, E, None, NU, RHO)
@@ -271,6 +271,11 @@ def second_order(floe):
             error = max(abs(a / b - 1) for a, b in zip(own, other))
             print(f"{name:10s} msh 2.2   {error:.1e} of 1e-10")
             good &= len(own) == 10 and error <= 1e-10
+            if model["shells"]:
+                other = frequencies(floe, folder, "part.bdf", bdf(model, "free"), model)
+                error = max(abs(a / b - 1) for a, b in zip(own, other))
+                print(f"{name:10s} bdf free  {error:.1e} of 1e-10")
+                good &= len(other) == 10 and error <= 1e-10
             if not shutil.which("ccx"):
                 continue
             reference = calculix(folder, inp(model), 10, 0 if model["fixed"] else 6)
