@@ -145,6 +145,10 @@ void read_shape(const InpBlock& block, InpReading& reading) {
     for (double& d : section.dimensions) d /= 2;
     if (section.dimensions[0] == section.dimensions[1]) section.dimensions.pop_back();
   }
+  if (section.profile == Profile::circle && values->size() == 1)
+    reading.notices.push_back(reading.faults.text_of(lines[0].first) + ": " + block.name +
+                              " of a circle has one dimension: it is read as the radius (Abaqus), which CalculiX takes "
+                              "for the diameter; give both diameters for the same section in both");
   if (section.profile == Profile::rectangle && values->size() == 1) {
     section.dimensions.push_back(values->front());
     reading.notices.push_back(reading.faults.text_of(lines[0].first) + ": " + block.name +

@@ -7,7 +7,7 @@ Decks with shells or beams count (.inp, .bdf, .nas, .dat; also .gz). Each is rea
 free body, two modes. --ignore-others leaves out solids, springs and the like. --table writes a line for each
 deck between the marks `<!-- decks -->` and `<!-- end of decks -->` of a page: elements, read or why not, and the first
 frequency of the body without supports beside that of CalculiX (ccx) on its elements alone: without steps, supports,
-links and what floe ignores. There materials without *DENSITY have 1, in both programs."""
+links and what floe ignores, of decks with at least 20 shells and beams. There materials without *DENSITY have 1, in both programs."""
 import collections
 import gzip
 import pathlib
@@ -30,6 +30,7 @@ def types_of(text):
 def reason_of(message):
     """The first line without places and names."""
     line = re.sub(r"^floe: |^error: ", "", message.strip().splitlines()[0] if message.strip() else "(nothing)")
+    line = re.sub(r"^\S*scene\.yaml:\d+:\d+: [\w.]+: ", "", line)  # the place in the scene, before that in the deck
     line = re.sub(r"^\S*deck\.\w+(:\d+)?: ", "", line)
     line = re.sub(r"\(B31,.*\)|; to leave them out.*", "", line).strip()
     return re.sub(r"\b(element|node|nodes|elements) \d+", r"\1 N", line)[:150]
@@ -112,9 +113,9 @@ def first_frequency(floe, folder, text):
     (folder / "alone.inp").write_text(alone)
     own = reference = None
     done = subprocess.run([floe, "check", "alone.inp", "--frequencies", "1"], cwd=folder, capture_output=True, text=True, timeout=300, errors="replace")
-    found = re.search(r"^body +1 +([-+.\de]+)", done.stdout, re.M)
+    found = re.findall(r"^body +1 +([-+.\de]+)$", done.stdout, re.M)
     if done.returncode == 0 and found:
-        own = float(found.group(1))
+        own = float(found[-1])
     if own and shutil.which("ccx"):
         (folder / "ccx.inp").write_text(alone + "*STEP\n*FREQUENCY\n10\n*END STEP\n")
         try:
@@ -143,7 +144,8 @@ def table(floe, folder, page):
                 words = f"refused: {reason}" if others and "has mass" not in others else "read without solids and springs"
             elif reason:
                 words = "read (no density)"
-            if words.startswith("read") and name.endswith(".inp"):
+            enough = sum(int(n) for n in re.findall(r"(\d+) (?:S\d|B3)", counts_of(text))) >= 20
+            if words.startswith("read") and name.endswith(".inp") and enough:
                 own, reference = first_frequency(floe, scratch, text)
             number = lambda x: f"{x:.5g}" if x else "-"
             error = f"{100 * (own / reference - 1):+.2f} %" if own and reference else "-"
