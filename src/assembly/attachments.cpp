@@ -239,7 +239,11 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
 /// Where a load acts: its place, or both of its joint.
 std::vector<Anchor> places_of_load(const Plan& plan, std::size_t l) {
   const std::string& joint = plan.scene.loads[l].joint;
-  if (joint.empty()) return {plan.loads[l]};
+  if (joint.empty()) {
+    std::vector<Anchor> places;
+    for (const LoadPart& part : parts_of_load(plan, l)) places.push_back(part.at);
+    return places;
+  }
   const auto& [first, second] = plan.joints[joint_index(plan.scene, joint)];
   return {first, second};
 }
@@ -283,11 +287,13 @@ Attachments attachments(const Plan& plan, int index) {
     if (load.spread()) continue;
     const bool moment = load.kind == Load::Kind::moment;
     const int d = body.structure.dimension();
-    for (const Anchor& place : places_of_load(plan, l)) {
+    const std::vector<Anchor> places = places_of_load(plan, l);
+    for (const Anchor& place : places) {
+      const bool negative = load.joint.empty() && &place != &places.front();  // where a load's shape is negative
       const bool of_joint = choice == Choice::joints && (!load.joint.empty() || (moment && at_a_joint(plan, place)));
       if (place.body != index || (choice != Choice::loads && choice != Choice::all && !of_joint)) continue;
       for (int c = moment ? d : 0; c < (moment ? body.structure.dofs_per_node : d); ++c)
-        all.push_back(unit_load(body, place, c, load.name));
+        all.push_back(unit_load(body, place, c, negative ? load.name + "-" : load.name));
     }
   }
   return all;
@@ -307,8 +313,10 @@ std::vector<reduction::Attachment> loads_on(const Plan& plan, int index) {
     for (const Eigen::Vector3d& direction : directions(values, plan.scene.motion.end)) {
       const Eigen::Vector3d in_frame = to_frame * direction;
       reduction::Attachment along{load.name, fem::field(body.structure), {}};
-      for (int i = 0; i < 3; ++i)
-        check(VecAXPY(along.load, in_frame[i], unit_load(body, place, (moment ? 3 : 0) + i, load.name).load));
+      for (const LoadPart& part : parts_of_load(plan, l))
+        for (int i = 0; i < 3; ++i)
+          check(VecAXPY(along.load, part.size * in_frame[i],
+                        unit_load(body, part.at, (moment ? 3 : 0) + i, load.name).load));
       all.push_back(std::move(along));
     }
   }

@@ -17,6 +17,16 @@ std::vector<const dynamics::Connection*> measured(const Connections& all, const 
   return {};
 }
 
+double relaxed_length(const scene::Joint& joint, double apart, double extent) {
+  if (joint.preload == 0) return joint.length.value_or(apart);
+  if (!(apart > 1e-12 * extent))
+    throw InputError(
+        fmt::format("{}: the places of spring {} coincide at the start, which leaves undefined the direction of its "
+                    "preload; expected places apart",
+                    joint.where.text(), joint.name));
+  return apart - joint.preload / joint.stiffness;
+}
+
 dynamics::Wrench exerted(const std::vector<const dynamics::Connection*>& connections, double t,
                          const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   dynamics::Wrench sum = dynamics::Wrench::Zero();

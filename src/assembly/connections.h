@@ -20,6 +20,10 @@ std::vector<const dynamics::Connection*> measured(const Connections& all, const 
 dynamics::Wrench exerted(const std::vector<const dynamics::Connection*>& connections, double t,
                          const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
+/// Unstretched length of a spring: as given, or that of its tension at the start, `apart` the distance there.
+/// @throws InputError  a preload of places that coincide
+double relaxed_length(const scene::Joint& joint, double apart, double extent);
+
 /// @throws InputError  a probe measures one of the joints, whose multipliers are not determined
 void refuse_undetermined(const scene::Scene& scene, const std::vector<int>& joints);
 

@@ -94,7 +94,8 @@ body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anc
   const fem::Structure& structure = plan.bodies[place.body].structure;
   return place.nodes.empty()
              ? reduction::place_map(structure, *reduced.basis, place.node)
-             : reduction::place_map(structure, *reduced.basis, place_weights(structure.mesh, place.nodes));
+             : reduction::place_map(structure, *reduced.basis,
+                                    place.weights ? *place.weights : place_weights(structure.mesh, place.nodes));
 }
 
 }  // namespace floe::assembly

@@ -61,15 +61,16 @@ double size_of(const Load& load, double t, double extent) {
   if (load.has_sensors()) return 0;  // not a function of t
   if (!load.joint.empty()) return std::abs(load.on_joint(t)) / (load.kind == Load::Kind::moment ? extent : 1);
   const auto norm = [&](const std::array<math::Formula, 3>& f) { return std::hypot(f[0](t), f[1](t), f[2](t)); };
+  const double size = load.per == Load::Per::length ? extent : load.per == Load::Per::area ? extent * extent : 1;
   switch (load.kind) {
     case Load::Kind::moment:
-      return norm(load.moment) / extent;
+      return size * norm(load.moment) / extent;
     case Load::Kind::distributed:
       return norm(load.force) * extent;
     case Load::Kind::pressure:
       return std::abs(load.pressure(t)) * extent * extent;
     default:
-      return norm(load.force);
+      return size * norm(load.force);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "connections.h"
 #include "drive.h"
 #include "floe/petsc/values.h"
 #include "planar_assembly.h"
@@ -81,8 +82,9 @@ void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, con
     case Joint::Kind::spring:
       connect(j, std::make_unique<dynamics::Spring>(
                      places[0], places[1],
-                     dynamics::SpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart.norm()),
-                                                joint.torsional_stiffness, joint.torsional_viscosity, offset}));
+                     dynamics::SpringProperties{
+                         joint.stiffness, joint.viscosity, relaxed_length(joint, apart.norm(), plan_.extent),
+                         joint.torsional_stiffness, joint.torsional_viscosity, offset + joint.rest_angle}));
       break;
     default:  // those of space
       break;

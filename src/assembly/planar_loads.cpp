@@ -22,7 +22,9 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
   using dynamics::Force;
   const Load& load = plan_.scene.loads[l];
   const Anchor& place = plan_.loads[l];
-  const Force::Axes axes = load.axes == Load::Axes::body ? Force::Axes::body : Force::Axes::world;
+  const Force::Axes axes = load.axes == Load::Axes::body    ? Force::Axes::body
+                           : load.axes == Load::Axes::place ? Force::Axes::place
+                                                            : Force::Axes::world;
   const reference::CellsOfPart cells = part ? &part->cells : nullptr;
   std::vector<Marker> markers;
   if (load.kind != Load::Kind::distributed) {
@@ -46,8 +48,8 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
   }
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   for (Marker& at : markers) {
-    // Forces of body axes are given in the axes of the mesh.
-    const double tilt = axes == Force::Axes::body ? -plan_.bodies[place.body].frame_angle : 0;
+    // Axes of body and place are those of the mesh where they are not rotated.
+    const double tilt = axes == Force::Axes::world ? 0 : -plan_.bodies[place.body].frame_angle;
     const Eigen::Matrix2d A = turn(tilt);
     terms.push_back(std::make_unique<Force>(
         std::move(at),

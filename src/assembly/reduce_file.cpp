@@ -6,12 +6,14 @@
 #include "floe/assembly/damping.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/assembly/reduced_bodies_file.h"
+#include "floe/fem/pressure.h"
 #include "floe/math/nearest.h"
 #include "floe/output/claim.h"
 #include "floe/petsc/values.h"
 #include "floe/plan/mesh_copy.h"
 #include "floe/plan/place_weights.h"
 #include "floe/reduction/place_set.h"
+#include "floe/reduction/pressure.h"
 #include "floe/scene/places.h"
 
 namespace floe::assembly {
@@ -109,6 +111,28 @@ std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody&
   return places;
 }
 
+/// Of every part that has shells. Collective.
+std::vector<output::ReducedPressure> pressures_of(const PlannedBody& body, const reduction::Basis& basis) {
+  std::vector<output::ReducedPressure> pressures;
+  const fem::Mesh& mesh = body.structure.mesh;
+  std::vector<int> shells(body.parts.size(), 0);
+  for (const fem::Mesh::Cell& cell : mesh.cells)
+    if (fem::is_shell(cell)) shells[cell.part] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, shells.data(), static_cast<int>(shells.size()), MPI_INT, MPI_MAX, mesh.comm);
+  for (std::size_t part = 0; part < shells.size(); ++part) {
+    if (shells[part] == 0) continue;
+    const auto here = [&](const fem::Mesh::Cell& cell) { return cell.part == static_cast<int>(part); };
+    body::Pressure unit = reduction::pressure(body.structure, basis, here);
+    const auto same = std::find_if(pressures.begin(), pressures.end(),
+                                   [&](const output::ReducedPressure& one) { return one.part == body.parts[part]; });
+    if (same == pressures.end())
+      pressures.push_back({body.parts[part], std::move(unit)});
+    else  // parts of one name count together
+      same->unit += unit;
+  }
+  return pressures;
+}
+
 std::vector<output::ReducedColumn> columns_of(const BodyReport& report) {
   using Kind = reduction::ColumnOrigin::Kind;
   std::vector<output::ReducedColumn> columns;
@@ -159,6 +183,7 @@ output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const
     if (plan.bodies[b].spec.name == body.spec.name) file.damping = linear_damping(plan, static_cast<int>(b), reduced);
   file.strain_rate_damping = body.spec.damping.stiffness;
   file.places = places_of(plan, body, *reduced.basis);
+  file.pressures = pressures_of(body, *reduced.basis);
   file.columns = columns_of(report);
   file.omega = report.omega, file.residual = report.residual;
   file.frame = frame_of(body);

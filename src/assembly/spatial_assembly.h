@@ -81,9 +81,12 @@ class SpatialAssembly {
   /// The terms of a force or moment at a place, of which `value` gives the components. Collective.
   std::vector<std::unique_ptr<dynamics::Term>> load_terms(std::size_t load,
                                                           const std::function<Eigen::Vector3d(double)>& value);
+  std::vector<std::unique_ptr<dynamics::Term>> load_terms(const Load& load, const LoadPart& part,
+                                                          const std::function<Eigen::Vector3d(double)>& value);
   /// Loads on joints, those that depend on sensors, and probes that are formulas. After joints and probes.
   void add_state_loads(Model& model);
   std::vector<std::unique_ptr<dynamics::Sensor>> sensors(const math::Formula& formula, const Model& model) const;
+  void refuse_loose_supports() const;
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);

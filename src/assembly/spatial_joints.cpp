@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "connections.h"
 #include "drive.h"
 #include "floe/dynamics/spatial_spring.h"
 #include "floe/petsc/values.h"
@@ -131,8 +132,9 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
                     joint.where.text(), joint.name));
   connect(j, std::make_unique<dynamics::SpatialSpring>(
                  placed.places[0], placed.places[1],
-                 dynamics::SpatialSpringProperties{joint.stiffness, joint.viscosity, joint.length.value_or(apart),
-                                                   joint.torsional_stiffness, joint.torsional_viscosity, 0}));
+                 dynamics::SpatialSpringProperties{
+                     joint.stiffness, joint.viscosity, relaxed_length(joint, apart, plan_.extent),
+                     joint.torsional_stiffness, joint.torsional_viscosity, 0, joint.rest_angle}));
 }
 
 void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
@@ -178,9 +180,26 @@ void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<Mo
   if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
 }
 
+/// A support has no constraint rows: it holds dofs of a body that does not move as a whole.
+void SpatialAssembly::refuse_loose_supports() const {
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const Joint& joint = plan_.scene.joints[j];
+    if (joint.kind != Kind::support || stands(static_cast<int>(j))) continue;
+    const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
+    throw InputError(
+        fmt::format("{}: {}; expected supports and other joints to the ground that leave body {} no rigid "
+                    "motion, without probes and events of these",
+                    joint.where.text(),
+                    corotated(place.body) ? "formulation cfr does not have supports of single components"
+                                          : "its body can still move as a whole",
+                    plan_.bodies[place.body].spec.name));
+  }
+}
+
 void SpatialAssembly::add_joints(Model& model) {
   std::vector<int> all;  // finding places is collective, what follows is rank-local
   std::string notes;
+  refuse_loose_supports();
   const auto find = [&] {
     for (std::size_t j = 0; j < plan_.joints.size(); ++j)
       if (placed_.push_back(place(static_cast<int>(j))); !stands(static_cast<int>(j)))

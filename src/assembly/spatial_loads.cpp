@@ -163,8 +163,15 @@ void SpatialAssembly::add_load(std::size_t l, const BodyPart* part) {
 
 std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
     std::size_t l, const std::function<Eigen::Vector3d(double)>& value) {
-  const Load& load = plan_.scene.loads[l];
-  const Anchor& place = plan_.loads[l];
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  for (const LoadPart& part : parts_of_load(plan_, l))
+    for (auto& term : load_terms(plan_.scene.loads[l], part, value)) terms.push_back(std::move(term));
+  return terms;
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
+    const Load& load, const LoadPart& part, const std::function<Eigen::Vector3d(double)>& value) {
+  const Anchor& place = part.at;
   const PlannedBody& body = plan_.bodies[place.body];
   const bool of_body = load.axes == Load::Axes::body, turns = load.kind == Load::Kind::moment;
   std::vector<std::unique_ptr<dynamics::Term>> terms;
@@ -175,8 +182,8 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
     parts.emplace_back(std::move(at), 1.);
   }
   for (auto& [at, share] : parts) {
-    const Eigen::Matrix3d A =
-        (turns ? share : 1.) * (of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d A = part.size * (turns ? share : 1.) *
+                              (of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
     at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
     terms.push_back(std::make_unique<SpatialForce>(
         std::move(at),

@@ -14,20 +14,39 @@ namespace {
 
 using Chosen = std::function<bool(const fem::Mesh::Cell&)>;
 
+[[noreturn]] void refuse_part(const Load& load, const std::string& body, const std::vector<std::string>& parts) {
+  const std::string near = math::nearest(load.part, parts);
+  throw InputError(fmt::format("{}.part: {} has no part \"{}\"; expected one of {}{}", load.where.text(), body,
+                               load.part, fmt::join(parts, ", "),
+                               near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+}
+
+/// What the file of a body has of the shells that a pressure acts on, for its first k coordinates.
+body::Pressure pressure_of_file(const Load& load, const Body& body, Eigen::Index k) {
+  const output::ReducedBodyFile& file = *body.reduced->file;
+  if (file.pressures.empty())
+    throw InputError(
+        fmt::format("{}: acts on body {}, whose file {} contains no shells or was written before floe stored "
+                    "pressures; expected a file of shells (write it again by floe reduce), or a body with a mesh",
+                    load.where.text(), body.name, body.reduced->path));
+  const Eigen::Index all = file.body.coordinates();
+  body::Pressure sum(all);
+  std::vector<std::string> parts;
+  bool found = load.part.empty();
+  for (const auto& [part, unit] : file.pressures) {
+    parts.push_back(part);
+    if (!load.part.empty() && part != load.part) continue;
+    sum += unit;
+    found = true;
+  }
+  if (!found) refuse_part(load, body.name, parts);
+  return k == all ? sum : body::projected(sum, Eigen::MatrixXd::Identity(all, k));
+}
+
 /// The shells that a pressure acts on. Collective.
 Chosen shells_of(const Load& load, const PlannedBody& body) {
-  if (body.spec.reduced)
-    throw InputError(
-        fmt::format("{}: acts on body {}, which comes from a file without shells; expected a body "
-                    "with a mesh",
-                    load.where.text(), body.spec.name));
   const auto part = std::find(body.parts.begin(), body.parts.end(), load.part);
-  if (!load.part.empty() && part == body.parts.end()) {
-    const std::string near = math::nearest(load.part, body.parts);
-    throw InputError(fmt::format("{}.part: {} has no part \"{}\"; expected one of {}{}", load.where.text(),
-                                 body.spec.name, load.part, fmt::join(body.parts, ", "),
-                                 near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-  }
+  if (!load.part.empty() && part == body.parts.end()) refuse_part(load, body.spec.name, body.parts);
   const int wanted = load.part.empty() ? -1 : static_cast<int>(part - body.parts.begin());
   Chosen chosen = [wanted](const fem::Mesh::Cell& cell) {
     return fem::is_shell(cell) && (wanted < 0 || cell.part == wanted);
@@ -46,14 +65,19 @@ Chosen shells_of(const Load& load, const PlannedBody& body) {
 void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part) {
   using dynamics::PressureLoad;
   const PlannedBody& body = plan_.bodies[b];
-  const Chosen chosen = [part, all = shells_of(load, body),
-                         first = body.structure.mesh.cells.data()](const fem::Mesh::Cell& cell) {
-    return all(cell) && (!part || part->cells[static_cast<std::size_t>(&cell - first)] != 0);
-  };
   const auto add = [&](std::vector<int> coordinates, body::Pressure unit) {
     terms_.push_back(std::make_unique<PressureLoad>(
         std::move(coordinates), slots_[b].attitude, std::move(unit), [p = load.pressure](double t) { return p(t); },
         load.follower ? PressureLoad::Kind::follower : PressureLoad::Kind::dead, body.attitude));
+  };
+  if (body.spec.reduced) {
+    body::Pressure unit = pressure_of_file(load, body.spec, reduced_[b].body.coordinates());
+    if (owner_) add(coordinates_of(b), std::move(unit));
+    return;
+  }
+  const Chosen chosen = [part, all = shells_of(load, body),
+                         first = body.structure.mesh.cells.data()](const fem::Mesh::Cell& cell) {
+    return all(cell) && (!part || part->cells[static_cast<std::size_t>(&cell - first)] != 0);
   };
   if (compact(b)) {
     const reduction::Basis none;

@@ -9,8 +9,8 @@ Force::Force(Marker at, std::function<Eigen::Vector3d(double)> force, Axes axes)
 
 Eigen::Vector3d Force::wrench(const Motion& motion) const {
   Eigen::Vector3d f = force_(motion.t);
-  if (axes_ == Axes::body && at_.framed) {
-    const double c = std::cos(motion.q[2]), s = std::sin(motion.q[2]);
+  if (axes_ == Axes::place || (axes_ == Axes::body && at_.framed)) {
+    const double angle = axes_ == Axes::place ? pose_.y[2] : motion.q[2], c = std::cos(angle), s = std::sin(angle);
     f.head<2>() = Eigen::Vector2d(c * f.x() - s * f.y(), s * f.x() + c * f.y());
   }
   return f;
@@ -28,6 +28,8 @@ void Force::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) c
   add_geometric_stiffness(at_, pose_, f, -weights.q, J);
   if (axes_ == Axes::body && at_.framed)
     J.col(2).noalias() -= weights.q * (pose_.P.transpose() * Eigen::Vector3d(-f.y(), f.x(), 0));
+  if (axes_ == Axes::place)
+    J.noalias() -= weights.q * (pose_.P.transpose() * Eigen::Vector3d(-f.y(), f.x(), 0)) * pose_.P.row(2);
 }
 
 Energy Force::energy(const Motion& motion) const {

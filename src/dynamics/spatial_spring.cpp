@@ -28,7 +28,7 @@ double tension(const SpatialSpringProperties& p, const Line& l) {
 bool torsional(const SpatialSpringProperties& p) { return p.torsional_stiffness != 0 || p.torsional_viscosity != 0; }
 
 double moment(const SpatialSpringProperties& p, const Twist& t) {
-  return p.torsional_stiffness * (t.angle - p.angle) + p.torsional_viscosity * t.rate;
+  return p.torsional_stiffness * (t.angle - p.angle - p.rest) + p.torsional_viscosity * t.rate;
 }
 
 Vector12 wrench_of(const SpatialSpringProperties& p, const SpatialPair& pair, double nearest) {
@@ -99,7 +99,7 @@ Energy SpatialSpring::energy(const Motion& motion) const {
   pair_.evaluate(motion);
   const SpatialSpringProperties& p = properties_;
   const double stretch = line(pair_).length - p.length;
-  const double turned = torsional(p) ? twist(pair_, nearest_).angle - p.angle : 0;
+  const double turned = torsional(p) ? twist(pair_, nearest_).angle - p.angle - p.rest : 0;
   return {0, 0.5 * p.stiffness * stretch * stretch + 0.5 * p.torsional_stiffness * turned * turned, 0};
 }
 

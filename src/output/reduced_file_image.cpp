@@ -123,6 +123,28 @@ void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t
   to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "rotation psi q");
 }
 
+void put(Writer& to, const std::vector<ReducedPressure>& pressures, hsize_t k) {
+  if (pressures.empty()) return;
+  std::vector<std::string> parts;
+  Numbers force, moment, force_by, moment_by, load, load_by, spread, spread_by;
+  for (const auto& [part, unit] : pressures) {
+    parts.push_back(part);
+    append(force, unit.force), append(moment, unit.moment), append(load, unit.load), append(load_by, unit.load_by);
+    append(force_by, unit.force_by), append(moment_by, unit.moment_by), append(spread, unit.spread);
+    for (const Eigen::Matrix3d& each : unit.spread_by) append(spread_by, each);
+  }
+  const hsize_t n = pressures.size();
+  to.texts("pressure/parts", parts, "of the mesh, with shells");
+  to.numbers("pressure/force", {n, 3}, force, "m^2", "int n dA");
+  to.numbers("pressure/force_by", {n, 3, k}, force_by, "m kg^-1/2", "int L dA, n dA + L q dA the area that follows");
+  to.numbers("pressure/moment", {n, 3}, moment, "m^3", "int x cross n dA");
+  to.numbers("pressure/moment_by", {n, 3, k}, moment_by, "m^2 kg^-1/2", "int (x cross L - n cross N) dA");
+  to.numbers("pressure/load", {n, k}, load, "m^2 kg^-1/2", "int N'n dA");
+  to.numbers("pressure/load_by", {n, k, k}, load_by, "m kg^-1", "int N'L dA");
+  to.numbers("pressure/spread", {n, 3, 3}, spread, "m^3", "int x n' dA");
+  to.numbers("pressure/spread_by", {n, k, 3, 3}, spread_by, "m^2 kg^-1/2", "int N_j n' dA of each coordinate");
+}
+
 void put(Writer& to, const std::vector<ReducedColumn>& columns) {
   std::vector<std::string> kinds, labels, dropped;
   Numbers omega, new_part, interaction;
@@ -179,6 +201,7 @@ void put(Writer& to, const ReducedBodyFile& file) {
     to.numbers("strain_rate_damping", {}, {file.strain_rate_damping}, "s",
                "beta of Kelvin-Voigt, in damping as beta K");
   put(to, file.places, d, k);
+  put(to, file.pressures, k);
   put(to, file.columns);
   to.numbers("frequencies/omega", {file.omega.size()}, file.omega, "rad/s");
   to.numbers("frequencies/residual", {file.residual.size()}, file.residual, "1", "relative, of each omega");

@@ -109,6 +109,31 @@ std::vector<ReducedPlace> read_places(hid_t file, hsize_t d, hsize_t k) {
   return places;
 }
 
+std::vector<ReducedPressure> read_pressures(hid_t file, hsize_t k) {
+  std::vector<ReducedPressure> pressures;
+  if (H5Lexists(file, "pressure", H5P_DEFAULT) <= 0) return pressures;
+  const auto parts = read_texts(file, "pressure/parts");
+  const hsize_t n = parts.size();
+  const auto read = [&](const char* name, Extent shape) {
+    shape.insert(shape.begin(), n);
+    return read_whole<double>(file, std::string("pressure/") + name, shape);
+  };
+  const auto force = read("force", {3}), moment = read("moment", {3}), force_by = read("force_by", {3, k}),
+             moment_by = read("moment_by", {3, k}), load = read("load", {k}), load_by = read("load_by", {k, k}),
+             spread = read("spread", {3, 3}), spread_by = read("spread_by", {k, 3, 3});
+  for (hsize_t i = 0; i < n; ++i) {
+    body::Pressure unit(static_cast<Eigen::Index>(k));
+    unit.force = matrix_at(force.data() + 3 * i, 3, 1), unit.moment = matrix_at(moment.data() + 3 * i, 3, 1);
+    unit.force_by = matrix_at(force_by.data() + 3 * k * i, 3, k);
+    unit.moment_by = matrix_at(moment_by.data() + 3 * k * i, 3, k);
+    unit.load = matrix_at(load.data() + k * i, k, 1), unit.load_by = matrix_at(load_by.data() + k * k * i, k, k);
+    unit.spread = matrix_at(spread.data() + 9 * i, 3, 3);
+    for (hsize_t j = 0; j < k; ++j) unit.spread_by[j] = matrix_at(spread_by.data() + 9 * (k * i + j), 3, 3);
+    pressures.push_back({parts[i], std::move(unit)});
+  }
+  return pressures;
+}
+
 std::vector<ReducedColumn> read_columns(hid_t file) {
   const auto kind = read_texts(file, "columns/kind");
   const hsize_t n = kind.size();
@@ -184,6 +209,7 @@ ReducedBodyFile parse(hid_t file) {
            fmt::format("{}", all.strain_rate_damping));
   }
   all.places = read_places(file, d, k);
+  all.pressures = read_pressures(file, k);
   all.columns = read_columns(file);
   Extent modes{any};
   all.omega = read_whole<double>(file, "frequencies/omega", modes);

@@ -79,6 +79,9 @@ std::vector<Vector3d> ground_axes(const Scene& scene, const Body& body, const Sp
   const auto vector = [](const Point& p) { return Vector3d(p[0], p[1], p[2]); };
   const Matrix3d to_mesh = math::rotation(vector(body.initial.rotation)).transpose();
   std::vector<Vector3d> edges, nodes;
+  for (const Joint& joint : scene.joints)
+    if (joint.kind == Kind::support && (joint.first.body == body.name || joint.second.body == body.name))
+      return {Vector3d::UnitX(), Vector3d::UnitY()};  // its components are those of the mesh
   for (const Joint& joint : scene.joints) {
     const bool in_part = joint.kind == Kind::revolute || joint.kind == Kind::cylindrical ||
                          joint.kind == Kind::prismatic || joint.kind == Kind::planar;

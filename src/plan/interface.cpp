@@ -15,6 +15,11 @@ bool Anchor::moved_by(PetscInt other) const {
   return std::any_of(all.begin(), all.end(), [&](const Lever& lever) { return lever.node == other; });
 }
 
+std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load) {
+  const auto parts = plan.load_parts.find(load);
+  return parts == plan.load_parts.end() ? std::vector<LoadPart>{{plan.loads[load]}} : parts->second;
+}
+
 bool share_a_node(const Anchor& one, const Anchor& other) {
   const std::vector<Lever> levers = one.moved_by();
   return std::any_of(levers.begin(), levers.end(), [&](const Lever& lever) { return other.moved_by(lever.node); });

@@ -44,12 +44,16 @@ bool all_positive(const Weights& weights) {
   return std::all_of(weights.begin(), weights.end(), [](const auto& at) { return at.weight > 0; });
 }
 
-Weights area_weights(const fem::Mesh& mesh, const Set& set) {
+/// @param shape  of each node of the place, interpolated between them
+Weights area_weights(const fem::Mesh& mesh, const Set& set, const std::vector<double>& shape) {
   std::vector<double> areas(set.size(), 0);
   const auto add = [&](const std::array<int, 3>& corners, double part) {
     const Eigen::Vector3d &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
                           &c = mesh.positions[corners[2]];
-    for (int corner : corners) areas[set.of(corner)] += part * (b - a).cross(c - a).norm() / 6;
+    double sum = 0;
+    for (int corner : corners) sum += shape[set.of(corner)];
+    for (int corner : corners)  // int N_i s dA = A / 12 (s_i + sum s)
+      areas[set.of(corner)] += part * (b - a).cross(c - a).norm() / 6 * ((shape[set.of(corner)] + sum) / 4);
   };
   for (const fem::Mesh::Cell& cell : mesh.cells) {
     if (!is_shell(cell) || !set.contains(cell)) continue;
@@ -58,7 +62,7 @@ Weights area_weights(const fem::Mesh& mesh, const Set& set) {
       std::vector<Eigen::Vector3d> x;
       for (const int node : cell.places()) x.push_back(mesh.positions[node]);
       const std::vector<fem::NodeShare> shares = fem::quadratic_shell_shares(x);
-      for (std::size_t i = 0; i < shares.size(); ++i) areas[set.of(k[i])] += shares[i].area;
+      for (std::size_t i = 0; i < shares.size(); ++i) areas[set.of(k[i])] += shares[i].area * shape[set.of(k[i])];
     } else if (cell.kind == fem::CellKind::triangle)
       add({k[0], k[1], k[2]}, 1);
     else
@@ -148,7 +152,8 @@ Eigen::Matrix3d arm_of(std::vector<Edge>::const_iterator begin, std::vector<Edge
   return -along.norm() / 12 * A * math::skew(along);
 }
 
-Weights edge_weights(const fem::Mesh& mesh, const Set& set) {
+/// @param shape  as of area_weights: l / 6 (2 s_i + s_j), and arms by its mean, so that resultant and moment are exact
+Weights edge_weights(const fem::Mesh& mesh, const Set& set, const std::vector<double>& shape) {
   Weights weights = zero(set.size());
   const std::vector<Edge> edges = edges_within(mesh, set);
   for (auto begin = edges.begin(); begin != edges.end();) {
@@ -158,16 +163,20 @@ Weights edge_weights(const fem::Mesh& mesh, const Set& set) {
     const auto shells = std::count_if(begin, end, [](const Edge& edge) { return edge.beam == 0; });
     const bool inside = std::any_of(begin, end, [](const Edge& edge) { return edge.inside != 0; });
     if (shells < end - begin || !inside || shells == 1) {
+      const double s = shape[begin->first], t = shape[begin->second];
       if (begin->middle >= 0) {
-        weights[begin->first].weight += begin->shares[0], weights[begin->second].weight += begin->shares[1];
-        weights[begin->middle].weight += begin->shares[2];
+        const double m = shape[begin->middle];
+        weights[begin->first].weight += begin->shares[0] * ((4 * s - t + 2 * m) / 5);
+        weights[begin->second].weight += begin->shares[1] * ((4 * t - s + 2 * m) / 5);
+        weights[begin->middle].weight += begin->shares[2] * ((2 * s + 2 * t + 16 * m) / 20);
         begin = end;
         continue;
       }
       const double half = Eigen::Vector3d(begin->along[0], begin->along[1], begin->along[2]).norm() / 2;
       const Eigen::Matrix3d arm = arm_of(begin, end);
-      weights[begin->first].weight += half, weights[begin->second].weight += half;
-      weights[begin->first].arm += arm, weights[begin->second].arm -= arm;
+      weights[begin->first].weight += half * ((2 * s + t) / 3);
+      weights[begin->second].weight += half * ((s + 2 * t) / 3);
+      weights[begin->first].arm += (s + t) / 2 * arm, weights[begin->second].arm -= (s + t) / 2 * arm;
     }
     begin = end;
   }
@@ -176,22 +185,34 @@ Weights edge_weights(const fem::Mesh& mesh, const Set& set) {
 
 }  // namespace
 
-Weights place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
+Weights place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes, PlaceMeasure* measure) {
   Weights weights(nodes.size(), {0, 1});
+  PlaceMeasure found_measure;
   if (nodes.size() > 1) {
     const Set set(mesh, nodes);
-    if (Weights found = area_weights(mesh, set); all_positive(found))
-      weights = std::move(found);
-    else if (found = edge_weights(mesh, set); all_positive(found))
-      weights = std::move(found);
+    const std::vector<double> one(nodes.size(), 1);
+    if (Weights found = area_weights(mesh, set, one); all_positive(found))
+      weights = std::move(found), found_measure.of = PlaceMeasure::Of::areas;
+    else if (found = edge_weights(mesh, set, one); all_positive(found))
+      weights = std::move(found), found_measure.of = PlaceMeasure::Of::edges;
   }
   double sum = 0;
   for (const reduction::WeightedNode& at : weights) sum += at.weight;
+  found_measure.size = sum;
+  if (measure) *measure = found_measure;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     weights[i].node = nodes[i];
     weights[i].weight /= sum;
     weights[i].arm /= sum;
   }
+  return weights;
+}
+
+std::vector<reduction::WeightedNode> shaped_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+                                                    PlaceMeasure::Of of, const std::vector<double>& shape) {
+  const Set set(mesh, nodes);
+  Weights weights = of == PlaceMeasure::Of::areas ? area_weights(mesh, set, shape) : edge_weights(mesh, set, shape);
+  for (std::size_t i = 0; i < nodes.size(); ++i) weights[i].node = nodes[i];
   return weights;
 }
 

@@ -228,6 +228,14 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
     if (!load.spread()) where = place(load.at);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       if (load.spread() && scene.bodies[b].name == load.body) where.body = static_cast<int>(b);
+    if (load.per != Load::Per::whole) {
+      const PlannedBody& body = plan.bodies[where.body];
+      if (body.spec.rigid || body.spec.reduced)
+        throw InputError(fmt::format("{}: is per {}, and body {} has no elements there; expected the resultant",
+                                     load.where.text(), load.per == Load::Per::length ? "length" : "area",
+                                     body.spec.name));
+      plan.load_parts[plan.loads.size()] = spread_load(load, body.structure, where, {body.origin, body.axes});
+    }
     plan.loads.push_back(where);
   }
   for (const Probe& probe : scene.probes) {

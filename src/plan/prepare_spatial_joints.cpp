@@ -49,7 +49,7 @@ Eigen::Vector3d axis_of(const Plan& plan, const Joint& joint, const std::array<A
 }
 
 Eigen::Matrix3d joint_axes(const Plan& plan, const Joint& joint, const std::array<Anchor, 2>& places) {
-  if (joint.kind == Joint::Kind::bushing) return Eigen::Matrix3d::Identity();
+  if (joint.kind == Joint::Kind::bushing || joint.kind == Joint::Kind::support) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d W;
   W.col(2) = axis_of(plan, joint, places);
   if (joint.kind == Joint::Kind::universal) {
@@ -76,6 +76,29 @@ Eigen::Vector3d axis_within(const Eigen::Matrix3d& W, const PlannedBody& body,
   return body.attitude.transpose() * W.col(2);
 }
 
+/// Of a support: each node by itself. @throws InputError  nodes that follow others; a frame oblique to the mesh
+void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& place, fem::Conditions& held) {
+  if (body.spec.rigid)
+    throw InputError(fmt::format("{}: body {} is rigid; expected a flexible body, or another type of joint",
+                                 joint.where.text(), body.spec.name));
+  for (const Lever& lever : place.levers)
+    if (std::count(place.nodes.begin(), place.nodes.end(), lever.node) == 0 || place.levers.size() < place.nodes.size())
+      throw InputError(joint.where.text() +
+                       ": its place has nodes of a rigid region or line hinge of a link or another joint; expected a "
+                       "place without them");
+  for (int component = 0; component < 6; ++component) {
+    if (!joint.hold[component]) continue;
+    Eigen::Index along = 0;
+    if (body.axes.row(component % 3).cwiseAbs().maxCoeff(&along) < 1 - 1e-12)
+      throw InputError(
+          fmt::format("{}: the floating frame of body {} is oblique to the axes of its mesh; expected no "
+                      "key frame, or a mesh along its own axes",
+                      joint.where.text(), body.spec.name));
+    for (const PetscInt node : place.nodes)
+      held.push_back(6 * node + 3 * (component / 3) + static_cast<PetscInt>(along));
+  }
+}
+
 /// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
 /// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at
 /// one node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
@@ -89,6 +112,7 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBo
         if (!pinned || lever.node == place.node) held.push_back(6 * lever.node + dof);
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
+  if (joint.kind == Kind::support) return hold_components(joint, body, place, held), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const auto line = line_of(body.structure.mesh, place);
   const Eigen::Vector3d axis = axis_within(W, body, line);
@@ -210,7 +234,7 @@ void fix_frames(Plan& plan) {
         firm.erase(std::remove_if(firm.begin(), firm.end(), here), firm.end());
         continue;
       }
-      by_nodes = by_nodes || (!place->line && place->levers.size() > 1);
+      by_nodes = by_nodes || joint.kind == Joint::Kind::support || (!place->line && place->levers.size() > 1);
       nodes.insert(nodes.end(), place->nodes.begin(), place->nodes.end());
     }
     if (moved || !(by_nodes || spread_of(body.structure.mesh, nodes) > 0.5 * fem::extent(body.structure))) continue;

@@ -18,6 +18,7 @@
 #include "floe/plan/prepare_spatial.h"
 #include "floe/scene/places.h"
 #include "hinge_lines.h"
+#include "point_masses.h"
 
 namespace floe::plan {
 namespace {
@@ -249,6 +250,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   std::map<std::string, std::vector<PetscInt>> places;  // originals: the order of the file, on every rank
   for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
     places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
+  add_masses(body, places, source.mesh, source.parts);
   std::vector<std::string> left_out;
   source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
                                       hinge_lines(scene, body, source.mesh, places, source.notices),

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "floe/math/nearest.h"
 #include "floe/math/rotation.h"
@@ -81,7 +82,74 @@ bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
   return place.nodes.size() > 1 && mine > 0 && std::count_if(place.levers.begin(), place.levers.end(), leads) == 1;
 }
 
+/// Positions of the nodes in the structure's axes, on every rank. Collective.
+std::vector<Eigen::Vector3d> positions_of(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
+  std::vector<Eigen::Vector3d> all(nodes.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (const PetscInt local = nodes[i] - mesh.first_node; local >= 0 && local < mesh.owned_nodes)
+      all[i] = mesh.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(3 * all.size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
+  return all;
+}
+
+void refuse_measure(const Load& load, const PlaceMeasure& measure) {
+  using Of = PlaceMeasure::Of;
+  const bool edges = load.per == Load::Per::length;
+  if (measure.of == (edges ? Of::edges : Of::areas)) return;
+  throw InputError(fmt::format("{}: is per {}, and its place {}; expected {}", load.where.text(),
+                               edges ? "length" : "area",
+                               measure.of == Of::points  ? "is no edge and no area of the mesh"
+                               : measure.of == Of::edges ? "consists of edges"
+                                                         : "is an area of shells",
+                               edges ? "the nodes of edges of shells or beams" : "all nodes of shells"));
+}
+
 }  // namespace
+
+std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& structure, const Anchor& place,
+                                  const MeshAxes& axes) {
+  PlaceMeasure measure;
+  place_weights(structure.mesh, place.nodes, &measure);
+  refuse_measure(load, measure);
+  if (!load.shape) return {{place, measure.size}};
+  const std::vector<Eigen::Vector3d> x = positions_of(structure.mesh, place.nodes);
+  std::vector<double> shape;
+  double largest = 0;
+  for (const Eigen::Vector3d& each : x) {
+    const Eigen::Vector3d at = axes.origin + axes.axes * each;
+    shape.push_back((*load.shape)(at.x(), at.y(), at.z()));
+    largest = std::max(largest, std::abs(shape.back()));
+  }
+  const std::vector<reduction::WeightedNode> weights = shaped_weights(structure.mesh, place.nodes, measure.of, shape);
+  const double small = 1e-14 * largest * measure.size;
+  std::vector<LoadPart> parts;
+  for (const double sign : {1., -1.}) {  // nodes without weight, which may have arms, belong to the first part
+    std::vector<std::size_t> which;
+    double sum = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const bool none = std::abs(weights[i].weight) <= small;
+      if (none ? !parts.empty() : sign * weights[i].weight < 0) continue;
+      which.push_back(i);
+      sum += none ? 0 : std::abs(weights[i].weight);
+    }
+    if (!(sum > small)) continue;
+    LoadPart part{{}, sign * sum};
+    std::vector<reduction::WeightedNode> own;
+    for (const std::size_t i : which) {
+      own.push_back({weights[i].node, weights[i].weight / part.size, weights[i].arm / part.size});
+      part.at.nodes.push_back(weights[i].node);
+      part.at.x += own.back().weight * x[i];
+    }
+    part.at.body = place.body;
+    part.at.levers = levers(structure.mesh, own);
+    part.at.node = part.at.levers.front().node;
+    part.at.weights = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(own));
+    parts.push_back(std::move(part));
+  }
+  if (parts.empty())
+    throw InputError(fmt::format("{}.shape: is zero at all nodes of the place; expected a shape", load.where.text()));
+  return parts;
+}
 
 Anchor spatial_place(const Body& body, const fem::Structure& structure,
                      const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,

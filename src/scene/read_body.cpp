@@ -134,7 +134,10 @@ Body read_body(Document& document, const std::string& name, const Value& value) 
   body.strains = read_strains(document, reading);
   body.rotary_inertia = reading.flag("rotary_inertia");
   body.frame = read_frame(document, reading, name);
+  body.masses = read_masses(document, reading, name);
   body.frames = reading.integer("frames");
+  if (body.frames > 1 && !body.masses.empty())
+    document.fault(reading.where("masses"), "does not apply to a body in several frames", "frames: 1");
   if (body.rigid) body.frames = 1;
   const Value nothing{YAML::Node(YAML::NodeType::Map), body.where};
   body.reduction = read_reduction(document, reading.value("reduction").value_or(nothing), name);

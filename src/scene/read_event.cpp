@@ -28,7 +28,9 @@ void check_joint(Document& document, const Scene& scene, const Event& event) {
     return;
   }
   const JointKind kind = scene.joints[found - names.begin()].kind;
-  if (kind == JointKind::spring || kind == JointKind::bushing)
+  if (kind == JointKind::support)
+    document.fault(where, "is \"" + event.joint + "\", a support", "a joint of another type");
+  else if (kind == JointKind::spring || kind == JointKind::bushing)
     document.fault(where, "is \"" + event.joint + "\", a spring", "a joint that constrains a motion");
   else if (event.kind == Event::Kind::lock && !lockable(kind, scene.dimension))
     document.fault(where, "is \"" + event.joint + "\", which leaves no motion free that could be locked",

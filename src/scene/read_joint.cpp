@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "readers.h"
 
 namespace floe::scene {
@@ -11,6 +13,15 @@ void check_spring(Document& document, const Reading& reading, const Where& where
     if (reading.given(key)) return;
   document.fault(where, "has no stiffness and no viscosity",
                  "one of stiffness, viscosity, torsional_stiffness, torsional_viscosity");
+}
+
+void check_preload(Document& document, const Reading& reading, const Joint& joint) {
+  if (reading.given("preload") && reading.given("length"))
+    document.fault(reading.where("preload"), "is given together with length", "one of them");
+  if (joint.preload != 0 && joint.stiffness == 0)
+    document.fault(reading.where("preload"), "is given without stiffness", "stiffness > 0");
+  if (joint.rest_angle != 0 && joint.torsional_stiffness == 0)
+    document.fault(reading.where("rest_angle"), "is given without torsional_stiffness", "torsional_stiffness > 0");
 }
 
 void check_bushing(Document& document, const Reading& reading, const Where& where) {
@@ -33,7 +44,8 @@ const std::vector<std::pair<std::string, Kind>> kinds{{"fixed", Kind::fixed},
                                                       {"planar", Kind::planar},
                                                       {"distance", Kind::distance},
                                                       {"driven_slide", Kind::driven_slide},
-                                                      {"bushing", Kind::bushing}};
+                                                      {"bushing", Kind::bushing},
+                                                      {"support", Kind::support}};
 
 void read_axes(Document& document, Reading& reading, Joint& joint) {
   const auto direction = [&](const char* key) {
@@ -115,9 +127,26 @@ std::optional<FrictionSpec> read_friction(Document& document, Reading& joint, co
   return friction;
 }
 
+void read_hold(Document& document, Reading& reading, Joint& joint) {
+  static const std::vector<std::string> components{"x", "y", "z", "rx", "ry", "rz"};
+  joint.edges = Joint::Edges::mean;  // no rigid region
+  const auto value = reading.value("hold");
+  if (!value) return;
+  for (const std::string& component : read_texts(document, *value, reading.key("hold"))) {
+    const auto found = std::find(components.begin(), components.end(), component);
+    if (found == components.end())
+      document.fault(value->where, fmt::format("contains \"{}\"", component), "x, y, z, rx, ry, rz");
+    else
+      joint.hold[found - components.begin()] = true;
+  }
+  if (joint.first.ground() == joint.second.ground() && !joint.first.body.empty() && !joint.second.body.empty())
+    document.fault(reading.where("between"), "has no place or two of the ground", "the ground and a place of a body");
+}
+
 void read_properties(Document& document, Reading& reading, Joint& joint) {
   if (joint.kind == Kind::driven) read_drive(document, reading, "angle", joint.angle, joint.speed);
   if (joint.kind == Kind::driven_slide) read_drive(document, reading, "position", joint.position, joint.speed);
+  if (joint.kind == Kind::support) return read_hold(document, reading, joint);
   joint.limits = read_limits(document, reading, "limits");
   if (document.dimension == 3) joint.turn_limits = read_limits(document, reading, "turn_limits");
   joint.friction = read_friction(document, reading, "friction");
@@ -143,7 +172,12 @@ void read_properties(Document& document, Reading& reading, Joint& joint) {
   joint.rotation = reading.three("rotation");
   joint.translation_viscosity = reading.three("translation_viscosity");
   joint.rotation_viscosity = reading.three("rotation_viscosity");
-  if (joint.kind == Kind::spring) check_spring(document, reading, reading.where("type"));
+  joint.preload = reading.number("preload");
+  joint.rest_angle = reading.number("rest_angle");
+  if (joint.kind == Kind::spring) {
+    check_spring(document, reading, reading.where("type"));
+    check_preload(document, reading, joint);
+  }
   if (joint.kind == Kind::bushing) check_bushing(document, reading, reading.where("type"));
 }
 

@@ -34,8 +34,9 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
   } else if (on == "joint") {
     load.joint = reading.text("joint");
     load.on_joint = reading.formula(load.kind == Kind::moment ? "moment" : "force");
-    if (reading.given("axes"))
-      document.fault(reading.where("axes"), "does not apply to a load on a joint", "axes only with at");
+    for (const char* key : {"axes", "per", "shape"})
+      if (reading.given(key))
+        document.fault(reading.where(key), "does not apply to a load on a joint", std::string(key) + " only with at");
     return load;
   } else {
     return load;
@@ -46,8 +47,15 @@ Load read_load(Document& document, const std::string& name, const Value& value) 
     load.force = reading.force("force");
   load.axes = reading.choice<Load::Axes>(
       "axes", {{"world", Load::Axes::world}, {"body", Load::Axes::body}, {"place", Load::Axes::place}});
-  if (load.axes == Load::Axes::place && (document.dimension == 2 || load.kind == Kind::distributed))
-    document.fault(reading.where("axes"), "is place", "place only for a force or moment in a spatial scene");
+  if (load.axes == Load::Axes::place && load.kind == Kind::distributed)
+    document.fault(reading.where("axes"), "is place", "place only for a force or moment at a place");
+  load.per = reading.choice<Load::Per>(
+      "per", {{"whole", Load::Per::whole}, {"length", Load::Per::length}, {"area", Load::Per::area}});
+  if (reading.given("shape")) {
+    load.shape = read_formula(document, *reading.value("shape"), reading.key("shape"), {"x", "y", "z"});
+    if (load.per == Load::Per::whole)
+      document.fault(reading.where("shape"), "is given without per", "per: length or per: area");
+  }
   if (load.kind == Kind::distributed && load.has_sensors())
     document.fault(reading.where("force"), "depends on a sensor",
                    "formulas of t: only forces and moments at places and of joints may depend on sensors");

@@ -21,6 +21,8 @@ void check_inertia(Document& document, const Where& where, const std::array<doub
     document.fault(where, are + ", which no body has", "each at most the sum of the other two");
 }
 
+}  // namespace
+
 std::array<double, 6> read_inertia(Document& document, Reading& reading) {
   std::array<double, 6> J{};
   const auto value = reading.value("inertia");
@@ -41,8 +43,6 @@ std::array<double, 6> read_inertia(Document& document, Reading& reading) {
   if (document.fault_count() == before) check_inertia(document, value->where, J);
   return J;
 }
-
-}  // namespace
 
 void read_rigid(Document& document, Reading& reading, Body& body) {
   const auto value = reading.value("rigid");
@@ -65,6 +65,8 @@ void read_rigid(Document& document, Reading& reading, Body& body) {
   for (const char* key : {"section", "material", "parts"})
     if (reading.given(key) && !mass.has_mesh)
       document.fault(reading.where(key), "does not apply to a body without mesh", "this key only with mesh");
+  if (reading.given("masses"))
+    document.fault(reading.where("masses"), "does not apply to a body whose mass is given", "mass with all of it");
   body.mass = mass;
 }
 

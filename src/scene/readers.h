@@ -14,6 +14,10 @@ Body read_body(Document& document, const std::string& name, const Value& value);
 Body read_reduced(Document& document, const std::string& name, Reading& body);
 /// Whether it is rigid, and its mass where that is given; then perhaps a mesh that stands for it.
 void read_rigid(Document& document, Reading& body, Body& into);
+/// Masses at places of a body in space. @param name  of the body
+std::vector<MassSpec> read_masses(Document& document, Reading& body, const std::string& name);
+/// The key inertia of a mass: in space three or six numbers; zero where it is absent.
+std::array<double, 6> read_inertia(Document& document, Reading& mass);
 /// Position, velocity and deformation at the start.
 InitialSpec read_initial(Document& document, Reading& body);
 /// The keys section and material of a body.

@@ -27,6 +27,7 @@ const SchemaSection body_section{
         in_space(part("parts", Type::named_sections, "",
                       "sections and materials of the mesh's parts by name; absent: section and material apply to all",
                       "part")),
+        in_space(part("masses", Type::named_sections, "", "rigid masses at nodes by name; absent: none", "mass")),
         choice("strain", "averaged",
                "membrane strain of an element: averaged over its length (no membrane locking) or pointwise (locks)",
                {"averaged", "pointwise"}),
@@ -71,6 +72,19 @@ const SchemaSection rigid_section{
         {"inertia", Type::inertia, "kg m2", required,
          "moment of inertia about the centre; in spatial scenes the tensor in mesh axes: Jxx, Jyy, Jzz, and where they "
          "are not zero Jxy, Jxz, Jyz (Jxy = -int rho x y)"},
+    }};
+
+const SchemaSection mass_section{
+    "mass",
+    "A rigid mass at a node of a body in a spatial scene, named by its key.",
+    "at: end\nmass: 2\noffset: [0, 0, 0.1]",
+    {
+        {"at", Type::own_place, "", required, "place of one node, or a node's coordinates"},
+        {"mass", Type::number, "kg", required, "mass", positive},
+        {"inertia", Type::inertia, "kg m2", "",
+         "inertia tensor about its centre in mesh axes: Jxx, Jyy, Jzz, and where they are not zero Jxy, Jxz, Jyz "
+         "(Jxy = -int rho x y); absent: zero"},
+        {"offset", Type::point, "m", "[0, 0, 0]", "of its centre from the node, mesh axes"},
     }};
 
 const SchemaSection mesh_section{
@@ -261,10 +275,10 @@ const SchemaSection initial_section{
 }  // namespace
 
 const std::vector<SchemaSection>& body_sections() {
-  static const std::vector<SchemaSection> all{body_section,     rigid_section,     mesh_section,    line_section,
-                                              polyline_section, segments_section,  section_section, material_section,
-                                              frame_section,    reduction_section, modes_section,   damping_section,
-                                              initial_section};
+  static const std::vector<SchemaSection> all{body_section,     rigid_section,    mass_section,      mesh_section,
+                                              line_section,     polyline_section, segments_section,  section_section,
+                                              material_section, frame_section,    reduction_section, modes_section,
+                                              damping_section,  initial_section};
   return all;
 }
 

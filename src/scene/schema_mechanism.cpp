@@ -42,9 +42,11 @@ const SchemaSection joint_section{
                "revolute with prescribed angle; spring: spring and damper; cylindrical: translation along axis and "
                "rotation about it; spherical: all rotations; universal: rotation about two orthogonal axes; planar: "
                "translation normal to axis and rotation about it; distance: constant distance; driven_slide: prismatic "
-               "with prescribed position; bushing: springs and dampers along and about three axes",
+               "with prescribed position; bushing: springs and dampers along and about three axes; support: components "
+               "of every node "
+               "held by the ground, for edges of plates",
                {"fixed", "revolute", "prismatic", "driven", "spring", "cylindrical", "spherical", "universal", "planar",
-                "distance", "driven_slide", "bushing"}),
+                "distance", "driven_slide", "bushing", "support"}),
         {"between", Type::places, "", required,
          "the two connected places; `ground` alone is the point of the ground that coincides with the other place at "
          "the start"},
@@ -58,6 +60,10 @@ const SchemaSection joint_section{
                             "and cylindrical joints along a straight edge, else mean. To the ground, fixed and driven "
                             "joints fix every node, and a hinge with edges: mean fixes the displacements of its edge",
                             {"rigid", "mean", "line"}))),
+        only({"support"}, in_space({"hold", Type::texts, "", required,
+                                    "displacements x, y, z and rotations rx, ry, rz of every node that are zero, in "
+                                    "mesh axes; together with the other joints to the ground they leave the body no "
+                                    "rigid motion"})),
         only({"driven"}, {"angle", Type::formula, "rad", "",
                           "rotation angle of the second place relative to the first since the start; 0 at t = 0; "
                           "required unless speed is given"}),
@@ -97,6 +103,11 @@ const SchemaSection joint_section{
                           "torsional stiffness, relative to the initial rotation", nonnegative}),
         only({"spring"},
              {"torsional_viscosity", Type::number, "N m s/rad", "0", "torsional viscous damping", nonnegative}),
+        only({"spring"},
+             {"preload", Type::number, "N", "0", "tension at the start, instead of length; negative: compression"}),
+        only({"spring"}, {"rest_angle", Type::number, "rad", "0",
+                          "rotation since the start at which the torsional spring is relaxed: its moment at the start "
+                          "is torsional_stiffness rest_angle, towards it"}),
         only({"bushing"}, {"translation", Type::numbers, "N/m", "[0, 0, 0]",
                            "stiffness along x, y, z, unstretched at the start; axes are the world axes at the start "
                            "and rotate with the first place",
@@ -144,8 +155,17 @@ const SchemaSection load_section{
         only({"force", "moment", "distributed"},
              choice("axes", "world",
                     "axes of the components; body: those of the floating frame; place: rotating with the section at "
-                    "the place (spatial scenes)",
+                    "the place (follower forces), not for distributed loads. body and place coincide with the mesh "
+                    "axes where the body is undeformed",
                     {"world", "body", "place"})),
+        only({"force", "moment"},
+             in_space(choice("per", "whole",
+                             "whole: the resultant; length, area: force or moment per length of the edges (of shells, "
+                             "beams), or per area of the shells, of a place of several nodes",
+                             {"whole", "length", "area"}))),
+        only({"force", "moment"}, in_space({"shape", Type::formula_of_point, "", "1",
+                                            "factor on a force or moment per length or area, of the undeformed "
+                                            "position in mesh axes"})),
     }};
 
 const SchemaSection motion_section{

@@ -84,6 +84,8 @@ std::string describe(const Key& key, int dimension) {
       return space ? "three numbers [x, y, z]" : "a number or a formula of the parameters";
     case Type::formula_of_place:
       return space ? "three formulas of x, y and z [u, v, w]" : "two formulas of x and y [u, v]";
+    case Type::formula_of_point:
+      return "a number or a formula of x, y and z";
     case Type::choice:
       return fmt::format("one of {}", fmt::join(key.choices, ", "));
     case Type::derivatives:

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "floe/assembly/reduced_bodies_file.h"
 #include "space_twin.h"
 
 using namespace floe;
@@ -106,4 +107,26 @@ TEST_CASE("pressure: a flap that is spun up, reduced and full-order, following a
     CHECK(fine < 0.01);
     CHECK(fine < coarse);
   }
+}
+
+TEST_CASE("pressure: a body from its file moves as with its mesh, following and dead, by parts and in formulation vm") {
+  const Scratch scratch;
+  const std::string path = (scratch.path / "flap.h5").string();
+  std::vector<std::string> warnings;
+  assembly::reduce_body(scene::parse_scene(flap("true", "6"), "scene"), "flap", PETSC_COMM_WORLD, path, true, warnings);
+  for (const std::string follower : {"true", "false"}) {
+    std::string text = flap(follower, "6");
+    const std::size_t begin = text.find("  flap:"), end = text.find("joints:");
+    text.replace(begin, end - begin, "  flap: {reduced: " + path + "}\n");
+    for (const Formulation formulation : {Formulation::vm_md, Formulation::vm}) {
+      std::string meshed = flap(follower, "{count: 6, alone: 6}");
+      const History file = move(text, formulation), mesh = move(meshed, formulation);
+      CHECK(apart(file, mesh, "tip") < 1e-6);
+    }
+  }
+  std::string wrong = flap("true", "6");
+  wrong.replace(wrong.find("  flap:"), wrong.find("joints:") - wrong.find("  flap:"),
+                "  flap: {reduced: " + path + "}\n");
+  wrong.insert(wrong.find("pressure: \"600*t\""), "part: skin, ");
+  CHECK_THROWS_WITH(move(wrong, Formulation::vm_md), Catch::Contains("flap has no part \"skin\"; expected one of "));
 }

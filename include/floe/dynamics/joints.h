@@ -85,10 +85,11 @@ class Spring final : public Connection {
   SpringProperties properties_;
 };
 
-/// A force and moment of time on a marker, in world axes or turning with the marker's frame (r_y -= (f, m)).
+/// A force and moment of time on a marker (r_y -= (f, m)).
 class Force final : public Term {
  public:
-  enum class Axes { world, body };
+  /// World; rotating with the frame; rotating with the place, angle0 + theta + psi q.
+  enum class Axes { world, body, place };
   /// @param force  (f_x, f_y, m)(t)
   Force(Marker at, std::function<Eigen::Vector3d(double)> force, Axes axes);
   const std::vector<int>& coordinates() const override { return at_.coordinates; }

@@ -7,7 +7,8 @@ namespace floe::dynamics {
 
 /// Spring and damper between two places in space: along the line that joins them, and torsional about z.
 ///
-///   f = stiffness (l - length) + viscosity l.,  m = torsional_stiffness (phi - angle) + torsional_viscosity phi.
+///   f = stiffness (l - length) + viscosity l.,  m = torsional_stiffness (phi - angle - rest) + torsional_viscosity
+///   phi.
 ///
 /// Coinciding places have no line and carry no line force; of length 0 the spring is linear there, f = stiffness (p_2 -
 /// p_1), and its stiffness is the same in all directions. phi is the twist of D1'D2 about z, the angle that is left
@@ -18,7 +19,7 @@ namespace floe::dynamics {
 /// Torsion throws RunError where z_2 = -z_1: there is no twist.
 struct SpatialSpringProperties {
   double stiffness = 0, viscosity = 0, length = 0;
-  double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0;
+  double torsional_stiffness = 0, torsional_viscosity = 0, angle = 0, rest = 0;
 };
 /// See SpatialSpringProperties.
 class SpatialSpring final : public Connection {

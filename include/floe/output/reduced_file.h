@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "floe/body/flexible_body.h"
+#include "floe/body/pressure.h"
 
 namespace floe::output {
 
@@ -29,6 +30,12 @@ struct ReducedColumn {
 struct ReducedPlace {
   std::string name;
   body::PlaceMap map;
+};
+
+/// A unit pressure on the shells of a part of the mesh, for k coordinates.
+struct ReducedPressure {
+  std::string part;
+  body::Pressure unit;
 };
 
 /// Where the floating frame lies in the mesh: x_mesh = origin + axes x.
@@ -55,13 +62,14 @@ struct ReducedBodyFile {
   int dimension = 2;
   std::int64_t dofs = 0, nodes = 0, cells = 0;  ///< of the mesh
   body::FlexibleBody body;
-  std::int64_t omitted_products = 0;   ///< of coordinates in the elastic force, beside its pairs
-  Eigen::MatrixXd damping;             ///< of small motions, k x k, or empty for none [1/s]
-  double strain_rate_damping = 0;      ///< beta of Kelvin-Voigt [s]; `damping` includes beta K
-  std::vector<ReducedPlace> places;    ///< names differ
-  std::vector<ReducedColumn> columns;  ///< candidates in order; k are kept
-  std::vector<double> omega;           ///< natural frequencies found [rad/s]
-  std::vector<double> residual;        ///< relative, of each omega
+  std::int64_t omitted_products = 0;            ///< of coordinates in the elastic force, beside its pairs
+  Eigen::MatrixXd damping;                      ///< of small motions, k x k, or empty for none [1/s]
+  double strain_rate_damping = 0;               ///< beta of Kelvin-Voigt [s]; `damping` includes beta K
+  std::vector<ReducedPlace> places;             ///< names differ
+  std::vector<ReducedPressure> pressures = {};  ///< of the parts with shells; names differ
+  std::vector<ReducedColumn> columns;           ///< candidates in order; k are kept
+  std::vector<double> omega;                    ///< natural frequencies found [rad/s]
+  std::vector<double> residual;                 ///< relative, of each omega
   ReducedFrame frame;
   MadeBy made;
   bool has_shapes = false;  ///< set by reading

@@ -3,6 +3,12 @@
 
 namespace floe::plan {
 
+/// Length of the edges or area of the shells of a place.
+struct PlaceMeasure {
+  enum class Of { points, edges, areas } of = Of::points;
+  double size = 0;  ///< [m], [m2]
+};
+
 /// Weights of the nodes in the mean of a place, and shares of them in a force there.
 ///
 /// A force spread evenly over an edge or an area does the work f . int u ds / int ds, and as much as shares of it at
@@ -18,8 +24,15 @@ namespace floe::plan {
 ///
 /// Hence sum w_i x_i is the centroid of the edge or area however its elements are graded, and even tension is exact.
 ///
-/// @param nodes  global, without repetition, the same on all ranks
+/// @param nodes    global, without repetition, the same on all ranks
+/// @param measure  receives what was found, if it is asked for
 /// @return       in their order, the same on all ranks. Collective. Source: Felippa 2003 (alpha = 3/2).
-std::vector<reduction::WeightedNode> place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes);
+std::vector<reduction::WeightedNode> place_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+                                                   PlaceMeasure* measure = nullptr);
+
+/// Integrals of a shape, given at the nodes, over the edges or areas of a place: shares of a load of this density per
+/// length or area, int N_i s. Not normalised; of either sign. Collective.
+std::vector<reduction::WeightedNode> shaped_weights(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes,
+                                                    PlaceMeasure::Of of, const std::vector<double>& shape);
 
 }  // namespace floe::plan

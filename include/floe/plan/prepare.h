@@ -11,6 +11,10 @@
 #include "floe/scene/formulation.h"
 #include "floe/scene/scene.h"
 
+namespace floe::reduction {
+struct WeightedNode;
+}
+
 namespace floe::plan {
 using namespace scene;
 
@@ -33,6 +37,8 @@ struct Anchor {
   /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
   /// is the first of them.
   std::vector<Lever> levers = {};
+  /// In space, of a load with a shape: weights of `nodes` in the place; null: those of place_weights.
+  std::shared_ptr<const std::vector<reduction::WeightedNode>> weights = {};
   bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
@@ -74,6 +80,12 @@ struct PlannedBody {
   int host_joint = -1;  ///< the joint that makes it so
 };
 
+/// A place with the factor by which the density of a load acts there: a length or an area times the load's shape.
+struct LoadPart {
+  Anchor at;
+  double size = 1;
+};
+
 /// Joints, loads and probes with their places found on the meshes.
 struct Plan {
   const Scene& scene;
@@ -88,7 +100,11 @@ struct Plan {
   std::vector<Eigen::Matrix3d> joint_axes = {};
   /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
   std::vector<char> joint_held = {};
+  std::map<std::size_t, std::vector<LoadPart>> load_parts = {};  ///< of loads per length or area
 };
+
+/// Where a force or moment acts: its place, or the parts of one per length or area.
+std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load);
 
 /// The place that the joint holds in the frame of its body: by the ground, or by a rigid body whose frame it has; null
 /// when the joint is between two frames.

@@ -37,6 +37,12 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
                      const std::map<std::string, std::vector<PetscInt>>& places, const Place& place,
                      const MeshAxes& mesh = {});
 
+/// The parts of a load per length or area: where its shape is positive, and where it is negative.
+/// @param place  of it, found
+/// @throws InputError  the place has no edges, or no shells, or its shape is zero there. Collective.
+std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& structure, const Anchor& place,
+                                  const MeshAxes& mesh);
+
 /// Bodies, frames and held dofs of a scene in space. Collective.
 Plan prepare_spatial(const Scene& scene, MPI_Comm comm);
 

@@ -161,6 +161,16 @@ struct RigidMass {
   bool has_mesh = false;            ///< of its own, to be shown; else one of a line at the centre stands for it
 };
 
+/// A rigid mass at a node, in mesh axes; space only.
+struct MassSpec {
+  std::string name;
+  Place at;
+  double mass = 0;                  ///< [kg]
+  std::array<double, 6> inertia{};  ///< about its centre, as of RigidMass [kg m2]
+  Point offset{};                   ///< of its centre from the node [m]
+  Where where;
+};
+
 /// A structure by its mesh, or one that was reduced before; then only the name, `reduced` and the pose at the start
 /// count.
 struct Body {
@@ -169,6 +179,7 @@ struct Body {
   MeshSpec mesh;
   Section section;              ///< in the plane
   std::vector<PartSpec> parts;  ///< in space
+  std::vector<MassSpec> masses;
   Strain strain = Strain::averaged;
   std::optional<fem::Strains> strains;  ///< absent: as its elements have them by default
   bool rotary_inertia = true;
@@ -212,7 +223,8 @@ struct Joint {
     planar,
     distance,
     driven_slide,
-    bushing
+    bushing,
+    support
   } kind = Kind::fixed;
   std::string name;
   Place first, second;
@@ -228,11 +240,14 @@ struct Joint {
   /// How the joint holds a place of many nodes: as one rigid region, as a line hinge (hinge_lines), or by their mean.
   enum class Edges { rigid, mean, line } edges = Edges::rigid;
   bool edges_given = false;
+  std::array<bool, 6> hold{};                               ///< support: x, y, z, rx, ry, rz of every node, mesh axes
   Point second_axis{};                                      ///< universal: carried by the second place
   double stiffness = 0;                                     ///< spring [N/m]
   double viscosity = 0;                                     ///< spring [N s/m]
   std::optional<double> length;                             ///< spring, unstretched; absent: the distance at the start
   double torsional_stiffness = 0, torsional_viscosity = 0;  ///< spring [N m/rad], [N m s/rad]
+  double preload = 0;                                       ///< spring: tension at the start, instead of a length [N]
+  double rest_angle = 0;  ///< spring: rotation since the start at which its moment vanishes [rad]
   /// Bushing, along and about the axes x, y, z of the first place as it is at the start (world axes).
   std::array<double, 3> translation{}, rotation{}, translation_viscosity{}, rotation_viscosity{};
   Where where;
@@ -251,8 +266,11 @@ struct Load {
   std::array<math::Formula, 3> moment{0.0, 0.0, 0.0};  ///< of t [N m]; in the plane about z
   std::string joint;  ///< force, moment: instead of `at`, between its places; `at` is then the one that a probe has
   math::Formula on_joint;  ///< on the joint's travel, length or angle: positive increases it [N], [N m]
-  /// body: they follow the frame; place: they rotate with the place (in space).
+  /// body: they follow the frame; place: they rotate with the place.
   enum class Axes { world, body, place } axes = Axes::world;
+  /// force, moment in space: the whole, or per length of the edges or area of the shells of the place [N/m], [N/m2].
+  enum class Per { whole, length, area } per = Per::whole;
+  std::optional<math::Formula> shape;  ///< per length or area: factor, of x, y, z in mesh axes
   Where where;
   bool spread() const { return kind == Kind::distributed || kind == Kind::pressure; }  ///< on a body, not at a place
   /// Components of a force or moment, or `on_joint`.

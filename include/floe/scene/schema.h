@@ -27,6 +27,7 @@ enum class Type {
   rigid,
   inertia,
   formula_of_place,
+  formula_of_point,
   choice,
   derivatives,
   products,

@@ -33,8 +33,8 @@ Vector3d rate(const Marker& marker, const State& s) {
 
 }  // namespace
 
-TEST_CASE("force tangents are the differences of the residual, in world and body axes") {
-  const Force::Axes axes = GENERATE(Force::Axes::world, Force::Axes::body);
+TEST_CASE("force tangents are the differences of the residual, in world, body and place axes") {
+  const Force::Axes axes = GENERATE(Force::Axes::world, Force::Axes::body, Force::Axes::place);
   Random random(112);
   for (const Marker& marker : markers()) {
     const Force force(marker, push, axes);
@@ -42,14 +42,17 @@ TEST_CASE("force tangents are the differences of the residual, in world and body
   }
 }
 
-TEST_CASE("the power of a force is f.p' + m angle', with f turned by the frame in body axes") {
-  const Force::Axes axes = GENERATE(Force::Axes::world, Force::Axes::body);
+TEST_CASE("the power of a force is f.p' + m angle', with f turned by the frame in body axes, by the place in its own") {
+  const Force::Axes axes = GENERATE(Force::Axes::world, Force::Axes::body, Force::Axes::place);
   Random random(113);
   for (const Marker& marker : markers()) {
     const Force force(marker, push, axes);
     const State s(random, size(force));
     Vector3d f = push(s.t);
     if (axes == Force::Axes::body && marker.framed) f.head<2>() = Eigen::Rotation2Dd(s.q[2]) * f.head<2>();
+    dynamics::Pose pose;
+    dynamics::pose(marker, s.q, s.v, s.a, pose);
+    if (axes == Force::Axes::place) f.head<2>() = Eigen::Rotation2Dd(pose.y[2]) * f.head<2>();
     CHECK(-testing::rows_of(force, s).dot(s.v) == Approx(f.dot(rate(marker, s))).epsilon(1e-12));
   }
 }

@@ -1,0 +1,114 @@
+#include <catch2/catch.hpp>
+
+#include "space_twin.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// A square plate of side 1, D = E h^3 / 12 (1 - nu^2), nu = 0.3, under supports of its edges.
+std::string plate(const std::string& supports, const std::string& more = "", const std::string& side = "1",
+                  const std::string& elements = "16") {
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [$side, 0, 0], across: [0, $side, 0], elements: [$n, $n], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 1e10, nu: 0.3, rho: 1000}
+    reduction: {modes: 6, derivatives: all}
+joints:
+$supports
+$more
+)yaml",
+              {{"supports", supports}, {"more", more}, {"side", side}, {"n", elements}});
+}
+
+std::string support(const std::string& place, const std::string& hold) {
+  return "  " + (place.find('{') == 0 ? std::string("node") : place.substr(6)) +
+         ": {type: support, between: [ground, " + place + "], hold: [" + hold + "]}\n";
+}
+
+const std::string lateral = support("plate.left", "z") + support("plate.right", "z") + support("plate.bottom", "z") +
+                            support("plate.top", "z"),
+                  centre = support("{body: plate, node: [0.5, 0.5, 0]}", "x, y") +
+                           "  side: {type: support, between: [ground, {body: plate, node: [1, 0.5, 0]}], hold: [y]}\n",
+                  immovable = support("plate.left", "x, z") + support("plate.right", "x, z") +
+                              support("plate.bottom", "y, z") + support("plate.top", "y, z"),
+                  quarter = support("plate.left", "x, z") + support("plate.bottom", "y, z") +
+                            support("plate.right", "x, ry, rz") + support("plate.top", "y, rx, rz");
+
+const double D = 1e10 * 1e-6 / (12 * 0.91), unit = std::sqrt(D / (1000 * 0.01));
+
+}  // namespace
+
+// Navier: omega_mn = pi^2 (m^2 + n^2) sqrt(D / rho h) / a^2.
+TEST_CASE("supports: edges that are held laterally only, Navier's plate") {
+  const std::vector<double> omega = omega_of(plate(lateral + centre));
+  const double pi2 = M_PI * M_PI * unit;
+  CHECK(omega[0] == Approx(2 * pi2).epsilon(5e-3));
+  CHECK(omega[1] == Approx(5 * pi2).epsilon(1e-2));
+  CHECK(omega[2] == Approx(5 * pi2).epsilon(1e-2));
+  CHECK(omega[3] == Approx(8 * pi2).epsilon(1e-2));
+}
+
+// Levy: two opposite edges simply supported, the others free, nu = 0.3: 9.6314, 16.1348 (Leissa 1973).
+TEST_CASE("supports: two opposite edges, Levy's plate") {
+  const std::vector<double> omega = omega_of(plate(support("plate.left", "z") + support("plate.right", "z") + centre));
+  CHECK(omega[0] == Approx(9.6314 * unit).epsilon(5e-3));
+  CHECK(omega[1] == Approx(16.1348 * unit).epsilon(5e-3));
+}
+
+// Conditions of symmetry: a quarter of the plate has the modes (1, 1), (1, 3), (3, 1) of the whole one.
+TEST_CASE("supports: a quarter of a plate under conditions of symmetry") {
+  const std::vector<double> omega = omega_of(plate(quarter, "", "0.5", "8"));
+  const double pi2 = M_PI * M_PI * unit;
+  CHECK(omega[0] == Approx(2 * pi2).epsilon(5e-3));
+  CHECK(omega[1] == Approx(10 * pi2).epsilon(2e-2));
+  CHECK(omega[2] == Approx(10 * pi2).epsilon(2e-2));
+}
+
+// Edges immovable normally and free along themselves: one mode sin sin has U = 1/2 k1 W^2 + 1/4 k3 W^4 with
+// k3 / k1 = ((3/8) (1 - nu^2) + (3/4) (1 + nu)) / h^2 (REFERENCE, Chu and Herrmann); the same in equilibrium under the
+// load sin sin, of which a pressure q has the part 16 q / pi^2: W with k1 W + k3 W^3 = p.
+TEST_CASE("supports: large deflections of a plate with edges that are immovable normally and free along themselves") {
+  const double h = 0.01, k1 = 4 * std::pow(M_PI, 4) * D, k3 = k1 * (0.375 * 0.91 + 0.75 * 1.3) / (h * h);
+  const double W = h, q = M_PI * M_PI / 16 * (k1 * W + k3 * W * W * W);
+  const auto loaded = [&](const std::string& supports, const std::string& side, const std::string& n,
+                          Formulation formulation) {
+    const std::string half = side == "1" ? "0.5" : side;
+    const History at =
+        rest(plate(supports,
+                   "loads: {p: {type: distributed, body: plate, force: [0, 0, \"" + number(q) +
+                       "*t\"]}}\nprobes: {w: {at: {body: plate, node: [" + half + ", " + half + ", 0]}}}\n",
+                   side, n),
+             formulation, 4);
+    return at["w.z"][0];
+  };
+  const double whole = loaded(immovable, "1", "16", Formulation::nlffr);
+  CHECK(whole == Approx(W).epsilon(0.05));  // one mode of the uniform load
+  CHECK(loaded(quarter, "0.5", "8", Formulation::nlffr) == Approx(whole).epsilon(1e-3));
+  CHECK(loaded(immovable, "1", "16", Formulation::vm_md) == Approx(whole).epsilon(0.02));
+  // edges that move in their plane are softer
+  CHECK(loaded(lateral + centre, "1", "16", Formulation::nlffr) > 1.2 * whole);
+}
+
+TEST_CASE("supports: refused where the body can still move, and where they cannot act") {
+  const auto refused = [](const std::string& text, Formulation formulation = Formulation::vm_md) {
+    try {
+      assembly::build(scene::parse_scene(text + "motion: {end: 1, step: 0.1}\n", "scene"), formulation,
+                      PETSC_COMM_WORLD);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refused(plate(lateral)), Catch::Contains("its body can still move as a whole"));
+  CHECK_THAT(refused(plate(support("plate.left", "z, u"))),
+             Catch::Contains("contains \"u\"; expected x, y, z, rx, ry, rz"));
+  CHECK_THAT(refused(plate("  s: {type: support, between: [plate.left, plate.right], hold: [z]}\n")),
+             Catch::Contains("expected the ground and a place of a body"));
+  CHECK_THAT(refused(plate(lateral + centre), Formulation::cfr), Catch::Contains("cfr"));
+  CHECK_THAT(refused(plate(lateral + centre, "events: {off: {unlock: left, at: 1}}\n")),
+             Catch::Contains("events.off.unlock: is \"left\", a support"));
+}
