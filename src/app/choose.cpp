@@ -299,13 +299,58 @@ class Search {
                          : "a simulation has at least 32 steps");
   }
 
+  /// Residual responses of the selected model's own (reduction.responses), which a scene can name, in place of the
+  /// correction vectors of the estimate, which it cannot: up to half as many again, where their error is within what
+  /// those leave. @return  the error; none: they are not as good
+  std::optional<double> name_responses(Chosen& chosen) {
+    const double most = std::max(allowance(), tried(selection_, step_).error);
+    std::vector<std::string> others;
+    for (const double times : {1.0, 1.5}) {
+      Selection named = selection_;
+      named.responses = times;
+      std::string result;
+      try {
+        const scene::Scene scene = scene::parse_scene(pool_->text(named, with_step(step_).motion), scene_.file);
+        const double error = error_of(scene);
+        result = fmt::format("{:g} times as many: {}", times, math::percent(error));
+        if (error <= most) {
+          decide("residual responses", fmt::format("{:g} times as many as correction vectors", times),
+                 fmt::format("{}{}{}", fmt::join(others, "; "), others.empty() ? "" : "; ", result));
+          chosen.scene = scene, chosen.selection = named;
+          chosen.model = assembly::build(scene, scene::Formulation::vm_md, comm_, true);
+          return error;
+        }
+        if (error > 3 * most) {  // half as many again would not do
+          others.push_back(result);
+          break;
+        }
+      } catch (const std::runtime_error& fault) {  // on all ranks
+        if (Interruption::happened(comm_)) throw;
+        result = fmt::format("{:g} times as many: {}", times, first_line(fault.what()));
+      }
+      others.push_back(result);
+    }
+    decide("residual responses", "none", fmt::format("{}", fmt::join(others, "; ")));
+    return {};
+  }
+
+  double error_of(const scene::Scene& scene) {
+    RunPlan plan;
+    plan.quiet = true, plan.check_range = false;
+    ++trials_;
+    const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
+    const double error = worst_error(result.series, truth_);
+    return std::abs(result.end - truth_.t.back()) > 2 * step_ || !std::isfinite(error) ? none : error;
+  }
+
   Chosen finished() {
     explain();
     for (const scene::Body& body : scene_.bodies)
       if (body.reduced) decide("  " + body.name, "from a file", "assumed exact: its mesh is not available");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
-    const double of_choice = tried(selection_, step_).error;
+    double of_choice = tried(selection_, step_).error;
+    if (pool_->has_responses(selection_)) of_choice = name_responses(chosen).value_or(of_choice);
     chosen.supported = richest_ + of_choice;
     decide("estimated error", math::percent(chosen.supported),
            reference_.series
@@ -316,13 +361,15 @@ class Search {
                      math::percent(space_), math::percent(time_),
                      reference_.error > 0 ? fmt::format(", {} of its mesh", math::percent(reference_.error)) : ""));
     chosen.decisions = std::move(decisions_);
-    chosen.scene = with_step(step_);
-    if (!pool_->has_responses(selection_)) {
-      chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
-      if (reference_.total) chosen.scene = scene::parse_scene(chosen.scene.text, scene_.file);
+    if (chosen.selection.responses == 0) {
+      chosen.scene = with_step(step_);
+      if (!pool_->has_responses(selection_)) {
+        chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+        if (reference_.total) chosen.scene = scene::parse_scene(chosen.scene.text, scene_.file);
+      }
+      chosen.selection = selection_;
+      chosen.model = pool_->model(selection_, true);
     }
-    chosen.selection = selection_;
-    chosen.model = pool_->model(selection_, true);
     chosen.pool = std::move(pool_);
     chosen.trials = trials_, chosen.building = building_;
     return chosen;
@@ -350,6 +397,11 @@ class Search {
 };
 
 }  // namespace
+
+assembly::Model another_model(const Chosen& chosen, MPI_Comm comm) {
+  if (chosen.selection.responses > 0) return assembly::build(chosen.scene, scene::Formulation::vm_md, comm);
+  return chosen.pool->model(chosen.selection);
+}
 
 Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference) {
   return Search(scene, accuracy, comm, reference).result();

@@ -61,6 +61,9 @@ Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, 
 /// choose() for the total error.
 Chosen choose_total(const scene::Scene& scene, double accuracy, MPI_Comm comm);
 
+/// Another model like `chosen.model`, at its start. Collective.
+assembly::Model another_model(const Chosen& chosen, MPI_Comm comm);
+
 nlohmann::ordered_json to_json(const Chosen& chosen);
 output::Table decisions_table(const Chosen& chosen);
 

@@ -206,7 +206,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     plan.choice = to_json(chosen);
     plan.measured = true;
     plan.estimate = chosen.total;
-    plan.budget = !chosen.pool->has_responses(chosen.selection);  // which no scene on another mesh can name
+    plan.budget = !chosen.pool->has_responses(chosen.selection);  // no scene on another mesh names them
     plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
     if (chosen.total) {

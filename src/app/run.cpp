@@ -22,13 +22,14 @@ using nlohmann::ordered_json;
 namespace {
 
 std::string columns_label(const assembly::Model& model) {
-  int count[3] = {0, 0, 0};
+  int count[3] = {0, 0, 0}, responses = 0;
   for (const auto& body : model.bodies)
     for (const auto& origin : body.origins)
-      if (origin.kept) ++count[static_cast<int>(origin.kind)];
+      if (origin.kept) ++(origin.label.starts_with("response ") ? responses : count[static_cast<int>(origin.kind)]);
   std::string label = fmt::format("{} VMs", count[0]);
   if (count[2]) label += fmt::format(" + {} AMs", count[2]);
   if (count[1]) label += fmt::format(" + {} MDs", count[1]);
+  if (responses) label += fmt::format(" + {} responses", responses);
   return label;
 }
 

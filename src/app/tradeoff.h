@@ -19,10 +19,10 @@ struct Candidate {
 };
 
 /// The model hierarchy: rigid bodies, linear elastic forces, 1 to m modes alone and with all their derivatives or with
-/// a few by modal interaction, attachment modes, elastic forces, 1 to 8 floating frames, elements twice and half as
-/// long, strains, other steps and settings of the integrator, full-order models (nlffr, lffr, cfr) of such meshes,
-/// frames and steps, and the models that floe selects for a total error of 5 %, 1 % and 0.2 % (family `accuracy`).
-/// The scene's own model is among them (family `scene`).
+/// a few by modal interaction, attachment modes, residual responses, elastic forces, 1 to 8 floating frames, elements
+/// twice and half as long, strains, other steps and settings of the integrator, full-order models (nlffr, lffr, cfr) of
+/// such meshes, frames and steps, and the models that floe selects for a total error of 5 %, 1 % and 0.2 % (family
+/// `accuracy`). The scene's own model is among them (family `scene`).
 std::vector<Candidate> ladder(const scene::Scene& scene);
 
 /// What became of a member, against the reference.

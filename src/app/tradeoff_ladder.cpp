@@ -96,6 +96,17 @@ void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
   }
 }
 
+/// Few modes with all their derivatives, and residual responses; the scene's own basis with some.
+void add_responses(const Scene& scene, std::vector<Candidate>& members) {
+  const auto with = [](const Scene& one, int count) {
+    return changed(one, [&](Body& body) { body.reduction.responses = count; });
+  };
+  for (const auto& [m, count] : {std::pair{1, 4}, {2, 8}, {3, 12}})
+    members.push_back({"residual responses", fmt::format("{} + all MDs + {} responses", modes_word(m), count),
+                       with(with_modes(scene, m, Choice::all), count), Formulation::vm_md});
+  members.push_back({"residual responses", "the scene's own + 8 responses", with(scene, 8), Formulation::vm_md});
+}
+
 void add_forces(const Scene& scene, std::vector<Candidate>& members) {
   members.push_back({"elastic force", "linear elastic force",
                      changed(scene, [](Body& body) { body.reduction.linear = true; }), Formulation::vm_md});
@@ -144,6 +155,7 @@ std::vector<Candidate> ladder(const Scene& as_written) {
   members.push_back({"rigid", "rigid bodies", changed(scene, [](Body& body) { body.rigid = true; }), Formulation::vm});
   add_models(scene, members);
   add_attachments(scene, members);
+  add_responses(scene, members);
   add_forces(scene, members);
   add_discretisations(scene, members);
   add_steps(scene, members);

@@ -200,7 +200,7 @@ TradeoffRun::Climbed TradeoffRun::selected(const Candidate& member, MPI_Comm com
   rung.lacks = fmt::format("{}", fmt::join(lacks, ", "));
   compare_with_full_order(chosen.scene, result.series, comm, rung);
   for (int again = 0; again < 2 && rung.motion < short_motion; ++again) {
-    assembly::Model model = chosen.pool->model(chosen.selection);
+    assembly::Model model = another_model(chosen, comm);
     rung.motion = std::min(rung.motion, move(chosen.scene, model, 0, comm, std::nullopt, plan).motion_processor);
   }
   return climbed;

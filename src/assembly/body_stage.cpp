@@ -56,6 +56,16 @@ void omit_products(const ReductionSpec& spec, ReducedBody& reduced) {
 
 }  // namespace
 
+void finish_elasticity(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced) {
+  if (body.spec.reduction.linear) {
+    reduced.body.elasticity = body::linearised(reduced.body.elasticity);
+    return;
+  }
+  reduced.body.elasticity =
+      reduction::condensed(body.structure, *reduced.basis, statics, reduced.body, following(*reduced.basis));
+  omit_products(body.spec.reduction, reduced);
+}
+
 std::string whole_name(const Body& body) { return body.name.substr(0, body.name.find('#')); }
 
 int count_of_modes(const PlannedBody& body) {
@@ -178,13 +188,7 @@ void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, co
             const reduction::Modes& modes, ReducedBody& reduced) {
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
-  if (body.spec.reduction.linear) {
-    reduced.body.elasticity = body::linearised(reduced.body.elasticity);
-  } else {
-    reduced.body.elasticity =
-        reduction::condensed(body.structure, *reduced.basis, statics, reduced.body, following(*reduced.basis));
-    omit_products(body.spec.reduction, reduced);
-  }
+  finish_elasticity(body, statics, reduced);
   reduced.damping = modal_damping(body, reduced, modes);
   reduced.report.columns = reduced.basis->columns;
   reduced.report.origins = reduced.basis->origins;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "drive.h"
 #include "floe/assembly/offline.h"
@@ -10,6 +11,7 @@
 #include "floe/solve/simulation.h"
 #include "load_scale.h"
 #include "planar_assembly.h"
+#include "residual_responses.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -102,14 +104,22 @@ void warn_of_files(ReducedBodies& all) {
           body.report.name, body.report.file, body.report.file_version));
 }
 
-ReducedBodies reduced_bodies(const Plan& plan, Formulation formulation, bool keep_offline = false) {
+ReducedBodies reduced_bodies(Offline& offline, Formulation formulation, bool keep_offline = false) {
+  const Plan& plan = offline.plan;
   ReducedBodies all{formulation, plan.comm, std::vector<ReducedBody>(plan.bodies.size()), {}};
   if (is_reduced(formulation)) {
+    const bool responding = formulation == Formulation::vm_md && has_responses(plan.scene);
     all.bodies = reduce_bodies(
         plan, formulation, [&](const std::vector<ReducedBody>& linear) { return interactions(plan, linear); },
-        all.warnings, keep_offline);
+        all.warnings, keep_offline || responding);
     for (std::size_t b = 0; b < all.bodies.size(); ++b) join_start(plan.bodies[b], all.bodies[b]);
     warn_of_files(all);
+    if (!responding) return all;
+    offline.reduced = std::move(all.bodies);
+    add_residual_responses(offline, all.warnings);
+    all.bodies = std::exchange(offline.reduced, {});
+    for (ReducedBody& body : all.bodies)
+      if (!keep_offline) body.statics.reset();
     return all;
   }
   for (std::size_t b = 0; b < all.bodies.size(); ++b)
@@ -157,7 +167,7 @@ void give_structures(const std::shared_ptr<const Offline>& offline, Model& model
 Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
   refuse_meshless(whole, formulation);
   const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
-  ReducedBodies reduced = reduced_bodies(offline->plan, formulation, keep_offline);
+  ReducedBodies reduced = reduced_bodies(*offline, formulation, keep_offline);
   Model model = assembled(offline->plan, reduced);
   give_structures(offline, model);
   if (!keep_offline) return model;
@@ -167,9 +177,10 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool kee
 }
 
 std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation formulation, MPI_Comm comm) {
-  const Scene scene = in_parts(whole, formulation);
+  Scene scene = in_parts(whole, formulation);
   refuse_meshless(scene, formulation);
-  return std::make_shared<const ReducedBodies>(reduced_bodies(prepare(scene, comm), formulation));
+  Offline offline(std::move(scene), comm);
+  return std::make_shared<const ReducedBodies>(reduced_bodies(offline, formulation));
 }
 
 Model build_on(const ReducedBodies& bodies, const Scene& whole) {

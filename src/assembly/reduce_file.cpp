@@ -210,6 +210,11 @@ output::ReducedBodyFile reduce_body(const Scene& scene, const std::string& name,
   const output::Claim claim = output::claim_file(comm, path);
   output::check_reduced_path(comm, path, overwrite);
   const double start = MPI_Wtime();
+  if (scene.bodies[index].reduction.responses > 0)
+    throw InputError(
+        fmt::format("{}: needs a simulation of the whole scene; floe reduce has the body alone, and expects no "
+                    "responses",
+                    scene.bodies[index].reduction.responses_where.text()));
   const Scene part = alone(scene, index);
   const Plan plan = prepare(part, comm);
   const PlannedBody& body = plan.bodies[0];

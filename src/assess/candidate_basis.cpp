@@ -29,13 +29,13 @@ namespace {
 /// Derivatives are taken of so many generators of a body at most: 28 pairs.
 constexpr std::size_t most_generators = 7;
 
-bool has_structure(const Body& body) { return !body.rigid && !body.reduced; }
+bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
 
 /// With all that the pool may offer, and no choice of the scene's own.
 Scene generous(const Scene& whole) {
   Scene scene = split_frames(whole);
   for (Body& body : scene.bodies) {
-    if (!has_structure(body)) continue;
+    if (!is_meshed(body)) continue;
     body.reduction.attachment = ReductionSpec::Attachment::all;
     body.reduction.columns.clear();
     body.reduction.linear = false;
@@ -70,7 +70,7 @@ struct Pool::Parts {
       : whole(scene), comm(communicator), offline(std::make_shared<Offline>(generous(scene), communicator)) {}
 
   const PlannedBody& body(std::size_t b) const { return offline->plan.bodies[b]; }
-  bool flexible(std::size_t b) const { return has_structure(body(b).spec); }
+  bool flexible(std::size_t b) const { return is_meshed(body(b).spec); }
 
   std::size_t group_of(std::size_t b, const std::string& label, bool response) {
     const std::string name = whole_name(body(b).spec);
@@ -337,6 +337,7 @@ std::string Pool::text(const Selection& selection, const Motion& motion) const {
 }
 
 bool Pool::has_responses(const Selection& selection) const {
+  if (selection.responses > 0) return false;
   for (std::size_t i = 0; i < columns().size(); ++i)
     if (selection.taken[i] && columns()[i].response) return true;
   return false;
@@ -348,7 +349,7 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
   std::map<std::string, std::string> files;
   const std::filesystem::path scene(path);
   for (std::size_t i = 0; i < columns().size(); ++i)
-    if (selection.taken[i] && columns()[i].response)
+    if (selection.taken[i] && columns()[i].response && selection.responses == 0)
       files[columns()[i].body] = scene.stem().string() + "-" + columns()[i].body + ".h5";
   const auto loaded = [&](const std::string& name) {
     return std::any_of(parts.whole.loads.begin(), parts.whole.loads.end(),

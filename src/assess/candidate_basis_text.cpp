@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+
 #include "floe/scene/copies.h"
 
 namespace floe::assess {
@@ -68,10 +70,11 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;
     bool any = false;
+    int responses = 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (!selection.taken[i] || columns[i].body != body.name) continue;
       any = true;
-      if (!columns[i].response) labels.push_back(columns[i].label);
+      columns[i].response ? static_cast<void>(++responses) : labels.push_back(columns[i].label);
     }
     YAML::Node node = root["bodies"][body.name];
     if (const auto file = files.find(body.name); file != files.end()) {
@@ -90,6 +93,9 @@ std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns
     YAML::Node reduction(YAML::NodeType::Map);
     if (node["reduction"].IsMap()) reduction = YAML::Clone(node["reduction"]);  // copies of the body may have it, too
     write_columns(reduction, labels, selection.linear);
+    reduction.remove("responses");
+    if (const int count = static_cast<int>(std::ceil(selection.responses * responses)); count > 0)
+      reduction["responses"] = count;
     node["reduction"] = reduction;
   }
   if (share_frames != scene.share_frames) root["share_frames"] = share_frames;

@@ -6,29 +6,16 @@
 #include <cmath>
 #include <limits>
 
-#include "estimate_lift.h"
 #include "estimate_parts.h"
-#include "floe/assembly/body_stage.h"
-#include "floe/assembly/combination.h"
-#include "floe/assembly/damping.h"
 #include "floe/assembly/enrichment.h"
-#include "floe/petsc/values.h"
+#include "floe/assembly/lift.h"
+#include "floe/assembly/residual_loads.h"
 
 namespace floe::assess {
 
 using Eigen::VectorXd;
 using petsc::check;
 using solve::State;
-
-void KeptMotion::keep(const solve::Instant& instant) {
-  if (instant.step == 0) begin_ = instant.t;
-  if (!instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
-  states_.push_back(solve::state_of(*model_.system, instant.t, instant.U, instant.V, instant.A));
-  if (states_.size() < most_) return;
-  for (std::size_t i = 0; 2 * i + 1 < states_.size(); ++i) std::swap(states_[i], states_[2 * i + 1]);
-  states_.resize(states_.size() / 2);
-  stride_ *= 2;
-}
 
 namespace {
 
@@ -40,97 +27,6 @@ bool keeps_factors(const Offline& offline) {
   for (std::size_t b = 0; b < offline.reduced.size(); ++b)
     if (has_structure(offline.plan.bodies[b]) && !offline.reduced[b].statics) return false;
   return true;
-}
-
-/// Residuals of full order at lifted states, body by body.
-class Residuals {
- public:
-  Residuals(const Model& reduced, Offline& offline, Model full)
-      : reduced_(reduced),
-        offline_(offline),
-        full_(std::move(full)),
-        U_(full_.system->create_vector()),
-        V_(full_.system->create_vector()),
-        A_(full_.system->create_vector()),
-        F_(full_.system->create_vector()),
-        loads_(reduced.bodies.size()) {}
-
-  /// Collective.
-  void add(const State& state) {
-    lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
-    full_.system->rebase(U_);
-    full_.system->residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, F_);
-    for (std::size_t b = 0; b < loads_.size(); ++b)
-      if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), state);
-    ++samples;
-  }
-  const std::vector<ResidualLoad>& loads(std::size_t body) const { return loads_[body]; }
-  /// |V'r| against the elastic forces that V carries, the greatest of each over the samples.
-  double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
-  int samples = 0;
-
- private:
-  void take(int b, const State& state) {
-    const PlannedBody& body = offline_.plan.bodies[b];
-    const ReducedBody& reduced = offline_.reduced[b];
-    petsc::VecHandle load = fem::field(body.structure);
-    {
-      petsc::Values all(F_), own(load);
-      const std::vector<PetscInt>& global = full_.system->coordinates().global();
-      const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
-      for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
-    }
-    const bool several = whole_name(body.spec) != body.spec.name;  // frames, whose damping acts on the body as one
-    if (body.spec.damping.mass != 0 && !several) add_mass_damping(b, state, load);
-    VectorXd along = products(*reduced.basis, load);
-    if (!body.spec.damping.modal.empty() || (body.spec.damping.mass != 0 && several)) {
-      const petsc::VecHandle field = fem::field(body.structure), force = fem::field(body.structure);
-      combine(*reduced.basis, along, field);
-      check(MatMult(fem::mass(body.structure, {}), field, force));
-      check(VecAXPY(load, -1, force));
-      along.setZero();
-    }
-    const BodyReport& report = reduced_.bodies[b];
-    const VectorXd eta = state.q.segment(report.first_elastic, report.columns);
-    unbalanced_ = std::max(unbalanced_, along.norm());
-    forces_ = std::max(forces_, (reduced.body.elasticity.linear_stiffness() * eta).norm());
-    loads_[b].push_back({std::move(load), eta});
-  }
-
-  /// load -= alpha P'MP q', which the full-order terms leave to this (full_order()).
-  void add_mass_damping(int b, const State& state, Vec load) {
-    const PlannedBody& body = offline_.plan.bodies[b];
-    const BodyReport& report = reduced_.bodies[b];
-    const fem::ReferenceFrame joints = damping_frame(offline_.plan, b);
-    const petsc::VecHandle rate = fem::field(body.structure), force = fem::field(body.structure);
-    combine(*offline_.reduced[b].basis, state.v.segment(report.first_elastic, report.columns), rate);
-    fem::to_frame(joints, rate);
-    check(MatMult(fem::mass(body.structure, {}), rate, force));
-    fem::balance(joints, force);
-    check(VecAXPY(load, -body.spec.damping.mass, force));
-  }
-
-  const Model& reduced_;
-  Offline& offline_;
-  Model full_;
-  petsc::VecHandle U_, V_, A_, F_;
-  std::vector<std::vector<ResidualLoad>> loads_;
-  double unbalanced_ = 0, forces_ = 0;
-};
-
-/// Elastic coordinates of all bodies.
-VectorXd deformations(const Model& model, const VectorXd& q) {
-  std::vector<double> all;
-  for (const BodyReport& body : model.bodies)
-    all.insert(all.end(), q.data() + body.first_elastic, q.data() + body.first_elastic + body.columns);
-  return Eigen::Map<VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
-}
-
-/// The state whose elastic coordinates are the greatest.
-const State& most_deformed(const Model& model, const std::vector<State>& states) {
-  return *std::max_element(states.begin(), states.end(), [&](const State& a, const State& b) {
-    return deformations(model, a.q).squaredNorm() < deformations(model, b.q).squaredNorm();
-  });
 }
 
 /// Where the motion deforms most, and some instants along it.

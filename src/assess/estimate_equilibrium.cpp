@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "estimate_lift.h"
 #include "estimate_parts.h"
+#include "floe/assembly/lift.h"
 #include "floe/petsc/factorisation.h"
 #include "floe/petsc/values.h"
 #include "floe/solve/start.h"

@@ -31,43 +31,6 @@ std::string without_estimate(const Offline& offline) {
   return "";
 }
 
-Model full_order(Offline& offline) {
-  std::vector<ReducedBody> compact(offline.reduced.size());
-  std::vector<std::vector<double>> modal;
-  std::vector<double> mass;
-  for (std::size_t b = 0; b < compact.size(); ++b) {
-    PlannedBody& body = offline.plan.bodies[b];
-    if (!has_structure(body)) compact[b] = offline.reduced[b];
-    modal.push_back(std::exchange(body.spec.damping.modal, {}));
-    mass.push_back(std::exchange(body.spec.damping.mass, 0));
-  }
-  const auto restore = [&] {
-    for (std::size_t b = 0; b < modal.size(); ++b) {
-      DampingSpec& damping = offline.plan.bodies[b].spec.damping;
-      damping.modal = modal[b], damping.mass = mass[b];
-    }
-  };
-  try {
-    Model model = assemble(offline.plan, Formulation::nlffr, compact);
-    restore();
-    return model;
-  } catch (...) {
-    restore();
-    throw;
-  }
-}
-
-VectorXd products(const reduction::Basis& basis, Vec r) {
-  VectorXd all(basis.columns);
-  for (int i = 0; i < basis.columns; ++i) {
-    Vec column = nullptr;
-    check(BVGetColumn(basis.V, i, &column));
-    check(VecDot(column, r, &all[i]));
-    check(BVRestoreColumn(basis.V, i, &column));
-  }
-  return all;
-}
-
 std::vector<double> known(std::vector<double> errors) {
   for (double& error : errors) error = known(error);
   return errors;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "floe/assembly/offline.h"
+#include "floe/assembly/residual_loads.h"
 #include "floe/assess/estimate.h"
 #include "floe/assess/probe_errors.h"
 #include "floe/petsc/together.h"
@@ -33,17 +33,11 @@ class Allowance {
   double begin_, allowed_;
 };
 
-inline bool has_structure(const PlannedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
-
 /// Of all bodies with a mesh.
 PetscInt elements_of(const Offline& offline);
 
 /// Why there can be no estimate for bodies like these; empty: there can.
 std::string without_estimate(const Offline& offline);
-
-/// Of full order; modal damping, which it does not know, is taken out of the residual by those who know V.
-/// Collective.
-Model full_order(Offline& offline);
 
 /// Runs `make`, which fills the estimate in within the time; where it cannot, the estimate says why and the result
 /// stands without it. Collective. @throws  what this rank alone has failed of (petsc::failed_together)
@@ -55,18 +49,6 @@ void fill_in(Estimate& estimate, MPI_Comm comm, const Allowance& time, double se
 
 /// An error beyond a hundred times what it is an error of is no estimate, whatever its size: infinite.
 inline double known(double error) { return error <= 100 ? error : std::numeric_limits<double>::infinity(); }
-
-/// V'r by plain products.
-Eigen::VectorXd products(const reduction::Basis& basis, Vec r);
-
-/// Every so many of them, `count` in all, the last one among them.
-template <class Value>
-std::vector<Value> spread(const std::vector<Value>& all, std::size_t count) {
-  if (count >= all.size()) return all;
-  std::vector<Value> some;
-  for (std::size_t i = 1; i <= count; ++i) some.push_back(all[i * all.size() / count - 1]);
-  return some;
-}
 
 /// `known` of each, with none that is no number.
 std::vector<double> known(std::vector<double> errors);

@@ -18,6 +18,7 @@ NEAR = 11  # points: numbers of the front that are closer are written together
 GROUPS = {"the scene's own model": ("*", 13, COLOURS[0], ("scene",)),
           "modes only, rigid": ("^", 6.5, COLOURS[5], ("rigid", "modes")),
           "modes and derivatives": ("D", 5.5, COLOURS[1], ("modes and derivatives", "attachment modes", "elastic force")),
+          "with residual responses": ("h", 6.5, "#332288", ("residual responses",)),
           "reduced, other frames": ("v", 6.5, COLOURS[3], ("frames",)),
           "reduced, other mesh or strains": ("P", 7, COLOURS[4], ("mesh", "strains")),
           "reduced, other step": ("X", 6.5, COLOURS[2], ("step", "integrator")),
@@ -78,7 +79,7 @@ def draw_models(axes, shown):
         if members:
             axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none", marker=marker,
                       markersize=size, color=colour, markeredgecolor="white", markeredgewidth=0.6,
-                      zorder=3 + (size > 9) + (colour == "black"), label=group)
+                      zorder=3 + (size > 9), label=group)
 
 
 def draw_front(axes, front):
@@ -88,23 +89,28 @@ def draw_front(axes, front):
     places = axes.transData.transform(points) * 72 / axes.figure.dpi
     groups = []
     for i, place in enumerate(places):
-        if groups and max(abs(place - places[groups[-1][-1]])) < NEAR:
+        if front[i].get("required"):
+            continue
+        if groups and groups[-1][-1] == i - 1 and max(abs(place - places[i - 1])) < NEAR:
             groups[-1].append(i)
         else:
             groups.append([i])
     for group in groups:
         text = f"{group[0] + 1}" if len(group) == 1 else f"{group[0] + 1}–{group[-1] + 1}"
-        at = points[group[len(group) // 2]]
-        axes.annotate(text, at, xytext=(-6, -5), textcoords="offset points", ha="right", va="top", fontsize=8)
+        write_below(axes, text, points[group[len(group) // 2]], "normal")
 
 
-def draw_selected(axes, shown):
+def draw_selected(axes, shown, front):
+    """Each with its label, and its number on the front."""
     for rung in shown:
         if rung.get("required"):
-            axes.annotate(f"accuracy: {per_cent(rung['required'])}", (rung["motion"], 100 * rung["error"]),
-                          xytext=(7, 5), textcoords="offset points", ha="left", va="bottom", fontsize=8.5,
-                          fontweight="bold", zorder=7,
-                          bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.75})
+            number = f"{front.index(rung) + 1}  " if rung in front else ""
+            write_below(axes, f"{number}accuracy: {per_cent(rung['required'])}", (rung["motion"], 100 * rung["error"]), "bold")
+
+
+def write_below(axes, text, at, weight):
+    axes.annotate(text, at, xytext=(-6, -6), textcoords="offset points", ha="right", va="top", fontsize=8,
+                  fontweight=weight, zorder=7, bbox={"boxstyle": "round,pad=0.05", "fc": "white", "ec": "none", "alpha": 0.7})
 
 
 def draw(description, shown, path, dpi):
@@ -117,11 +123,11 @@ def draw(description, shown, path, dpi):
     axes.set_xscale("log")
     axes.set_yscale("log")
     times, errors = [r["motion"] for r in shown], [100 * r["error"] for r in shown]
-    axes.set_xlim(min(times) / 3.5, max(times) * 1.6)
+    axes.set_xlim(min(times) / 8, max(times) * 1.6)
     axes.set_ylim(max(min(errors) / 5, 1e-7), min(max(errors) * 2, 300))
     draw_models(axes, shown)
     draw_front(axes, description["front"])
-    draw_selected(axes, shown)
+    draw_selected(axes, shown, description["front"])
     reference = description["reference"]
     own = reference["error"]
     if own and 100 * own > axes.get_ylim()[0]:

@@ -105,10 +105,26 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
       document.fault(reading.where("derivatives"), "cannot be combined with columns, which lists the derivatives",
                      "one of them");
   }
+  reduction.responses = reading.integer("responses");
+  if (reading.given("responses")) reduction.responses_where = reading.where("responses");
   reduction.linear = reading.choice("elastic_force") == "linear";
   reduction.products = read_products(document, reading);
   reduction.drop_tolerance = reading.number("drop_tolerance");
   return reduction;
+}
+
+void check_responses(Document& document, const Scene& scene) {
+  const bool changes = std::any_of(scene.events.begin(), scene.events.end(),
+                                   [](const Event& event) { return event.kind != Event::Kind::stop; });
+  for (const Body& body : scene.bodies) {
+    if (body.reduction.responses == 0) continue;
+    const Where& where = body.reduction.responses_where;
+    if (scene.motion.end == 0)
+      document.fault(where, "needs a preliminary simulation of the scene, which has no motion", "`motion`");
+    if (changes)
+      document.fault(where, "cannot be combined with events that change joints",
+                     "no responses, or events that only end the simulation");
+  }
 }
 
 }  // namespace floe::scene

@@ -139,6 +139,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   check_joints(document, scene);
   check_formulas(document, scene);
   check_events(document, scene);
+  check_responses(document, scene);
   document.throw_faults();
   scene.parameters = document.names.numbers;
   return scene;

@@ -58,6 +58,8 @@ void check_places(Document& document, const Scene& scene);
 void check_joints(Document& document, const Scene& scene);
 /// Joints and probes that events name.
 void check_events(Document& document, const Scene& scene);
+/// reduction.responses needs a motion, with joints that no event changes.
+void check_responses(Document& document, const Scene& scene);
 /// Formulas of time are finite from the start to the end of the motion.
 void check_formulas(Document& document, const Scene& scene);
 

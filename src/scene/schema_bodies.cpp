@@ -195,6 +195,14 @@ const SchemaSection reduction_section{
         {"columns", Type::texts, "", "",
          "labels of the basis vectors to use, as in summary.json: mode 1, attachment pin.moment, \"derivative 1,2\" "
          "(in quotation marks); not with derivatives; absent: all"},
+        {"responses",
+         Type::integer,
+         "",
+         "0",
+         "number of residual responses in vm+md, beside the other basis vectors: static responses of the deformed body "
+         "to the full-order residuals of a preliminary simulation of the scene's reduced model (see Choosing a model); "
+         "needs motion",
+         {0, 1e4}},
         choice("elastic_force", "von_karman",
                "elastic force of reduced models; linear: without quadratic and cubic terms, for small deflections",
                {"von_karman", "linear"}),

@@ -82,7 +82,7 @@ def of_a_tradeoff(folder):
     assert np.allclose(line.get_xdata(), [one["motion"] for one in front])
     assert np.allclose(line.get_ydata(), [100 * max(one["total"]) for one in front])
     assert all(a > b for a, b in zip(line.get_ydata(), line.get_ydata()[1:])), "the front goes down"
-    labels = {one.get_text(): one.xy for one in axes.texts if one.get_text().startswith("accuracy")}
+    labels = {one.get_text().split("  ")[-1]: one.xy for one in axes.texts if "accuracy" in one.get_text()}
     for one in description["rungs"]:
         if one.get("required") and not one["stopped"]:
             at = labels[f"accuracy: {100 * one['required']:g} %"]

@@ -112,17 +112,41 @@ TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
   }
 }
 
-TEST_CASE("accuracy: residual responses are written to the file of a reduced body") {
+TEST_CASE("accuracy: correction vectors are written as residual responses of the scene") {
   const scene::Scene scene = scene::parse_scene(plate, "scene");
   app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
-  REQUIRE(chosen.pool->has_responses(chosen.selection));
+  REQUIRE(chosen.selection.responses >= 1);
+  REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
   const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+  const double error = app::worst_error(result.series, truth(scene));
+  INFO("supported " << chosen.supported << ", true " << error);
+  CHECK(chosen.within());
+  CHECK(error <= 0.01);
   const Scratch folder;
   const std::string path = (folder / "chosen.yaml").string();
   const std::vector<std::string> files = chosen.pool->write(chosen.selection, chosen.scene.motion, path, false);
+  CHECK(files == std::vector{path});
+  const scene::Scene written = scene::read_scene(path);
+  CHECK(written.bodies[0].reduction.responses > 0);
+  const app::RunResult again = app::run(written, Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
+  CHECK(again.coordinates == result.coordinates);
+  CHECK(app::worst_error(again.series, result.series) < 1e-8);
+}
+
+TEST_CASE("accuracy: correction vectors themselves are written to the file of a reduced body") {
+  const scene::Scene scene = scene::parse_scene(plate, "scene");
+  app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
+  assess::Selection selection = chosen.selection;
+  selection.responses = 0;
+  REQUIRE(chosen.pool->has_responses(selection));
+  assembly::Model model = chosen.pool->model(selection);
+  const app::RunResult result = app::move(chosen.scene, model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+  const Scratch folder;
+  const std::string path = (folder / "chosen.yaml").string();
+  const std::vector<std::string> files = chosen.pool->write(selection, chosen.scene.motion, path, false);
   REQUIRE(files.size() == 2);
   CHECK(files[1] == (folder / "chosen-plate.h5").string());
-  CHECK_THROWS_WITH(chosen.pool->write(chosen.selection, chosen.scene.motion, path, false), Catch::Contains("exists"));
+  CHECK_THROWS_WITH(chosen.pool->write(selection, chosen.scene.motion, path, false), Catch::Contains("exists"));
   const app::RunResult again =
       app::run(scene::read_scene(path), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
   CHECK(again.coordinates == result.coordinates);

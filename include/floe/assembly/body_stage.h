@@ -57,4 +57,8 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
 void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
             const reduction::Modes& modes, ReducedBody& reduced);
 
+/// reduction.elastic_force, strains of third order (reduction::condensed) and reduction.products, of a body that was
+/// projected with all products. Collective.
+void finish_elasticity(const PlannedBody& body, const reduction::Statics& statics, ReducedBody& reduced);
+
 }  // namespace floe::assembly

@@ -10,13 +10,16 @@ namespace floe::assess {
 /// A basis vector that the bodies of a scene may have. The pieces of a split body (frames: N) have it together.
 struct PoolColumn {
   std::string body, label;  ///< `beam`, `derivative 1,2`
-  bool response = false;    ///< of the error estimate: the grammar of scenes has no words for it
+  bool response = false;    ///< of the error estimate: no scene names this one
 };
 
 /// A model on some basis vectors of a pool. A body without any is rigid.
 struct Selection {
   std::vector<char> taken;  ///< of each column of the pool
   bool linear = false;      ///< elastic forces by the linear stiffness alone
+  /// Above 0: in place of the correction vectors taken, so many times as many residual responses of the scene that
+  /// text() writes (reduction.responses); no model of a candidate basis.
+  double responses = 0;
   std::size_t count() const;
 };
 
@@ -50,6 +53,7 @@ class Pool {
   /// The scene with `columns` (and `rigid`, `elastic_force`) in its bodies and the steps of a motion, as text of a
   /// scene file; with responses among the basis vectors, without words for these.
   std::string text(const Selection& selection, const Motion& motion) const;
+  /// Whether it has correction vectors that no scene names.
   bool has_responses(const Selection& selection) const;
   /// That text into a file. Bodies with responses are written beside it, NAME-BODY.h5, and read from there.
   /// @return what was written, the scene first

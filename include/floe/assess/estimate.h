@@ -4,31 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "floe/assembly/model.h"
-#include "floe/solve/deviation.h"
-#include "floe/solve/simulation.h"
+#include "floe/assembly/kept_motion.h"
 
 namespace floe::assess {
 using namespace assembly;
 using namespace plan;
 using namespace scene;
-
-/// States of a reduced motion, each so many steps apart that there are at most `most`: what its estimate needs.
-class KeptMotion {
- public:
-  explicit KeptMotion(const Model& model, std::size_t most = 4000) : model_(model), most_(most) {}
-  /// Called at the start and after each step; the start has no accelerations yet and only gives the time.
-  void keep(const solve::Instant& instant);
-  double begin() const { return begin_; }
-  const std::vector<solve::State>& states() const { return states_; }
-
- private:
-  const Model& model_;
-  std::size_t most_;
-  double begin_ = 0;
-  PetscInt stride_ = 1;
-  std::vector<solve::State> states_;
-};
 
 /// How far a reduced motion is from that of its full-order model (same mesh, exact in time), without moving the latter.
 struct Estimate {

@@ -121,6 +121,8 @@ struct ReductionSpec {
   /// Share of the displacement that omitted products of coordinates in the elastic force may make up; absent, 0: none
   /// is omitted.
   std::optional<double> products;
+  int responses = 0;  ///< static responses to residuals of a preliminary simulation, vm+md
+  Where responses_where;
   double drop_tolerance = 1e-7;
 };
 

@@ -142,8 +142,8 @@ TEST_CASE("trade-off: the ladder varies frames, meshes, basis, steps and formula
     if (member.family == "cfr") CHECK(member.formulation == scene::Formulation::cfr);
   }
   CHECK(families == std::set<std::string>{"scene", "rigid", "modes", "modes and derivatives", "attachment modes",
-                                          "elastic force", "frames", "mesh", "step", "integrator", "full order", "cfr",
-                                          "accuracy"});
+                                          "residual responses", "elastic force", "frames", "mesh", "step", "integrator",
+                                          "full order", "cfr", "accuracy"});
   for (const char* name : {"2 frames", "4 frames", "nlffr, 2 frames", "nlffr", "cfr", "lffr", "twice the elements"})
     CHECK(std::any_of(names.begin(), names.end(), [&](const std::string& one) { return one.ends_with(name); }));
 }

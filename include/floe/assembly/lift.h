@@ -2,10 +2,7 @@
 #include "floe/assembly/offline.h"
 #include "floe/solve/deviation.h"
 
-namespace floe::assess {
-using namespace assembly;
-using namespace plan;
-using namespace scene;
+namespace floe::assembly {
 
 /// A state of the reduced model in the coordinates of one whose bodies have more columns, behind those they have;
 /// multipliers of rows that the reduced model leaves out are zero. Rank-local.
@@ -15,4 +12,4 @@ solve::State lifted_to_more_columns(const solve::State& state, const Model& redu
 void lift_to_full_order(const solve::State& state, const Model& reduced, const Offline& offline, const Model& full,
                         Vec U, Vec V, Vec A);
 
-}  // namespace floe::assess
+}  // namespace floe::assembly

@@ -1,11 +1,11 @@
-#include "estimate_lift.h"
+#include "floe/assembly/lift.h"
 
 #include <algorithm>
 
 #include "floe/assembly/combination.h"
 #include "floe/petsc/values.h"
 
-namespace floe::assess {
+namespace floe::assembly {
 
 using Eigen::VectorXd;
 using solve::State;
@@ -71,4 +71,4 @@ void lift_to_full_order(const State& state, const Model& reduced, const Offline&
   solve::set_state(*full.system, lifted, U, V, A);
 }
 
-}  // namespace floe::assess
+}  // namespace floe::assembly

@@ -1,0 +1,39 @@
+#pragma once
+#include "floe/assembly/model.h"
+#include "floe/solve/deviation.h"
+#include "floe/solve/simulation.h"
+
+namespace floe::assembly {
+
+/// States of a reduced motion, each so many steps apart that there are at most `most`: what its estimate needs.
+class KeptMotion {
+ public:
+  explicit KeptMotion(const Model& model, std::size_t most = 4000) : model_(model), most_(most) {}
+  /// Called at the start and after each step; the start has no accelerations yet and only gives the time.
+  void keep(const solve::Instant& instant);
+  double begin() const { return begin_; }
+  const std::vector<solve::State>& states() const { return states_; }
+
+ private:
+  const Model& model_;
+  std::size_t most_;
+  double begin_ = 0;
+  PetscInt stride_ = 1;
+  std::vector<solve::State> states_;
+};
+
+/// Every so many of them, `count` in all, the last one among them.
+template <class Value>
+std::vector<Value> spread(const std::vector<Value>& all, std::size_t count) {
+  if (count >= all.size()) return all;
+  std::vector<Value> some;
+  for (std::size_t i = 1; i <= count; ++i) some.push_back(all[i * all.size() / count - 1]);
+  return some;
+}
+
+/// The state whose elastic coordinates are the greatest.
+const solve::State& most_deformed(const Model& model, const std::vector<solve::State>& states);
+/// Elastic coordinates of all bodies.
+Eigen::VectorXd deformations(const Model& model, const Eigen::VectorXd& q);
+
+}  // namespace floe::assembly
