@@ -3,8 +3,7 @@
 #include <petscsys.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
@@ -136,23 +135,20 @@ petsc::VecHandle shown_state(const assembly::Model& model, Vec U) {
 
 namespace {
 
-/// For pictures: joints/NAME/kind, and places, a row each: body (its number in the summary, from 0; -1: ground), x.
+/// For pictures: motion/joints, JSON with name, kind and both ends of each joint: body (its number in the summary, from
+/// 0; -1: ground; -2: ground where the other place is at the start) and place.
 void write_joints(output::ResultFile& file, const assembly::Model& model) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const assembly::JointPlaces& joint : model.joint_places) {
-    std::array<double, 8> rows{};
-    for (std::size_t i = 0; i < 2; ++i) {
-      const auto& end = joint.ends[i];
-      rows[4 * i] = end.body;
-      for (int d = 0; d < 3; ++d)  // of the ground at the other place: none
-        rows[4 * i + 1 + static_cast<std::size_t>(d)] = std::isfinite(end.x[d]) ? end.x[d] : 0;
-      if (!end.x.allFinite()) rows[4 * i] = -2;
+    nlohmann::ordered_json ends;
+    for (const auto& end : joint.ends) {
+      const bool known = end.x.allFinite();
+      const Eigen::Vector3d x = known ? end.x : Eigen::Vector3d::Zero();
+      ends.push_back({{"body", known ? end.body : -2}, {"x", {x[0], x[1], x[2]}}});
     }
-    file.write_text("joints/" + joint.name + "/kind", joint.kind);
-    file.write_array("joints/" + joint.name + "/places", {2, 4}, rows,
-                     {"",
-                      "body by its number in the summary, -1: ground, -2: ground where the other place is at the "
-                      "start; place in the axes of the floating frame or the world"});
+    all.push_back({{"name", joint.name}, {"kind", joint.kind}, {"ends", ends}});
   }
+  if (!all.empty()) file.write_text("motion/joints", all.dump());
 }
 
 }  // namespace

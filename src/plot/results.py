@@ -148,19 +148,20 @@ class Joint:
 
 def joints_of(file, names, bodies):
     found, known = [], {body.name: body for body in bodies}
-    for name in file["joints"] if "joints" in file else []:
-        group, ends = file["joints"][name], []
-        for number, *x in group["places"][()]:
-            body = known.get(names[int(number)]) if number >= 0 else None
+    for joint in json.loads(text_of(file["motion/joints"][()])) if "motion/joints" in file else []:
+        ends = []
+        for end in joint["ends"]:
+            number, x = end["body"], np.array(end["x"], float)
+            body = known.get(names[number]) if number >= 0 else None
             if number >= 0 and body is None:
                 continue  # without mesh in the results
             if body is None:
-                ends.append((None, None, np.array(x) if number == -1 else None))
+                ends.append((None, None, x if number == -1 else None))
                 continue
             node = int(np.argmin(np.linalg.norm(body.mesh.positions - x, axis=1)))
-            ends.append((body, node, np.array(x) - body.mesh.positions[node]))
+            ends.append((body, node, x - body.mesh.positions[node]))
         if any(body is not None for body, *_ in ends):
-            found.append(Joint(name, text_of(group["kind"][()]), ends))
+            found.append(Joint(joint["name"], joint["kind"], ends))
     return found
 
 
