@@ -52,13 +52,14 @@ def section(example, folder, out):
     if os.path.exists(picture):
         shutil.copyfile(picture, os.path.join(out, f"tradeoff_{example}.png"))
         lines += [f"![Total error versus computing time, {found['title']}](tradeoff_{example}.png)", ""]
-    lines += [page, ""]
+    made = found["provenance"]["floe"]
+    lines += [page, "", f"Measured with floe {made['version']} ({made['commit']}).", ""]
     ratios = sorted(effectivity(found["rungs"]))
     if ratios:
         inside = sum(0.3 <= ratio <= 3 for ratio in ratios)
         lines += [f"Ratio of estimated and true total (reduced models with errors from 1e-4 % to 30 %): {ratios[0]:.2g} to "
                   f"{ratios[-1]:.2g}, median {ratios[len(ratios) // 2]:.2g}; {inside} of {len(ratios)} between 0.3 and 3.", ""]
-    return lines, found["provenance"]
+    return lines
 
 
 def main():
@@ -70,7 +71,7 @@ def main():
     parser.add_argument("--reuse", action="store_true", help="take results that are in --work already as they are")
     parser.add_argument("examples", nargs="*", default=EXAMPLES)
     arguments = parser.parse_args()
-    sections, origin, failed = [], None, []
+    sections, any_result, failed = [], False, []
     for example in arguments.examples:
         folder = os.path.join(arguments.work, example)
         there = arguments.reuse and os.path.exists(os.path.join(folder, "tradeoff.json"))
@@ -80,20 +81,19 @@ def main():
             failed.append(example)
             sections += [f"## {example}", "", f"No result: {why}.", ""]
             continue
-        lines, origin = section(example, folder, arguments.out)
-        sections += lines
+        sections += section(example, folder, arguments.out)
+        any_result = True
     left_out = [example for example in EXAMPLES if example not in arguments.examples]
     if left_out:
         sections += ["## Examples that were not simulated for this page", "",
                      f"{', '.join(left_out)}: `makefiles/tradeoff.sh build {' '.join(EXAMPLES)}` (`make tradeoff`) writes the page with all "
                      "examples; `floe tradeoff examples/NAME/scene.yaml` writes one of them.", ""]
-    if origin:
+    if any_result:
         with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), NOTES), encoding="utf-8") as file:
             notes = file.read().strip()
         date = datetime.date.today().isoformat()
         head = ["# Accuracy versus computing time", "", notes, "",
-                f"Written by `make tradeoff` on {date}, floe {origin['floe']['version']} ({origin['floe']['commit']}), "
-                f"{processor()}.", ""]
+                f"Written by `make tradeoff` on {date}, {processor()}.", ""]
         with open(os.path.join(arguments.out, "tradeoff.md"), "w", encoding="utf-8") as file:
             file.write("\n".join(head + sections).rstrip() + "\n")
     return 1 if failed else 0
