@@ -10,10 +10,10 @@
 #include "floe/dynamics/floating_body.h"
 #include "floe/petsc/values.h"
 #include "floe/plan/mesh_copy.h"
+#include "floe/plan/weight.h"
 #include "floe/reference/corotational_beam.h"
 #include "floe/solve/start.h"
 #include "planar_redundant.h"
-#include "weight.h"
 
 namespace floe::assembly {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "beam_sides.h"
+#include "floe/plan/beam_sides.h"
 #include "floe/plan/prepare.h"
 #include "floe/reduction/projection.h"
 

@@ -3,8 +3,8 @@
 #include "floe/dynamics/held_body.h"
 #include "floe/dynamics/spatial_force.h"
 #include "floe/math/rotation.h"
+#include "floe/plan/weight.h"
 #include "spatial_assembly.h"
-#include "weight.h"
 
 namespace floe::assembly {
 

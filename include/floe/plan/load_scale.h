@@ -1,8 +1,7 @@
 #pragma once
 #include "floe/plan/prepare.h"
 
-namespace floe::assembly {
-using namespace plan;
+namespace floe::plan {
 
 /// A force of the scene [N], beside which others are round-off or not: the maximum, over 64 intervals of the motion, of
 /// its forces (moments, distributed loads and pressures by its extent) and of the weight of its bodies; and a
@@ -10,4 +9,4 @@ using namespace plan;
 /// 0: nothing of this is there. Collective.
 double force_of(const Plan& plan);
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

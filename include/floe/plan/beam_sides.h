@@ -3,7 +3,7 @@
 
 #include "floe/fem/structure.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 
 /// One side of a node of a beam: an element that begins or ends there, and what of the body hangs on it.
 struct BeamSide {
@@ -22,4 +22,4 @@ struct BeamSide {
 /// Collective; the same on all ranks but for `cell` and `cells`.
 std::vector<BeamSide> beam_sides(const fem::Structure& structure, PetscInt node);
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

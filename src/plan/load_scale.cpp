@@ -1,13 +1,13 @@
-#include "load_scale.h"
+#include "floe/plan/load_scale.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "floe/fem/structure.h"
-#include "weight.h"
+#include "floe/plan/weight.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 
 namespace {
 
@@ -106,4 +106,4 @@ double force_of(const Plan& plan) {
   return std::isfinite(most) ? most : 0;
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

@@ -3,7 +3,7 @@
 
 #include "floe/scene/scene.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 using namespace scene;
 
 /// The acceleration that all that has mass feels: gravity less that of the ground, world axes [m/s2].
@@ -24,4 +24,4 @@ struct Weight {
   bool none() const { return constant() && (*this)(0).isZero(0); }
 };
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

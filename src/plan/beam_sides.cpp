@@ -1,4 +1,4 @@
-#include "beam_sides.h"
+#include "floe/plan/beam_sides.h"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +6,7 @@
 #include "floe/fem/quadratic_beam.h"
 #include "floe/mesh/exchange.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 namespace {
 
 /// A cell of any rank: the nodes that move it; of beams where it is.
@@ -114,4 +114,4 @@ std::vector<BeamSide> beam_sides(const fem::Structure& structure, PetscInt node)
   return sides;
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::plan
