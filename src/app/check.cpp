@@ -158,7 +158,7 @@ output::Table frequency_table(const std::vector<assembly::BodyProperties>& bodie
 }  // namespace
 
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& wanted, int frequencies) {
-  const scene::Scene split = plan::split_frames(scene);
+  const scene::Scene split = plan::split_frames(scene, comm);
   const std::vector<Size> sizes = sizes_of(scene, split, comm);
   assembly::check_modes(scene, comm);
   const std::vector<assembly::BodyProperties> properties = assembly::body_properties(scene, comm, frequencies);

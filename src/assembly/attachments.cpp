@@ -217,6 +217,13 @@ bool carries_moment(const Joint& joint, int dimension) {
   }
 }
 
+/// Forces and moments on a side of a cut that its interface vectors distribute, besides the first one.
+void add_interface(const PlannedBody& body, const Interface& cut, int side, const std::string& name, Attachments& all) {
+  for (Eigen::Index vector = 1; vector < cut.factors.cols(); ++vector)
+    for (int c = 0; c < 6; ++c)
+      all.push_back(unit_load(body, cut.sum(side, vector), c, fmt::format("{}/{}", name, vector + 1)));
+}
+
 void add_joints(const Plan& plan, int index, Attachments& all) {
   const PlannedBody& body = plan.bodies[index];
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
@@ -225,6 +232,9 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
     const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : plan.joint_held[j] != 0;
     if (held_there && held_there->body == index && held && !of_frame(body)) continue;
     const bool moment = carries_moment(joint, body.structure.dimension());
+    for (const int side : {0, 1})
+      if (!plan.interfaces.empty() && plan.joints[j][side].body == index)
+        add_interface(body, plan.interfaces[j], side, joint.name, all);
     for (const Anchor& place : plan.joints[j])
       for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
            ++c)

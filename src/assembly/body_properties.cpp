@@ -45,7 +45,7 @@ std::vector<double> frequencies_of(const PlannedBody& body, const fem::Condition
 }  // namespace
 
 std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, int frequencies) {
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<BodyProperties> all;
   for (const PlannedBody& body : plan.bodies) {

@@ -111,10 +111,26 @@ void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyRepor
   generate(plan, index, modes, stage, report);
 }
 
+namespace {
+
+/// Whether a field is the response to an interface vector beyond the first one of a cut (`strip#1-2/2.fx`), which
+/// changes the stress near the cut alone.
+bool of_higher_vector(const std::string& label) {
+  const std::size_t cut = label.find('#');
+  return cut != std::string::npos && label.find('/', cut) != std::string::npos;
+}
+
+}  // namespace
+
 reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
   using Choice = DerivativesSpec::Choice;
-  if (spec.choice == Choice::all) return reduction::all_pairs(static_cast<int>(generators.fields.size()));
   reduction::Pairs pairs;
+  if (spec.choice == Choice::all) {
+    for (const auto& pair : reduction::all_pairs(static_cast<int>(generators.fields.size())))
+      if (std::none_of(pair.begin(), pair.end(), [&](int i) { return of_higher_vector(generators.origins[i].label); }))
+        pairs.push_back(pair);
+    return pairs;
+  }
   if (spec.choice == Choice::pairs)
     for (const auto& [i, j] : spec.pairs) {
       if (const int modes = static_cast<int>(generators.modes.omega.size()); j > modes)

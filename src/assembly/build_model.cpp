@@ -89,8 +89,8 @@ struct ReducedBodies {
 
 namespace {
 
-Scene in_parts(const Scene& whole, Formulation formulation) {
-  return formulation == Formulation::cfr ? whole : split_frames(whole);
+Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
+  return formulation == Formulation::cfr ? whole : split_frames(whole, comm);
 }
 
 /// Files of versions before 4 have first moments and places at arms to first order only, and do not tell whether there
@@ -166,7 +166,7 @@ void give_structures(const std::shared_ptr<const Offline>& offline, Model& model
 
 Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool keep_offline) {
   refuse_meshless(whole, formulation);
-  const auto offline = std::make_shared<Offline>(in_parts(whole, formulation), comm);
+  const auto offline = std::make_shared<Offline>(in_parts(whole, formulation, comm), comm);
   ReducedBodies reduced = reduced_bodies(*offline, formulation, keep_offline);
   Model model = assembled(offline->plan, reduced);
   give_structures(offline, model);
@@ -177,14 +177,14 @@ Model build(const Scene& whole, Formulation formulation, MPI_Comm comm, bool kee
 }
 
 std::shared_ptr<const ReducedBodies> reduce_once(const Scene& whole, Formulation formulation, MPI_Comm comm) {
-  Scene scene = in_parts(whole, formulation);
+  Scene scene = in_parts(whole, formulation, comm);
   refuse_meshless(scene, formulation);
   Offline offline(std::move(scene), comm);
   return std::make_shared<const ReducedBodies>(reduced_bodies(offline, formulation));
 }
 
 Model build_on(const ReducedBodies& bodies, const Scene& whole) {
-  const auto offline = std::make_shared<Offline>(in_parts(whole, bodies.formulation), bodies.comm);
+  const auto offline = std::make_shared<Offline>(in_parts(whole, bodies.formulation, bodies.comm), bodies.comm);
   Model model = assembled(offline->plan, bodies);
   give_structures(offline, model);
   if (!is_reduced(bodies.formulation)) return model;

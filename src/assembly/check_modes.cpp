@@ -10,7 +10,7 @@ namespace floe::assembly {
 
 void check_modes(const Scene& whole, MPI_Comm comm) {
   constexpr PetscInt plenty = 12;
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<std::string> faults;
   for (const PlannedBody& body : plan.bodies) {

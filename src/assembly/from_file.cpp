@@ -92,10 +92,13 @@ body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anc
     return map;
   }
   const fem::Structure& structure = plan.bodies[place.body].structure;
-  return place.nodes.empty()
-             ? reduction::place_map(structure, *reduced.basis, place.node)
-             : reduction::place_map(structure, *reduced.basis,
-                                    place.weights ? *place.weights : place_weights(structure.mesh, place.nodes));
+  if (place.nodes.empty()) return reduction::place_map(structure, *reduced.basis, place.node);
+  if (place.factors.empty())
+    return reduction::place_map(structure, *reduced.basis,
+                                place.weights ? *place.weights : place_weights(structure.mesh, place.nodes));
+  std::vector<reduction::WeightedNode> nodes;
+  for (std::size_t i = 0; i < place.nodes.size(); ++i) nodes.push_back({place.nodes[i], place.factors[i]});
+  return reduction::place_map(structure, *reduced.basis, nodes);
 }
 
 }  // namespace floe::assembly

@@ -23,6 +23,7 @@ void for_each_shared(const Model& from, const Model& to, Visit&& visit) {
       visit(from.bodies[b].first_coordinate + i, to.bodies[b].first_coordinate + i);
   for (std::size_t j = 0; j < std::min(from.joints.size(), to.joints.size()); ++j) {
     const std::vector<int>&mine = from.joints[j].rows, &theirs = to.joints[j].rows;
+    if (from.joints[j].at_nodes.size() != to.joints[j].at_nodes.size()) continue;  // spread_cuts
     for (std::size_t i = 0; i < mine.size(); ++i)
       if (const auto at = std::find(theirs.begin(), theirs.end(), mine[i]); at != theirs.end())
         visit(from.joints[j].first + static_cast<int>(i), to.joints[j].first + static_cast<int>(at - theirs.begin()));
@@ -32,6 +33,17 @@ void for_each_shared(const Model& from, const Model& to, Visit&& visit) {
 State zero_state(const State& like, const Model& model) {
   const VectorXd zero = VectorXd::Zero(model.system->coordinates().local_size());
   return {like.t, zero, zero, zero, like.bases};
+}
+
+/// Multipliers at the nodes of cuts.
+void spread_cuts(const State& from, const Model& reduced, const Model& full, State& to) {
+  for (std::size_t j = 0; j < std::min(reduced.joints.size(), full.joints.size()); ++j) {
+    const Eigen::MatrixXd& spread = reduced.joints[j].at_nodes;
+    if (spread.size() == 0) continue;
+    const int mine = reduced.joints[j].first, theirs = full.joints[j].first;
+    for (const auto& [a, b] : {std::pair(&from.q, &to.q), {&from.v, &to.v}, {&from.a, &to.a}})
+      b->segment(theirs, spread.rows()) = spread * a->segment(mine, spread.cols());
+  }
 }
 
 void copy_entry(const State& from, int i, State& to, int j) {
@@ -54,6 +66,7 @@ void lift_to_full_order(const State& state, const Model& reduced, const Offline&
   State lifted = zero_state(state, full);
   lifted.bases.resize(full.system->attitudes().size());  // without those of damping
   for_each_shared(reduced, full, [&](int i, int j) { copy_entry(state, i, lifted, j); });
+  spread_cuts(state, reduced, full, lifted);
   for (std::size_t b = 0; b < reduced.bodies.size(); ++b) {
     const BodyReport &mine = reduced.bodies[b], &theirs = full.bodies[b];
     if (theirs.first_dof < 0) {  // as it is in both: rigid, or from a file

@@ -83,7 +83,7 @@ void write_body_matrices(MPI_Comm comm, const PlannedBody& body, const std::file
 
 std::vector<std::string> write_matrices(const Scene& whole, MPI_Comm comm, const std::filesystem::path& folder,
                                         bool overwrite) {
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<std::string> names;
   for (const PlannedBody& body : plan.bodies)

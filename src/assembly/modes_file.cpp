@@ -56,7 +56,7 @@ std::vector<BodyReport> write_modes(const Scene& whole, MPI_Comm comm, const std
                                     bool overwrite) {
   const output::Claim claim = output::claim_file(comm, path);
   output::check_shapes_path(comm, path, overwrite);
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<BodyFields> fields(plan.bodies.size());
   std::vector<BodyReport> reports;

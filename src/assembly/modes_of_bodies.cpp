@@ -3,13 +3,13 @@
 namespace floe::assembly {
 
 std::vector<BodyReport> body_modes(const Scene& whole, MPI_Comm comm) {
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   return modes_of_bodies(plan);
 }
 
 std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<BodyReport> reports;
   for (const PlannedBody& body : plan.bodies) {

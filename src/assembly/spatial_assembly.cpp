@@ -165,7 +165,7 @@ void SpatialAssembly::add_coordinates() {
   add_damping_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
-    const int rows = stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind);
+    const int rows = row_count(static_cast<int>(j));
     multipliers_.push_back(coordinates_.add_shared(rows, true));
     const auto latches = latches_.find(plan_.scene.joints[j].name);
     if (latches == latches_.end() || !latches->second.lock) continue;
@@ -367,11 +367,7 @@ Model SpatialAssembly::model() {
   std::size_t next = 0;
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) attitudes.emplace_back(whole.f.rotation, damped_attitudes_[next++]);
-  for (std::size_t j = 0; j < multipliers_.size(); ++j) {
-    std::vector<int> rows(stands(static_cast<int>(j)) ? 0 : spatial_rows(plan_.scene.joints[j].kind));
-    std::iota(rows.begin(), rows.end(), 0);
-    model.joints.push_back({multipliers_[j], std::move(rows)});
-  }
+  for (std::size_t j = 0; j < multipliers_.size(); ++j) model.joints.push_back(multipliers_of(static_cast<int>(j)));
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
   model.latches = latches_;

@@ -89,7 +89,16 @@ class SpatialAssembly {
   void refuse_loose_supports() const;
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
-  void add_joint(int joint, const PlacedJoint& placed, const std::vector<int>& standing);
+  /// @param first  of its multipliers
+  void add_joint(int joint, const PlacedJoint& placed, int first, const std::vector<int>& standing);
+  int row_count(int joint) const;
+  void count_uses();
+  /// What couples the nodes of a cut (Interface), or the joint itself. Collective.
+  std::vector<PlacedJoint> place_all(int joint);
+  /// Of the pieces of place_all, whether no other row has the dofs of one of its nodes, so that its rows are
+  /// independent.
+  bool stands_apart(int joint, std::size_t piece) const;
+  JointMultipliers multipliers_of(int joint) const;
   void add_spring(int joint, const PlacedJoint& placed);
   using Of = dynamics::RelativeCoordinate::Of;
   /// Of a joint, on its rank: since the start, but for a length.
@@ -108,7 +117,7 @@ class SpatialAssembly {
   dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;
   /// Where a marker is at the start.
   dynamics::SpatialPose start_of(const dynamics::SpatialMarker& marker) const;
-  PlacedJoint place(int joint);
+  PlacedJoint place(int joint, const std::array<Anchor, 2>& anchors);
 
   const Plan& plan_;
   Formulation formulation_;
@@ -120,6 +129,7 @@ class SpatialAssembly {
   std::vector<std::shared_ptr<dynamics::Attitude>> damped_attitudes_;  // of those that have axes
   std::vector<int> multipliers_;                                       // of each joint, the first
   std::vector<PlacedJoint> placed_;                                    // every joint
+  std::map<std::pair<int, PetscInt>, int> uses_;                       // of a body's node, by rows of joints
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::vector<std::vector<const dynamics::Term*>> body_terms_;    // of each body, among terms_

@@ -83,13 +83,13 @@ std::string point(const Eigen::Vector3d& p) { return fmt::format("({:.6g}, {:.6g
 
 }  // namespace
 
-SpatialAssembly::PlacedJoint SpatialAssembly::place(int j) {
+SpatialAssembly::PlacedJoint SpatialAssembly::place(int j, const std::array<Anchor, 2>& anchors) {
   const Joint& joint = plan_.scene.joints[j];
   const Eigen::Matrix3d& W = plan_.joint_axes[j];
-  PlacedJoint placed{{marker(plan_.joints[j][0]), marker(plan_.joints[j][1])}, {}};
+  PlacedJoint placed{{marker(anchors[0]), marker(anchors[1])}, {}};
   if (!owner_) return placed;
   for (int i = 0; i < 2; ++i)  // a ground without a point follows the other place
-    if (plan_.joints[j][i].ground() && std::isnan(placed.places[i].x0.x()))
+    if (anchors[i].ground() && std::isnan(placed.places[i].x0.x()))
       placed.places[i].x0 = start_of(placed.places[1 - i]).p;
   for (SpatialMarker& place : placed.places) place.D0 = place.D0 * start_of(place).D.transpose() * W;
   const Eigen::Vector3d from = start_of(placed.places[0]).p, to = start_of(placed.places[1]).p;
@@ -137,17 +137,17 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
                      joint.torsional_stiffness, joint.torsional_viscosity, 0, joint.rest_angle}));
 }
 
-void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, const std::vector<int>& standing) {
+void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, int first, const std::vector<int>& standing) {
   const auto found = latches_.find(plan_.scene.joints[j].name);
   const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
-  connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint,
-                                                      multipliers_[j], standing, plan_.extent, latches.joint));
+  connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint, first,
+                                                      standing, plan_.extent, latches.joint));
   if (latches.lock)
     connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
                                                         dynamics::lock_of(placed.constraint), latches.first_row,
                                                         latches.lock, true));
   for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
-    terms_.push_back(std::make_unique<reference::HeldDof>(multipliers_[j] + i, 1));  // of a row that is left out
+    terms_.push_back(std::make_unique<reference::HeldDof>(first + i, 1));  // of a row that is left out
 }
 
 std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int j, Of of,
@@ -197,13 +197,30 @@ void SpatialAssembly::refuse_loose_supports() const {
 }
 
 void SpatialAssembly::add_joints(Model& model) {
+  struct Piece {  // with rows
+    int joint;
+    PlacedJoint placed;
+    int first;   // of its multipliers
+    bool apart;  // its rows are independent
+  };
   std::vector<int> all;  // finding places is collective, what follows is rank-local
+  std::vector<Piece> pieces;
   std::string notes;
   refuse_loose_supports();
   const auto find = [&] {
-    for (std::size_t j = 0; j < plan_.joints.size(); ++j)
-      if (placed_.push_back(place(static_cast<int>(j))); !stands(static_cast<int>(j)))
-        all.push_back(static_cast<int>(j));
+    count_uses();
+    for (int j = 0; j < static_cast<int>(plan_.joints.size()); ++j) {
+      std::vector<PlacedJoint> placed = place_all(j);
+      placed_.push_back(placed.front());
+      if (stands(j)) continue;
+      all.push_back(j);
+      int first = multipliers_[j];
+      for (std::size_t i = 0; i < placed.size() && owner_; ++i) {
+        const int rows = dynamics::rows(placed[i].constraint);
+        if (rows > 0) pieces.push_back({j, std::move(placed[i]), first, stands_apart(j, i)});
+        first += rows;
+      }
+    }
   };
   const auto add = [&] {
     if (!owner_) {
@@ -211,15 +228,17 @@ void SpatialAssembly::add_joints(Model& model) {
       return;
     }
     SpatialRows rows(plan_, start_);
-    for (const int j : all)
-      if (!placed_[j].constraint.rows.empty()) rows.add(j, placed_[j].places, placed_[j].constraint);
+    for (const Piece& piece : pieces)
+      if (!piece.apart) rows.add(piece.joint, piece.placed.places, piece.placed.constraint);
     const std::vector<std::vector<int>> standing = rows.standing(notes, undetermined_);
     std::size_t next = 0;
     for (const int j : all)
-      if (placed_[j].constraint.rows.empty())
-        add_spring(j, placed_[j]);
-      else
-        add_joint(j, placed_[j], standing[next++]);
+      if (placed_[j].constraint.rows.empty()) add_spring(j, placed_[j]);
+    for (const Piece& piece : pieces) {
+      std::vector<int> every(piece.placed.constraint.rows.size());
+      std::iota(every.begin(), every.end(), 0);
+      add_joint(piece.joint, piece.placed, piece.first, piece.apart ? every : standing[next++]);
+    }
     for (const int j : all) add_stops(j, placed_[j], model.stops);
   };
   if (is_reduced(formulation_)) {

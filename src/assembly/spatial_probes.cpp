@@ -13,11 +13,19 @@ namespace {
 
 Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 
-/// Of a part of a split line, in mesh axes.
+/// Of a part of a split body, in mesh axes.
 struct MassCentre {
   Vector3d at;
-  double gyration;  ///< its square, about axes across the line [m2]
+  double gyration;  ///< its square, about axes across the body's length [m2]
 };
+
+/// @param along  from the first part to the last, in mesh axes
+MassCentre mass_centre_of_piece(const PlannedBody& part, const body::Inertia& mass, const Vector3d& along) {
+  const Eigen::Matrix3d moments =
+      part.axes * (mass.C0 / mass.m - mass.s0 * mass.s0.transpose() / (mass.m * mass.m)) * part.axes.transpose();
+  const double lengthwise = along.dot(moments * along);
+  return {part.origin + part.axes * mass.s0 / mass.m, lengthwise + (moments.trace() - lengthwise) / 2};
+}
 
 MassCentre mass_centre(const Body& part) {
   const Vector3d a = vector(part.mesh.points[part.mesh.segments[0][0]]),
@@ -39,13 +47,15 @@ SpatialFrameByPlaces SpatialAssembly::whole_frame(const std::vector<Anchor>& pla
   };
   SpatialFrameByPlaces frame{plan_.bodies[probe.body].frame.kind, {}, {}};
   Vector3d origin = Vector3d::Zero();
+  const Vector3d along = (in_mesh_axes(places.back()) - in_mesh_axes(places.front())).normalized();
   for (const Anchor& place : places) {
     const PlannedBody& part = plan_.bodies[place.body];
     SpatialMarker at = marker(place);
     at.D0 = part.axes.transpose();
     frame.undeformed.push_back(in_mesh_axes(place));
     if (frame.kind == FrameKind::mean_axis) {
-      const MassCentre centre = mass_centre(part.spec);
+      const MassCentre centre =
+          part.spec.mesh.piece ? mass_centre_of_piece(part, rigid(part).body.inertia, along) : mass_centre(part.spec);
       frame.undeformed.back() = centre.at, frame.gyration = centre.gyration;
       at.x0 = part.axes.transpose() * (centre.at - part.origin);
       at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 0);

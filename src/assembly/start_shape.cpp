@@ -29,6 +29,15 @@ Vector3d displacement_at(const PlannedBody& body, const Anchor& place, Vec shape
   return u;
 }
 
+/// Both of a joint, or those of all interface vectors.
+std::vector<Anchor> places_of(const Plan& plan, std::size_t j) {
+  std::vector<Anchor> all{plan.joints[j][0], plan.joints[j][1]};
+  if (plan.interfaces.empty() || plan.interfaces[j].empty()) return all;
+  for (Eigen::Index vector = 1; vector < plan.interfaces[j].factors.cols(); ++vector)
+    for (int side : {0, 1}) all.push_back(plan.interfaces[j].sum(side, vector));
+  return all;
+}
+
 }  // namespace
 
 Eigen::VectorXd start_shape(const Plan& plan, int b, const ReducedBody& reduced, Vec shape) {
@@ -42,7 +51,7 @@ Eigen::VectorXd start_shape(const Plan& plan, int b, const ReducedBody& reduced,
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Joint::Kind kind = plan.scene.joints[j].kind;
     if (kind == Joint::Kind::spring || kind == Joint::Kind::bushing) continue;
-    for (const Anchor& place : plan.joints[j]) {
+    for (const Anchor& place : places_of(plan, j)) {
       if (place.body != b) continue;
       S.conservativeResize(S.rows() + d, k), wanted.conservativeResize(wanted.size() + d);
       S.bottomRows(d) = place_map(plan, reduced, place).S.topRows(d);

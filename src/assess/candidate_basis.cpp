@@ -32,8 +32,8 @@ constexpr std::size_t most_generators = 7;
 bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
 
 /// With all that the pool may offer, and no choice of the scene's own.
-Scene generous(const Scene& whole) {
-  Scene scene = split_frames(whole);
+Scene generous(const Scene& whole, MPI_Comm comm) {
+  Scene scene = split_frames(whole, comm);
   for (Body& body : scene.bodies) {
     if (!is_meshed(body)) continue;
     body.reduction.attachment = ReductionSpec::Attachment::all;
@@ -67,7 +67,9 @@ struct Pool::Parts {
   mutable std::map<std::pair<std::size_t, std::vector<char>>, ReducedBody> reduced;
 
   Parts(const Scene& scene, MPI_Comm communicator)
-      : whole(scene), comm(communicator), offline(std::make_shared<Offline>(generous(scene), communicator)) {}
+      : whole(scene),
+        comm(communicator),
+        offline(std::make_shared<Offline>(generous(scene, communicator), communicator)) {}
 
   const PlannedBody& body(std::size_t b) const { return offline->plan.bodies[b]; }
   bool flexible(std::size_t b) const { return is_meshed(body(b).spec); }

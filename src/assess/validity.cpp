@@ -226,7 +226,7 @@ std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vecto
 std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, const KeptMotion& motion, MPI_Comm comm) {
   std::vector<OutOfRange> out;
   if (motion.states().empty() || model.formulation == Formulation::cfr) return out;
-  const Scene scene = split_frames(whole);
+  const Scene scene = split_frames(whole, comm);
   const std::vector<Seen> seen = look(model, motion.states(), comm);
   judge_slopes(model, samples_of(motion.states()), seen, comm, out);
   const bool linear = model.formulation == Formulation::lffr;

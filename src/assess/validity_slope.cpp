@@ -43,14 +43,14 @@ bool is_straight(const std::vector<BentElement>& elements) {
 
 struct SlopeError {
   double error = 0;
-  bool splits = false;  ///< one straight line, which `frames` can split
+  bool splits = false;  ///< `frames` can split it: in space every mesh, in the plane one straight line
 };
 
 /// That of a strip under a force across its tip, tangent (cfr: 0.032 at a slope of 0.5) or chord; end moments err by
 /// 0.04 and 0.008.
 SlopeError error_of_shells(const BodyReport& body, double slope) {
   const bool tangent = body.frame != "pinned" && body.frame != "mean-axis";
-  return {tangent ? 0.25 * std::pow(slope, 3) : 0.03 * std::pow(slope, 4), false};
+  return {tangent ? 0.25 * std::pow(slope, 3) : 0.03 * std::pow(slope, 4), true};
 }
 
 SlopeError greatest_error(const Model& model, const Whole& whole, const std::vector<const State*>& states,
@@ -66,7 +66,7 @@ SlopeError greatest_error(const Model& model, const Whole& whole, const std::vec
       if (parts.back().empty()) return error_of_shells(body, slope);
     }
     most.error = std::max(most.error, rotation_error(parts, is_reduced(model.formulation) ? 2 : 3));
-    most.splits = whole.frames() > 1 || is_straight(parts[0]);
+    most.splits = whole.frames() > 1 || model.bodies[whole.first].dimension == 3 || is_straight(parts[0]);
   }
   return most;
 }

@@ -13,6 +13,7 @@
 #include "floe/plan/shared_frames.h"
 #include "floe/plan/spatial_start.h"
 #include "floe/scene/file_places.h"
+#include "interfaces.h"
 #include "rims.h"
 
 namespace floe::plan {
@@ -211,6 +212,7 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
     plan.extent = std::max(
         plan.extent, body.spec.reduced ? extent_of(*body.spec.reduced->file) : extent_of_mesh(body.structure.mesh));
   prepare_joints(plan, place);
+  find_interfaces(plan);
   fix_frames(plan);
   check_pairs(plan);
   for (PlannedBody& body : plan.bodies) {

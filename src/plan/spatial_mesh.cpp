@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "cut_mesh.h"
 #include "deck_sections.h"
 #include "floe/fem/default_strains.h"
 #include "floe/generate/generate.h"
@@ -111,13 +112,21 @@ Source generated(const Body& body, MPI_Comm comm) {
   return {generate::polyline(comm, line), {}, {}};
 }
 
-Source raw_mesh(const Body& body, MPI_Comm comm) {
+Source whole_source(const Body& body, MPI_Comm comm) {
   if (body.mesh.file) return read_file(body, comm);
   try {
     return generated(body, comm);
   } catch (const InputError& error) {
     throw InputError(body.mesh.where.text() + ": " + error.what());
   }
+}
+
+Source raw_mesh(const Body& body, MPI_Comm comm) {
+  Source source = whole_source(body, comm);
+  if (!body.mesh.piece) return source;
+  source.mesh = piece_of(on_every_rank(source.mesh), *body.mesh.piece, source.followers);
+  if (body.mesh.piece->number > 0) source.notices.clear();  // those of the whole file
+  return source;
 }
 
 void refuse_faults(const Body& body, const mesh::Inspection& inspection) {
@@ -235,13 +244,18 @@ std::vector<std::vector<PetscInt>> rigid_pieces(const Scene& scene, const Body& 
 
 /// The place `middle` of what is one line from start to end. Collective.
 void add_middle(const Body& body, SpatialMesh& found) {
-  if (!has_middle(body.mesh)) return;
+  if (body.mesh.piece || !has_middle(body.mesh)) return;
   Place middle;
   middle.name = "middle";
   found.places["middle"] = {fem::nearest_node(found.structure.mesh, vector(place_point(body.mesh, middle))).node};
 }
 
 }  // namespace
+
+WholeMesh whole_mesh(const Body& body, MPI_Comm comm) {
+  Source source = whole_source(body, comm);
+  return {on_every_rank(source.mesh), std::move(source.followers)};
+}
 
 SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   Source source = raw_mesh(body, comm);

@@ -1,8 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
+#include "cut_mesh.h"
 #include "floe/plan/prepare.h"
+#include "floe/plan/prepare_spatial_joints.h"
+#include "floe/plan/shared_frames.h"
 #include "floe/scene/places.h"
 
 namespace floe::plan {
@@ -16,108 +22,195 @@ double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0],
 
 std::string part_name(const std::string& body, int i) { return fmt::format("{}#{}", body, i + 1); }
 
-Body part_of(const Body& body, int i) {
-  if (body.mesh.segments.size() != 1)
-    throw InputError(body.where.text() + ": frames splits one straight line; this mesh has " +
-                     std::to_string(body.mesh.segments.size()) + " segments");
+/// Bodies that are cut (cut_mesh), by name; the other split ones are single lines.
+using Cuts = std::map<std::string, CutMesh>;
+
+bool is_split(const Body& body) { return body.frames > 1; }
+bool is_line(const Body& body) { return body.mesh.segments.size() == 1; }
+
+int part_count(const Body& body, const Cuts& cuts) {
+  const auto cut = cuts.find(body.name);
+  return cut == cuts.end() ? body.frames : static_cast<int>(cut->second.pieces.size());
+}
+
+void to_part(const std::string& name, FrameSpec& frame) {
+  for (Place* place : {&frame.from, &frame.to, &frame.at}) {
+    place->body = name;
+    place->point.reset();
+  }
+  frame.from.name = frame.at.name = "start";
+  frame.to.name = "end";
+}
+
+Body part_of_line(const Body& body, int i) {
   if (body.mesh.elements[0] % body.frames != 0)
     throw InputError(fmt::format("{}: {} elements cannot be divided equally among {} frames; expected a multiple",
                                  body.where.text(), body.mesh.elements[0], body.frames));
   Body part = body;
-  part.name = part_name(body.name, i);
-  part.frames = 1;
   const Point a = body.mesh.points[body.mesh.segments[0][0]], b = body.mesh.points[body.mesh.segments[0][1]];
   part.mesh.points = {between(a, b, double(i) / body.frames), between(a, b, double(i + 1) / body.frames)};
   part.mesh.segments = {{0, 1}};
   part.mesh.elements = {body.mesh.elements[0] / body.frames};
-  for (Place* place : {&part.frame.from, &part.frame.to, &part.frame.at}) {
-    place->body = part.name;
-    place->point.reset();
-  }
-  part.frame.from.name = part.frame.at.name = "start";
-  part.frame.to.name = "end";
+  to_part(part_name(body.name, i), part.frame);
   return part;
 }
 
-/// The part that a place of the whole body lies on, by its coordinates.
-void redirect(const Scene& scene, Place& place) {
-  for (const Body& body : scene.bodies) {
-    if (body.name != place.body || body.frames == 1) continue;
-    const Point x = place_point(body.mesh, place), a = body.mesh.points[body.mesh.segments[0][0]];
-    const double along = distance(a, x) / total_length(body.mesh) * body.frames;
-    const int i = std::max(0, std::min(body.frames - 1, static_cast<int>(std::ceil(along - 1e-9)) - 1));
-    place.body = part_name(body.name, i);
-    place.name.clear();
-    place.point = x;
-    return;
-  }
+Body part_of(const Body& body, const Cuts& cuts, int i) {
+  const auto cut = cuts.find(body.name);
+  Body part = cut == cuts.end() ? part_of_line(body, i) : body;
+  if (cut != cuts.end()) part.mesh.piece = cut->second.pieces[i];
+  part.name = part_name(body.name, i);
+  part.frames = 1;
+  return part;
 }
 
-FrameSpec::Kind kind_of_frame(const Scene& scene, const Body& body) {
-  return scene.dimension == 3 && !body.frame.given ? FrameSpec::Kind::mean_axis : body.frame.kind;
+const Body* split_body(const Scene& scene, const std::string& name) {
+  for (const Body& body : scene.bodies)
+    if (body.name == name && is_split(body)) return &body;
+  return nullptr;
+}
+
+/// A place of a line, on the part where its coordinates lie.
+void redirect_on_line(const Body& body, Place& place) {
+  const Point x = place_point(body.mesh, place), a = body.mesh.points[body.mesh.segments[0][0]];
+  const double along = distance(a, x) / total_length(body.mesh) * body.frames;
+  const int i = std::max(0, std::min(body.frames - 1, static_cast<int>(std::ceil(along - 1e-9)) - 1));
+  place.body = part_name(body.name, i);
+  place.name.clear();
+  place.point = x;
+}
+
+void move_to_piece(const Body& body, int piece, Place& place) {
+  if (place.name == "middle" && !place.point) place.point = place_point(body.mesh, place);
+  if (place.point) place.name.clear();
+  place.body = part_name(body.name, piece);
+}
+
+/// Puts a place of the whole body on the part that has it, the first of several.
+/// @param beside  a place that is to be on the same part, of the same body
+void redirect(const Scene& scene, const Cuts& cuts, Place& place, Place* beside = nullptr) {
+  const Body* body = split_body(scene, place.body);
+  if (!body) return;
+  const auto cut = cuts.find(body->name);
+  if (cut == cuts.end()) {
+    redirect_on_line(*body, place);
+    if (beside) redirect_on_line(*body, *beside);
+    return;
+  }
+  std::vector<int> pieces = cut->second.pieces_of(*body, place);
+  if (beside) {
+    std::vector<int> both;
+    const std::vector<int> others = cut->second.pieces_of(*body, *beside);
+    std::set_intersection(pieces.begin(), pieces.end(), others.begin(), others.end(), std::back_inserter(both));
+    pieces = both;
+  }
+  if (pieces.empty())
+    throw InputError(
+        beside
+            ? fmt::format("{}: is not on the same floating frame of body {} as the place of its probe; expected a "
+                          "place on the element beside it",
+                          beside->where.text(), body->name)
+            : fmt::format("{}: lies in several of the {} floating frames of body {}; expected a place that one frame "
+                          "contains, or frames: 1",
+                          place.where.text(), body->frames, body->name));
+  move_to_piece(*body, pieces.front(), place);
+  if (beside) move_to_piece(*body, pieces.front(), *beside);
+}
+
+/// Where the ground clamps the body, if anywhere.
+const Place* clamped_place(const Scene& scene, const Body& body) {
+  for (const Joint& joint : scene.joints)
+    if (clamps(joint) && joint.first.ground() != joint.second.ground()) {
+      const Place& place = joint.first.ground() ? joint.second : joint.first;
+      if (place.body == body.name) return &place;
+    }
+  return nullptr;
 }
 
 /// A deflection in a body of several frames is from the frame that the body would have as a whole.
-void refer_to_whole(const Scene& scene, Probe& probe) {
-  if (probe.quantity != Probe::Quantity::deflection) return;
-  for (const Body& body : scene.bodies) {
-    if (body.name != probe.at.body || body.frames == 1) continue;
-    switch (kind_of_frame(scene, body)) {
-      case FrameSpec::Kind::pinned:
-        probe.frame = {body.frame.from, body.frame.to};
-        break;
-      case FrameSpec::Kind::clamped:
-        probe.frame = {body.frame.at};
-        break;
-      case FrameSpec::Kind::mean_axis:
-        for (int i = 0; i < body.frames; ++i) probe.frame.push_back({part_name(body.name, i), "start", {}, body.where});
-    }
+void refer_to_whole(const Scene& scene, const Cuts& cuts, Probe& probe) {
+  const Body* body = split_body(scene, probe.at.body);
+  if (probe.quantity != Probe::Quantity::deflection || !body) return;
+  FrameSpec::Kind kind = body->frame.kind;
+  const Place* at = &body->frame.at;
+  if (scene.dimension == 3 && !body->frame.given) {
+    const Place* clamp = clamped_by_default(*body) ? clamped_place(scene, *body) : nullptr;
+    kind = clamp ? FrameSpec::Kind::clamped : FrameSpec::Kind::mean_axis;
+    if (clamp) at = clamp;
+  }
+  if (kind == FrameSpec::Kind::pinned) probe.frame = {body->frame.from, body->frame.to};
+  if (kind == FrameSpec::Kind::clamped) probe.frame = {*at};
+  for (int i = 0; kind == FrameSpec::Kind::mean_axis && i < part_count(*body, cuts); ++i) {
+    Place& place = probe.frame.emplace_back();
+    place.body = part_name(body->name, i);
+    place.where = body->where;
+    place.name = "start";
+    if (const auto cut = cuts.find(body->name); cut != cuts.end())
+      place.name = cut->second.pieces[i]->cuts.begin()->first;
+  }
+}
+
+Joint between_parts(const Body& body, const Cuts& cuts, int j) {
+  Joint joint;
+  joint.kind = Joint::Kind::fixed;
+  joint.where = body.where;
+  int first = j, second = j + 1;
+  std::string start = "start", end = "end";
+  if (const auto cut = cuts.find(body.name); cut != cuts.end()) {
+    first = cut->second.cuts[j].first, second = cut->second.cuts[j].second;
+    start = end = cut->second.cuts[j].name;
+    joint.edges = Joint::Edges::nodes;
+  }
+  joint.name = fmt::format("{}#{}-{}", body.name, first + 1, second + 1);
+  joint.first = {part_name(body.name, first), end, {}, body.where};
+  joint.second = {part_name(body.name, second), start, {}, body.where};
+  return joint;
+}
+
+/// A spread load on each part, a pressure on those that have shells for it (or the first, which will be refused).
+void add_parts_of(const Scene& scene, const Cuts& cuts, const Load& load, std::vector<Load>& loads) {
+  const Body* body = load.spread() ? split_body(scene, load.body) : nullptr;
+  if (!body) return loads.push_back(load);
+  std::vector<int> parts(static_cast<std::size_t>(part_count(*body, cuts)));
+  std::iota(parts.begin(), parts.end(), 0);
+  if (const auto cut = cuts.find(body->name); cut != cuts.end() && load.kind == Load::Kind::pressure)
+    if (parts = cut->second.pieces_with_shells(load.part); parts.empty()) parts = {0};
+  for (int i : parts) {
+    loads.push_back(load);
+    loads.back().body = part_name(load.body, i);
   }
 }
 
 }  // namespace
 
-Scene split_frames(const Scene& scene) {
+Scene split_frames(const Scene& scene, MPI_Comm comm) {
+  Cuts cuts;
+  for (const Body& body : scene.bodies)
+    if (is_split(body) && !is_line(body)) cuts.emplace(body.name, cut_mesh(body, comm));
   Scene split = scene;
-  for (Joint& joint : split.joints) redirect(scene, joint.first), redirect(scene, joint.second);
+  for (Joint& joint : split.joints) redirect(scene, cuts, joint.first), redirect(scene, cuts, joint.second);
   for (Load& load : split.loads)
-    if (!load.spread()) redirect(scene, load.at);
+    if (!load.spread()) redirect(scene, cuts, load.at);
   for (Probe& probe : split.probes) {
-    refer_to_whole(scene, probe);
-    for (Place& place : probe.frame) redirect(scene, place);
-    redirect(scene, probe.at);
-    if (probe.relative_to) redirect(scene, *probe.relative_to);
-    if (probe.toward) redirect(scene, *probe.toward);
+    refer_to_whole(scene, cuts, probe);
+    for (Place& place : probe.frame) redirect(scene, cuts, place);
+    redirect(scene, cuts, probe.at, probe.toward ? &*probe.toward : nullptr);
+    if (probe.relative_to) redirect(scene, cuts, *probe.relative_to);
   }
+  const std::vector<Load> scene_loads = std::move(split.loads);
   split.bodies.clear();
   for (const Body& body : scene.bodies) {
-    if (body.frames == 1) {
+    if (!is_split(body)) {
       split.bodies.push_back(body);
       continue;
     }
-    for (int i = 0; i < body.frames; ++i) {
-      split.bodies.push_back(part_of(body, i));
-      if (i == 0) continue;
-      Joint joint;
-      joint.kind = Joint::Kind::fixed;
-      joint.name = fmt::format("{}#{}-{}", body.name, i, i + 1);
-      joint.first = {part_name(body.name, i - 1), "end", {}, body.where};
-      joint.second = {part_name(body.name, i), "start", {}, body.where};
-      joint.where = body.where;
-      split.joints.push_back(joint);
-    }
+    for (int i = 0; i < part_count(body, cuts); ++i) split.bodies.push_back(part_of(body, cuts, i));
+    const auto cut = cuts.find(body.name);
+    const int joints = cut == cuts.end() ? body.frames - 1 : static_cast<int>(cut->second.cuts.size());
+    for (int j = 0; j < joints; ++j) split.joints.push_back(between_parts(body, cuts, j));
   }
-  std::vector<Load> loads;
-  for (const Load& load : split.loads) {
-    int parts = 1;
-    for (const Body& body : scene.bodies)
-      if (load.spread() && body.name == load.body) parts = body.frames;
-    for (int i = 0; i < parts; ++i) {
-      loads.push_back(load);
-      if (parts > 1) loads.back().body = part_name(load.body, i);
-    }
-  }
-  split.loads = std::move(loads);
+  split.loads.clear();
+  for (const Load& load : scene_loads) add_parts_of(scene, cuts, load, split.loads);
   return split;
 }
 

@@ -38,25 +38,31 @@ void check_frame(Document& document, const Body& body) {
   }
 }
 
+void refuse_interface(Document& document, const Body& body) {
+  for (const Place& place : body.reduction.interface)
+    document.fault(place.where, "cannot be combined with several frames", "an interface of a body in one frame");
+}
+
 void check_interface(Document& document, const Body& body) {
-  for (const Place& place : body.reduction.interface) {
-    checked_point(document, body, place);
-    if (body.frames > 1)
-      document.fault(place.where, "cannot be combined with several frames", "an interface of a body in one frame");
-  }
+  for (const Place& place : body.reduction.interface) checked_point(document, body, place);
+  if (body.frames > 1) refuse_interface(document, body);
 }
 
 void check_frames(Document& document, const Body& body) {
   if (body.frames == 1) return;
   Where where = body.where;
   where.key += ".frames";
-  if (body.mesh.segments.size() != 1) {
-    const char* what = body.mesh.segments.empty() ? "that is not a line" : "of several segments";
-    document.fault(where, fmt::format("is {} for a mesh {}", body.frames, what), "1, or a single line");
-  } else if (body.mesh.elements[0] % body.frames != 0) {
+  const bool line = body.mesh.segments.size() == 1;
+  if (document.dimension == 2 && !line)
+    document.fault(where, fmt::format("is {} for a planar mesh of several segments", body.frames),
+                   "1, a single line, or a scene in space");
+  else if (line && body.mesh.elements[0] % body.frames != 0)
     document.fault(where, fmt::format("is {} for {} elements", body.frames, body.mesh.elements[0]),
                    "a divisor of the number of elements");
-  }
+  if (document.dimension == 3 && !line && body.frame.given && body.frame.kind != FrameSpec::Kind::mean_axis)
+    document.fault(body.frame.where,
+                   fmt::format("is given for {} frames of a mesh that is not a single line", body.frames),
+                   "mean-axis, or no frame");
 }
 
 void check_modes(Document& document, const Body& body) {
@@ -105,8 +111,8 @@ void check_body(Document& document, const Body& body) {
   check_frames(document, body);
   if (document.fault_count() != before) return;
   if (document.dimension == 3) {  // the rest is checked on the mesh itself
-    if (body.frames > 1 && body.frame.given) check_frame(document, body);
-    if (body.frames > 1) check_interface(document, body);
+    if (body.frames > 1 && body.frame.given && body.mesh.segments.size() == 1) check_frame(document, body);
+    if (body.frames > 1) refuse_interface(document, body);
     return;
   }
   check_frame(document, body);

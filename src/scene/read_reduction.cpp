@@ -109,6 +109,7 @@ ReductionSpec read_reduction(Document& document, const Value& value, const std::
   if (reading.given("responses")) reduction.responses_where = reading.where("responses");
   reduction.linear = reading.choice("elastic_force") == "linear";
   reduction.products = read_products(document, reading);
+  reduction.interface_degree = reading.integer("interface_degree");
   reduction.drop_tolerance = reading.number("drop_tolerance");
   return reduction;
 }

@@ -52,8 +52,12 @@ const SchemaSection body_section{
              "body",
              "frame"),
         {"frames", Type::integer, "", "1",
-         "number of floating frames into which a straight line is split, each of the kind given by `frame`, with rigid "
-         "connections; must divide the number of elements",
+         "number of floating frames into which the body is split, with rigid connections: a single line into equal "
+         "parts, each with a frame of the kind given by `frame` (must divide the number of elements); in space any "
+         "other "
+         "mesh by planes across its longest extent, at existing nodes (unconnected parts of a slice have frames of "
+         "their "
+         "own)",
          counts},
         part("reduction", Type::section, "", "the reduced basis; absent: the defaults of `reduction`", "reduction"),
         part("damping", Type::section, "", "damping; absent: none", "damping"),
@@ -215,6 +219,14 @@ const SchemaSection reduction_section{
          "of "
          "the length of the body (see Choosing a model); absent: all",
          {0, 1, true, true}},
+        {"interface_degree",
+         Type::integer,
+         "",
+         "1",
+         "of several frames: degree of the polynomials of the place that distribute three forces and three moments "
+         "over "
+         "the nodes of each cut (interface vectors); 0: resultants alone. Cuts of one node need none",
+         {0, 6}},
         {"drop_tolerance",
          Type::number,
          "",

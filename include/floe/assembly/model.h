@@ -125,6 +125,9 @@ struct ModelStop {
 struct JointMultipliers {
   int first = 0;
   std::vector<int> rows;
+  /// Of a cut through a body in a reduced model: rows of the full-order model x own rows, multipliers at the nodes by
+  /// those of the interface vectors; empty: the same rows.
+  Eigen::MatrixXd at_nodes = {};
 };
 
 /// A joint, for pictures: its kind and its two places.

@@ -40,6 +40,7 @@ struct Anchor {
   /// In space, of a load with a shape: weights of `nodes` in the place; null: those of place_weights.
   std::shared_ptr<const std::vector<reduction::WeightedNode>> weights = {};
   bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
+  std::vector<double> factors = {};                ///< in space: of `nodes`; none: the weights of their mean
   std::shared_ptr<const body::PlaceMap> map = {};  ///< of a body from a file, on all its coordinates; `node` names it
 
   static constexpr int elsewhere = -2;
@@ -86,6 +87,17 @@ struct LoadPart {
   double size = 1;
 };
 
+/// The pairs of nodes that a cut through a body has on both of its sides (edges: nodes), and the interface vectors by
+/// which reduced models couple them: displacements and rotations summed over the pairs with these factors. The first
+/// ones are the weights of the mean; further ones the weights times polynomials of the undeformed place.
+struct Interface {
+  std::vector<std::array<Anchor, 2>> pairs;
+  Eigen::MatrixXd factors;  ///< pairs x vectors; columns but the first sum up to zero
+  bool empty() const { return pairs.empty(); }
+  /// Place `vector` of a side: the sum of its nodes' places.
+  Anchor sum(int side, Eigen::Index vector) const;
+};
+
 /// Joints, loads and probes with their places found on the meshes.
 struct Plan {
   const Scene& scene;
@@ -101,6 +113,7 @@ struct Plan {
   /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
   std::vector<char> joint_held = {};
   std::map<std::size_t, std::vector<LoadPart>> load_parts = {};  ///< of loads per length or area
+  std::vector<Interface> interfaces = {};  ///< in space, of each joint; of those without edges: nodes empty
 };
 
 /// Where a force or moment acts: its place, or the parts of one per length or area.
@@ -123,7 +136,8 @@ MPI_Comm comm_of(const Plan& plan, Formulation formulation);
 /// Whether this rank holds what the ranks of a system share.
 bool last_rank(MPI_Comm comm);
 
-/// Each split body (frames: N) as N bodies `name#i` that are clamped together. @throws InputError
-Scene split_frames(const Scene& scene);
+/// Each split body (frames: N) as bodies `name#i` that are clamped together: a single line as N lines of equal length,
+/// another mesh in pieces (cut_mesh), whose joints have edges: nodes. @throws InputError  Collective.
+Scene split_frames(const Scene& scene, MPI_Comm comm);
 
 }  // namespace floe::plan

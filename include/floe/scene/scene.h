@@ -51,10 +51,19 @@ struct MeshFileSpec {
   double scale = 1;
 };
 
+/// The piece of a mesh that one of several frames carries, and its places on the cuts.
+struct MeshPiece {
+  int number = 0;                                       ///< of this piece, from 0
+  std::shared_ptr<const std::vector<int>> of_elements;  ///< of each element of the whole mesh: the number of its piece
+  std::vector<int> links;                               ///< of the whole mesh's rigid links, those that it keeps
+  std::map<std::string, std::vector<long long>> cuts;   ///< by name: nodes of the whole mesh, ascending
+};
+
 /// Straight segments between points, each divided into elements of equal length; or a plate; or a file.
 struct MeshSpec {
   std::optional<PlateSpec> plate;
   std::optional<MeshFileSpec> file;
+  std::shared_ptr<const MeshPiece> piece;  ///< only this piece of the mesh; null: all of it
   std::vector<Point> points;
   std::vector<std::array<int, 2>> segments;  ///< indices of points
   std::vector<int> elements;                 ///< of each segment
@@ -123,6 +132,8 @@ struct ReductionSpec {
   std::optional<double> products;
   int responses = 0;  ///< static responses to residuals of a preliminary simulation, vm+md
   Where responses_where;
+  /// Of several frames: degree of the polynomials that distribute forces and moments over the nodes of a cut.
+  int interface_degree = 1;
   double drop_tolerance = 1e-7;
 };
 
@@ -188,7 +199,7 @@ struct Body {
   bool rigid = false;
   std::optional<RigidMass> mass;  ///< rigid: instead of that of the mesh
   FrameSpec frame;
-  int frames = 1;  ///< split one line into this many floating frames, joined rigidly
+  int frames = 1;  ///< split into so many floating frames (plan::split_frames)
   ReductionSpec reduction;
   DampingSpec damping;
   InitialSpec initial;
@@ -240,7 +251,8 @@ struct Joint {
   Point axis{1, 0, 0};
   bool axis_given = false;
   /// How the joint holds a place of many nodes: as one rigid region, as a line hinge (hinge_lines), or by their mean.
-  enum class Edges { rigid, mean, line } edges = Edges::rigid;
+  /// nodes: between the pieces of a split body, each node of one place to that of the other with the same rank.
+  enum class Edges { rigid, mean, line, nodes } edges = Edges::rigid;
   bool edges_given = false;
   std::array<bool, 6> hold{};                               ///< support: x, y, z, rx, ry, rz of every node, mesh axes
   Point second_axis{};                                      ///< universal: carried by the second place

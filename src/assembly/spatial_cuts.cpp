@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <numeric>
+
+#include "spatial_assembly.h"
+
+// Joints between the pieces of a split body (plan::Interface): at full order every pair of nodes is fixed, in reduced
+// models the sums over the pairs that the interface vectors define.
+namespace floe::assembly {
+
+using dynamics::Along;
+using dynamics::SpatialConstraint;
+using Eigen::Index;
+
+namespace {
+
+const Interface& interface_of(const Plan& plan, int joint) {
+  static const Interface none;
+  return plan.interfaces.empty() ? none : plan.interfaces[joint];
+}
+
+/// Moments about z, x, y, as the products of fixed places have them.
+SpatialConstraint vanishing_moments() { return {{Along{2}, Along{0}, Along{1}}}; }
+SpatialConstraint vanishing_forces() { return {{Along{0}, Along{1}, Along{2}}}; }
+
+}  // namespace
+
+int SpatialAssembly::row_count(int j) const {
+  if (stands(j)) return 0;
+  const Interface& cut = interface_of(plan_, j);
+  if (cut.empty()) return spatial_rows(plan_.scene.joints[j].kind);
+  return 6 * static_cast<int>(is_reduced(formulation_) ? cut.factors.cols() : std::ssize(cut.pairs));
+}
+
+void SpatialAssembly::count_uses() {
+  const auto use = [&](const Anchor& place) {
+    for (const Lever& lever : place.levers) ++uses_[{place.body, lever.node}];
+  };
+  for (int j = 0; j < static_cast<int>(plan_.joints.size()); ++j) {
+    if (const Interface& cut = interface_of(plan_, j); cut.empty())
+      use(plan_.joints[j][0]), use(plan_.joints[j][1]);
+    else
+      for (const auto& pair : cut.pairs) use(pair[0]), use(pair[1]);
+  }
+}
+
+bool SpatialAssembly::stands_apart(int j, std::size_t piece) const {
+  const Interface& cut = interface_of(plan_, j);
+  if (cut.empty() || is_reduced(formulation_)) return false;
+  const auto free = [&](const Anchor& node) {
+    if (node.levers.size() != 1 || node.levers[0].node != node.nodes[0]) return false;
+    const fem::Conditions& none = held(node.body);
+    const auto first = std::lower_bound(none.begin(), none.end(), 6 * node.nodes[0]);
+    return (first == none.end() || *first >= 6 * node.nodes[0] + 6) && uses_.at({node.body, node.nodes[0]}) == 1;
+  };
+  return free(cut.pairs[piece][0]) || free(cut.pairs[piece][1]);
+}
+
+std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_all(int j) {
+  const Interface& cut = interface_of(plan_, j);
+  std::vector<PlacedJoint> all;
+  if (cut.empty() || is_reduced(formulation_)) all.push_back(place(j, plan_.joints[j]));
+  if (cut.empty()) return all;
+  if (!is_reduced(formulation_)) {
+    for (const auto& pair : cut.pairs) all.push_back(place(j, pair));
+    return all;
+  }
+  for (Index vector = 1; vector < cut.factors.cols(); ++vector) {
+    PlacedJoint forces{{marker(cut.sum(0, vector)), marker(cut.sum(1, vector))}, vanishing_forces()};
+    for (int side : {0, 1}) {
+      dynamics::SpatialMarker& at = forces.places[side];
+      at.mass = 0;  // the factors sum up to zero
+      at.D0 = plan_.bodies[plan_.joints[j][side].body].attitude.transpose() * plan_.joint_axes[j];
+    }
+    PlacedJoint moments{forces.places, vanishing_moments()};
+    for (int side : {0, 1}) {
+      moments.places[side].S = forces.places[side].psi;
+      moments.places[side].x0.setZero();
+      for (PlacedJoint* one : {&forces, &moments}) one->places[side].psi.setZero();
+    }
+    for (dynamics::SpatialMarker& at : moments.places) at.Q.clear();
+    all.push_back(std::move(forces));
+    all.push_back(std::move(moments));
+  }
+  return all;
+}
+
+JointMultipliers SpatialAssembly::multipliers_of(int j) const {
+  JointMultipliers own{multipliers_[j], std::vector<int>(static_cast<std::size_t>(row_count(j)))};
+  std::iota(own.rows.begin(), own.rows.end(), 0);
+  const Interface& cut = interface_of(plan_, j);
+  if (cut.empty() || own.rows.empty() || !is_reduced(formulation_)) return own;
+  own.at_nodes.setZero(6 * std::ssize(cut.pairs), std::ssize(own.rows));
+  for (Index node = 0; node < std::ssize(cut.pairs); ++node)
+    for (Index vector = 0; vector < cut.factors.cols(); ++vector)
+      own.at_nodes.block<6, 6>(6 * node, 6 * vector).diagonal().setConstant(cut.factors(node, vector));
+  return own;
+}
+
+}  // namespace floe::assembly

@@ -1,0 +1,242 @@
+#include "cut_mesh.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "floe/error.h"
+#include "floe/math/nearest.h"
+#include "floe/scene/places.h"
+
+namespace floe::plan {
+namespace {
+
+using Eigen::Vector3d;
+using mesh::Cell;
+using mesh::RawMesh;
+
+Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+std::string frames_of(const Body& body) { return body.where.text() + ".frames"; }
+
+bool spreads(const Cell& cell) { return cell.kind != mesh::CellKind::point; }
+
+/// Coordinates of the nodes along the direction in which the mesh is longest.
+std::vector<double> stations(const Body& body, const RawMesh& mesh) {
+  std::vector<Vector3d> directions{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
+  if (body.mesh.plate)
+    directions = {vector(body.mesh.plate->along).normalized(), vector(body.mesh.plate->across).normalized()};
+  std::vector<double> longest;
+  double extent = 0;
+  for (const Vector3d& direction : directions) {
+    std::vector<double> s;
+    for (const Vector3d& x : mesh.positions) s.push_back(direction.dot(x));
+    const auto [low, high] = std::minmax_element(s.begin(), s.end());
+    const double own = *high - *low;
+    if (!(own > extent * (1 + 1e-9))) continue;
+    extent = own;
+    for (double& at : s) at -= *low;
+    longest = std::move(s);
+  }
+  const double length = *std::max_element(longest.begin(), longest.end());
+  for (double& at : longest) at /= length;
+  return longest;
+}
+
+/// Stations of the planes: of the corners of elements, those nearest to equal divisions.
+std::vector<double> planes(const Body& body, const RawMesh& mesh, const std::vector<double>& s) {
+  std::vector<double> at;
+  for (const Cell& cell : mesh.cells)
+    for (int i = 0; spreads(cell) && i < mesh::corner_count(cell.kind); ++i) at.push_back(s[cell.nodes[i]]);
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end(), [](double a, double b) { return b - a < 1e-9; }), at.end());
+  std::vector<double> planes;
+  for (int k = 1; k < body.frames; ++k) {
+    const double ideal = static_cast<double>(k) / body.frames;
+    const auto near = [&](double a, double b) { return std::abs(a - ideal) < std::abs(b - ideal) - 1e-9; };
+    planes.push_back(*std::min_element(at.begin(), at.end(), near));
+  }
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    if (planes[k] - (k == 0 ? 0 : planes[k - 1]) < 1e-9 || 1 - planes[k] < 1e-9)
+      throw InputError(
+          fmt::format("{}: is {}, but the mesh of body {} has only {} planes of nodes across its longest "
+                      "extent; expected at most {}",
+                      frames_of(body), body.frames, body.name, at.size(), at.size() - 1));
+  return planes;
+}
+
+/// Disjoint sets of numbers; the least of each leads it.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int a, int b) {
+    a = find(a), b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Of each element with an extent its piece, numbered by slices and in each by the first element; -1: a point mass.
+std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
+  const RawMesh& mesh = whole.mesh;
+  const std::vector<double> s = stations(body, mesh), cuts = planes(body, mesh, s);
+  std::vector<int> slice(mesh.cells.size(), -1);
+  for (std::size_t c = 0; c < slice.size(); ++c) {
+    const Cell& cell = mesh.cells[c];
+    if (!spreads(cell)) continue;
+    double mean = 0;
+    for (int i = 0; i < mesh::corner_count(cell.kind); ++i) mean += s[cell.nodes[i]] / mesh::corner_count(cell.kind);
+    slice[c] = static_cast<int>(std::upper_bound(cuts.begin(), cuts.end(), mean) - cuts.begin());
+  }
+  std::vector<int> leader(mesh.positions.size());  // a rigid region is one node
+  std::iota(leader.begin(), leader.end(), 0);
+  for (const mesh::Follower& link : whole.links) leader[link.node] = static_cast<int>(link.leader);
+  Sets sets(mesh.cells.size());
+  std::map<std::pair<int, int>, int> first;  // of a slice and a node
+  for (std::size_t c = 0; c < slice.size(); ++c)
+    for (int i = 0; slice[c] >= 0 && i < mesh::node_count(mesh.cells[c].kind); ++i) {
+      const int node = leader[mesh.cells[c].nodes[i]];
+      const auto [at, fresh] = first.emplace(std::pair(slice[c], node), static_cast<int>(c));
+      if (!fresh) sets.join(at->second, static_cast<int>(c));
+    }
+  std::map<std::pair<int, int>, int> number;  // of a slice and the first element
+  for (std::size_t c = 0; c < slice.size(); ++c)
+    if (slice[c] >= 0) number.emplace(std::pair(slice[c], sets.find(static_cast<int>(c))), 0);
+  int next = 0;
+  for (auto& [key, piece] : number) piece = next++;
+  std::vector<int> pieces(slice.size(), -1);
+  for (std::size_t c = 0; c < slice.size(); ++c)
+    if (slice[c] >= 0) pieces[c] = number.at({slice[c], sets.find(static_cast<int>(c))});
+  return pieces;
+}
+
+std::vector<std::vector<int>> pieces_of_nodes(const RawMesh& mesh, const std::vector<int>& of_elements) {
+  std::vector<std::vector<int>> all(mesh.positions.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+    for (int i = 0; of_elements[c] >= 0 && i < mesh::node_count(mesh.cells[c].kind); ++i)
+      all[mesh.cells[c].nodes[i]].push_back(of_elements[c]);
+  for (std::vector<int>& pieces : all) {
+    std::sort(pieces.begin(), pieces.end());
+    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  }
+  return all;
+}
+
+std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+/// Each rigid region belongs to the first piece that has all of it, with a leader that has no elements.
+/// @return  of each link its piece
+std::vector<int> pieces_of_links(const Body& body, const WholeMesh& whole, std::vector<std::vector<int>>& of_nodes) {
+  std::map<PetscInt, std::vector<int>> shared;  // by leader
+  for (const mesh::Follower& link : whole.links) {
+    const auto [at, fresh] = shared.emplace(link.leader, of_nodes[link.node]);
+    if (fresh && !of_nodes[link.leader].empty()) at->second = common(at->second, of_nodes[link.leader]);
+    if (!fresh) at->second = common(at->second, of_nodes[link.node]);
+  }
+  for (auto& [leader, pieces] : shared) {
+    if (pieces.empty())
+      throw InputError(
+          fmt::format("{}: the rigid link of node {} of body {} lies in several of its {} frames; expected "
+                      "fewer frames, which do not cut it",
+                      frames_of(body), whole.mesh.node_labels[leader], body.name, body.frames));
+    if (of_nodes[leader].empty()) of_nodes[leader] = {pieces.front()};
+  }
+  std::vector<int> all;
+  for (const mesh::Follower& link : whole.links) all.push_back(shared.at(link.leader).front());
+  return all;
+}
+
+void refuse_unconnected(const Body& body, int pieces, const std::vector<CutMesh::Cut>& cuts) {
+  Sets sets(static_cast<std::size_t>(pieces));
+  for (const CutMesh::Cut& cut : cuts) sets.join(cut.first, cut.second);
+  for (int piece = 0; piece < pieces; ++piece)
+    if (sets.find(piece) != 0)
+      throw InputError(
+          fmt::format("{}: the mesh of body {} has unconnected parts; expected one connected mesh (join "
+                      "them by common nodes)",
+                      body.mesh.where.text(), body.name));
+}
+
+std::vector<PetscInt> nodes_of(const Body& body, const RawMesh& mesh, const Place& place) {
+  if (place.point || place.name == "middle") {
+    const Vector3d x = vector(place.point ? *place.point : place_point(body.mesh, place));
+    const auto nearest = std::min_element(
+        mesh.positions.begin(), mesh.positions.end(),
+        [&](const Vector3d& a, const Vector3d& b) { return (a - x).squaredNorm() < (b - x).squaredNorm(); });
+    return {static_cast<PetscInt>(nearest - mesh.positions.begin())};  // how near is checked on the piece
+  }
+  const auto found = std::find(mesh.places.begin(), mesh.places.end(), place.name);
+  if (found != mesh.places.end()) return mesh.place_nodes[found - mesh.places.begin()];
+  const std::string near = math::nearest(place.name, mesh.places);
+  throw InputError(fmt::format("{}: {} has no place \"{}\"; expected {}or coordinates{}", place.where.text(), body.name,
+                               place.name,
+                               mesh.places.empty() ? "" : fmt::format("one of {} ", fmt::join(mesh.places, ", ")),
+                               near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+}
+
+}  // namespace
+
+std::vector<int> CutMesh::pieces_of(const Body& body, const Place& place) const {
+  std::vector<int> shared(pieces.size());
+  std::iota(shared.begin(), shared.end(), 0);
+  for (PetscInt node : nodes_of(body, whole.mesh, place)) shared = common(shared, of_nodes[node]);
+  return shared;
+}
+
+std::vector<int> CutMesh::pieces_with_shells(const std::string& part) const {
+  std::vector<int> found;
+  const std::vector<int>& of_elements = *pieces.front()->of_elements;
+  for (std::size_t c = 0; c < of_elements.size(); ++c) {
+    const Cell& cell = whole.mesh.cells[c];
+    if (mesh::is_shell(cell.kind) && (part.empty() || whole.mesh.parts[cell.part] == part))
+      found.push_back(of_elements[c]);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+CutMesh cut_mesh(const Body& body, MPI_Comm comm) {
+  CutMesh found{whole_mesh(body, comm), {}, {}, {}};
+  const RawMesh& mesh = found.whole.mesh;
+  std::vector<int> of_elements = pieces_of_elements(body, found.whole);
+  const int count = 1 + *std::max_element(of_elements.begin(), of_elements.end());
+  found.of_nodes = pieces_of_nodes(mesh, of_elements);
+  const std::vector<std::vector<int>> by_elements = found.of_nodes;
+  const std::vector<int> of_links = pieces_of_links(body, found.whole, found.of_nodes);
+  for (std::size_t c = 0; c < of_elements.size(); ++c)  // point masses, of links' leaders too
+    if (of_elements[c] < 0) of_elements[c] = found.of_nodes[mesh.cells[c].nodes[0]].front();
+  std::vector<MeshPiece> pieces(static_cast<std::size_t>(count));
+  for (std::size_t node = 0; node < by_elements.size(); ++node)
+    for (std::size_t i = 1; i < by_elements[node].size(); ++i) {
+      const int p = by_elements[node][i - 1], q = by_elements[node][i];
+      const std::string name = fmt::format("cut {}-{}", p + 1, q + 1);
+      if (pieces[p].cuts[name].empty()) found.cuts.push_back({p, q, name});
+      for (int piece : {p, q}) pieces[piece].cuts[name].push_back(static_cast<long long>(node));
+    }
+  std::sort(found.cuts.begin(), found.cuts.end(),
+            [](const auto& a, const auto& b) { return std::pair(a.first, a.second) < std::pair(b.first, b.second); });
+  refuse_unconnected(body, count, found.cuts);
+  for (std::size_t l = 0; l < of_links.size(); ++l) pieces[of_links[l]].links.push_back(static_cast<int>(l));
+  const auto shared = std::make_shared<const std::vector<int>>(std::move(of_elements));
+  for (int p = 0; p < count; ++p) {
+    pieces[p].number = p, pieces[p].of_elements = shared;
+    found.pieces.push_back(std::make_shared<const MeshPiece>(std::move(pieces[p])));
+  }
+  return found;
+}
+
+}  // namespace floe::plan

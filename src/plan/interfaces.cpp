@@ -1,0 +1,102 @@
+#include "interfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "floe/plan/place_weights.h"
+#include "floe/plan/prepare_spatial.h"
+
+namespace floe::plan {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The nodes of a place, one by one. Collective.
+std::vector<Anchor> nodes_of(const PlannedBody& body, const Anchor& place) {
+  std::vector<Anchor> all;
+  const Place name;
+  for (PetscInt node : place.nodes) {
+    const std::map<std::string, std::vector<PetscInt>> one{{name.name, {node}}};
+    all.push_back(spatial_place(body.spec, body.structure, one, name, {body.origin, body.axes}));
+    all.back().body = place.body;
+  }
+  return all;
+}
+
+/// Exponents of the monomials of a degree in three coordinates.
+std::vector<std::array<int, 3>> monomials(int degree) {
+  std::vector<std::array<int, 3>> all;
+  for (int i = degree; i >= 0; --i)
+    for (int j = degree - i; j >= 0; --j) all.push_back({i, j, degree - i - j});
+  return all;
+}
+
+/// Weights times polynomials of the nodes' places, orthonormal with these weights: 1, then by degree those that are not
+/// combinations of earlier ones on the nodes.
+MatrixXd factors(const std::vector<std::array<Anchor, 2>>& pairs, const VectorXd& weights, int degree) {
+  const auto n = static_cast<Index>(pairs.size());
+  Eigen::Matrix3Xd x(3, n);
+  for (Index i = 0; i < n; ++i) x.col(i) = pairs[i][0].x;
+  x.colwise() -= (x * weights).eval();
+  x /= std::max(std::sqrt((x.colwise().squaredNorm() * weights).value()), 1e-300);
+  MatrixXd P(n, 0);
+  for (int d = 0; d <= degree; ++d)
+    for (const auto& powers : monomials(d)) {
+      VectorXd p = VectorXd::Ones(n);
+      for (int c = 0; c < 3; ++c) p.array() *= x.row(c).transpose().array().pow(powers[c]);
+      for (int twice = 0; twice < 2; ++twice) p -= P * (P.transpose() * weights.cwiseProduct(p)).eval();
+      const double size = std::sqrt(weights.dot(p.cwiseAbs2()));
+      if (!(size > 1e-6)) continue;
+      P.conservativeResize(Eigen::NoChange, P.cols() + 1);
+      P.rightCols<1>() = p / size;
+    }
+  return weights.asDiagonal() * P;
+}
+
+}  // namespace
+
+Anchor Interface::sum(int side, Index vector) const {
+  Anchor sum = pairs.front()[side];
+  sum.nodes.clear(), sum.levers.clear(), sum.x.setZero(), sum.line = false;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double factor = factors(static_cast<Index>(i), vector);
+    const Anchor& node = pairs[i][side];
+    sum.nodes.push_back(node.nodes.front());
+    sum.factors.push_back(factor);
+    sum.x += factor * node.x;
+    for (const Lever& own : node.levers) {
+      auto at = std::find_if(sum.levers.begin(), sum.levers.end(),
+                             [&](const Lever& lever) { return lever.node == own.node; });
+      if (at == sum.levers.end()) {
+        sum.levers.push_back({own.node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
+        at = sum.levers.end() - 1;
+      }
+      at->share += factor * own.share, at->arm += factor * own.arm;
+      at->turn += factor * own.turn, at->lead += factor * own.lead;
+    }
+  }
+  sum.node = sum.levers.front().node;
+  return sum;
+}
+
+void find_interfaces(Plan& plan) {
+  for (std::size_t j = 0; j < plan.joints.size(); ++j) {
+    Interface& found = plan.interfaces.emplace_back();
+    if (plan.scene.joints[j].edges != Joint::Edges::nodes) continue;
+    auto& [first, second] = plan.joints[j];
+    const PlannedBody& body = plan.bodies[first.body];
+    const std::vector<Anchor> one = nodes_of(body, first), other = nodes_of(plan.bodies[second.body], second);
+    VectorXd weights(static_cast<Index>(one.size()));
+    const std::vector<reduction::WeightedNode> means = place_weights(body.structure.mesh, first.nodes);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      found.pairs.push_back({one[i], other[i]});
+      weights[static_cast<Index>(i)] = means[i].weight;
+    }
+    found.factors = factors(found.pairs, weights, body.spec.reduction.interface_degree);
+    first = found.sum(0, 0), second = found.sum(1, 0);
+  }
+}
+
+}  // namespace floe::plan

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <numeric>
+
+#include "cut_mesh.h"
+#include "floe/error.h"
+#include "floe/mesh/exchange.h"
+
+namespace floe::plan {
+namespace {
+
+using mesh::RawMesh;
+
+/// Of all ranks, one after the other. Collective.
+template <class T>
+std::vector<T> all_of(MPI_Comm comm, const std::vector<T>& mine) {
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  std::vector<T> copies;
+  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
+  return mesh::exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
+}
+
+struct Coordinates {
+  double x[3];
+};
+
+}  // namespace
+
+RawMesh on_every_rank(const RawMesh& mesh) {
+  RawMesh whole;
+  whole.comm = mesh.comm, whole.source = mesh.source;
+  whole.node_count = mesh.node_count, whole.cell_count = mesh.cell_count;
+  whole.parts = mesh.parts, whole.places = mesh.places;
+  std::vector<Coordinates> own;
+  for (const Eigen::Vector3d& x : mesh.positions) own.push_back({{x[0], x[1], x[2]}});
+  for (const Coordinates& at : all_of(mesh.comm, own)) whole.positions.emplace_back(at.x[0], at.x[1], at.x[2]);
+  whole.cells = all_of(mesh.comm, mesh.cells);
+  whole.node_labels = all_of(mesh.comm, mesh.node_labels);
+  whole.cell_labels = all_of(mesh.comm, mesh.cell_labels);
+  for (const std::vector<PetscInt>& found : mesh.place_nodes) {
+    std::vector<PetscInt> nodes = all_of(mesh.comm, found);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    whole.place_nodes.push_back(std::move(nodes));
+  }
+  return whole;
+}
+
+RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh::Follower>& links) {
+  const std::vector<int>& of_elements = *piece.of_elements;
+  if (of_elements.size() != whole.cells.size()) throw InputError(whole.source + ": has changed while it was read");
+  std::vector<mesh::Follower> own;
+  for (int link : piece.links) own.push_back(links[link]);
+  std::vector<PetscInt> number(whole.positions.size(), 0), nodes, cells;  // in the piece; in the whole mesh
+  const auto use = [&](PetscInt node) { number[node] = 1; };
+  for (const mesh::Follower& link : own) use(link.node), use(link.leader);
+  for (std::size_t c = 0; c < of_elements.size(); ++c) {
+    if (of_elements[c] != piece.number) continue;
+    cells.push_back(static_cast<PetscInt>(c));
+    for (int i = 0; i < mesh::node_count(whole.cells[c].kind); ++i) use(whole.cells[c].nodes[i]);
+  }
+  for (std::size_t node = 0; node < number.size(); ++node) {
+    const bool used = number[node] != 0;
+    number[node] = used ? static_cast<PetscInt>(nodes.size()) : -1;
+    if (used) nodes.push_back(static_cast<PetscInt>(node));
+  }
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(whole.comm, &rank);
+  MPI_Comm_size(whole.comm, &ranks);
+  RawMesh mesh;
+  mesh.comm = whole.comm, mesh.source = whole.source, mesh.parts = whole.parts;
+  mesh.node_count = static_cast<PetscInt>(nodes.size()), mesh.cell_count = static_cast<PetscInt>(cells.size());
+  const mesh::Share of_nodes = mesh::share_of(mesh.node_count, rank, ranks),
+                    of_cells = mesh::share_of(mesh.cell_count, rank, ranks);
+  mesh.first_node = of_nodes.first, mesh.first_cell = of_cells.first;
+  for (PetscInt i = of_nodes.first; i < of_nodes.first + of_nodes.count; ++i) {
+    mesh.positions.push_back(whole.positions[nodes[i]]);
+    mesh.node_labels.push_back(whole.node_labels[nodes[i]]);
+  }
+  for (PetscInt i = of_cells.first; i < of_cells.first + of_cells.count; ++i) {
+    mesh.cells.push_back(whole.cells[cells[i]]);
+    mesh.cell_labels.push_back(whole.cell_labels[cells[i]]);
+    for (PetscInt& node : mesh.cells.back().nodes)
+      if (node >= 0) node = number[node];
+  }
+  const auto add_place = [&](const std::string& name, const auto& of_whole) {
+    mesh.places.push_back(name);
+    std::vector<PetscInt>& found = mesh.place_nodes.emplace_back();
+    for (const auto node : of_whole)
+      if (number[node] >= 0) found.push_back(number[node]);
+    if (found.empty()) mesh.places.pop_back(), mesh.place_nodes.pop_back();
+  };
+  for (std::size_t p = 0; p < whole.places.size(); ++p) add_place(whole.places[p], whole.place_nodes[p]);
+  for (const auto& [name, of_whole] : piece.cuts) add_place(name, of_whole);
+  for (mesh::Follower& link : own) link.node = number[link.node], link.leader = number[link.leader];
+  links = std::move(own);
+  return mesh;
+}
+
+}  // namespace floe::plan
