@@ -1,0 +1,118 @@
+#include <catch2/catch.hpp>
+
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+/// A strip of shells 10 x 1 x 0.1, EI = 100, clamped at its left end, in n frames.
+std::string strip(int n, const std::string& load) {
+  return fill(R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [10, 0, 0], across: [0, 1, 0], elements: [32, 2], cells: quadrilaterals}}
+    section: {thickness: 0.1}
+    material: {E: 1.2e6, nu: 0, rho: 1}
+    frames: $n
+joints: {clamp: {type: fixed, between: [ground, strip.left]}}
+loads: {tip: $load}
+probes: {tip: {at: strip.right}}
+)yaml",
+              {{"n", std::to_string(n)}, {"load", load}});
+}
+
+const std::string force = "{type: force, at: strip.right, force: [0, 0, 4*t]}";
+const std::string moment = "{type: moment, at: strip.right, moment: [0, -5*pi*t, 0]}";
+
+/// Distance of the tip from where it should be, over the length.
+double error(const History& history, double x, double z) {
+  return std::hypot(history["tip.x"].back() - x, history["tip.z"].back() - z) / 10;
+}
+
+double deflection(const std::string& text, Formulation formulation) {
+  return rest(text, formulation, 4)["tip.z"].back();
+}
+
+/// A square plate, clamped on its left edge, with a force at a corner.
+std::string square(int n, int degree) {
+  return fill(R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 1, 0], elements: [8, 8], cells: quadrilaterals}}
+    section: {thickness: 0.005}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    frames: $n
+    reduction: {modes: 10, interface_degree: $degree}
+joints: {clamp: {type: fixed, between: [ground, plate.left]}}
+loads: {corner: {type: force, at: plate.p3, force: [0, 0, 20*t]}}
+probes: {tip: {at: plate.p2}}
+)yaml",
+              {{"n", std::to_string(n)}, {"degree", std::to_string(degree)}});
+}
+
+/// A beam that branches at 6 into two arms.
+std::string branched(int n) {
+  return fill(R"yaml(
+bodies:
+  fork:
+    mesh:
+      segments:
+        points: [[0, 0, 0], [6, 0, 0], [10, 2, 0], [10, -2, 0]]
+        join: [[1, 2], [2, 3], [2, 4]]
+        elements: [12, 8, 8]
+    section: {shape: rectangle, width: 0.2, height: 0.2, orientation: [0, 0, 1]}
+    material: {E: 1e7, nu: 0.3, rho: 1}
+    frames: $n
+joints: {clamp: {type: fixed, between: [ground, fork.start]}}
+loads: {tip: {type: force, at: fork.p3, force: [0, 0, 10*t]}}
+probes: {tip: {at: fork.p3}, other: {at: fork.p4}}
+)yaml",
+              {{"n", std::to_string(n)}});
+}
+
+double distance(const History& a, const History& b, const std::string& probe) {
+  double sum = 0;
+  for (const char* axis : {".x", ".y", ".z"}) sum += std::pow(a[probe + axis].back() - b[probe + axis].back(), 2);
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+// Elastica of P L^2 / EI = 4: w / L = 0.66996, u / L = 0.32894 (Mattiasson 1981).
+TEST_CASE("a strip of shells in several frames under an end force: the elastica") {
+  const auto off = [](int n) { return error(rest(strip(n, force), Formulation::nlffr, 4), -3.2894, 6.6996); };
+  const double in_4 = off(4), in_8 = off(8);
+  CHECK(in_4 < 0.01);
+  CHECK(in_8 < in_4 / 4);  // order 2 at least
+  CHECK(error(rest(strip(4, force), Formulation::vm_md, 4), -3.2894, 6.6996) < 0.01);
+}
+
+// A circle: tip at L sin(phi) / phi, L (1 - cos(phi)) / phi at the slope phi = M L / EI.
+TEST_CASE("a strip of shells in four frames bent to 90 degrees by an end moment") {
+  for (const auto formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const History bent = rest(strip(4, moment), formulation, 4);
+    CHECK(error(bent, 20 / M_PI - 10, 20 / M_PI) < 2e-3);
+  }
+}
+
+TEST_CASE("interface vectors of higher degree converge to the coupling node by node") {
+  const double full = deflection(square(2, 0), Formulation::nlffr);
+  std::vector<double> errors;
+  for (int degree : {0, 1, 2}) errors.push_back(std::abs(deflection(square(2, degree), Formulation::vm_md) / full - 1));
+  CHECK(errors[1] < 0.03);
+  CHECK(errors[1] < 0.5 * errors[0]);
+  CHECK(errors[2] < 0.5 * errors[1]);
+}
+
+TEST_CASE("a branched beam in several frames: geometrically exact beams") {
+  const History exact = rest(branched(1), Formulation::cfr, 4), full = rest(branched(5), Formulation::nlffr, 4),
+                reduced = rest(branched(5), Formulation::vm_md, 4);
+  const double moved = std::hypot(exact["tip.x"].back(), exact["tip.y"].back(), exact["tip.z"].back());
+  for (const char* probe : {"tip", "other"}) {
+    CHECK(distance(full, exact, probe) < 0.005 * moved);
+    CHECK(distance(reduced, full, probe) < 0.002 * moved);
+  }
+  CHECK(distance(rest(branched(1), Formulation::nlffr, 4), exact, "tip") > 3 * distance(full, exact, "tip"));
+}
