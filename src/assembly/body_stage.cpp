@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "attachments.h"
 #include "floe/fem/field_rows.h"
 #include "floe/math/nearest.h"
+#include "floe/plan/attachments.h"
 #include "floe/plan/interface.h"
 #include "floe/reduction/condensation.h"
 #include "floe/reduction/products.h"

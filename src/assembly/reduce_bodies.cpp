@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "attachments.h"
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/mode_warnings.h"
 #include "floe/assembly/shared_reduction.h"
+#include "floe/plan/attachments.h"
 #include "floe/plan/interface.h"
 #include "floe/plan/mesh_copy.h"
 #include "floe/reduction/ranking.h"

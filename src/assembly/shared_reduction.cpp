@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "attachments.h"
 #include "floe/body/placed_inertia.h"
 #include "floe/fem/assembly.h"
+#include "floe/plan/attachments.h"
 
 namespace floe::assembly {
 

@@ -233,7 +233,8 @@ probes: {tip: {at: {body: p, node: [$L, 0.5, 0]}, quantity: position}}
 }
 
 // Elastica (Mattiasson 1981), P L^2 / EI = 0.5: w / L = .16214, u / L = .01592. Of the reduced body the strain of third
-// order is condensed (reduction/condensation.h): without it the tip of the beam, all but rigid in shear, moved by 0.062.
+// order is condensed (reduction/condensation.h): without it the tip of the beam, all but rigid in shear, moved by
+// 0.062.
 TEST_CASE("beams and shells of second order: reduced bodies follow the elastica") {
   const auto reduced = [](const std::string& text) {
     const History at = rest(text, Formulation::vm_md);

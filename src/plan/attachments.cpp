@@ -1,4 +1,4 @@
-#include "attachments.h"
+#include "floe/plan/attachments.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,8 @@
 
 #include "floe/petsc/values.h"
 #include "floe/scene/sensors.h"
-#include "spatial_assembly.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 
 using petsc::check;
 
@@ -333,4 +332,4 @@ std::vector<reduction::Attachment> loads_on(const Plan& plan, int index) {
   return all;
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

@@ -1,8 +1,8 @@
 #pragma once
-#include "floe/assembly/model.h"
+#include "floe/plan/prepare.h"
 #include "floe/reduction/reduce.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 
 /// Whether the modes are those of the body in its frame alone, not as joints hold it.
 bool of_frame(const PlannedBody& body);
@@ -34,4 +34,4 @@ std::vector<reduction::Attachment> attachments(const Plan& plan, int index);
 /// some times), by one unit, in the frame's axes at the start. Collective.
 std::vector<reduction::Attachment> loads_on(const Plan& plan, int index);
 
-}  // namespace floe::assembly
+}  // namespace floe::plan
