@@ -70,14 +70,36 @@ const Body* split_body(const Scene& scene, const std::string& name) {
   return nullptr;
 }
 
-/// A place of a line, on the part where its coordinates lie.
-void redirect_on_line(const Body& body, Place& place) {
+/// Where on a line a place is, in parts from its start.
+double parts_along(const Body& body, const Place& place) {
   const Point x = place_point(body.mesh, place), a = body.mesh.points[body.mesh.segments[0][0]];
-  const double along = distance(a, x) / total_length(body.mesh) * body.frames;
+  return distance(a, x) / total_length(body.mesh) * body.frames;
+}
+
+bool is_border(const Body& body, double along) {
+  const double near = std::round(along);
+  return std::abs(along - near) < 1e-9 && near > 0.5 && near < body.frames - 0.5;
+}
+
+/// A place of a line, on the part where its coordinates lie; on a border, the part before it.
+void redirect_on_line(const Body& body, Place& place) {
+  const double along = parts_along(body, place);
   const int i = std::max(0, std::min(body.frames - 1, static_cast<int>(std::ceil(along - 1e-9)) - 1));
+  place.point = place_point(body.mesh, place);
   place.body = part_name(body.name, i);
   place.name.clear();
-  place.point = x;
+}
+
+/// A section of a line on the part that has the element towards `toward`, which becomes an end of this part.
+void redirect_section(const Body& body, Place& place, Place& toward) {
+  const double along = parts_along(body, place);
+  const bool onwards = parts_along(body, toward) > along;
+  const int border = static_cast<int>(std::lround(along));
+  redirect_on_line(body, place);
+  if (onwards && is_border(body, along)) place.body = part_name(body.name, border);
+  toward.body = place.body;
+  toward.name = onwards ? "end" : "start";
+  toward.point.reset();
 }
 
 void move_to_piece(const Body& body, int piece, Place& place) {
@@ -93,9 +115,8 @@ void redirect(const Scene& scene, const Cuts& cuts, Place& place, Place* beside 
   if (!body) return;
   const auto cut = cuts.find(body->name);
   if (cut == cuts.end()) {
-    redirect_on_line(*body, place);
-    if (beside) redirect_on_line(*body, *beside);
-    return;
+    if (beside) return redirect_section(*body, place, *beside);
+    return redirect_on_line(*body, place);
   }
   std::vector<int> pieces = cut->second.pieces_of(*body, place);
   if (beside) {
@@ -150,6 +171,28 @@ void refer_to_whole(const Scene& scene, const Cuts& cuts, Probe& probe) {
   }
 }
 
+/// At a border a section is that of the part before it; where a force acts the other side has another one, and the mean
+/// of both is on no part.
+void check_section(const Scene& scene, const Probe& probe) {
+  const Body* body = probe.of_section() && !probe.toward ? split_body(scene, probe.at.body) : nullptr;
+  if (!body || !is_line(*body)) return;
+  const double along = parts_along(*body, probe.at);
+  if (!is_border(*body, along)) return;
+  const auto acts = [&](const Place& place) {
+    return place.body == body->name && std::abs(parts_along(*body, place) - along) < 1e-9;
+  };
+  const bool loaded =
+      std::any_of(scene.loads.begin(), scene.loads.end(),
+                  [&](const Load& load) { return !load.spread() && load.joint.empty() && acts(load.at); }) ||
+      std::any_of(scene.joints.begin(), scene.joints.end(),
+                  [&](const Joint& joint) { return acts(joint.first) || acts(joint.second); });
+  if (loaded)
+    throw InputError(
+        fmt::format("{}.at: lies between two floating frames of body {}, where a load or a joint acts; "
+                    "expected toward: a place on one side",
+                    probe.where.text(), body->name));
+}
+
 Joint between_parts(const Body& body, const Cuts& cuts, int j) {
   Joint joint;
   joint.kind = Joint::Kind::fixed;
@@ -192,6 +235,7 @@ Scene split_frames(const Scene& scene, MPI_Comm comm) {
   for (Load& load : split.loads)
     if (!load.spread()) redirect(scene, cuts, load.at);
   for (Probe& probe : split.probes) {
+    check_section(scene, probe);
     refer_to_whole(scene, cuts, probe);
     for (Place& place : probe.frame) redirect(scene, cuts, place);
     redirect(scene, cuts, probe.at, probe.toward ? &*probe.toward : nullptr);

@@ -117,6 +117,44 @@ probes:
   }
 }
 
+// The same where the load acts between two floating frames: each side has its own force.
+TEST_CASE("sections of a beam in several frames, beside the border where a load acts", "[verification]") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}
+    section: {EA: 1e6, EI: 1e3, rhoA: 1}
+    frame: {type: pinned, from: start, to: end}
+    frames: $n
+    reduction: {modes: {count: 3, of: joints}, attachment: all}
+joints:
+  left: {type: fixed, between: [ground, beam.start]}
+loads:
+  load: {type: force, at: beam.middle, force: [0, -8]}
+  tip: {type: force, at: beam.end, force: [0, 2]}
+motion: {end: 0.1, step: 1e-3}
+probes:
+  before: {at: beam.middle, quantity: section_force, toward: beam.start}
+  after: {at: beam.middle, quantity: section_force, toward: beam.end}
+  back: {at: {body: beam, node: [0.9375, 0]}, quantity: section_moment, toward: beam.middle}
+  quarter: {at: {body: beam, node: [0.25, 0]}, quantity: section_moment}
+)yaml";
+  for (const char* frames : {"1", "2", "4"})
+    for (const auto formulation : {Formulation::vm_md, Formulation::nlffr}) {
+      INFO(frames << " frames, " << scene::name_of(formulation));
+      const History at = rest(fill(text, {{"n", frames}}), formulation);
+      CHECK(at["before.V"].back() == Approx(2 - 8).epsilon(1e-4));
+      CHECK(at["after.V"].back() == Approx(2).epsilon(1e-4));
+      CHECK(at["back.M"].back() == Approx(2 * 0.0625).epsilon(1e-3));
+      CHECK(at["quarter.M"].back() == Approx(2 * 0.75 - 8 * 0.25).epsilon(1e-3));
+    }
+  std::string mean = fill(text, {{"n", "2"}});
+  mean.replace(mean.find(", toward: beam.start"), 20, "");
+  CHECK_THROWS_WITH(rest(mean, Formulation::nlffr), Contains("lies between two floating frames of body beam"));
+  CHECK_NOTHROW(
+      rest(fill(mean, {}).replace(mean.find("at: beam.middle, force"), 15, "at: beam.start,"), Formulation::nlffr));
+}
+
 TEST_CASE("sections of a rotating blade: N = int rhoA Omega^2 r dr, on a coarse mesh", "[verification]") {
   const std::string text = R"yaml(
 bodies:
