@@ -290,7 +290,7 @@ void stress(const StressRequest& request, MPI_Comm comm) {
     whole = scene_of(request, *motion);
   });
   const output::Waiting waiting(comm, "recovering stresses");
-  const Planned planned(motion->formulation() == "cfr" ? whole : plan::split_frames(whole), comm);
+  const Planned planned(motion->formulation() == "cfr" ? whole : plan::split_frames(whole, comm), comm);
   const Sources sources = sources_of(request, planned.plan, comm);
   const std::vector<double>& times = motion->times();
   std::vector<std::size_t> rows;

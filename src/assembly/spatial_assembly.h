@@ -3,10 +3,10 @@
 
 #include "connections.h"
 #include "damping_axes.h"
-#include "fixed_frames.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/dynamics/sensor.h"
 #include "floe/dynamics/spatial_joint.h"
+#include "floe/plan/fixed_frames.h"
 #include "floe/reference/corotational_body.h"
 #include "floe/reference/mass_damping.h"
 #include "floe/reference/spatial_full_order.h"

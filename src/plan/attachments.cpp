@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "floe/petsc/values.h"
+#include "floe/plan/fixed_frames.h"
 #include "floe/scene/sensors.h"
 
 namespace floe::plan {

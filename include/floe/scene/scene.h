@@ -63,11 +63,11 @@ struct MeshPiece {
 struct MeshSpec {
   std::optional<PlateSpec> plate;
   std::optional<MeshFileSpec> file;
-  std::shared_ptr<const MeshPiece> piece;  ///< only this piece of the mesh; null: all of it
   std::vector<Point> points;
   std::vector<std::array<int, 2>> segments;  ///< indices of points
   std::vector<int> elements;                 ///< of each segment
   Where where;
+  std::shared_ptr<const MeshPiece> piece = {};  ///< only this piece of the mesh; null: all of it
 };
 
 /// Per unit length: axial and bending stiffness [N], [N m2], mass and rotary inertia [kg/m], [kg m].

@@ -1,14 +1,13 @@
-#include "fixed_frames.h"
+#include "floe/plan/fixed_frames.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "drive.h"
 #include "floe/plan/reduced_place.h"
 #include "floe/scene/file_places.h"
 #include "floe/scene/joint_events.h"
 
-namespace floe::assembly {
+namespace floe::plan {
 
 namespace {
 
@@ -59,10 +58,11 @@ bool has_fixed_frame(const Plan& plan, int b) {
     if (!place || place->body != b || !plan.joint_held[j]) continue;
     if (std::none_of(conditions.begin(), conditions.end(), [&](PetscInt dof) { return place->moved_by(dof / 6); }))
       continue;
-    if (is_drive(joint.kind) || is_switched(plan.scene, joint.name)) return false;
+    const bool drives = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
+    if (drives || is_switched(plan.scene, joint.name)) return false;
     firm = true;
   }
   return firm && std::includes(body.held.begin(), body.held.end(), conditions.begin(), conditions.end());
 }
 
-}  // namespace floe::assembly
+}  // namespace floe::plan

@@ -1,9 +1,7 @@
 #pragma once
 #include "floe/plan/prepare.h"
 
-namespace floe::assembly {
-using namespace plan;
-using namespace scene;
+namespace floe::plan {
 
 /// The joint by which the ground clamps the body in its clamped frame, so that it stands still; -1: the frame moves.
 int clamp_of(const Plan& plan, int body);
@@ -13,4 +11,4 @@ int clamp_of(const Plan& plan, int body);
 /// joints, which then have constraint equations.
 bool has_fixed_frame(const Plan& plan, int body);
 
-}  // namespace floe::assembly
+}  // namespace floe::plan
