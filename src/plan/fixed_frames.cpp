@@ -15,7 +15,7 @@ namespace {
 bool at_rest(const PlannedBody& body, const body::PlaceMap& map) {
   const output::ReducedBodyFile& file = *body.spec.reduced->file;
   const double small = 1e-9 / std::sqrt(file.body.inertia.m);  // columns are normalised to unit mass
-  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * extent_of(file) <= small;
+  return map.S.cwiseAbs().sum() <= small && map.psi.cwiseAbs().sum() * scene::extent_of(file) <= small;
 }
 
 /// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations.
