@@ -93,11 +93,11 @@ Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
   return formulation == Formulation::cfr ? whole : split_frames(whole, comm);
 }
 
-/// Files of versions before 4 have first moments and places at arms to first order only, and do not tell whether there
+/// Files of versions 2 and 3 have first moments and places at arms to first order only, and do not tell whether there
 /// are any.
 void warn_of_files(ReducedBodies& all) {
   for (const ReducedBody& body : all.bodies)
-    if (body.report.file_version > 0 && body.report.file_version < 4)
+    if (body.report.file_version > 1 && body.report.file_version < 4)
       all.warnings.push_back(fmt::format(
           "body {}: \"{}\" is of version {} of the format, which has masses at arms (centroids off the nodes, offset "
           "masses, rigid links) to first order only; if it has any, write it again with floe reduce",

@@ -69,8 +69,10 @@ MatrixXd beyond(const MatrixXd& A, const MatrixXd& B) {
   MatrixXd rest = A;
   const MatrixXd Q = MatrixXd(known.householderQ()).leftCols(known.rank());
   for (int pass = 0; pass < 2; ++pass) rest -= Q * (Q.transpose() * rest).eval();
-  for (Index j = 0; j < rest.cols(); ++j)
-    if (const double norm = rest.col(j).norm(); norm > 1e-10 * A.col(j).norm()) rest.col(j) /= norm;
+  for (Index j = 0; j < rest.cols(); ++j) {
+    const double norm = rest.col(j).norm();
+    rest.col(j) *= norm > 1e-5 * A.col(j).norm() ? 1 / norm : 0;  // less is round-off of what the basis contains
+  }
   const Eigen::BDCSVD<MatrixXd> main(rest, Eigen::ComputeThinU);
   const double least = 1e-8 * (main.singularValues().size() > 0 ? main.singularValues()[0] : 0);
   return main.matrixU().leftCols((main.singularValues().array() > least).count());

@@ -22,7 +22,7 @@ std::string deck(Carried by, const Eigen::Vector3d& root, const Eigen::Vector3d&
   };
   std::string text = grid(1, root) + grid(2, start) + grid(3, end);
   if (root != start) text += "CBAR,1,1,1,2,1.,2.,3.\n";
-  text += "CBAR,2,2,2,3,1.,2.,3.\nPBAR,1,1,1.,1.,1.,1.\nPBAR,2,1,1.,1.,1.,2.-7\nMAT1,1,2.5+8,1.+8,,1.-9\n";
+  text += "CBAR,2,2,2,3,1.,2.,3.\nPBAR,1,1,1.,1.,1.,1.\nPBAR,2,1,1.,1.,1.,2.-7\nMAT1,1,2.5+8,1.+8,,1.-5\n";
   if (by == Carried::offset)
     return text + fmt::format("CONM2,9,3,,{:.1f},{:.6f},{:.6f},{:.6f}\n", mass, to_mass.x(), to_mass.y(), to_mass.z());
   return text + grid(4, end + to_mass) + fmt::format("RBE2,8,3,123456,4\nCONM2,9,4,,{:.1f}\n", mass);
@@ -68,7 +68,7 @@ TEST_CASE("a force at the end of a rigid link stiffens the shaft that carries it
     for (const double side : {-1, 1}) {
       INFO(scene::name_of(formulation) << ", side " << side);
       const std::string load =
-          fmt::format("tip: {{at: {{body: shaft, node: [1, 0, {}]}}, force: [0, 0, -15]}}", side * arm);
+          fmt::format("tip: {{type: force, at: {{body: shaft, node: [1, 0, {}]}}, force: [0, 0, -15]}}", side * arm);
       CHECK(turned(scratch, Carried::link, side * arm, load, formulation) ==
             Approx(0.01 / (stiffness - side * 15 * arm)).epsilon(1e-4));
     }
