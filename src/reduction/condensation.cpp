@@ -16,14 +16,19 @@ using petsc::check;
 
 namespace {
 
-/// Whether any part of the body has strains of second order.
-bool has_second_order(const fem::Structure& structure) {
-  return std::any_of(structure.sections.begin(), structure.sections.end(), [](const fem::Section& section) {
-    if (const auto* shell = std::get_if<fem::ShellSection>(&section))
-      return shell->strains == fem::Strains::second_order;
+/// Whether any shell of the body, or beam of second order, has strains of second order. Beams of two nodes have none of
+/// third order that lock: their axial strain is averaged, their shear is linear. Collective.
+bool may_lock(const fem::Structure& structure) {
+  int found = 0;
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    const fem::Section& section = structure.sections[cell.part];
+    const auto* shell = std::get_if<fem::ShellSection>(&section);
     const auto* beam = std::get_if<fem::SpatialBeam>(&section);
-    return beam && beam->strain.strains == fem::Strains::second_order;
-  });
+    if (shell && shell->strains == fem::Strains::second_order) found = 1;
+    if (beam && mesh::is_quadratic(cell.kind) && beam->strain.strains == fem::Strains::second_order) found = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT, MPI_MAX, structure.mesh.comm);
+  return found != 0;
 }
 
 /// V q at the local dofs. Collective.
@@ -74,7 +79,7 @@ MatrixXd beyond(const MatrixXd& A, const MatrixXd& B) {
     rest.col(j) *= norm > 1e-5 * A.col(j).norm() ? 1 / norm : 0;  // less is round-off of what the basis contains
   }
   const Eigen::BDCSVD<MatrixXd> main(rest, Eigen::ComputeThinU);
-  const double least = 1e-8 * (main.singularValues().size() > 0 ? main.singularValues()[0] : 0);
+  const double least = 1e-4 * (main.singularValues().size() > 0 ? main.singularValues()[0] : 0);
   return main.matrixU().leftCols((main.singularValues().array() > least).count());
 }
 
@@ -89,7 +94,7 @@ body::Elasticity condensed(const fem::Structure& structure, const Basis& basis, 
   };
   const PetscInt dofs = structure.dofs_per_node * structure.mesh.node_count;
   if (2 * k > dofs) return e;  // what little the basis lacks is as stiff as round-off is large
-  if (!has_second_order(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return e;
+  if (!may_lock(structure) || std::none_of(e.pairs.begin(), e.pairs.end(), with_derivative)) return e;
   const std::vector<VectorXd> samples = sampled_deformations(body, follows);
   if (samples.empty()) return e;
   const petsc::Stage stage("condensation");

@@ -31,8 +31,9 @@ def columns(folder):
     return {name.split(" ")[0]: numbers[:, i] for i, name in enumerate(rows[0])}
 
 
-def moved(scene, folder):
-    """Columns of the probes by name, the same on two ranks."""
+def moved(scene, folder, reactions=()):
+    """Columns of the probes by name, the same on two ranks: bases from two partitions of a mesh differ by the tolerance of
+    the eigenvalue problem, which reactions of stiff bodies (small differences of positions) magnify."""
     both = []
     for ranks in (1, 2):
         out = folder / f"{ranks}"
@@ -41,8 +42,11 @@ def moved(scene, folder):
         shutil.rmtree(out)
     alone, two = both
     for column, values in alone.items():
+        probe = column.rpartition(".")[0]
+        size = max(numpy.abs(alone[other]).max() for other in alone if other.rpartition(".")[0] == probe)
+        limit = 3e-5 if probe in reactions else 1e-6
         apart = numpy.abs(values - two[column]).max()
-        assert apart <= 1e-6 * max(1, numpy.abs(values).max()), f"{scene}, {column}: {apart} apart on two ranks"
+        assert apart <= limit * max(1, size), f"{scene}, {column}: {apart} apart on two ranks"
     return alone
 
 
@@ -62,7 +66,7 @@ def main():
         (folder / "rotor" / "blade.inp").unlink(missing_ok=True)
         subprocess.run([sys.executable, folder / "rotor" / "mesh.py"], check=True)
         assert (folder / "rotor" / "blade.inp").read_text() == (EXAMPLES / "rotor" / "blade.inp").read_text()
-        rotor = moved(folder / "rotor" / "scene.yaml", folder)
+        rotor = moved(folder / "rotor" / "scene.yaml", folder, ("root", "root2", "root3", "torque"))
         before = rotor[next(iter(rotor))] < 0.0995  # the gust
         assert numpy.ptp(rotor["root.y"][before]) < 0.02, "the flap moment swings before the gust"
         close("flap moment at the start", rotor["root.y"][0], -34.5)

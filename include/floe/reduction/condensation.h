@@ -21,8 +21,8 @@ namespace floe::reduction {
 /// The energy stays a sum of squares, with the linear part and, as V'K W = 0, all terms up to the fifth order in q_a as
 /// they were: those follow from displacements of first and second order alone (2n + 1 theorem).
 ///
-/// Of bodies with strains of second order, on fewer basis vectors than half their dofs; others return as they are.
-/// Bending becomes one of the squares (F).
+/// Of bodies of shells and of beams of three nodes with strains of second order, on fewer basis vectors than half their
+/// dofs; others return as they are. Bending becomes one of the squares (F).
 ///
 /// @param follows  of each coordinate whether it is a derivative's; if none is, nothing changes
 /// Collective. Some 32 solves with the factor of `statics`, and the factor F once more with as many columns besides.
