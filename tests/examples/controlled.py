@@ -70,8 +70,8 @@ def main():
         before = rotor[next(iter(rotor))] < 0.0995  # the gust
         assert numpy.ptp(rotor["root.y"][before]) < 0.02, "the flap moment swings before the gust"
         close("flap moment at the start", rotor["root.y"][0], -34.5)
-        close("flap moment in the gust", rotor["root.y"].max(), 94.0)
-        close("lift of the tip", rotor["tip.z"].max(), 0.2753)
+        close("flap moment in the gust", rotor["root.y"].max(), 92.97)
+        close("lift of the tip", rotor["tip.z"].max(), 0.2771)
         assert numpy.abs(rotor["v1.z"] - rotor["v2.z"]).max() < 1e-4, "blades differ"
     print("controlled_arm and rotor move as their pages say, on one rank and on two")
 
