@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """CalculiX and floe on the same decks: static and dynamic deflections with geometric nonlinearity of a beam (B32R) and of a
-plate (S8R), side by side; and what all full derivatives of five modes cost.
+plate (S8R), side by side.
 
 Whole processes on one processor each, in the same run; floe's offline stage and its output are included. Differences are those
 of the probe's history: root mean square of the difference over that of CalculiX', and of the reduced model over that of nlffr.
@@ -146,29 +146,6 @@ def compare(floe, body, deflection, dynamic, modes, limit):
     return rows, tip
 
 
-def derivatives(floe, limit):
-    """Seconds of all 15 full derivatives of five modes at some 1200 dofs."""
-    text = """title: full derivatives
-bodies:
-  plate:
-    mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [18, 10]}}
-    section: {thickness: 0.002}
-    material: {E: 7e10, nu: 0.3, rho: 2700}
-    frame: {type: clamped, at: left}
-    reduction: {modes: 5, derivatives: all, derivative_type: full}
-joints: {clamp: {type: fixed, between: [ground, plate.left]}}
-motion: {end: 0.1, step: 0.1}
-"""
-    with tempfile.TemporaryDirectory() as folder:
-        open(os.path.join(folder, "scene.yaml"), "w").write(text)
-        times = []
-        for _ in range(3):
-            out, _ = run([floe, "reduce", "scene.yaml", "-o", "plate.h5", "--force", "-log_view"], folder, limit)
-            found = [line for line in out.splitlines() if "derivatives" in line and ":" in line]
-            times.append(next(float(line.split(":")[2].split()[0]) for line in found if line.strip()[0].isdigit()))
-    return min(times)
-
-
 def per_cent(value):
     return "" if value is None else f"{100 * value:.2g} %"
 
@@ -213,8 +190,6 @@ def main():
         if tip:
             text += [f"Displacement of the tip at the end (CalculiX): {tip[0]:.5g}, {tip[2]:.5g} m.", ""]
         print("\n".join(text[-6 - len(rows):]), flush=True)
-    text += ["## Full derivatives", "",
-             f"All 15 full derivatives (with inertia) of five modes of a plate of 1254 dofs take {derivatives(floe, options.limit):.3f} s (minimum of three runs).", ""]
     with open(os.path.join(options.out, "peers.md"), "w") as page:
         page.write("\n".join(text))
 
