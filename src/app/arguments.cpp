@@ -267,8 +267,8 @@ void add_static(CLI::App& app, Arguments& given, Work& work) {
       const scene::Formulation formulation = scene::formulation_of(given.formulation);
       const scene::Scene scene = read(given.scene);
       const double at = given.at.value_or(scene.motion.end > 0 ? scene.motion.end : 1);
-      rest_one(scene, formulation, PETSC_COMM_WORLD, {at, given.steps}, new_folder(given, "static"),
-               !given.no_estimate && scene::is_reduced(formulation));
+      solve_static(scene, formulation, PETSC_COMM_WORLD, {at, given.steps}, new_folder(given, "static"),
+                   !given.no_estimate && scene::is_reduced(formulation));
     };
   });
 }

@@ -159,7 +159,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
   diagram.label = label_of(diagram.model);
   const solve::RotatingSystem rotating = assembly::rotating_system(given, diagram.model, diagram.axis);
-  solve::check_turns(rotating, diagram.model.U);
+  solve::check_rotations(rotating, diagram.model.U);
   const double started = MPI_Wtime();
   diagram.offline_seconds = started - begin;
   try {

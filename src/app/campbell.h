@@ -45,11 +45,11 @@ struct CampbellDiagram {
   double offline_seconds = 0, seconds = 0;
 };
 
-/// Builds one scene in one formulation, turns it steadily at each speed in turn, each from the one before and the first
-/// from rest, and finds its vibrations.
+/// Builds one scene in one formulation, rotates it steadily at each speed in turn, each from the one before and the
+/// first from rest, and finds its vibrations.
 ///
 /// @param fault  why it ended before the last speed, to be thrown once what was reached is written
-/// @throws InputError  no axis, a scene that cannot turn, formulation cfr; RunError. Collective.
+/// @throws InputError  no axis, a scene that cannot rotate, formulation cfr; RunError. Collective.
 CampbellDiagram campbell(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm,
                          const CampbellRequest& request, std::exception_ptr& fault);
 

@@ -137,20 +137,21 @@ void print_properties(const std::vector<assembly::BodyProperties>& bodies, int d
   if (dimension == 3) fmt::print("{}\n", output::to_text(moments));
 }
 
-/// Of flexible bodies: free of supports, and as their modes are held.
+/// Of flexible bodies: free of supports, and as their modes are constrained.
 output::Table frequency_table(const std::vector<assembly::BodyProperties>& bodies) {
   output::Table table;
-  const bool held = std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return !body.held.empty(); });
+  const bool constrained =
+      std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return !body.constrained.empty(); });
   table.columns = {{"body", ""}, {"mode", ""}, {"free", "Hz", 7}};
-  if (held) table.columns.push_back({"as held", "Hz", 7});
+  if (constrained) table.columns.push_back({"as held", "Hz", 7});
   const auto hertz = [](const std::vector<double>& omega, std::size_t i) {
     return i < omega.size() ? output::Cell(omega[i] / (2 * M_PI)) : output::Cell("-");
   };
   for (const assembly::BodyProperties& body : bodies)
-    for (std::size_t i = 0; i < std::max(body.free.size(), body.held.size()); ++i) {
+    for (std::size_t i = 0; i < std::max(body.free.size(), body.constrained.size()); ++i) {
       auto& row = table.rows.emplace_back(std::vector<output::Cell>{body.name, static_cast<std::int64_t>(i + 1)});
       row.push_back(hertz(body.free, i));
-      if (held) row.push_back(hertz(body.held, i));
+      if (constrained) row.push_back(hertz(body.constrained, i));
     }
   return table;
 }

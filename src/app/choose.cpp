@@ -27,7 +27,7 @@ struct Trial {
   std::string failed;     ///< why there is no error
 };
 
-/// Tries models of a pool, each once.
+/// Tries models of a candidate basis, each once.
 class Search {
  public:
   Search(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference)
@@ -36,7 +36,7 @@ class Search {
         comm_(comm),
         reference_(reference),
         begin_(std::clock()),
-        pool_(std::make_unique<assess::Pool>(scene, comm)),
+        candidates_(std::make_unique<assess::CandidateBasis>(scene, comm)),
         building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC) {}
 
   Chosen result() {
@@ -62,7 +62,7 @@ class Search {
     plan.quiet = true, plan.check_range = false;
     plan.estimate = estimate, plan.budget = false, plan.keep_states = keep_states;
     plan.estimate_seconds = 1e9;
-    assembly::Model model = pool_->model(selection, estimate);
+    assembly::Model model = candidates_->model(selection, estimate);
     ++trials_;
     return move(with_step(step), model, 0, comm_, std::nullopt, plan);
   }
@@ -76,10 +76,10 @@ class Search {
       const RunResult result = moved(selection, step, false, false);
       trial.seconds = result.motion_seconds;
       MPI_Bcast(&trial.seconds, 1, MPI_DOUBLE, 0, comm_);
-      if (std::abs(result.end - truth_.t.back()) > 2 * step)
+      if (std::abs(result.end - reference_motion_.t.back()) > 2 * step)
         trial.failed = fmt::format("ends at t = {:.4g} s", result.end);
       else
-        trial.error = worst_error(result.series, truth_);
+        trial.error = worst_error(result.series, reference_motion_);
     } catch (const InputError& error) {
       trial.failed = first_line(error.what());
     } catch (const RunError& error) {
@@ -113,21 +113,21 @@ class Search {
     int responses = 0;
     Series poorer;
     for (int round = 0;; ++round) {
-      RunResult result = moved(pool_->whole(), scene_.motion.step, !pool_->columns().empty(), true);
+      RunResult result = moved(candidates_->whole(), scene_.motion.step, !candidates_->columns().empty(), true);
       states_ = std::move(result.states);
       const double estimate = estimate_of(result);
       if (round == 0) first = estimate;
       if (round > 0 && before > 0) too_low = std::max(1.0, (worst_error(poorer, result.series) + estimate) / before);
       space_ = too_low * estimate;
       before = estimate, poorer = std::move(result.series);
-      if (space_ <= accuracy_ / 3 || round == most_rounds || pool_->columns().empty()) break;
-      const int added = pool_->add_responses(result.estimate);
+      if (space_ <= accuracy_ / 3 || round == most_rounds || candidates_->columns().empty()) break;
+      const int added = candidates_->add_responses(result.estimate);
       if (added == 0) break;
       responses += added;
       known_.clear();
     }
-    if (pool_->columns().empty()) return;
-    std::size_t offered = pool_->columns().size();
+    if (candidates_->columns().empty()) return;
+    std::size_t offered = candidates_->columns().size();
     decide("richest model", fmt::format("{} basis vectors", offered),
            responses > 0 ? fmt::format("{} correction vectors from residual responses: estimated error {} (before: {})",
                                        responses, math::percent(space_), math::percent(first))
@@ -139,7 +139,7 @@ class Search {
 
   double estimate_of(const RunResult& result) const {
     const auto from_file = [](const scene::Body& body) { return body.reduced.has_value(); };
-    if (pool_->columns().empty()) {
+    if (candidates_->columns().empty()) {
       if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), from_file))
         throw InputError(scene_.file +
                          ": accuracy: no error estimate is possible: bodies from files have no mesh to compare with, "
@@ -160,32 +160,32 @@ class Search {
     constexpr int most_halvings = 5;
     double step = scene_.motion.step;
     double before = 0;  // what the halving before this one changed
-    Series coarse = moved(pool_->whole(), step, false, false).series;
+    Series coarse = moved(candidates_->whole(), step, false, false).series;
     for (int halving = 0; halving < most_halvings; ++halving, step /= 2) {
-      truth_ = moved(pool_->whole(), step / 2, false, false).series;
-      const double between = worst_error(coarse, truth_);
+      reference_motion_ = moved(candidates_->whole(), step / 2, false, false).series;
+      const double between = worst_error(coarse, reference_motion_);
       const bool second_order = before == 0 || before > 3 * between;
       time_ = second_order ? between / 3 : between;
       if (time_ <= 0.1 * accuracy_) break;
-      coarse = truth_, before = between;
+      coarse = reference_motion_, before = between;
     }
     finest_ = step;
     richest_ = reference_.series ? reference_.error : space_ + time_ + reference_.error;
     if (!reference_.series) return;
     known_.clear();
-    truth_ = *reference_.series;
-    least_ = tried(pool_->whole(), finest_).error;
+    reference_motion_ = *reference_.series;
+    least_ = tried(candidates_->whole(), finest_).error;
     decide("richest model", "against cfr", "error " + math::percent(least_));
   }
 
-  Selection first_of(const std::vector<assess::Participation>& order, std::size_t count) const {
-    Selection selection{std::vector<char>(pool_->columns().size(), 0), false};
+  Selection first_of(const std::vector<assess::EnergyContribution>& order, std::size_t count) const {
+    Selection selection{std::vector<char>(candidates_->columns().size(), 0), false};
     for (std::size_t i = 0; i < count; ++i) selection.taken[order[i].column] = 1;
     return selection;
   }
 
   /// The fewest columns with at most this error; all of `order` where none will do.
-  std::size_t fewest(const std::vector<assess::Participation>& order, std::size_t most, double step, double error,
+  std::size_t fewest(const std::vector<assess::EnergyContribution>& order, std::size_t most, double step, double error,
                      bool linear = false) {
     std::size_t enough = most;
     long too_few = -1;
@@ -206,9 +206,11 @@ class Search {
   bool longer_step() const { return 2 * step_ <= scene_.motion.end / 32; }
 
   /// What may be lost beside the richest model's own error.
-  double allowance() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
+  double time_budget() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
   /// What columns may lose before steps are longer: half of what the richest model leaves.
-  double first_allowance() const { return std::min(least_, allowance()) + 0.5 * std::max(0.0, allowance() - least_); }
+  double first_time_budget() const {
+    return std::min(least_, time_budget()) + 0.5 * std::max(0.0, time_budget() - least_);
+  }
 
   /// Of the motion, the least of five where one is too short to tell.
   double seconds_of(const Selection& selection, double step) {
@@ -222,13 +224,14 @@ class Search {
   }
 
   void choose_columns_and_step() {
-    if (!pool_->columns().empty()) order_ = pool_->participation(pool_->model(pool_->whole()), states_);
+    if (!candidates_->columns().empty())
+      order_ = candidates_->energy_contribution(candidates_->model(candidates_->whole()), states_);
     step_ = finest_;
-    count_ = fewest(order_, order_.size(), step_, first_allowance());
+    count_ = fewest(order_, order_.size(), step_, first_time_budget());
     for (double before = 0; step_ != before;) {
       before = step_;
-      while (longer_step() && tried(first_of(order_, count_), 2 * step_).error <= allowance()) step_ *= 2;
-      count_ = fewest(order_, count_, step_, allowance());
+      while (longer_step() && tried(first_of(order_, count_), 2 * step_).error <= time_budget()) step_ *= 2;
+      count_ = fewest(order_, count_, step_, time_budget());
     }
     selection_ = first_of(order_, count_);
   }
@@ -236,19 +239,19 @@ class Search {
   /// Linear, without derivatives: they would follow nothing.
   void choose_force() {
     if (count_ == 0) return;
-    std::vector<assess::Participation> plain;
-    for (const assess::Participation& one : order_)
-      if (!pool_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
+    std::vector<assess::EnergyContribution> plain;
+    for (const assess::EnergyContribution& one : order_)
+      if (!candidates_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
     Selection all = first_of(plain, plain.size());
     all.linear = true;
     const Trial linear = tried(all, step_);
     linear_ = words(linear);
-    if (!(linear.error <= allowance())) return;
-    Selection some = first_of(plain, fewest(plain, plain.size(), step_, allowance(), true));
+    if (!(linear.error <= time_budget())) return;
+    Selection some = first_of(plain, fewest(plain, plain.size(), step_, time_budget(), true));
     some.linear = true;
     const Trial cheaper = tried(some, step_);
     linear_ = words(cheaper);
-    if (!(cheaper.error <= allowance())) return;
+    if (!(cheaper.error <= time_budget())) return;
     // With no more columns the linear force is the cheaper one, whatever a clock says.
     if (some.count() > selection_.count() && !(seconds_of(some, step_) < 0.9 * seconds_of(selection_, step_))) {
       linear_ += fmt::format(" with {} basis vectors, but not faster", some.count());
@@ -260,14 +263,14 @@ class Search {
   std::string names(const Selection& selection) const {
     std::vector<std::string> all;
     for (std::size_t i = 0; i < selection.taken.size(); ++i)
-      if (selection.taken[i]) all.push_back(pool_->columns()[i].label);
+      if (selection.taken[i]) all.push_back(candidates_->columns()[i].label);
     const std::size_t shown = 6;
     if (all.size() <= shown) return fmt::format("{}", fmt::join(all, "; "));
     return fmt::format("{}; {} more", fmt::join(all.begin(), all.begin() + shown, "; "), all.size() - shown);
   }
 
   void explain() {
-    if (!pool_->columns().empty()) {
+    if (!candidates_->columns().empty()) {
       const Trial rigid = tried(first_of(order_, 0), step_);
       if (count_ == 0) {
         decide("bodies", "rigid", "error " + words(rigid));
@@ -275,18 +278,18 @@ class Search {
         decide("bodies", "flexible", "rigid: " + words(rigid));
         Selection less = first_of(order_, count_ - 1);
         less.linear = selection_.linear;
-        decide("basis vectors", fmt::format("{} of {}", count_, pool_->columns().size()),
-               fmt::format("without the last one, {}: {}", pool_->columns()[order_[count_ - 1].column].label,
+        decide("basis vectors", fmt::format("{} of {}", count_, candidates_->columns().size()),
+               fmt::format("without the last one, {}: {}", candidates_->columns()[order_[count_ - 1].column].label,
                            words(tried(less, step_))));
         std::vector<std::string> bodies;
-        for (std::size_t i = 0; i < pool_->columns().size(); ++i) {
-          const std::string& body = pool_->columns()[i].body;
+        for (std::size_t i = 0; i < candidates_->columns().size(); ++i) {
+          const std::string& body = candidates_->columns()[i].body;
           if (std::find(bodies.begin(), bodies.end(), body) == bodies.end()) bodies.push_back(body);
         }
         for (const std::string& body : bodies) {
           Selection of_body = selection_;
           for (std::size_t i = 0; i < of_body.taken.size(); ++i)
-            if (pool_->columns()[i].body != body) of_body.taken[i] = 0;
+            if (candidates_->columns()[i].body != body) of_body.taken[i] = 0;
           decide("  " + body, of_body.count() > 0 ? fmt::format("{} basis vectors", of_body.count()) : "rigid",
                  names(of_body));
         }
@@ -303,14 +306,14 @@ class Search {
   /// correction vectors of the estimate, which it cannot: up to half as many again, where their error is within what
   /// those leave. @return  the error; none: they are not as good
   std::optional<double> name_responses(Chosen& chosen) {
-    const double most = std::max(allowance(), tried(selection_, step_).error);
+    const double most = std::max(time_budget(), tried(selection_, step_).error);
     std::vector<std::string> others;
     for (const double times : {1.0, 1.5}) {
       Selection named = selection_;
       named.responses = times;
       std::string result;
       try {
-        const scene::Scene scene = scene::parse_scene(pool_->text(named, with_step(step_).motion), scene_.file);
+        const scene::Scene scene = scene::parse_scene(candidates_->text(named, with_step(step_).motion), scene_.file);
         const double error = error_of(scene);
         result = fmt::format("{:g} times as many: {}", times, math::percent(error));
         if (error <= most) {
@@ -339,8 +342,8 @@ class Search {
     plan.quiet = true, plan.check_range = false;
     ++trials_;
     const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
-    const double error = worst_error(result.series, truth_);
-    return std::abs(result.end - truth_.t.back()) > 2 * step_ || !std::isfinite(error) ? none : error;
+    const double error = worst_error(result.series, reference_motion_);
+    return std::abs(result.end - reference_motion_.t.back()) > 2 * step_ || !std::isfinite(error) ? none : error;
   }
 
   Chosen finished() {
@@ -350,7 +353,7 @@ class Search {
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
     double of_choice = tried(selection_, step_).error;
-    if (pool_->has_responses(selection_)) of_choice = name_responses(chosen).value_or(of_choice);
+    if (candidates_->has_responses(selection_)) of_choice = name_responses(chosen).value_or(of_choice);
     chosen.supported = richest_ + of_choice;
     decide("estimated error", math::percent(chosen.supported),
            reference_.series
@@ -363,14 +366,14 @@ class Search {
     chosen.decisions = std::move(decisions_);
     if (chosen.selection.responses == 0) {
       chosen.scene = with_step(step_);
-      if (!pool_->has_responses(selection_)) {
-        chosen.scene.text = pool_->text(selection_, chosen.scene.motion);
+      if (!candidates_->has_responses(selection_)) {
+        chosen.scene.text = candidates_->text(selection_, chosen.scene.motion);
         if (reference_.total) chosen.scene = scene::parse_scene(chosen.scene.text, scene_.file);
       }
       chosen.selection = selection_;
-      chosen.model = pool_->model(selection_, true);
+      chosen.model = candidates_->model(selection_, true);
     }
-    chosen.pool = std::move(pool_);
+    chosen.candidates = std::move(candidates_);
     chosen.trials = trials_, chosen.building = building_;
     return chosen;
   }
@@ -380,13 +383,13 @@ class Search {
   MPI_Comm comm_;
   Reference reference_;
   std::clock_t begin_;
-  std::unique_ptr<assess::Pool> pool_;
+  std::unique_ptr<assess::CandidateBasis> candidates_;
   double building_;                   // processor time [s]
   std::vector<solve::State> states_;  // of the richest model
-  Series truth_;                      // its motion, in fine steps
+  Series reference_motion_;           // its motion, in fine steps
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   double least_ = 0;  // of the richest model against a reference of another formulation
-  std::vector<assess::Participation> order_;
+  std::vector<assess::EnergyContribution> order_;
   std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
   std::size_t count_ = 0;
   double step_ = 0;
@@ -400,7 +403,7 @@ class Search {
 
 assembly::Model another_model(const Chosen& chosen, MPI_Comm comm) {
   if (chosen.selection.responses > 0) return assembly::build(chosen.scene, scene::Formulation::vm_md, comm);
-  return chosen.pool->model(chosen.selection);
+  return chosen.candidates->model(chosen.selection);
 }
 
 Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference) {

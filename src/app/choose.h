@@ -16,7 +16,7 @@ struct Decision {
 
 /// The cheapest model found of a scene within an accuracy.
 struct Chosen {
-  std::unique_ptr<assess::Pool> pool;  ///< that the model stands on
+  std::unique_ptr<assess::CandidateBasis> candidates;  ///< that the model stands on
   assess::Selection selection;
   scene::Scene scene;  ///< with the step that was chosen
   assembly::Model model;
@@ -28,7 +28,7 @@ struct Chosen {
   double richest = 0;  ///< of which the reference's: of the richest model (estimate, step, mesh), or of formulation cfr
   bool within() const { return supported <= asked; }
   int trials = 0;       ///< motions, of reduced models
-  double building = 0;  ///< processor time of the pool [s]
+  double building = 0;  ///< processor time of the candidate basis [s]
   double seconds = 0;
   std::vector<Decision> decisions;
 };
@@ -36,11 +36,11 @@ struct Chosen {
 /// Chooses columns, elastic force and step of a scene's reduced model for an error of its probes (each as a vector,
 /// root mean square over that of the probe, against the full order of the same mesh, exact in time).
 ///
-/// The richest model of a pool (assess::Pool) is moved; its error is estimated without full order
+/// The richest model of a candidate basis (assess::CandidateBasis) is moved; its error is estimated without full order
 /// (assess::estimate_error), the responses that the estimate finds join it until it is small, and its step is halved
 /// until that changes little. It then stands for the truth: cheaper models are moved, too, and measured against it.
-/// Columns go in the order of their participation, the least important first, by bisection; the step is doubled for as
-/// long as it may be; what is left of the allowance goes to columns again, and to a linear elastic force.
+/// Columns go in the order of their energy contribution, the least important first, by bisection; the step is doubled
+/// for as long as it may be; what is left of the time budget goes to columns again, and to a linear elastic force.
 ///
 /// @throws InputError  no probes; nothing to support a choice (no estimate); RunError  the richest model cannot be
 /// moved. Collective; the same on all ranks.
@@ -53,7 +53,7 @@ Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Co
 /// What models are measured against.
 struct Reference {
   bool total = false;
-  const Series* series = nullptr;  ///< null: the richest model of the pool in fine steps
+  const Series* series = nullptr;  ///< null: the richest model of the candidate basis in fine steps
   double error = 0;                ///< of it; without a series: to be added, of the mesh
 };
 /// The reduced model of a scene as it is discretised. Collective; as choose().

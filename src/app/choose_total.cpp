@@ -172,11 +172,11 @@ class TotalSearch {
       if (best == chosen_ || least > 0.9 * error) break;
       chosen_ = best, error = least;
     }
-    if (error <= wanted) spare_frames(wanted);
+    if (error <= wanted) reduce_frames(wanted);
   }
 
   /// Bodies that need no more frames than they had.
-  void spare_frames(double wanted) {
+  void reduce_frames(double wanted) {
     if (scene_.bodies.size() == 1) return;
     for (std::size_t b = 0; b < chosen_.size(); ++b) {
       if (chosen_[b].frames == scene_.bodies[b].frames) continue;

@@ -34,11 +34,13 @@ namespace {
 std::string unresolved_words(const assembly::BodyReport& body) {
   std::vector<std::size_t> which;
   double most = 0;
-  for (std::size_t i = 0; i < body.sag.size(); ++i)
-    if (body.sag[i] > assembly::greatest_sag_of_modes) which.push_back(i + 1), most = std::max(most, body.sag[i]);
+  for (std::size_t i = 0; i < body.intra_deflection.size(); ++i)
+    if (body.intra_deflection[i] > assembly::max_intra_deflection_of_modes)
+      which.push_back(i + 1), most = std::max(most, body.intra_deflection[i]);
   if (which.empty()) return "";
   const std::string modes = fmt::format("mode{} {}", which.size() > 1 ? "s" : "", fmt::join(which, ", "));
-  return fmt::format("Note: {}\n", assembly::sag_text(body.name, modes, most, assembly::greatest_sag_of_modes));
+  return fmt::format("Note: {}\n",
+                     assembly::intra_deflection_text(body.name, modes, most, assembly::max_intra_deflection_of_modes));
 }
 
 /// Numbers from 1, ascending, as `3, 7 to 9`.
@@ -206,7 +208,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     plan.choice = to_json(chosen);
     plan.measured = true;
     plan.estimate = chosen.total;
-    plan.budget = !chosen.pool->has_responses(chosen.selection);  // no scene on another mesh names them
+    plan.budget = !chosen.candidates->has_responses(chosen.selection);  // no scene on another mesh names them
     plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
     if (chosen.total) {
@@ -218,7 +220,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
       moved.warnings.push_back(fmt::format("accuracy: the {} error is not bounded: {}", part, why));
     if (explicit_scene) {
       try {
-        written = chosen.pool->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
+        written = chosen.candidates->write(chosen.selection, chosen.scene.motion, *explicit_scene, overwrite);
       } catch (const std::runtime_error& error) {  // the run stands
         moved.warnings.push_back(fmt::format("--write-scene: {}", error.what()));
       }

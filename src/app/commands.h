@@ -14,7 +14,7 @@ void modes(const scene::Scene& scene, MPI_Comm comm, const std::optional<std::st
            const std::optional<std::string>& matrices, bool overwrite);
 /// `floe check`: what would be simulated, and the mass properties of its bodies; nothing is moved.
 /// @param formulation  that the scene is built in; none: the first that it can be built in, of full order if possible
-/// @param frequencies  how many of each body to compute, free and as its modes are held
+/// @param frequencies  how many of each body to compute, free and as its modes are constrained
 /// Collective.
 void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::Formulation>& formulation = {},
            int frequencies = 0);

@@ -161,8 +161,8 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
   return result;
 }
 
-void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-              const output::ResultFolder& folder, bool estimate) {
+void solve_static(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+                  const output::ResultFolder& folder, bool estimate) {
   RunResult result;
   try {
     result = rest(scene, formulation, comm, load, folder, estimate);

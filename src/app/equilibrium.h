@@ -19,7 +19,7 @@ RunResult rest(const scene::Scene& scene, scene::Formulation formulation, MPI_Co
                const std::optional<output::ResultFolder>& folder, bool estimate);
 
 /// `floe static`: the search, and its table. Collective.
-void rest_one(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
-              const output::ResultFolder& folder, bool estimate);
+void solve_static(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm, const LoadSteps& load,
+                  const output::ResultFolder& folder, bool estimate);
 
 }  // namespace floe::app

@@ -108,7 +108,7 @@ void write_spins(output::ResultFile& file, const std::string& group, const assem
 }
 
 /// Whether local unknown x is a rotation of one of the body's own nodes.
-bool turns_node(const assembly::BodyReport& body, int x) {
+bool rotates_node(const assembly::BodyReport& body, int x) {
   const int at = x - body.first_dof;
   return body.dimension == 3 && body.first_dof >= 0 && at >= 0 && at < 6 * static_cast<int>(body.positions.size() / 3);
 }
@@ -125,9 +125,9 @@ petsc::VecHandle shown_state(const assembly::Model& model, Vec U) {
   petsc::Values values(shown);
   for (const auto& [x, attitude] : model.system->attitudes())
     for (const assembly::BodyReport& body : model.bodies) {
-      if (!turns_node(body, x)) continue;
-      const Eigen::Matrix3d turn = attitude->axes(q.segment<3>(x)) * body.axes.transpose();
-      const Eigen::Vector3d vector = math::rotation_vector(Eigen::Quaterniond(turn).normalized());
+      if (!rotates_node(body, x)) continue;
+      const Eigen::Matrix3d rotation = attitude->axes(q.segment<3>(x)) * body.axes.transpose();
+      const Eigen::Vector3d vector = math::rotation_vector(Eigen::Quaterniond(rotation).normalized());
       for (int i = 0; i < 3; ++i) values[model.system->coordinates().global()[x + i]] = vector[i];
     }
   return shown;

@@ -20,7 +20,7 @@ void write_bodies(output::ResultFile& file, const assembly::Model& model);
 void write_deviation(output::ResultFile& file, const assembly::Model& model, const assess::Estimate& estimate);
 
 /// U as files have it: of corotational nodes in space the rotation vector of the whole turn of the node's frame from
-/// the undeformed body, world axes, where U has the turn within a step (dynamics::Attitude). Null: U itself.
+/// the undeformed body, world axes, where U has the rotation within a step (dynamics::Attitude). Null: U itself.
 /// Collective.
 petsc::VecHandle shown_state(const assembly::Model& model, Vec U);
 

@@ -43,7 +43,7 @@ Recorder::Recorder(const scene::Scene& scene, const assembly::Model& model, MPI_
     identity_["checkpoint"] = {{"steps", checkpoint_every_.steps}, {"seconds", checkpoint_every_.seconds}};
   }
   if (plan.from) {
-    take_up_files(*plan.from);
+    continue_files(*plan.from);
     return;
   }
   output::remove_replaced(comm, *folder_);
@@ -94,7 +94,7 @@ std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_seri
 }
 
 /// Everything as it was at the checkpoint; what was written after it is lost, and comes again.
-void Recorder::take_up_files(const output::Checkpoint& from) {
+void Recorder::continue_files(const output::Checkpoint& from) {
   const std::vector<double>& record = from.shared.at("record");
   const auto rows = static_cast<std::int64_t>(record[0]);
   energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];

@@ -41,7 +41,7 @@ class Recorder {
 
  private:
   void open_files();
-  void take_up_files(const output::Checkpoint& from);
+  void continue_files(const output::Checkpoint& from);
   std::int64_t expected_rows() const;
   std::vector<std::tuple<std::string, PetscInt, output::Label>> all_series() const;
   void write_checkpoint(const solve::Instant& instant);

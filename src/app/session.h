@@ -15,9 +15,9 @@ struct CommandLine {
 /// scene or the command.
 CommandLine split(int argc, char** argv);
 
-/// Runs `work` of a command between SlepcInitialize and SlepcFinalize and turns what it throws into messages (rank 0,
-/// stderr) and an exit code: 0, 1 RunError, 2 InputError. A fault of one rank alone, which the others do not learn of,
-/// ends them all.
+/// Runs `work` of a command between SlepcInitialize and SlepcFinalize and converts what it throws into messages (rank
+/// 0, stderr) and an exit code: 0, 1 RunError, 2 InputError. A fault of one rank alone, which the others do not learn
+/// of, ends them all.
 int in_session(const CommandLine& line, const std::string& command, const std::function<void()>& work);
 
 }  // namespace floe::app

@@ -41,10 +41,11 @@ std::string why_not_cfr(const TradeoffReference& reference) {
   return reference.why.empty() ? "--reference nlffr" : reference.why;
 }
 
-std::string fastest_words(const std::vector<Rung>& rungs, std::optional<std::size_t> chosen, double accuracy) {
+std::string fastest_words(const std::vector<ModelVariant>& variants, std::optional<std::size_t> chosen,
+                          double accuracy) {
   if (!chosen) return fmt::format("No model has an error of at most {}", math::percent(accuracy));
   return fmt::format("Fastest model with an error of at most {}: {} ({}), {}", math::percent(accuracy),
-                     rungs[*chosen].name, rungs[*chosen].formulation, math::percent(rungs[*chosen].worst()));
+                     variants[*chosen].name, variants[*chosen].formulation, math::percent(variants[*chosen].worst()));
 }
 
 }  // namespace
@@ -56,7 +57,7 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
   MPI_Comm_size(comm, &size);
   const scene::Scene scene = at_equal_times(as_written);
   const output::ResultFolder folder = output::prepare_folder(comm, path, overwrite);
-  std::vector<Rung> rungs;
+  std::vector<ModelVariant> variants;
   TradeoffReference reference;
   std::vector<std::string> names;
   try {
@@ -67,32 +68,32 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
       throw InputError(scene.file + ": probes: there are none; expected the quantities that a trade-off compares");
     names = probes(own.series.columns);
     reference = tradeoff_reference(scene, request, own.series, comm);
-    rungs = TradeoffRun(scene, request, reference, own, why_not_cfr(reference), comm).climb_all(ladder(scene));
+    variants = TradeoffRun(scene, request, reference, own, why_not_cfr(reference), comm).evaluate_all(hierarchy(scene));
   } catch (const std::exception&) {
     output::discard_if_empty(folder);
     throw;
   }
-  const std::optional<std::size_t> chosen = choice(rungs, request.accuracy);
+  const std::optional<std::size_t> chosen = choice(variants, request.accuracy);
   ordered_json j;
   j["title"] = scene.title.empty() ? scene.file : scene.title;
   j["probes"] = names;
   j["accuracy"] = request.accuracy;
   j["reference"] = to_json(reference);
-  for (const Rung& rung : rungs) j["rungs"].push_back(to_json(rung));
-  j["pareto_front"] = pareto_front(rungs);
+  for (const ModelVariant& variant : variants) j["rungs"].push_back(to_json(variant));
+  j["pareto_front"] = pareto_front(variants);
   if (chosen) j["choice"] = *chosen;
   j["ranks"] = size;
   j["provenance"] = output::provenance(comm);
   output::remove_replaced(comm, folder);
   petsc::agree(comm, [&] {
     if (rank != 0) return;
-    const output::Table table = tradeoff_table(names, rungs, false), choices = selections_table(rungs);
+    const output::Table table = tradeoff_table(names, variants, false), choices = selections_table(variants);
     const std::string text = words(request, reference, size);
-    const std::string fastest = fastest_words(rungs, chosen, request.accuracy);
+    const std::string fastest = fastest_words(variants, chosen, request.accuracy);
     std::string page = output::to_markdown(table) + "\n" + text + "\n\n" + fastest + ".\n";
     if (!choices.rows.empty()) page += "\nModels selected by `accuracy:`\n\n" + output::to_markdown(choices);
     output::write_file_atomically(folder.path / "tradeoff.json", j.dump(2));
-    output::write_file_atomically(folder.path / "tradeoff.csv", output::to_csv(tradeoff_table(names, rungs, true)));
+    output::write_file_atomically(folder.path / "tradeoff.csv", output::to_csv(tradeoff_table(names, variants, true)));
     output::write_file_atomically(folder.path / "tradeoff.md", page);
     fmt::print("{}\n{}\n\n", output::to_text(table), text);
     if (!choices.rows.empty()) fmt::print("Models selected by accuracy:\n{}\n", output::to_text(choices));

@@ -23,10 +23,10 @@ struct Candidate {
 /// twice and half as long, strains, other steps and settings of the integrator, full-order models (nlffr, lffr, cfr) of
 /// such meshes, frames and steps, and the models that floe selects for a total error of 5 %, 1 % and 0.2 % (family
 /// `accuracy`). The scene's own model is among them (family `scene`).
-std::vector<Candidate> ladder(const scene::Scene& scene);
+std::vector<Candidate> hierarchy(const scene::Scene& scene);
 
 /// What became of a member, against the reference.
-struct Rung {
+struct ModelVariant {
   std::string family, name, formulation;
   std::string stopped;  ///< why there are no errors: `diverged at t = 1.2 s`
   std::int64_t coordinates = 0;
@@ -42,11 +42,11 @@ struct Rung {
   double worst() const;             ///< greatest total of all probes; infinity where there is none
 };
 
-/// Numbers of `rungs` such that no other one is both cheaper (motion) and more accurate; the cheapest first.
-std::vector<std::size_t> pareto_front(const std::vector<Rung>& rungs);
+/// Numbers of `model variants` such that no other one is both cheaper (motion) and more accurate; the cheapest first.
+std::vector<std::size_t> pareto_front(const std::vector<ModelVariant>& variants);
 
-/// The cheapest rung with errors of at most `accuracy`, if there is one.
-std::optional<std::size_t> choice(const std::vector<Rung>& rungs, double accuracy);
+/// The cheapest model variant with errors of at most `accuracy`, if there is one.
+std::optional<std::size_t> choice(const std::vector<ModelVariant>& variants, double accuracy);
 
 struct TradeoffRequest {
   std::optional<scene::Formulation> reference;  ///< absent: cfr where it can simulate the scene, else nlffr

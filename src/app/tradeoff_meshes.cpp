@@ -4,8 +4,8 @@
 
 #include "discretisation.h"
 #include "floe/assess/budget.h"
+#include "model_hierarchy.h"
 #include "refined.h"
-#include "tradeoff_ladder.h"
 
 namespace floe::app {
 

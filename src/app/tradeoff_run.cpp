@@ -112,20 +112,20 @@ TradeoffRun::TradeoffRun(const Scene& scene, const TradeoffRequest& request, con
   full_[full_order_key(scene)] = own.series;
 }
 
-Rung TradeoffRun::measured(const RunResult& result) const {
-  Rung rung;
-  rung.coordinates = result.coordinates, rung.steps = result.steps;
-  rung.offline = result.offline_seconds, rung.motion = result.motion_processor;
-  rung.total = vector_errors(result.series, reference_.series);
-  rung.peak = peak_errors(result.series, reference_.series);
-  rung.energy = relative_energy_error(result.series, reference_.series).value_or(0);
+ModelVariant TradeoffRun::measured(const RunResult& result) const {
+  ModelVariant variant;
+  variant.coordinates = result.coordinates, variant.steps = result.steps;
+  variant.offline = result.offline_seconds, variant.motion = result.motion_processor;
+  variant.total = vector_errors(result.series, reference_.series);
+  variant.peak = peak_errors(result.series, reference_.series);
+  variant.energy = relative_energy_error(result.series, reference_.series).value_or(0);
   const double end = reference_.series.t.back();
-  if (!std::isfinite(rung.energy) ||
-      std::any_of(rung.total.begin(), rung.total.end(), [](double e) { return !(e < 1e3); }))
-    rung.stopped = "errors above 1e5 %";
+  if (!std::isfinite(variant.energy) ||
+      std::any_of(variant.total.begin(), variant.total.end(), [](double e) { return !(e < 1e3); }))
+    variant.stopped = "errors above 1e5 %";
   else if (std::abs(result.end - end) > 1e-2 * end)
-    rung.stopped = fmt::format("ends at t = {:.4g} s instead of {:.4g} s", result.end, end);
-  return rung;
+    variant.stopped = fmt::format("ends at t = {:.4g} s instead of {:.4g} s", result.end, end);
+  return variant;
 }
 
 /// About, by that of the scene's own mesh and step [s].
@@ -136,22 +136,23 @@ double TradeoffRun::full_order_seconds(const Scene& scene) const {
 }
 
 /// The part of the error that is due to the reduction, where the full-order model is known or cheap.
-void TradeoffRun::compare_with_full_order(const Scene& scene, const Series& series, MPI_Comm comm, Rung& rung) const {
+void TradeoffRun::compare_with_full_order(const Scene& scene, const Series& series, MPI_Comm comm,
+                                          ModelVariant& variant) const {
   const auto known = full_.find(full_order_key(scene));
   if (known != full_.end()) {
-    rung.reduction = vector_errors(series, known->second);
+    variant.reduction = vector_errors(series, known->second);
     return;
   }
   if (scene.motion.tolerance || full_order_seconds(scene) > request_.most_seconds) return;
   try {
-    rung.reduction = vector_errors(series, quiet_motion(as_flexible(scene, scene_), Formulation::nlffr, comm));
+    variant.reduction = vector_errors(series, quiet_motion(as_flexible(scene, scene_), Formulation::nlffr, comm));
   } catch (const std::runtime_error&) {  // the full-order model fails: there is no such part
     if (Interruption::happened(comm)) throw;
   }
 }
 
 /// Of a summary: the estimated total of all probes, and what it lacks.
-void TradeoffRun::take_estimate(const ordered_json& estimate, Rung& rung) const {
+void TradeoffRun::take_estimate(const ordered_json& estimate, ModelVariant& variant) const {
   if (!estimate.is_object() || !estimate.contains("total") || !estimate["total"].contains("probes")) return;
   const ordered_json& total = estimate["total"];
   std::vector<double> all;
@@ -165,7 +166,7 @@ void TradeoffRun::take_estimate(const ordered_json& estimate, Rung& rung) const 
   for (const auto& [probe, parts] : missing.items())
     for (const auto& part : parts)
       if (std::find(lacks.begin(), lacks.end(), part) == lacks.end()) lacks.push_back(part);
-  rung.estimate = all, rung.lacks = fmt::format("{}", fmt::join(lacks, ", "));
+  variant.estimate = all, variant.lacks = fmt::format("{}", fmt::join(lacks, ", "));
 }
 
 TradeoffRun::Climbed TradeoffRun::simulated(const Candidate& member, MPI_Comm comm) const {
@@ -175,14 +176,14 @@ TradeoffRun::Climbed TradeoffRun::simulated(const Candidate& member, MPI_Comm co
   plan.estimate = reduced && member.family != "rigid";  // else rigid bodies are no approximation
   const RunResult result = run(member.scene, member.formulation, comm, std::nullopt, plan);
   Climbed climbed{measured(result), result.series};
-  Rung& rung = climbed.rung;
+  ModelVariant& variant = climbed.variant;
   if (!reduced) return climbed;
-  take_estimate(result.summary.value("estimate", ordered_json()), rung);
-  compare_with_full_order(member.scene, result.series, comm, rung);
+  take_estimate(result.summary.value("estimate", ordered_json()), variant);
+  compare_with_full_order(member.scene, result.series, comm, variant);
   plan.estimate = false;
-  for (int again = 0; again < 2 && rung.motion < short_motion && rung.offline < short_offline; ++again)
-    rung.motion =
-        std::min(rung.motion, run(member.scene, member.formulation, comm, std::nullopt, plan).motion_processor);
+  for (int again = 0; again < 2 && variant.motion < short_motion && variant.offline < short_offline; ++again)
+    variant.motion =
+        std::min(variant.motion, run(member.scene, member.formulation, comm, std::nullopt, plan).motion_processor);
   return climbed;
 }
 
@@ -192,44 +193,44 @@ TradeoffRun::Climbed TradeoffRun::selected(const Candidate& member, MPI_Comm com
   Chosen chosen = choose(member.scene, {member.accuracy, true}, comm);
   const RunResult result = move(chosen.scene, chosen.model, chosen.seconds, comm, std::nullopt, plan);
   Climbed climbed{measured(result), result.series};
-  Rung& rung = climbed.rung;
-  rung.required = member.accuracy, rung.selected = words_of_choice(chosen);
-  rung.estimate.assign(probes_.size(), chosen.supported);
+  ModelVariant& variant = climbed.variant;
+  variant.required = member.accuracy, variant.selected = words_of_choice(chosen);
+  variant.estimate.assign(probes_.size(), chosen.supported);
   std::vector<std::string> lacks;
   for (const auto& [part, why] : chosen.unbounded) lacks.push_back(part);
-  rung.lacks = fmt::format("{}", fmt::join(lacks, ", "));
-  compare_with_full_order(chosen.scene, result.series, comm, rung);
-  for (int again = 0; again < 2 && rung.motion < short_motion; ++again) {
+  variant.lacks = fmt::format("{}", fmt::join(lacks, ", "));
+  compare_with_full_order(chosen.scene, result.series, comm, variant);
+  for (int again = 0; again < 2 && variant.motion < short_motion; ++again) {
     assembly::Model model = another_model(chosen, comm);
-    rung.motion = std::min(rung.motion, move(chosen.scene, model, 0, comm, std::nullopt, plan).motion_processor);
+    variant.motion = std::min(variant.motion, move(chosen.scene, model, 0, comm, std::nullopt, plan).motion_processor);
   }
   return climbed;
 }
 
-TradeoffRun::Climbed TradeoffRun::climb(const Candidate& member, MPI_Comm comm) const {
+TradeoffRun::Climbed TradeoffRun::evaluate(const Candidate& member, MPI_Comm comm) const {
   Climbed climbed;
   const bool full_order = member.formulation == Formulation::nlffr || member.formulation == Formulation::lffr;
   const double seconds = full_order_seconds(member.scene);
   if (!member.impossible.empty()) {
-    climbed.rung.stopped = short_reason(member.impossible);
+    climbed.variant.stopped = short_reason(member.impossible);
   } else if (member.formulation == Formulation::cfr && !no_cfr_.empty()) {
-    climbed.rung.stopped = "not simulated: " + no_cfr_;
+    climbed.variant.stopped = "not simulated: " + no_cfr_;
   } else if (full_order && seconds > std::max(1.01 * own_.motion_processor, request_.most_seconds)) {
-    climbed.rung.stopped =
+    climbed.variant.stopped =
         fmt::format("not simulated: would take about {:.2g} s (limit {:.2g} s)", seconds, request_.most_seconds);
   } else {
     try {
       climbed = member.accuracy > 0 ? selected(member, comm) : simulated(member, comm);
     } catch (const InputError& error) {
-      climbed.rung.stopped = short_reason(error.what());
+      climbed.variant.stopped = short_reason(error.what());
     } catch (const RunError& error) {
       if (Interruption::happened(comm)) throw;
-      climbed.rung.stopped = short_reason(error.what());
+      climbed.variant.stopped = short_reason(error.what());
     }
   }
-  Rung& rung = climbed.rung;
-  rung.family = member.family, rung.name = member.name, rung.formulation = scene::name_of(member.formulation);
-  rung.required = member.accuracy;
+  ModelVariant& variant = climbed.variant;
+  variant.family = member.family, variant.name = member.name, variant.formulation = scene::name_of(member.formulation);
+  variant.required = member.accuracy;
   return climbed;
 }
 
@@ -240,20 +241,20 @@ std::vector<TradeoffRun::Climbed> TradeoffRun::climb_some(const std::vector<cons
   std::vector<Climbed> all(members.size());
   petsc::agree(comm_, [&] {
     for (std::size_t i = rank; i < members.size(); i += size)
-      all[i] = climb(*members[i], size > 1 ? PETSC_COMM_SELF : comm_);
+      all[i] = evaluate(*members[i], size > 1 ? PETSC_COMM_SELF : comm_);
   });
   for (std::size_t i = 0; size > 1 && i < members.size(); ++i) {
     const int owner = static_cast<int>(i) % size;
-    std::string text = rank == owner ? to_json(all[i].rung).dump() : "";
+    std::string text = rank == owner ? to_json(all[i].variant).dump() : "";
     broadcast(text, owner, comm_);
-    all[i].rung = rung_of(ordered_json::parse(text));
+    all[i].variant = variant_of(ordered_json::parse(text));
     if (members[i]->formulation == Formulation::nlffr) broadcast(all[i].series, owner, comm_);
   }
   return all;
 }
 
-std::vector<Rung> TradeoffRun::climb_all(const std::vector<Candidate>& members) {
-  std::vector<Rung> rungs(members.size());
+std::vector<ModelVariant> TradeoffRun::evaluate_all(const std::vector<Candidate>& members) {
+  std::vector<ModelVariant> variants(members.size());
   for (const bool full_order : {true, false}) {
     std::vector<const Candidate*> some;
     std::vector<std::size_t> places;
@@ -261,12 +262,12 @@ std::vector<Rung> TradeoffRun::climb_all(const std::vector<Candidate>& members) 
       if (scene::is_reduced(members[i].formulation) != full_order) some.push_back(&members[i]), places.push_back(i);
     std::vector<Climbed> climbed = climb_some(some);
     for (std::size_t i = 0; i < some.size(); ++i) {
-      if (some[i]->formulation == Formulation::nlffr && climbed[i].rung.stopped.empty())
+      if (some[i]->formulation == Formulation::nlffr && climbed[i].variant.stopped.empty())
         full_[full_order_key(some[i]->scene)] = std::move(climbed[i].series);
-      rungs[places[i]] = climbed[i].rung;
+      variants[places[i]] = climbed[i].variant;
     }
   }
-  return rungs;
+  return variants;
 }
 
 }  // namespace floe::app

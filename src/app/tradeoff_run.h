@@ -18,22 +18,23 @@ class TradeoffRun {
               const RunResult& own, const std::string& no_cfr, MPI_Comm comm);
 
   /// Full-order members first: reduced ones are compared with them. Every rank takes each so many of the members; all
-  /// ranks get all rungs, in the order of the members. Collective.
-  std::vector<Rung> climb_all(const std::vector<Candidate>& members);
+  /// ranks get all model variants, in the order of the members. Collective.
+  std::vector<ModelVariant> evaluate_all(const std::vector<Candidate>& members);
 
  private:
   struct Climbed {
-    Rung rung;
+    ModelVariant variant;
     Series series;  // of full-order models
   };
   std::vector<Climbed> climb_some(const std::vector<const Candidate*>& members);
-  Climbed climb(const Candidate& member, MPI_Comm comm) const;
+  Climbed evaluate(const Candidate& member, MPI_Comm comm) const;
   Climbed simulated(const Candidate& member, MPI_Comm comm) const;
   Climbed selected(const Candidate& member, MPI_Comm comm) const;
-  Rung measured(const RunResult& result) const;
-  void compare_with_full_order(const scene::Scene& scene, const Series& series, MPI_Comm comm, Rung& rung) const;
+  ModelVariant measured(const RunResult& result) const;
+  void compare_with_full_order(const scene::Scene& scene, const Series& series, MPI_Comm comm,
+                               ModelVariant& variant) const;
   double full_order_seconds(const scene::Scene& scene) const;
-  void take_estimate(const nlohmann::ordered_json& estimate, Rung& rung) const;
+  void take_estimate(const nlohmann::ordered_json& estimate, ModelVariant& variant) const;
 
   const scene::Scene& scene_;
   const TradeoffRequest& request_;

@@ -26,24 +26,24 @@ double greatest_error(const std::vector<double>& errors) {
 
 }  // namespace
 
-double Rung::worst() const { return stopped.empty() ? greatest_error(total) : infinite; }
+double ModelVariant::worst() const { return stopped.empty() ? greatest_error(total) : infinite; }
 
-std::vector<std::size_t> pareto_front(const std::vector<Rung>& rungs) {
+std::vector<std::size_t> pareto_front(const std::vector<ModelVariant>& variants) {
   std::vector<std::size_t> order, front;
-  for (std::size_t i = 0; i < rungs.size(); ++i)
-    if (std::isfinite(rungs[i].worst())) order.push_back(i);
+  for (std::size_t i = 0; i < variants.size(); ++i)
+    if (std::isfinite(variants[i].worst())) order.push_back(i);
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::pair(rungs[a].motion, rungs[a].worst()) < std::pair(rungs[b].motion, rungs[b].worst());
+    return std::pair(variants[a].motion, variants[a].worst()) < std::pair(variants[b].motion, variants[b].worst());
   });
   for (const std::size_t i : order)
-    if (front.empty() || rungs[i].worst() < rungs[front.back()].worst()) front.push_back(i);
+    if (front.empty() || variants[i].worst() < variants[front.back()].worst()) front.push_back(i);
   return front;
 }
 
-std::optional<std::size_t> choice(const std::vector<Rung>& rungs, double accuracy) {
-  const std::vector<std::size_t> front = pareto_front(rungs);
+std::optional<std::size_t> choice(const std::vector<ModelVariant>& variants, double accuracy) {
+  const std::vector<std::size_t> front = pareto_front(variants);
   const auto found =
-      std::find_if(front.begin(), front.end(), [&](std::size_t i) { return rungs[i].worst() <= accuracy; });
+      std::find_if(front.begin(), front.end(), [&](std::size_t i) { return variants[i].worst() <= accuracy; });
   return found == front.end() ? std::nullopt : std::optional(*found);
 }
 
@@ -64,46 +64,49 @@ output::Cell per_cent(const std::vector<double>& errors, std::size_t p) {
 }
 
 /// The estimate, with a mark where it lacks a part.
-output::Cell estimated(const Rung& rung) {
-  const output::Cell cell = per_cent(rung.estimate);
-  if (rung.lacks.empty() || !std::holds_alternative<double>(cell)) return cell;
+output::Cell estimated(const ModelVariant& variant) {
+  const output::Cell cell = per_cent(variant.estimate);
+  if (variant.lacks.empty() || !std::holds_alternative<double>(cell)) return cell;
   return math::rounded(std::get<double>(cell), 2) + " *";
 }
 
-double per_step(const Rung& rung) { return 1e6 * rung.motion / std::max<double>(1, static_cast<double>(rung.steps)); }
-
-std::vector<output::Cell> short_cells(const Rung& rung, const output::Cell& place) {
-  if (!rung.stopped.empty())
-    return {rung.name + ": " + rung.stopped, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
-  return {rung.name,
-          place,
-          rung.coordinates,
-          per_step(rung),
-          rung.motion,
-          per_cent(rung.reduction),
-          per_cent(rung.total),
-          estimated(rung)};
+double per_step(const ModelVariant& variant) {
+  return 1e6 * variant.motion / std::max<double>(1, static_cast<double>(variant.steps));
 }
 
-std::vector<output::Cell> all_cells(const Rung& rung, const output::Cell& place, std::size_t probes) {
-  const bool ended = rung.stopped.empty();
-  std::vector<output::Cell> row = {rung.family, rung.name, rung.formulation, place};
+std::vector<output::Cell> short_cells(const ModelVariant& variant, const output::Cell& place) {
+  if (!variant.stopped.empty())
+    return {variant.name + ": " + variant.stopped, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
+  return {variant.name,
+          place,
+          variant.coordinates,
+          per_step(variant),
+          variant.motion,
+          per_cent(variant.reduction),
+          per_cent(variant.total),
+          estimated(variant)};
+}
+
+std::vector<output::Cell> all_cells(const ModelVariant& variant, const output::Cell& place, std::size_t probes) {
+  const bool ended = variant.stopped.empty();
+  std::vector<output::Cell> row = {variant.family, variant.name, variant.formulation, place};
   if (ended)
-    row.insert(row.end(), {rung.coordinates, rung.offline, per_step(rung), rung.motion});
+    row.insert(row.end(), {variant.coordinates, variant.offline, per_step(variant), variant.motion});
   else
     row.insert(row.end(), 4, nothing);
   for (std::size_t p = 0; p < probes; ++p)
-    for (const auto* errors : {&rung.reduction, &rung.total, &rung.estimate, &rung.peak})
+    for (const auto* errors : {&variant.reduction, &variant.total, &variant.estimate, &variant.peak})
       row.push_back(ended ? per_cent(*errors, p) : nothing);
-  row.push_back(ended ? per_cent(rung.energy) : nothing);
-  row.push_back(rung.lacks);
-  row.push_back(rung.stopped);
+  row.push_back(ended ? per_cent(variant.energy) : nothing);
+  row.push_back(variant.lacks);
+  row.push_back(variant.stopped);
   return row;
 }
 
 }  // namespace
 
-output::Table tradeoff_table(const std::vector<std::string>& probes, const std::vector<Rung>& rungs, bool full) {
+output::Table tradeoff_table(const std::vector<std::string>& probes, const std::vector<ModelVariant>& variants,
+                             bool full) {
   output::Table table;
   if (full) {
     table.columns = {{"family", ""},   {"model", ""},       {"formulation", ""},   {"front", ""},
@@ -118,37 +121,37 @@ output::Table tradeoff_table(const std::vector<std::string>& probes, const std::
     table.columns = {{"model", ""},          {"front", ""},         {"unknowns", ""},  {"per step", "us", 3},
                      {"simulation", "s", 3}, {"reduction", "%", 2}, {"total", "%", 2}, {"estimate", "%", 2}};
   }
-  const std::vector<std::size_t> front = pareto_front(rungs);
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
+  const std::vector<std::size_t> front = pareto_front(variants);
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     const auto at = std::find(front.begin(), front.end(), i);
     const output::Cell place =
         at == front.end() ? nothing : output::Cell(static_cast<std::int64_t>(at - front.begin() + 1));
-    table.rows.push_back(full ? all_cells(rungs[i], place, probes.size()) : short_cells(rungs[i], place));
+    table.rows.push_back(full ? all_cells(variants[i], place, probes.size()) : short_cells(variants[i], place));
   }
   return table;
 }
 
-output::Table selections_table(const std::vector<Rung>& rungs) {
+output::Table selections_table(const std::vector<ModelVariant>& variants) {
   output::Table table;
   table.columns = {{"required", "%", 2},  {"true", "%", 2},      {"estimated", "%", 2},
                    {"model", ""},         {"per step", "us", 3}, {"simulation", "s", 3},
                    {"selection", "s", 2}, {"time ratio", "", 2}, {"to the fastest other model as accurate", ""}};
-  for (const Rung& rung : rungs) {
-    if (rung.required == 0) continue;
-    std::vector<output::Cell> row = {100 * rung.required};
-    if (!rung.stopped.empty()) {
-      row.insert(row.end(), {nothing, nothing, rung.stopped, nothing, nothing, nothing, nothing, nothing});
+  for (const ModelVariant& variant : variants) {
+    if (variant.required == 0) continue;
+    std::vector<output::Cell> row = {100 * variant.required};
+    if (!variant.stopped.empty()) {
+      row.insert(row.end(), {nothing, nothing, variant.stopped, nothing, nothing, nothing, nothing, nothing});
       table.rows.push_back(row);
       continue;
     }
-    const Rung* fastest = nullptr;
-    for (const Rung& other : rungs)
-      if (other.required == 0 && other.worst() <= rung.required && (!fastest || other.motion < fastest->motion))
+    const ModelVariant* fastest = nullptr;
+    for (const ModelVariant& other : variants)
+      if (other.required == 0 && other.worst() <= variant.required && (!fastest || other.motion < fastest->motion))
         fastest = &other;
-    row.insert(row.end(),
-               {per_cent(rung.worst()), estimated(rung), rung.selected, per_step(rung), rung.motion, rung.offline,
-                fastest ? output::Cell(rung.motion / fastest->motion) : output::Cell(std::string("-")),
-                fastest ? fastest->name : std::string("there is none")});
+    row.insert(row.end(), {per_cent(variant.worst()), estimated(variant), variant.selected, per_step(variant),
+                           variant.motion, variant.offline,
+                           fastest ? output::Cell(variant.motion / fastest->motion) : output::Cell(std::string("-")),
+                           fastest ? fastest->name : std::string("there is none")});
     table.rows.push_back(row);
   }
   return table;
@@ -170,35 +173,37 @@ std::vector<double> numbers_of(const ordered_json& j) {
 
 }  // namespace
 
-ordered_json to_json(const Rung& rung) {
-  ordered_json j = {{"family", rung.family},
-                    {"name", rung.name},
-                    {"formulation", rung.formulation},
-                    {"stopped", rung.stopped},
-                    {"unknowns", rung.coordinates},
-                    {"offline", rung.offline},
-                    {"motion", rung.motion},
-                    {"steps", rung.steps},
-                    {"total", numbers(rung.total)},
-                    {"reduction", numbers(rung.reduction)},
-                    {"peak", numbers(rung.peak)},
-                    {"energy", numbers({rung.energy})},
-                    {"estimate", numbers(rung.estimate)},
-                    {"estimate_lacks", rung.lacks}};
-  if (rung.required > 0) j["required"] = rung.required, j["selected"] = rung.selected;
+ordered_json to_json(const ModelVariant& variant) {
+  ordered_json j = {{"family", variant.family},
+                    {"name", variant.name},
+                    {"formulation", variant.formulation},
+                    {"stopped", variant.stopped},
+                    {"unknowns", variant.coordinates},
+                    {"offline", variant.offline},
+                    {"motion", variant.motion},
+                    {"steps", variant.steps},
+                    {"total", numbers(variant.total)},
+                    {"reduction", numbers(variant.reduction)},
+                    {"peak", numbers(variant.peak)},
+                    {"energy", numbers({variant.energy})},
+                    {"estimate", numbers(variant.estimate)},
+                    {"estimate_lacks", variant.lacks}};
+  if (variant.required > 0) j["required"] = variant.required, j["selected"] = variant.selected;
   return j;
 }
 
-Rung rung_of(const ordered_json& j) {
-  Rung rung;
-  rung.family = j["family"], rung.name = j["name"], rung.formulation = j["formulation"], rung.stopped = j["stopped"];
-  rung.coordinates = j["unknowns"], rung.steps = j["steps"];
-  rung.offline = j["offline"], rung.motion = j["motion"];
-  rung.total = numbers_of(j["total"]), rung.reduction = numbers_of(j["reduction"]), rung.peak = numbers_of(j["peak"]);
-  rung.energy = numbers_of(j["energy"]).at(0), rung.estimate = numbers_of(j["estimate"]);
-  rung.lacks = j["estimate_lacks"], rung.required = j.value("required", 0.0);
-  rung.selected = j.value("selected", std::string());
-  return rung;
+ModelVariant variant_of(const ordered_json& j) {
+  ModelVariant variant;
+  variant.family = j["family"], variant.name = j["name"], variant.formulation = j["formulation"],
+  variant.stopped = j["stopped"];
+  variant.coordinates = j["unknowns"], variant.steps = j["steps"];
+  variant.offline = j["offline"], variant.motion = j["motion"];
+  variant.total = numbers_of(j["total"]), variant.reduction = numbers_of(j["reduction"]),
+  variant.peak = numbers_of(j["peak"]);
+  variant.energy = numbers_of(j["energy"]).at(0), variant.estimate = numbers_of(j["estimate"]);
+  variant.lacks = j["estimate_lacks"], variant.required = j.value("required", 0.0);
+  variant.selected = j.value("selected", std::string());
+  return variant;
 }
 
 ordered_json to_json(const TradeoffReference& reference) {

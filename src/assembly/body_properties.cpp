@@ -33,9 +33,9 @@ BodyProperties::Box box_of(const fem::Mesh& mesh, const Eigen::Isometry3d& frame
   return box;
 }
 
-std::vector<double> frequencies_of(const PlannedBody& body, const fem::Conditions& held, const fem::Holding& holding,
-                                   int count) {
-  const fem::Holding for_statics = fem::holding(body.structure, body.frame, held);
+std::vector<double> frequencies_of(const PlannedBody& body, const fem::Conditions& constrained,
+                                   const fem::Holding& holding, int count) {
+  const fem::Holding for_statics = fem::holding(body.structure, body.frame, constrained);
   const reduction::Statics statics(body.structure, body.frame, for_statics);
   reduction::ModeSolver solver(body.structure, body.frame, holding, statics);
   const auto most = static_cast<int>(std::min<PetscInt>(count, solver.available()));
@@ -54,8 +54,8 @@ std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, i
     if (body.spec.reduced) {
       const ReducedBody reduced = from_file(body, Formulation::vm_md);
       set_mass(reduced.body.inertia, Eigen::Isometry3d::Identity(), found);
-      if (frequencies > 0) found.held = reduced.report.omega;
-      if (std::ssize(found.held) > frequencies) found.held.resize(frequencies);
+      if (frequencies > 0) found.constrained = reduced.report.omega;
+      if (std::ssize(found.constrained) > frequencies) found.constrained.resize(frequencies);
       continue;
     }
     const Eigen::Isometry3d frame = frame_in_mesh(body);
@@ -64,7 +64,8 @@ std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, i
     if (body.spec.rigid || frequencies == 0) continue;
     found.free = frequencies_of(body, {}, fem::holding(body.structure, body.frame, {}), frequencies);
     const fem::Holding of_modes = holding_of_modes(body);
-    if (!of_modes.held.empty()) found.held = frequencies_of(body, held_by_modes(body), of_modes, frequencies);
+    if (!of_modes.constrained.empty())
+      found.constrained = frequencies_of(body, constrained_by_modes(body), of_modes, frequencies);
   }
   return all;
 }

@@ -85,23 +85,24 @@ void generate(const Plan& plan, int index, int modes, Stage& stage, BodyReport& 
   report.residual = stage.generators.modes.residual;
   report.left_out = stage.generators.modes.left_out;
   report.free_motions = static_cast<int>(stage.for_modes.left.cols());
-  report.sag.clear();
+  report.intra_deflection.clear();
   if (body.structure.dimension() == 3)
     for (const petsc::VecHandle& shape : stage.generators.modes.shapes)  // one by one, for their memory
-      report.sag.push_back(fem::sags(body.structure, fem::gather(body.structure, 1, [&](Eigen::Index, double* local) {
-                                       body.structure.exchange.gather(shape, local);
-                                     }))[0]);
+      report.intra_deflection.push_back(
+          fem::intra_deflections(body.structure, fem::gather(body.structure, 1, [&](Eigen::Index, double* local) {
+                                   body.structure.exchange.gather(shape, local);
+                                 }))[0]);
   report.seconds_modes = MPI_Wtime() - start;
 }
 
 fem::Holding holding_of_modes(const PlannedBody& body) {
-  return fem::holding(body.structure, body.frame, of_frame(body) ? body.frame.conditions : held_by_modes(body));
+  return fem::holding(body.structure, body.frame, of_frame(body) ? body.frame.conditions : constrained_by_modes(body));
 }
 
 void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report) {
   const PlannedBody& body = plan.bodies[index];
   check_interface(plan, index);
-  stage.for_statics = fem::holding(body.structure, body.frame, held_by_modes(body));
+  stage.for_statics = fem::holding(body.structure, body.frame, constrained_by_modes(body));
   stage.for_modes = of_frame(body) ? holding_of_modes(body) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
@@ -154,9 +155,9 @@ std::vector<std::string> keep_named(const PlannedBody& body, Stage& stage) {
     all.push_back(origin.label), stage.left_out.push_back(!take(origin.label));
   stage.pairs.clear();
   for (const auto& pair : reduction::all_pairs(static_cast<int>(stage.generators.fields.size())))
-    for (const bool turned : {false, true}) {  // with inertia (i, j) and (j, i) differ
-      if (turned && (!spec.derivatives.full || pair[0] == pair[1])) continue;
-      all.push_back(reduction::derivative_label(stage.generators, pair[turned], pair[1 - turned]));
+    for (const bool rotated : {false, true}) {  // with inertia (i, j) and (j, i) differ
+      if (rotated && (!spec.derivatives.full || pair[0] == pair[1])) continue;
+      all.push_back(reduction::derivative_label(stage.generators, pair[rotated], pair[1 - rotated]));
       if (take(all.back()) && (stage.pairs.empty() || stage.pairs.back() != pair)) stage.pairs.push_back(pair);
     }
   return all;
@@ -200,8 +201,8 @@ reduction::DerivativeColumns derivatives_of(const PlannedBody& body, const Stage
   return some;
 }
 
-void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
-            const reduction::Modes& modes, ReducedBody& reduced) {
+void project_onto(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
+                  const reduction::Modes& modes, ReducedBody& reduced) {
   reduced.basis = std::move(basis);
   reduced.body = reduction::project(body.structure, *reduced.basis);
   finish_elasticity(body, statics, reduced);
@@ -215,10 +216,10 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
                ReducedBody& reduced) {
   const double start = MPI_Wtime();
   const double tolerance = body.spec.reduction.drop_tolerance;
-  put_on(body,
-         std::make_shared<reduction::Basis>(
-             reduction::basis_of(body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
-         *stage.statics, stage.generators.modes, reduced);
+  project_onto(body,
+               std::make_shared<reduction::Basis>(reduction::basis_of(
+                   body.structure, stage.generators, std::move(derivatives), tolerance, stage.left_out)),
+               *stage.statics, stage.generators.modes, reduced);
   reduced.report.seconds_projection = MPI_Wtime() - start;
 }
 

@@ -63,7 +63,7 @@ std::vector<Eigen::MatrixXd> interactions(const Plan& plan, const std::vector<Re
     how.kinks = kinks_of(plan.scene, motion.end);
     solve::simulate(*model.system, how, model.U, model.V, observe);
   } catch (const solve::MotionStopped&) {
-    // A linear body that is turned too fast diverges: what it did until then ranks the pairs.
+    // A linear body that is rotated too fast diverges: what it did until then ranks the pairs.
   }
   return sums;
 }

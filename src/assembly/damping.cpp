@@ -58,11 +58,13 @@ std::vector<int> distances(const Plan& plan) {
 
 }  // namespace
 
-fem::Conditions held_for_damping(const Plan& plan, int index) { return held_for_damping(plan, {index}, index); }
+fem::Conditions constrained_for_damping(const Plan& plan, int index) {
+  return constrained_for_damping(plan, {index}, index);
+}
 
-fem::Conditions held_for_damping(const Plan& plan, const std::vector<int>& whole, int index) {
+fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int index) {
   const PlannedBody& body = plan.bodies[index];
-  fem::Conditions held = body.held;
+  fem::Conditions constrained = body.constrained;
   const std::vector<int> away = distances(plan);
   int nearest = away[index];
   for (int b : whole) nearest = std::min(nearest, away[b]);
@@ -70,19 +72,20 @@ fem::Conditions held_for_damping(const Plan& plan, const std::vector<int>& whole
     for (const int side : {0, 1}) {
       const Anchor &here = plan.joints[j][side], &there = plan.joints[j][1 - side];
       if (here.body != index || there.body < 0 || here.map || away[there.body] >= nearest) continue;
-      hold_place_by_joint(plan, j, here, held);
+      hold_place_by_joint(plan, j, here, constrained);
     }
-  const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
+  const fem::Conditions dependent_nodes = fem::dependent_dofs(body.structure.mesh, body.structure.dofs_per_node);
+  std::sort(constrained.begin(), constrained.end());
+  constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   fem::Conditions own;  // nodes that follow others have no motion of their own
-  std::set_difference(held.begin(), held.end(), followers.begin(), followers.end(), std::back_inserter(own));
+  std::set_difference(constrained.begin(), constrained.end(), dependent_nodes.begin(), dependent_nodes.end(),
+                      std::back_inserter(own));
   return own;
 }
 
 fem::ReferenceFrame damping_frame(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
-  return fem::joint_frame(body.structure, body.frame, held_for_damping(plan, index));
+  return fem::joint_frame(body.structure, body.frame, constrained_for_damping(plan, index));
 }
 
 namespace {
@@ -130,14 +133,16 @@ std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int
   return terms;
 }
 
-std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int index, const fem::Conditions& held,
+std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int index,
+                                                         const fem::Conditions& constrained,
                                                          dynamics::Coordinates& coordinates) {
   const PlannedBody& body = plan.bodies[index];
   if (body.spec.damping.mass == 0 || in_several_frames(body)) return std::nullopt;
-  const fem::Conditions by_joints = held_for_damping(plan, index);
-  reference::MassDamping damping{fem::joint_frame(body.structure, body.frame, by_joints), held, body.spec.damping.mass};
+  const fem::Conditions by_joints = constrained_for_damping(plan, index);
+  reference::MassDamping damping{fem::joint_frame(body.structure, body.frame, by_joints), constrained,
+                                 body.spec.damping.mass};
   const bool mean_axes = by_joints.empty() && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis;
-  if (mean_axes || reference::moves_nothing(body.structure, damping.joints, held)) return damping;
+  if (mean_axes || reference::moves_nothing(body.structure, damping.joints, constrained)) return damping;
   const int r = body.structure.rigid_motion_count();
   damping.motion = coordinates.add_shared(r);
   damping.multipliers = coordinates.add_shared(r, true);

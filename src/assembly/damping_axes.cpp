@@ -56,13 +56,13 @@ bool firmly_grounded(const Plan& plan, const DampedWhole& whole) {
 
 /// Sum of the dofs' products of rigid motions. Collective.
 Eigen::Matrix<double, 6, 6> products_of_dofs(const Plan& plan, const DampedWhole& whole,
-                                             const std::vector<fem::Conditions>& held) {
+                                             const std::vector<fem::Conditions>& constrained) {
   Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
   for (std::size_t i = 0; i < whole.bodies.size(); ++i) {
     const PlannedBody& body = plan.bodies[whole.bodies[i]];
     const fem::Structure& s = body.structure;
     const Matrix3d A0 = undeformed_axes(body);
-    for (PetscInt dof : held[i]) {
+    for (PetscInt dof : constrained[i]) {
       const PetscInt node = dof / s.dofs_per_node - s.mesh.first_node;
       if (node < 0 || node >= s.mesh.owned_nodes) continue;
       const Vector3d X = undeformed_origin(body) + A0 * s.mesh.positions[node];
@@ -116,7 +116,7 @@ std::vector<AccompanyingAxes::Row> rows_of(const DampedWhole& whole, const Carri
   return rows;
 }
 
-std::vector<AccompanyingAxes::Row> rows_of(const DampedWhole& whole, const HeldPlace& place, int dofs_per_node) {
+std::vector<AccompanyingAxes::Row> rows_of(const DampedWhole& whole, const ConstrainedPlace& place, int dofs_per_node) {
   std::vector<AccompanyingAxes::Row> rows;
   for (Index j = 0; j < whole.seen.cols(); ++j) {
     AccompanyingAxes::Row sum = zero_row(place.elastic.size());
@@ -177,21 +177,21 @@ std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, cons
     for (int b : whole.bodies) whole.length += fem::extent(plan.bodies[b].structure);
     std::vector<fem::Conditions> by_ground;
     for (int b : whole.bodies) {
-      by_ground.push_back(plan.bodies[b].held);
-      whole.held.push_back(held_for_damping(plan, whole.bodies, b));
+      by_ground.push_back(plan.bodies[b].constrained);
+      whole.constrained.push_back(constrained_for_damping(plan, whole.bodies, b));
     }
     const int dimension = plan.scene.dimension;
     whole.fixed =
         firmly_grounded(plan, whole) && split(products_of_dofs(plan, whole, by_ground), dimension).second.cols() == 0;
     for (int b : whole.bodies) whole.fixed = whole.fixed || still[b];
-    std::tie(whole.seen, whole.free) = split(products_of_dofs(plan, whole, whole.held), dimension);
+    std::tie(whole.seen, whole.free) = split(products_of_dofs(plan, whole, whole.constrained), dimension);
   }
   return all;
 }
 
-std::vector<std::unique_ptr<AccompanyingAxes>> conditions(const DampedWhole& whole, int dofs_per_node,
-                                                          const std::function<std::vector<CarriedMass>(int)>& masses,
-                                                          const std::function<std::vector<HeldPlace>(int)>& places) {
+std::vector<std::unique_ptr<AccompanyingAxes>> conditions(
+    const DampedWhole& whole, int dofs_per_node, const std::function<std::vector<CarriedMass>(int)>& masses,
+    const std::function<std::vector<ConstrainedPlace>(int)>& places) {
   std::vector<std::unique_ptr<AccompanyingAxes>> terms;
   for (int b : whole.bodies) {
     for (const CarriedMass& mass : masses(b))
@@ -201,7 +201,7 @@ std::vector<std::unique_ptr<AccompanyingAxes>> conditions(const DampedWhole& who
             std::make_unique<AccompanyingAxes>(mass.axes, mass.elastic, whole.f, first, rows_of(whole, mass)));
       }
     if (whole.fixed || whole.seen.cols() == 0) continue;
-    for (const HeldPlace& place : places(b))
+    for (const ConstrainedPlace& place : places(b))
       if (!place.dofs.empty())
         terms.push_back(std::make_unique<AccompanyingAxes>(place.axes, place.elastic, whole.f, whole.multipliers,
                                                            rows_of(whole, place, dofs_per_node)));

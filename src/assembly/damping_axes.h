@@ -16,8 +16,8 @@ using namespace plan;
 /// (fem::joint_frame): f follows the dofs that they hold, and where these leave rigid motions free, the mean of the
 /// mass,
 ///
-///   sum over dofs held (S_r z)' d = 0,  z in the row space of S_r;   int rho (t + w x X)'(A_f'(r - R_f) - X) = 0,  (t,
-///   w) in the rest
+///   sum over dofs constrained (S_r z)' d = 0,  z in the row space of S_r;   int rho (t + w x X)'(A_f'(r - R_f) - X) =
+///   0,  (t, w) in the rest
 ///
 /// with d the motion of a dof from f. f has three unknowns in the plane and six in space, and as many multipliers;
 /// none where the ground holds the body altogether.
@@ -28,8 +28,8 @@ struct DampedWhole {
   dynamics::MovingAxes f;
   int multipliers = -1;  ///< local index of the first: of `seen`, then of `free`
   double length = 1;
-  Eigen::MatrixXd seen, free;              ///< rigid motions (t, w length) in mesh axes, 6 x ...
-  std::vector<fem::Conditions> held = {};  ///< of each body
+  Eigen::MatrixXd seen, free;                     ///< rigid motions (t, w length) in mesh axes, 6 x ...
+  std::vector<fem::Conditions> constrained = {};  ///< of each body
   /// f; none: the ground.
   std::optional<dynamics::MovingAxes> axes() const;
   bool has(int body) const;
@@ -46,7 +46,7 @@ struct CarriedMass {
 };
 
 /// A place of a part, dofs of which a joint holds.
-struct HeldPlace {
+struct ConstrainedPlace {
   dynamics::MovingAxes axes;
   std::vector<int> elastic;
   Eigen::Vector3d x;        ///< in the part
@@ -64,12 +64,13 @@ Eigen::Vector3d undeformed_origin(const PlannedBody& body);
 /// @param still  of each body: whether its frame is fixed to the ground
 std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, const std::vector<bool>& still);
 
-/// The rows of f that the masses and the held places of all bodies add to; none where the ground holds the whole.
+/// The rows of f that the masses and the constrained places of all bodies add to; none where the ground holds the
+/// whole.
 /// @param masses  adds the dampers of a body's masses to the model, and returns the masses
 /// @param places  of a body
 std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> conditions(
     const DampedWhole& whole, int dofs_per_node, const std::function<std::vector<CarriedMass>(int)>& masses,
-    const std::function<std::vector<HeldPlace>(int)>& places);
+    const std::function<std::vector<ConstrainedPlace>(int)>& places);
 
 /// f and its multipliers, as rows of a joint: what models of the same scene have in common.
 JointMultipliers unknowns_of(const DampedWhole& whole);

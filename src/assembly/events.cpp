@@ -56,15 +56,17 @@ std::size_t column_of(const Event& event, const Model& model) {
 
 }  // namespace
 
-std::map<std::string, JointLatches> latches_of(const Scene& scene) {
-  std::map<std::string, JointLatches> latches;
+std::map<std::string, JointSwitches> switches_of(const Scene& scene) {
+  std::map<std::string, JointSwitches> switches;
   for (const Event& event : scene.events) {
     if (event.kind == Event::Kind::stop) continue;
-    JointLatches& of = latches[event.joint];
-    if (event.kind == Event::Kind::unlock) of.joint = std::make_shared<dynamics::Latch>(dynamics::Latch{true});
-    if (event.kind == Event::Kind::lock) of.lock = std::make_shared<dynamics::Latch>(dynamics::Latch{false});
+    JointSwitches& of = switches[event.joint];
+    if (event.kind == Event::Kind::unlock)
+      of.joint = std::make_shared<dynamics::ConstraintSwitch>(dynamics::ConstraintSwitch{true});
+    if (event.kind == Event::Kind::lock)
+      of.lock = std::make_shared<dynamics::ConstraintSwitch>(dynamics::ConstraintSwitch{false});
   }
-  return latches;
+  return switches;
 }
 
 std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, double end) {
@@ -76,12 +78,12 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
       out.what = "stop";
       out.stops = true;
     } else {
-      const JointLatches& latches = model.latches.at(event.joint);
+      const JointSwitches& switches = model.switches.at(event.joint);
       const bool lock = event.kind == Event::Kind::lock;
       out.what = (lock ? "lock joint " : "unlock joint ") + event.joint;
       out.closes = lock;
-      out.latch = lock || latches.lock ? latches.lock : latches.joint;
-      if (lock) out.first_row = latches.first_row, out.rows = latches.rows;
+      out.constraint_switch = lock || switches.lock ? switches.lock : switches.joint;
+      if (lock) out.first_row = switches.first_row, out.rows = switches.rows;
     }
     if (event.at) out.at = *event.at;
     if (event.when) out.at = time_of(event, scene.motion.step, end);
@@ -97,7 +99,7 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
     const ModelStop& stop = model.stops[i];
     const bool second =
         std::any_of(model.stops.begin(), model.stops.begin() + static_cast<long>(i), [&](const auto& s) {
-          return s.joint == stop.joint && s.upper == stop.upper;  // turn_limits stand after limits
+          return s.joint == stop.joint && s.upper == stop.upper;  // rotation_limits stand after limits
         });
     const std::string side = std::string(second ? "turn_" : "") + (stop.upper ? "upper" : "lower");
     dynamics::Event out;

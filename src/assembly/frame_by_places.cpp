@@ -28,7 +28,7 @@ Vector3d pose_of(const dynamics::Marker& place, const Eigen::VectorXd& q) {
 dynamics::SpatialPose pose_of(const dynamics::SpatialMarker& place, const Eigen::VectorXd& q) {
   const Eigen::VectorXd at = own(place.coordinates, q), none = Eigen::VectorXd::Zero(at.size());
   dynamics::SpatialPose pose;
-  dynamics::pose(place, at, none, none, pose, dynamics::Extent::place);
+  dynamics::pose(place, at, none, none, pose, dynamics::EvaluationLevel::position);
   return pose;
 }
 

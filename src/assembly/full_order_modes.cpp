@@ -9,7 +9,7 @@ namespace floe::assembly {
 using petsc::check;
 
 std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan, int index,
-                                                                const fem::Conditions& held,
+                                                                const fem::Conditions& constrained,
                                                                 dynamics::Coordinates& coordinates) {
   const PlannedBody& body = plan.bodies[index];
   const std::vector<double>& ratios = body.spec.damping.modal;
@@ -20,7 +20,7 @@ std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan
   const reduction::Modes& modes = stage.generators.modes;
   const petsc::MatHandle K = fem::stiffness(body.structure, {});
   reference::ModalDamping damping;
-  damping.held = held;
+  damping.constrained = constrained;
   const std::size_t count = std::min(ratios.size(), modes.omega.size());
   damping.viscosity.resize(static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {

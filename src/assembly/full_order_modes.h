@@ -9,8 +9,9 @@ namespace floe::assembly {
 using namespace plan;
 
 /// Modal damping of a full-order body by the modes that reduced models have, with its unknowns added; none: it has
-/// none. @param held  dofs that are zero with the full-order model. Collective.
-std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan, int body, const fem::Conditions& held,
+/// none. @param constrained  dofs that are zero with the full-order model. Collective.
+std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan, int body,
+                                                                const fem::Conditions& constrained,
                                                                 dynamics::Coordinates& coordinates);
 
 /// The unknowns of `damping` at the start. @param owner  whether this rank has the shared unknowns. Collective.

@@ -17,11 +17,11 @@ struct FreeRows {
   std::int64_t count = 0;
 };
 
-FreeRows free_rows(const fem::Structure& structure, const fem::Conditions& held) {
+FreeRows free_rows(const fem::Structure& structure, const fem::Conditions& constrained) {
   FreeRows rows;
   rows.free.assign(structure.dofs(), 0);
   for (int i = 0; i < structure.owned_dofs(); ++i)
-    if (!std::binary_search(held.begin(), held.end(), structure.global_dof(i)))
+    if (!std::binary_search(constrained.begin(), constrained.end(), structure.global_dof(i)))
       rows.free[structure.original_dof(i)] = 1;
   MPI_Allreduce(MPI_IN_PLACE, rows.free.data(), static_cast<int>(rows.free.size()), MPI_CHAR, MPI_MAX,
                 structure.mesh.comm);
@@ -64,8 +64,8 @@ std::string table(const fem::Structure& structure, const FreeRows& rows, const s
 
 void write_body_matrices(MPI_Comm comm, const PlannedBody& body, const std::filesystem::path& folder) {
   const fem::Structure& structure = body.structure;
-  const fem::Conditions held = holding_of_modes(body).held;
-  const FreeRows rows = free_rows(structure, held);
+  const fem::Conditions constrained = holding_of_modes(body).constrained;
+  const FreeRows rows = free_rows(structure, constrained);
   const auto file = [&](const char* what) { return folder / fmt::format("{}-{}", body.spec.name, what); };
   const std::vector<Eigen::Vector3d> x = positions(structure.mesh);
   petsc::agree(comm, [&] {
@@ -75,8 +75,10 @@ void write_body_matrices(MPI_Comm comm, const PlannedBody& body, const std::file
   });
   const std::string which = fmt::format("of {} under the conditions of its modes, written by floe; rows: {}",
                                         body.spec.name, file("rows.txt").filename().string());
-  output::write_matrix_market(fem::stiffness(structure, held), rows.numbers, rows.count, file("K.mtx"), {"K " + which});
-  output::write_matrix_market(fem::mass(structure, held), rows.numbers, rows.count, file("M.mtx"), {"M " + which});
+  output::write_matrix_market(fem::stiffness(structure, constrained), rows.numbers, rows.count, file("K.mtx"),
+                              {"K " + which});
+  output::write_matrix_market(fem::mass(structure, constrained), rows.numbers, rows.count, file("M.mtx"),
+                              {"M " + which});
 }
 
 }  // namespace

@@ -4,11 +4,12 @@
 
 namespace floe::assembly {
 
-std::string sag_text(const std::string& name, const std::string& what, double sag, double limit) {
+std::string intra_deflection_text(const std::string& name, const std::string& what, double intra_deflection,
+                                  double limit) {
   return fmt::format(
       "body {}, {}: {:.2g} % of the deflection is intra-element deflection (limit {:.2g} %), which the mesh does not "
       "resolve; refine the mesh",
-      name, what, 100 * sag, 100 * limit);
+      name, what, 100 * intra_deflection, 100 * limit);
 }
 
 std::string left_out_text(const std::string& body, const BodyReport& report) {

@@ -23,7 +23,7 @@ std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
     }
     report.name = body.spec.name, report.rigid = body.spec.rigid;
     report.notices = body.notices;
-    report.frame = body.host < 0 ? name_of(body.frame.kind) : "of " + plan.bodies[body.host].spec.name;
+    report.frame = body.parent < 0 ? name_of(body.frame.kind) : "of " + plan.bodies[body.parent].spec.name;
     reports.push_back(std::move(report));
   }
   return reports;

@@ -41,7 +41,7 @@ std::vector<PetscInt> visited_nodes(const Plan& plan, int body) {
 }  // namespace
 
 Eigen::Vector2d undeformed_place(const PlannedBody& body, const Eigen::Vector3d& x) {
-  return body.pose.head<2>() + turn(body.pose[2]) * x.head<2>();
+  return body.pose.head<2>() + rotation_matrix(body.pose[2]) * x.head<2>();
 }
 
 PlanarAssembly::PlanarAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced)
@@ -51,7 +51,7 @@ PlanarAssembly::PlanarAssembly(const Plan& plan, Formulation formulation, const 
       owner_(last_rank(comm_of(plan, formulation))),
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
-      latches_(latches_of(plan.scene)) {}
+      switches_(switches_of(plan.scene)) {}
 
 bool PlanarAssembly::compact(int body) const {
   const Body& spec = plan_.bodies[body].spec;
@@ -84,15 +84,15 @@ void PlanarAssembly::add_coordinates() {
     slot.modal = full_order_modal_damping(plan_, index, body.frame.conditions, coordinates_);
   }
   add_damping_axes();
-  joint_rows_ = standing_rows(plan_, reduced_, undetermined_);
+  joint_rows_ = independent_rows(plan_, reduced_, undetermined_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     joint_multipliers_.push_back(coordinates_.add_shared(static_cast<int>(joint_rows_[j].size()), true));
   }
-  for (auto& [joint, latches] : latches_) {
-    if (!latches.lock) continue;
-    latches.rows = 1;  // a hinge leaves an angle, a slide a distance
-    latches.first_row = coordinates_.add_shared(latches.rows, true);
+  for (auto& [joint, switches] : switches_) {
+    if (!switches.lock) continue;
+    switches.rows = 1;  // a hinge leaves an angle, a slide a distance
+    switches.first_row = coordinates_.add_shared(switches.rows, true);
   }
   coordinates_.number();
 }
@@ -257,7 +257,7 @@ Model PlanarAssembly::model() {
     report.first_node = mesh.first_node;
     report.mesh = body_mesh(plan_.bodies[b]);
     report.place << plan_.bodies[b].pose.head<2>(), 0;
-    report.axes.topLeftCorner<2, 2>() = turn(plan_.bodies[b].pose[2]);
+    report.axes.topLeftCorner<2, 2>() = rotation_matrix(plan_.bodies[b].pose[2]);
     for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
       report.positions.insert(report.positions.end(), {mesh.positions[i].x(), mesh.positions[i].y()});
     model.bodies.push_back(std::move(report));
@@ -278,7 +278,7 @@ Model PlanarAssembly::model() {
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
-  model.latches = latches_;
+  model.switches = switches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_));

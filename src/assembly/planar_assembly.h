@@ -39,7 +39,7 @@ class PlanarAssembly {
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
-  std::vector<HeldPlace> held_places(const DampedWhole& whole, int body);
+  std::vector<ConstrainedPlace> constrained_places(const DampedWhole& whole, int body);
   dynamics::MovingAxes node_axes(int body, int first, const Eigen::Vector3d& x) const;
   void start_damping(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
                      Model& model);
@@ -92,7 +92,7 @@ class PlanarAssembly {
   Connections connections_;                                       // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
   std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
-  std::map<std::string, JointLatches> latches_;
+  std::map<std::string, JointSwitches> switches_;
 };
 
 /// World position of a point of a corotational body, undeformed at the start. @param x  in the frame's axes

@@ -102,16 +102,16 @@ std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, in
   return all;
 }
 
-std::vector<HeldPlace> PlanarAssembly::held_places(const DampedWhole& whole, int b) {
+std::vector<ConstrainedPlace> PlanarAssembly::constrained_places(const DampedWhole& whole, int b) {
   const PlannedBody& body = plan_.bodies[b];
   const Slot& slot = slots_[b];
-  const fem::Conditions& held = whole.held[whole.place_in(b)];
+  const fem::Conditions& constrained = whole.constrained[whole.place_in(b)];
   const Eigen::Matrix3d A0 = undeformed_axes(body);
   std::map<PetscInt, std::vector<int>> of_node;
-  for (PetscInt dof : held) of_node[dof / 3].push_back(static_cast<int>(dof % 3));
-  std::vector<HeldPlace> all;
+  for (PetscInt dof : constrained) of_node[dof / 3].push_back(static_cast<int>(dof % 3));
+  std::vector<ConstrainedPlace> all;
   for (const auto& [node, dofs] : of_node) {
-    HeldPlace place;
+    ConstrainedPlace place;
     place.axes.position = slot.frame, place.axes.rotation = slot.frame + 2;
     place.dofs = dofs, place.X = undeformed_origin(body), place.A0 = A0;
     if (compact(b)) {
@@ -147,7 +147,7 @@ std::vector<HeldPlace> PlanarAssembly::held_places(const DampedWhole& whole, int
 
 void PlanarAssembly::add_damping(const DampedWhole& whole, Model& model) {
   auto rows = conditions(
-      whole, 3, [&](int b) { return add_masses(whole, b); }, [&](int b) { return held_places(whole, b); });
+      whole, 3, [&](int b) { return add_masses(whole, b); }, [&](int b) { return constrained_places(whole, b); });
   if (whole.fixed) return;
   start_damping(whole, rows, model);
   for (auto& term : rows) terms_.push_back(std::move(term));

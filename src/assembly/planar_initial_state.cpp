@@ -12,7 +12,7 @@ void PlanarAssembly::set_full_order_start(int b, Vec U, Vec V) {
   const PlannedBody& body = plan_.bodies[b];
   const fem::Mesh& mesh = body.structure.mesh;
   const bool corotational = formulation_ == Formulation::cfr;
-  const Eigen::Matrix2d A = corotational ? turn(body.pose[2]) : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d A = corotational ? rotation_matrix(body.pose[2]) : Eigen::Matrix2d(Eigen::Matrix2d::Identity());
   auto local = [&](Vec field) {
     return field ? body.structure.exchange.gather(field)
                  : Eigen::VectorXd(Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.positions.size())));
@@ -24,7 +24,7 @@ void PlanarAssembly::set_full_order_start(int b, Vec U, Vec V) {
     Eigen::Vector3d u = shape.segment<3>(3 * i), v = rate.segment<3>(3 * i);
     u.head<2>() = (A * u.head<2>()).eval(), v.head<2>() = (A * v.head<2>()).eval();
     if (corotational) {
-      const Eigen::Vector2d arm = turn(body.pose[2]) * mesh.positions[i].head<2>() + u.head<2>();
+      const Eigen::Vector2d arm = rotation_matrix(body.pose[2]) * mesh.positions[i].head<2>() + u.head<2>();
       v.head<2>() += body.velocity.head<2>() + body.velocity[2] * Eigen::Vector2d(-arm.y(), arm.x());
       u[2] = sections(i, 0), v[2] = body.velocity[2] + sections(i, 1);
     }

@@ -48,35 +48,35 @@ void PlanarAssembly::add_joint(std::size_t j, std::array<Marker, 2>& places, con
                     "({:.6g}, {:.6g}); expected {}",
                     joint.where.text(), joint.name, apart.norm(), y[0][0], y[0][1], y[1][0], y[1][1],
                     expected_to_meet(plan_, formulation_, j)));
-  const auto found = latches_.find(joint.name);
-  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
+  const auto found = switches_.find(joint.name);
+  const JointSwitches switches = found == switches_.end() ? JointSwitches{} : found->second;
   switch (joint.kind) {
     case Joint::Kind::revolute:
       connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Revolute{}, multipliers,
-                                                   joint_rows_[j], latches.joint));
-      if (latches.lock)
-        connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, latches.first_row,
-                                                     std::vector<int>{2}, latches.lock, true));
+                                                   joint_rows_[j], switches.joint));
+      if (switches.lock)
+        connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{}, switches.first_row,
+                                                     std::vector<int>{2}, switches.lock, true));
       break;
     case Joint::Kind::fixed:
       connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Clamp{offset, {}}, multipliers,
-                                                   joint_rows_[j], latches.joint));
+                                                   joint_rows_[j], switches.joint));
       break;
     case Joint::Kind::driven:
       connect(j, std::make_unique<dynamics::Joint>(places[0], places[1],
                                                    dynamics::Clamp{offset, drive_of(joint, plan_.scene.motion)},
-                                                   multipliers, joint_rows_[j], latches.joint));
+                                                   multipliers, joint_rows_[j], switches.joint));
       break;
     case Joint::Kind::prismatic: {
       const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
       const Eigen::Vector2d normal(-axis.y(), axis.x());
-      const dynamics::Prismatic slide{turn(-y[0][2]) * normal, normal.dot(apart), offset};
+      const dynamics::Prismatic slide{rotation_matrix(-y[0][2]) * normal, normal.dot(apart), offset};
       connect(j, std::make_unique<dynamics::Joint>(places[0], places[1], slide, multipliers, joint_rows_[j],
-                                                   latches.joint));
-      if (latches.lock)
-        connect(
-            j, std::make_unique<dynamics::Joint>(places[0], places[1], dynamics::Prismatic{turn(-y[0][2]) * axis, 0, 0},
-                                                 latches.first_row, std::vector<int>{0}, latches.lock, true));
+                                                   switches.joint));
+      if (switches.lock)
+        connect(j, std::make_unique<dynamics::Joint>(places[0], places[1],
+                                                     dynamics::Prismatic{rotation_matrix(-y[0][2]) * axis, 0, 0},
+                                                     switches.first_row, std::vector<int>{0}, switches.lock, true));
       break;
     }
     case Joint::Kind::spring:
@@ -97,8 +97,8 @@ std::unique_ptr<dynamics::PlanarCoordinate> PlanarAssembly::coordinate_of(std::s
   const Joint& joint = plan_.scene.joints[j];
   const Eigen::Vector3d one = pose_at(places[0], q), two = pose_at(places[1], q);
   const Eigen::Vector2d axis = Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized();
-  const double start = of == Of::turn ? two[2] - one[2] : of == Of::slide ? axis.dot((two - one).head<2>()) : 0;
-  return std::make_unique<dynamics::PlanarCoordinate>(places[0], places[1], of, start, turn(-one[2]) * axis);
+  const double start = of == Of::rotation ? two[2] - one[2] : of == Of::slide ? axis.dot((two - one).head<2>()) : 0;
+  return std::make_unique<dynamics::PlanarCoordinate>(places[0], places[1], of, start, rotation_matrix(-one[2]) * axis);
 }
 
 void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& places, const Eigen::VectorXd& q,
@@ -106,14 +106,14 @@ void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& place
   const Joint& joint = plan_.scene.joints[j];
   const bool slides = joint.kind == Joint::Kind::prismatic;
   if (joint.friction && owner_)
-    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, slides ? Of::slide : Of::turn, places, q),
-                                                      law_of(*joint.friction), own_latch(latches_, joint.name)));
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, slides ? Of::slide : Of::rotation, places, q),
+                                                      law_of(*joint.friction), own_latch(switches_, joint.name)));
   if (!joint.limits) return;
   const dynamics::Stop* term = nullptr;
   if (owner_) {
-    auto stop =
-        std::make_unique<dynamics::Stop>(coordinate_of(j, slides ? Of::slide : Of::turn, places, q),
-                                         law_of(*joint.limits, !slides, plan_.extent), own_latch(latches_, joint.name));
+    auto stop = std::make_unique<dynamics::Stop>(coordinate_of(j, slides ? Of::slide : Of::rotation, places, q),
+                                                 law_of(*joint.limits, !slides, plan_.extent),
+                                                 own_latch(switches_, joint.name));
     term = stop.get();
     connect(j, std::move(stop));
   }

@@ -50,7 +50,7 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
   for (Marker& at : markers) {
     // Axes of body and place are those of the mesh where they are not rotated.
     const double tilt = axes == Force::Axes::world ? 0 : -plan_.bodies[place.body].frame_angle;
-    const Eigen::Matrix2d A = turn(tilt);
+    const Eigen::Matrix2d A = rotation_matrix(tilt);
     terms.push_back(std::make_unique<Force>(
         std::move(at),
         [value, A](double t) {

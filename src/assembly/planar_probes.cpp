@@ -9,7 +9,7 @@ namespace floe::assembly {
 
 Eigen::Vector2d PlanarAssembly::in_mesh_axes(const Anchor& place) const {
   const PlannedBody& body = plan_.bodies[place.body];
-  return body.frame_origin + turn(body.frame_angle) * place.x.head<2>();
+  return body.frame_origin + rotation_matrix(body.frame_angle) * place.x.head<2>();
 }
 
 std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) {
@@ -37,7 +37,7 @@ std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) 
       frame.undeformed.back() = (end(0) + end(1)) / 2;
       frame.gyration = (end(1) - end(0)).squaredNorm() / 12;
       if (part.rotary_inertia && part.section.rhoA > 0) frame.gyration += part.section.rhoI / part.section.rhoA;
-      at.x = turn(-plan_.bodies[place.body].frame_angle) *
+      at.x = rotation_matrix(-plan_.bodies[place.body].frame_angle) *
              (frame.undeformed.back() - plan_.bodies[place.body].frame_origin);
       at.S.resize(2, 0), at.psi.resize(0);
       at.coordinates.resize(std::min<std::size_t>(at.coordinates.size(), 3));
@@ -50,7 +50,7 @@ std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) 
     for (const Eigen::Vector2d& X : frame.undeformed) origin += X / static_cast<double>(places.size());
   }
   if (kind != FrameKind::pinned) along = Eigen::Vector2d::UnitX();  // the axes of the mesh
-  frame.of_probe = turn(-std::atan2(along.y(), along.x())) * (in_mesh_axes(probe) - origin);
+  frame.of_probe = rotation_matrix(-std::atan2(along.y(), along.x())) * (in_mesh_axes(probe) - origin);
   return frame;
 }
 

@@ -17,7 +17,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// A body between several joints to the ground: rows C(q) in its own coordinates q = (R, theta, eta).
-struct HeldBody {
+struct FixedFrameBody {
   struct Hold {
     int joint = 0;
     dynamics::Marker marker;
@@ -47,15 +47,15 @@ struct HeldBody {
   }
 };
 
-HeldBody held_body(const Plan& plan, const ReducedBody& reduced, int b, const std::vector<int>& joints) {
+FixedFrameBody fixed_frame_body(const Plan& plan, const ReducedBody& reduced, int b, const std::vector<int>& joints) {
   const PlannedBody& body = plan.bodies[b];
   const int k = reduced.body.coordinates();
-  HeldBody held;
+  FixedFrameBody constrained;
   for (int j : joints) {
     const Joint& joint = plan.scene.joints[j];
     const Anchor& place = plan.joints[j][plan.joints[j][0].ground() ? 1 : 0];
     const body::PlaceMap map = place_map(plan, reduced, place);
-    HeldBody::Hold& hold = held.holds.emplace_back();
+    FixedFrameBody::Hold& hold = constrained.holds.emplace_back();
     hold.joint = j;
     hold.driven = joint.kind == Joint::Kind::driven;
     hold.directions = Eigen::Matrix3d::Identity().topRows(joint_rows(joint));
@@ -68,47 +68,48 @@ HeldBody held_body(const Plan& plan, const ReducedBody& reduced, int b, const st
     std::iota(hold.marker.coordinates.begin(), hold.marker.coordinates.end(), 0);
     hold.marker.x = map.x.head<2>(), hold.marker.S = map.S, hold.marker.psi = map.psi;
   }
-  held.start = VectorXd::Zero(3 + k);
-  held.start.head<3>() = body.pose;
-  held.scale = VectorXd::Constant(3 + k, 1e-2 * plan.extent * std::sqrt(reduced.body.inertia.m));
-  held.scale.head<3>() << plan.extent, plan.extent, 1;
-  return held;
+  constrained.start = VectorXd::Zero(3 + k);
+  constrained.start.head<3>() = body.pose;
+  constrained.scale = VectorXd::Constant(3 + k, 1e-2 * plan.extent * std::sqrt(reduced.body.inertia.m));
+  constrained.scale.head<3>() << plan.extent, plan.extent, 1;
+  return constrained;
 }
 
 /// The joint of a row.
-const HeldBody::Hold& hold_of(const HeldBody& held, Eigen::Index row) {
+const FixedFrameBody::Hold& hold_of(const FixedFrameBody& constrained, Eigen::Index row) {
   std::size_t h = 0;
-  for (; row >= held.holds[h].directions.rows(); ++h) row -= held.holds[h].directions.rows();
-  return held.holds[h];
+  for (; row >= constrained.holds[h].directions.rows(); ++h) row -= constrained.holds[h].directions.rows();
+  return constrained.holds[h];
 }
 
 /// The row that is furthest from its value where the kept ones have met theirs, the body deformed and driven; and how
 /// far.
-std::pair<Eigen::Index, double> departure(const HeldBody& held, const std::vector<Eigen::Index>& kept, int sample) {
-  VectorXd wanted = held.rows(held.start, nullptr);
+std::pair<Eigen::Index, double> departure(const FixedFrameBody& constrained, const std::vector<Eigen::Index>& kept,
+                                          int sample) {
+  VectorXd wanted = constrained.rows(constrained.start, nullptr);
   Eigen::Index end = 0;
-  for (const HeldBody::Hold& hold : held.holds) {
+  for (const FixedFrameBody::Hold& hold : constrained.holds) {
     end += hold.directions.rows();
     if (hold.driven) wanted[end - 1] += 0.1 * std::sin(2 + 0.9 * static_cast<double>(end) + 1.3 * sample);
   }
-  VectorXd q = held.start;
-  for (Eigen::Index i = 3; i < q.size(); ++i) q[i] += held.scale[i] * std::sin(1 + 1.7 * i + 2.3 * sample);
+  VectorXd q = constrained.start;
+  for (Eigen::Index i = 3; i < q.size(); ++i) q[i] += constrained.scale[i] * std::sin(1 + 1.7 * i + 2.3 * sample);
   Eigen::MatrixXd gradient;
   for (int iteration = 0; iteration < 8; ++iteration) {
-    const VectorXd off = held.rows(q, &gradient) - wanted;
+    const VectorXd off = constrained.rows(q, &gradient) - wanted;
     const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> least_squares(gradient(kept, Eigen::all));
-    q -= held.scale.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
+    q -= constrained.scale.asDiagonal() * least_squares.solve(VectorXd(off(kept)));
   }
   Eigen::Index row = 0;
-  const double far = (held.rows(q, nullptr) - wanted).cwiseAbs().maxCoeff(&row);
+  const double far = (constrained.rows(q, nullptr) - wanted).cwiseAbs().maxCoeff(&row);
   return {row, far};
 }
 
 /// @throws InputError  a row that is not kept does not follow from those that are
-void check_left_out(const Plan& plan, const HeldBody& held, int b, const std::vector<Eigen::Index>& kept) {
+void check_left_out(const Plan& plan, const FixedFrameBody& constrained, int b, const std::vector<Eigen::Index>& kept) {
   const Body& body = plan.bodies[b].spec;
   Eigen::Index end = 0;
-  for (const HeldBody::Hold& hold : held.holds) {
+  for (const FixedFrameBody::Hold& hold : constrained.holds) {
     end += hold.directions.rows();
     const Joint& joint = plan.scene.joints[hold.joint];
     if (hold.driven && !std::binary_search(kept.begin(), kept.end(), end - 1))
@@ -118,33 +119,34 @@ void check_left_out(const Plan& plan, const HeldBody& held, int b, const std::ve
                       joint.where.text(), body.name, joint.name));
   }
   for (int sample = 0; sample < 3; ++sample) {
-    const auto [row, far] = departure(held, kept, sample);
+    const auto [row, far] = departure(constrained, kept, sample);
     if (!(far > 1e-9 * plan.extent)) continue;
     const Where& place = body.reduced ? body.reduced->where : body.frame.where;
     throw InputError(
         fmt::format("{}: several joints attach body {} to the ground, and its basis satisfies joint {} only while it "
                     "is undeformed; expected frame: pinned, from one joint to the other, with attachment: joints, or "
                     "modes: {{of: frame}}",
-                    place.text(), body.name, plan.scene.joints[hold_of(held, row).joint].name));
+                    place.text(), body.name, plan.scene.joints[hold_of(constrained, row).joint].name));
   }
 }
 
-void leave_out(const Plan& plan, const HeldBody& held, int b, std::vector<std::vector<int>>& standing,
+void leave_out(const Plan& plan, const FixedFrameBody& constrained, int b, std::vector<std::vector<int>>& independent,
                std::vector<int>& undetermined) {
   Eigen::MatrixXd gradient;
-  held.rows(held.start, &gradient);
+  constrained.rows(constrained.start, &gradient);
   const std::vector<Eigen::Index> kept = independent_rows(gradient);
   if (static_cast<Eigen::Index>(kept.size()) == gradient.rows()) return;
-  check_left_out(plan, held, b, kept);
+  check_left_out(plan, constrained, b, kept);
   std::vector<int> joints;
   for (const Eigen::Index row : undetermined_rows(gradient, kept))
-    if (const int joint = hold_of(held, row).joint; joints.empty() || joints.back() != joint) joints.push_back(joint);
+    if (const int joint = hold_of(constrained, row).joint; joints.empty() || joints.back() != joint)
+      joints.push_back(joint);
   refuse_undetermined(plan.scene, joints);
   undetermined.insert(undetermined.end(), joints.begin(), joints.end());
   Eigen::Index first = 0;
-  for (const HeldBody::Hold& hold : held.holds) {
+  for (const FixedFrameBody::Hold& hold : constrained.holds) {
     const Eigen::Index n = hold.directions.rows();
-    auto& rows = standing[hold.joint];
+    auto& rows = independent[hold.joint];
     rows.clear();
     for (Eigen::Index i : kept)
       if (i >= first && i < first + n) rows.push_back(static_cast<int>(i - first));
@@ -167,12 +169,12 @@ int joint_rows(const Joint& joint) {
   }
 }
 
-std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
-                                            std::vector<int>& undetermined) {
-  std::vector<std::vector<int>> standing;
+std::vector<std::vector<int>> independent_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
+                                               std::vector<int>& undetermined) {
+  std::vector<std::vector<int>> independent;
   for (const Joint& joint : plan.scene.joints) {
-    standing.emplace_back(joint_rows(joint));
-    std::iota(standing.back().begin(), standing.back().end(), 0);
+    independent.emplace_back(joint_rows(joint));
+    std::iota(independent.back().begin(), independent.back().end(), 0);
   }
   for (int b = 0; b < static_cast<int>(reduced.size()); ++b) {
     if (plan.bodies[b].spec.rigid || (!reduced[b].basis && !plan.bodies[b].spec.reduced)) continue;
@@ -187,9 +189,9 @@ std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<
       nodes.insert(first.ground() ? second.node : first.node);
     }
     if (nodes.size() < 2 || nodes.size() < joints.size()) continue;  // joints at one place contradict
-    leave_out(plan, held_body(plan, reduced[b], b, joints), b, standing, undetermined);
+    leave_out(plan, fixed_frame_body(plan, reduced[b], b, joints), b, independent, undetermined);
   }
-  return standing;
+  return independent;
 }
 
 }  // namespace floe::assembly

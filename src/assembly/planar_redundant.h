@@ -17,7 +17,7 @@ int joint_rows(const Joint& joint);
 ///                     the row is implied to first order only: the columns leave the joints as the body deforms (the
 ///                     frame does not pass through them). Collective; replicated.
 /// @param undetermined  receives the joints whose multipliers the rows do not determine
-std::vector<std::vector<int>> standing_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
-                                            std::vector<int>& undetermined);
+std::vector<std::vector<int>> independent_rows(const Plan& plan, const std::vector<ReducedBody>& reduced,
+                                               std::vector<int>& undetermined);
 
 }  // namespace floe::assembly

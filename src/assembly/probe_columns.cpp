@@ -18,7 +18,7 @@ Meaning meaning_of(const ModelProbe& probe, const Model& model) {
   const double extent = model.extent, force = model.force > 0 ? model.force : unknown;
   using Kind = ProbeColumn::Kind;
   if (quantity == Probe::Quantity::drive)
-    return probe.drive.turn ? Meaning{"N m", force * extent, Kind::load} : Meaning{"N", force, Kind::load};
+    return probe.drive.rotation ? Meaning{"N m", force * extent, Kind::load} : Meaning{"N", force, Kind::load};
   switch (quantity) {
     case Probe::Quantity::rotation:
       return {"rad", 1, Kind::place};

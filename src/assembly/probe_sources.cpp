@@ -28,10 +28,10 @@ DrivenCoordinate driven_coordinate(const Plan& plan, std::size_t j, const Probe&
                     probe.where.text(), joint.name));
   }
   drive.length = all.front() == JointCoordinate::length;
-  drive.turn = all.back() == JointCoordinate::turn && !drive.length;
+  drive.rotation = all.back() == JointCoordinate::rotation && !drive.length;
   if (plan.scene.dimension == 3)
     drive.axis = plan.joint_axes[j].col(2);
-  else if (!drive.turn)
+  else if (!drive.rotation)
     drive.axis << Eigen::Vector2d(joint.axis[0], joint.axis[1]).normalized(), 0;
   return drive;
 }

@@ -44,7 +44,7 @@ Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& D) {
 void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
   dynamics::SpatialPose at = placed(probe.marker, q, v);
-  if (probe.relative_to) {  // seen from axes that turn with the other place
+  if (probe.relative_to) {  // seen from axes that rotate with the other place
     const dynamics::SpatialPose from = placed(*probe.relative_to, q, v);
     const Eigen::Matrix3d Dt = from.D.transpose();
     const Eigen::Vector3d apart = at.p - from.p;
@@ -68,7 +68,7 @@ void add_exerted(const ModelProbe& probe, double t, const Eigen::VectorXd& q, co
                  std::vector<double>& values) {
   const dynamics::Wrench wrench = exerted(probe.connections, t, q, v);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  if (probe.relative_to) axes.topLeftCorner<2, 2>() = turn(placed(*probe.relative_to, q, v).y[2]);
+  if (probe.relative_to) axes.topLeftCorner<2, 2>() = rotation_matrix(placed(*probe.relative_to, q, v).y[2]);
   if (probe.spatial && probe.spatial->relative_to) axes = placed(*probe.spatial->relative_to, q, v).D;
   const bool force = probe.quantity == Probe::Quantity::force;
   const Eigen::Vector3d parts = axes.transpose() * wrench.segment<3>(force ? 0 : 3);
@@ -117,7 +117,7 @@ void add_section(const ModelProbe& probe, const dynamics::Wrench* wrench, const 
     p = at.p, D = at.D;
   } else {
     const Eigen::Vector3d y = placed(probe.marker, q, v).y;
-    p.head<2>() = y.head<2>(), D.topLeftCorner<2, 2>() = turn(y[2]);
+    p.head<2>() = y.head<2>(), D.topLeftCorner<2, 2>() = rotation_matrix(y[2]);
   }
   const bool force = probe.quantity == Probe::Quantity::section_force;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -161,7 +161,7 @@ void add_acceleration(const ModelProbe& probe, const Eigen::VectorXd& q, const E
   dynamics::pose(probe.marker, own, rate, second, at);
   if (angular) return values.push_back(at.ydd[2]);
   Eigen::Vector2d value = at.ydd.head<2>();
-  if (probe.relative_to) value = turn(-placed(*probe.relative_to, q, v).y[2]) * value;
+  if (probe.relative_to) value = rotation_matrix(-placed(*probe.relative_to, q, v).y[2]) * value;
   values.insert(values.end(), {value.x(), value.y()});
 }
 
@@ -189,7 +189,7 @@ double drive_or_power(const ModelProbe& probe, double t, const Eigen::VectorXd& 
   if (probe.quantity == Probe::Quantity::power)
     return f.dot(two.velocity - one.velocity - one.spin.cross(apart)) + m.dot(two.spin - one.spin);
   if (probe.drive.length) return f.dot(apart.normalized());
-  return (one.D * probe.drive.axis).dot(probe.drive.turn ? m : f);
+  return (one.D * probe.drive.axis).dot(probe.drive.rotation ? m : f);
 }
 
 /// Energies of the bodies of all probes that measure one, one after the other. Collective.
@@ -247,7 +247,7 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
   Eigen::Vector3d start = probe.start;
   if (probe.relative_to) {  // seen from axes that move with the other place
     const Placed from = placed(*probe.relative_to, q, v);
-    const Eigen::Matrix2d A = turn(from.y[2]), A0 = turn(probe.start_relative[2]);
+    const Eigen::Matrix2d A = rotation_matrix(from.y[2]), A0 = rotation_matrix(probe.start_relative[2]);
     const Eigen::Vector2d d = A.transpose() * (at.y - from.y).head<2>();
     const Eigen::Vector2d dd =
         A.transpose() * (at.yd - from.yd).head<2>() - from.yd[2] * Eigen::Vector2d(-d.y(), d.x());

@@ -39,13 +39,14 @@ void rank_pairs(const PlannedBody& body, Stage& stage, const Eigen::MatrixXd& in
 
 /// Whether the ground holds more than the rigid motions, so that bending has to stretch the body. In space one clamped
 /// edge holds many dofs and lets the rest of the body follow: there two joints, on nodes of their own.
-bool held_lengthwise(const Plan& plan, int index) {
+bool constrained_lengthwise(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
-  if (body.structure.dimension() == 2) return body.held.size() > 3;
+  if (body.structure.dimension() == 2) return body.constrained.size() > 3;
   std::vector<const Anchor*> places;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    const Anchor* held = held_place(plan, j);
-    if (held && held->body == index && plan.scene.joints[j].kind != Joint::Kind::spring) places.push_back(held);
+    const Anchor* constrained = constrained_place(plan, j);
+    if (constrained && constrained->body == index && plan.scene.joints[j].kind != Joint::Kind::spring)
+      places.push_back(constrained);
   }
   return std::any_of(places.begin(), places.end(),
                      [&](const Anchor* place) { return !share_a_node(*place, *places.front()); });
@@ -63,20 +64,20 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Joint& joint = plan.scene.joints[j];
     const bool touches = plan.joints[j][0].body == index || plan.joints[j][1].body == index;
-    const Anchor* held = held_place(plan, j);
-    const bool held_here = held && held->body == index;
+    const Anchor* constrained = constrained_place(plan, j);
+    const bool constrained_here = constrained && constrained->body == index;
     const bool moment = joint.kind == Joint::Kind::fixed || joint.kind == Joint::Kind::driven;
     if (!touches || !moment || !no_columns) continue;
-    if (body.frame.kind == fem::ReferenceFrame::Kind::clamped && held_here) continue;
-    if (held_here && !of_frame(body)) continue;
+    if (body.frame.kind == fem::ReferenceFrame::Kind::clamped && constrained_here) continue;
+    if (constrained_here && !of_frame(body)) continue;
     const auto& [first, second] = plan.joints[j];
     if (of_interface(first.body == index ? first : second)) continue;  // its columns carry all
     warnings.push_back(fmt::format(
         "body {}: its modes have no moment at joint {}, so that the basis converges slowly; use {}attachment: joints",
-        body.spec.name, joint.name, held_here ? "modes: {of: joints}, or " : ""));
+        body.spec.name, joint.name, constrained_here ? "modes: {of: joints}, or " : ""));
   }
   if (formulation == Formulation::vm || spec.derivatives.choice == DerivativesSpec::Choice::none)
-    if (held_lengthwise(plan, index) && formulation != Formulation::vm)
+    if (constrained_lengthwise(plan, index) && formulation != Formulation::vm)
       warnings.push_back(
           fmt::format("body {}: its joints prevent axial displacement, and without modal derivatives the basis locks "
                       "in membrane: its cubic stiffness is too high (by half for a hinged beam); add modal derivatives",
@@ -186,8 +187,8 @@ std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation f
 
 /// Not factored before they solve. Collective.
 std::shared_ptr<const reduction::Statics> statics_of(const PlannedBody& body) {
-  return std::make_shared<const reduction::Statics>(body.structure, body.frame,
-                                                    fem::holding(body.structure, body.frame, held_by_modes(body)));
+  return std::make_shared<const reduction::Statics>(
+      body.structure, body.frame, fem::holding(body.structure, body.frame, constrained_by_modes(body)));
 }
 
 /// Formulation vm without a number of its own: as many modes as modes and derivatives together keep columns.
@@ -315,8 +316,10 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     else if (!stated)
       stages[b].pairs = pairs_of(spec.derivatives, stages[b].generators);
     warn(plan, b, formulation, warnings);
-    if (const std::vector<double>& sag = all[b].report.sag; !sag.empty() && sag[0] > greatest_sag_of_modes)
-      warnings.push_back(sag_text(body.spec.name, "mode 1", sag[0], greatest_sag_of_modes));
+    if (const std::vector<double>& intra_deflection = all[b].report.intra_deflection;
+        !intra_deflection.empty() && intra_deflection[0] > max_intra_deflection_of_modes)
+      warnings.push_back(
+          intra_deflection_text(body.spec.name, "mode 1", intra_deflection[0], max_intra_deflection_of_modes));
     if (all[b].report.left_out > 0) warnings.push_back(left_out_text(body.spec.name, all[b].report));
   }
   refuse_unknown(plan, labels);

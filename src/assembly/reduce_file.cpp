@@ -49,7 +49,7 @@ Scene alone(const Scene& scene, int index) {
   const auto stays = [&](const Place& place) { return place.ground() || place.body == name; };
   std::erase_if(part.joints,
                 [&](const Joint& joint) { return (joint.first.body != name && joint.second.body != name); });
-  for (Joint& joint : part.joints)  // another body is, for this one, a place that is not held
+  for (Joint& joint : part.joints)  // another body is, for this one, a place that is not constrained
     for (Place* place : {&joint.first, &joint.second})
       if (!stays(*place)) *place = Place{}, place->where = joint.where;
   std::erase_if(part.loads, [&](const Load& load) {
@@ -78,7 +78,7 @@ Eigen::MatrixXd interaction_at_unit_force(const ReducedBody& linear) {
 
 output::ReducedFrame frame_of(const PlannedBody& body) {
   if (body.structure.dimension() == 3) return {name_of(body.frame.kind), body.origin, body.axes};
-  return {name_of(body.frame.kind), body.frame_origin, turn(body.frame_angle)};
+  return {name_of(body.frame.kind), body.frame_origin, rotation_matrix(body.frame_angle)};
 }
 
 std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody& body, const reduction::Basis& basis) {
@@ -100,7 +100,7 @@ std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody&
   if (body.structure.dimension() == 2) {
     for (const std::string& name : place_names(body.spec.mesh)) {
       const Point p = place_point(body.spec.mesh, {body.spec.name, name, {}, {}});
-      const Eigen::Vector2d x = turn(-body.frame_angle) * (Eigen::Vector2d(p[0], p[1]) - body.frame_origin);
+      const Eigen::Vector2d x = rotation_matrix(-body.frame_angle) * (Eigen::Vector2d(p[0], p[1]) - body.frame_origin);
       nodes.emplace(name, std::vector{fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0}).node});
     }
   }
@@ -163,7 +163,7 @@ output::ReducedShapes shapes_of(const PlannedBody& body, const reduction::Basis&
     }
     check(BVRestoreColumn(basis.V, j, &column));
     const Eigen::Index n = structure.dofs_per_node;
-    for (const fem::Mesh::Follower& f : structure.mesh.followers)
+    for (const fem::Mesh::DependentNode& f : structure.mesh.dependent_nodes)
       Eigen::Map<Eigen::VectorXd>(values.data() + n * f.node, n) = fem::nodal_motion(structure, values.data(), f.node);
   };
   return shapes;

@@ -13,7 +13,7 @@ using Kind = Joint::Kind;
 
 namespace {
 
-bool turns(const Joint& joint) {
+bool rotations(const Joint& joint) {
   return (joint.kind == Kind::driven || joint.kind == Kind::revolute) && joint.first.ground() != joint.second.ground();
 }
 
@@ -60,7 +60,7 @@ void refuse_other_speeds(const Plan& plan, const solve::RotationAxis& axis, doub
 const Joint* hub_of(const Scene& scene) {
   const Joint* hub = nullptr;
   for (const Joint& joint : scene.joints) {
-    if (!turns(joint)) continue;
+    if (!rotations(joint)) continue;
     if (hub) return nullptr;
     hub = &joint;
   }
@@ -80,7 +80,7 @@ solve::RotatingSystem rotating_system(const Scene& scene, const Model& model, co
     if (!body.attitude) rotating.planar_frames.push_back(body.first_coordinate);
   }
   for (const Joint& joint : scene.joints)
-    if (turns(joint) && joint.kind == Kind::driven) rotating.drives.push_back("joint " + joint.name);
+    if (rotations(joint) && joint.kind == Kind::driven) rotating.drives.push_back("joint " + joint.name);
   for (const Joint& joint : scene.joints)
     if ((joint.kind == Kind::spring || joint.kind == Kind::bushing) && joint.first.ground() != joint.second.ground())
       rotating.springs.push_back((joint.kind == Kind::spring ? "spring " : "bushing ") + joint.name);
@@ -112,7 +112,7 @@ void start_in_rotation(const Plan& plan, Model& model) {
   const solve::RotatingSystem rotating = rotating_system(plan.scene, model, axis);
   solve::BranchJump jump;
   try {
-    solve::check_turns(rotating, model.U);
+    solve::check_rotations(rotating, model.U);
     solve::steady_rotation(rotating, 0, speed, model.U, &jump);
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());

@@ -51,9 +51,9 @@ std::vector<ChosenSide> chosen_sides(const Plan& plan, std::size_t p) {
 }
 
 bool BodyPart::has(const Anchor& place) const {
-  const std::vector<Lever> moved_by = place.moved_by();
+  const std::vector<AveragingWeight> moved_by = place.moved_by();
   return std::any_of(moved_by.begin(), moved_by.end(),
-                     [&](const Lever& lever) { return nodes[static_cast<std::size_t>(lever.node)] != 0; });
+                     [&](const AveragingWeight& weight) { return nodes[static_cast<std::size_t>(weight.node)] != 0; });
 }
 
 BodyPart part_of(const Plan& plan, std::size_t p, const BeamSide& side, const std::vector<int>& undetermined,

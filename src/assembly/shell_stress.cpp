@@ -145,8 +145,8 @@ VectorXd simpler_weights(const Cloud& cloud) {
   return cloud.shares / cloud.shares.sum();
 }
 
-/// Stress-like components in axes turned by `angle` about the normal.
-Matrix3d turned(double angle) {
+/// Stress-like components in axes rotated by `angle` about the normal.
+Matrix3d rotated(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   Matrix3d T;
   T << c * c, s * s, 2 * c * s, s * s, c * c, -2 * c * s, -c * s, c * s, c * c - s * s;
@@ -283,7 +283,7 @@ std::vector<PatchSample> patch_samples(const Plan& plan, std::size_t p) {
     const Vector3d own = one.directions().col(0);
     const double angle = -std::atan2(y.dot(own), x.dot(own));  // from its axes to those of the node
     patch.push_back(
-        {one.cell, static_cast<std::size_t>(one.number), weights[static_cast<Eigen::Index>(i)] * turned(angle) * H});
+        {one.cell, static_cast<std::size_t>(one.number), weights[static_cast<Eigen::Index>(i)] * rotated(angle) * H});
   }
   return patch;
 }

@@ -11,7 +11,7 @@
 #include "drive.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/damping.h"
-#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/fixed_frame_body.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 #include "floe/plan/mesh_copy.h"
@@ -48,14 +48,14 @@ SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, cons
       owner_(last_rank(comm_of(plan, formulation))),
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
-      latches_(latches_of(plan.scene)) {
+      switches_(switches_of(plan.scene)) {
   for (std::size_t b = 0; b < slots_.size(); ++b)
     slots_[b].still = !corotated(static_cast<int>(b)) && has_fixed_frame(plan, owner_of_frame(b));
 }
 
 int SpatialAssembly::owner_of_frame(std::size_t body) const {
-  const int host = plan_.bodies[body].host;
-  return host >= 0 && !corotated(static_cast<int>(body)) ? host : static_cast<int>(body);
+  const int parent = plan_.bodies[body].parent;
+  return parent >= 0 && !corotated(static_cast<int>(body)) ? parent : static_cast<int>(body);
 }
 
 bool SpatialAssembly::compact(int body) const {
@@ -67,17 +67,17 @@ bool SpatialAssembly::corotated(int body) const { return formulation_ == Formula
 
 bool SpatialAssembly::stands(int j) const {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
-    if (plan_.bodies[b].host_joint == j && !corotated(static_cast<int>(b))) return true;
+    if (plan_.bodies[b].parent_joint == j && !corotated(static_cast<int>(b))) return true;
     if (slots_[b].still && clamp_of(plan_, static_cast<int>(b)) == j) return true;
   }
   const Joint& joint = plan_.scene.joints[j];
-  const Anchor* place = held_place(plan_, j);
-  return place && place->body >= 0 && slots_[place->body].still && plan_.joint_held[j] && !is_drive(joint.kind) &&
-         !latches_.contains(joint.name);
+  const Anchor* place = constrained_place(plan_, j);
+  return place && place->body >= 0 && slots_[place->body].still && plan_.joint_constrained[j] &&
+         !is_drive(joint.kind) && !switches_.contains(joint.name);
 }
 
-const fem::Conditions& SpatialAssembly::held(int b) const {
-  return slots_[b].still ? plan_.bodies[b].held : plan_.bodies[b].clamp;
+const fem::Conditions& SpatialAssembly::constrained(int b) const {
+  return slots_[b].still ? plan_.bodies[b].constrained : plan_.bodies[b].clamp;
 }
 
 void SpatialAssembly::refuse() const {
@@ -85,14 +85,15 @@ void SpatialAssembly::refuse() const {
   refuse_corotated(faults);
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
-    if (is_reduced(formulation_) || !plan_.joint_held[j]) continue;
-    const Anchor& place = *held_place(plan_, j);
+    if (is_reduced(formulation_) || !plan_.joint_constrained[j]) continue;
+    const Anchor& place = *constrained_place(plan_, j);
     if (compact(place.body) || corotated(place.body) || place.nodes.size() < 2 || place.line ||
         slots_[place.body].still)
       continue;
-    const fem::Conditions& held = plan_.bodies[place.body].clamp;
-    if (std::all_of(place.nodes.begin(), place.nodes.end(),
-                    [&](PetscInt node) { return std::binary_search(held.begin(), held.end(), 6 * node + 5); }))
+    const fem::Conditions& constrained = plan_.bodies[place.body].clamp;
+    if (std::all_of(place.nodes.begin(), place.nodes.end(), [&](PetscInt node) {
+          return std::binary_search(constrained.begin(), constrained.end(), 6 * node + 5);
+        }))
       continue;
     faults.push_back(fmt::format(
         "{}: fixes {} nodes of body {}, which formulation {} supports only for a frame clamped to them; expected "
@@ -107,7 +108,7 @@ void SpatialAssembly::refuse() const {
       faults.push_back(
           fmt::format("{}.deformation: displaces or rotates body {} where the ground clamps it; expected neither there",
                       body.spec.initial.where.text(), body.spec.name));
-    if (slots_[b].still && body.host < 0 &&
+    if (slots_[b].still && body.parent < 0 &&
         (body.rate != Eigen::Vector3d::Zero() || body.spin != Eigen::Vector3d::Zero()))
       faults.push_back(fmt::format("{}: gives a velocity to body {}, which is clamped to the ground; expected none",
                                    body.spec.initial.where.text(), body.spec.name));
@@ -118,8 +119,8 @@ void SpatialAssembly::refuse() const {
 std::vector<PetscInt> SpatialAssembly::visited(int body) const {
   std::vector<PetscInt> nodes;
   const auto visit = [&](const Anchor& place) {
-    for (const Lever& lever : place.levers)
-      if (place.body == body) nodes.push_back(lever.node);
+    for (const AveragingWeight& weight : place.averaging_weights)
+      if (place.body == body) nodes.push_back(weight.node);
   };
   for (const auto& joint : plan_.joints) visit(joint[0]), visit(joint[1]);
   for (std::size_t l = 0; l < plan_.loads.size(); ++l)
@@ -159,18 +160,18 @@ void SpatialAssembly::add_coordinates() {
     slot.nodes = std::make_unique<reference::NodeCoordinates>(coordinates_, body.structure.mesh, visited(index), 6);
     if (!slot.still && body.frame.kind == fem::ReferenceFrame::Kind::mean_axis)
       slot.multipliers = coordinates_.add_shared(6, true);
-    slot.damping = full_order_damping(plan_, index, held(index), coordinates_);
-    slot.modal = full_order_modal_damping(plan_, index, held(index), coordinates_);
+    slot.damping = full_order_damping(plan_, index, constrained(index), coordinates_);
+    slot.modal = full_order_modal_damping(plan_, index, constrained(index), coordinates_);
   }
   add_damping_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     const int rows = row_count(static_cast<int>(j));
     multipliers_.push_back(coordinates_.add_shared(rows, true));
-    const auto latches = latches_.find(plan_.scene.joints[j].name);
-    if (latches == latches_.end() || !latches->second.lock) continue;
-    latches->second.rows = 6 - rows;
-    latches->second.first_row = coordinates_.add_shared(6 - rows, true);
+    const auto switches = switches_.find(plan_.scene.joints[j].name);
+    if (switches == switches_.end() || !switches->second.lock) continue;
+    switches->second.rows = 6 - rows;
+    switches->second.first_row = coordinates_.add_shared(6 - rows, true);
   }
   coordinates_.number();
 }
@@ -200,8 +201,8 @@ void SpatialAssembly::add_body(int b) {
       terms_.push_back(std::make_unique<dynamics::SpatialBody>(coordinates, slot.attitude, body::spatial(in),
                                                                reduced.body.elasticity));
     else if (reduced.body.coordinates() > 0)
-      terms_.push_back(std::make_unique<dynamics::HeldBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
-                                                            reduced.body.elasticity));
+      terms_.push_back(std::make_unique<dynamics::FixedFrameBody>(coordinates, in.M[0][0] + in.M[1][1] + in.M[2][2],
+                                                                  reduced.body.elasticity));
     std::move(damping.begin(), damping.end(), std::back_inserter(terms_));
     return;
   }
@@ -218,12 +219,12 @@ void SpatialAssembly::add_body(int b) {
   if (slot.still) return add_still_cells(b);
   const auto force =
       formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
-  for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, held(b), *slot.nodes, frame_of(b),
-                                                        force, body.spec.damping.stiffness))
+  for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, constrained(b), *slot.nodes,
+                                                        frame_of(b), force, body.spec.damping.stiffness))
     terms_.push_back(std::move(term));
 }
 
-/// Each element on those of its dofs that are not held.
+/// Each element on those of its dofs that are not constrained.
 void SpatialAssembly::add_still_cells(int b) {
   const PlannedBody& body = plan_.bodies[b];
   const fem::Structure& structure = body.structure;
@@ -232,25 +233,25 @@ void SpatialAssembly::add_still_cells(int b) {
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
     const fem::ElementMaps maps = structure.maps(cell);
     stiffest = std::max(stiffest, reference::stiffest(maps));
-    const reference::FreeDofs free = reference::free_dofs(structure, held(b), cell, *slots_[b].nodes);
+    const reference::FreeDofs free = reference::free_dofs(structure, constrained(b), cell, *slots_[b].nodes);
     if (free.coordinates.empty()) continue;
     body::Elasticity elasticity = fem::elasticity(maps, free.V);
     if (formulation_ == Formulation::lffr) elasticity = body::linearised(elasticity);
     const Eigen::MatrixXd M =
         free.V.transpose() * reference::with_drilling_inertia(structure, cell, maps.mass_matrix()) * free.V;
     if (beta != 0) terms_.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, beta));
-    terms_.push_back(std::make_unique<dynamics::HeldBody>(free.coordinates, M, std::move(elasticity)));
+    terms_.push_back(std::make_unique<dynamics::FixedFrameBody>(free.coordinates, M, std::move(elasticity)));
   }
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  for (PetscInt dof : held(b)) {
+  for (PetscInt dof : constrained(b)) {
     const PetscInt local = dof - 6 * structure.mesh.first_node;
     if (local >= 0 && local < structure.owned_dofs())
       terms_.push_back(
-          std::make_unique<reference::HeldDof>(slots_[b].nodes->first() + static_cast<int>(local), stiffest));
+          std::make_unique<reference::ConstrainedDof>(slots_[b].nodes->first() + static_cast<int>(local), stiffest));
   }
 }
 
-/// What the body's deformation at the start makes of its elastic coordinates; those that are held stay zero.
+/// What the body's deformation at the start makes of its elastic coordinates; those that are constrained stay zero.
 void SpatialAssembly::set_deformation(int b, Vec shape, Vec into) const {
   if (!shape) return;
   const PlannedBody& body = plan_.bodies[b];
@@ -268,7 +269,7 @@ void SpatialAssembly::set_deformation(int b, Vec shape, Vec into) const {
   petsc::Values own(shape);
   const fem::Mesh& mesh = body.structure.mesh;
   for (PetscInt dof = own.first; dof < own.end; ++dof) {
-    if (std::binary_search(held(b).begin(), held(b).end(), dof)) continue;
+    if (std::binary_search(constrained(b).begin(), constrained(b).end(), dof)) continue;
     const int local = static_cast<int>(dof - 6 * mesh.first_node);
     set(coordinates_.global()[slots_[b].nodes->of_local_node(local / 6) + local % 6], own[dof]);
   }
@@ -291,13 +292,13 @@ void SpatialAssembly::set_start(Model& model) {
   }
   for (std::size_t b = 0; b < slots_.size() && owner_; ++b) {
     const PlannedBody& body = plan_.bodies[b];
-    if (slots_[b].still || slots_[b].corotated || body.host >= 0) continue;
+    if (slots_[b].still || slots_[b].corotated || body.parent >= 0) continue;
     for (int i = 0; i < 3; ++i) {
       const PetscInt row = coordinates_.global()[slots_[b].frame + i],
-                     turn = coordinates_.global()[slots_[b].frame + 3 + i];
+                     rotation = coordinates_.global()[slots_[b].frame + 3 + i];
       check(VecSetValue(model.U, row, body.place[i], INSERT_VALUES));
       check(VecSetValue(model.V, row, body.rate[i], INSERT_VALUES));
-      check(VecSetValue(model.V, turn, body.spin[i], INSERT_VALUES));
+      check(VecSetValue(model.V, rotation, body.spin[i], INSERT_VALUES));
     }
   }
   for (const DampedWhole& whole : damped_)
@@ -362,7 +363,7 @@ Model SpatialAssembly::model() {
   for (std::size_t b = 0; b < slots_.size(); ++b)
     if (slots_[b].corotated)
       slots_[b].corotated->add_attitudes(attitudes);
-    else if (slots_[b].attitude && plan_.bodies[b].host < 0)
+    else if (slots_[b].attitude && plan_.bodies[b].parent < 0)
       attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
   std::size_t next = 0;
   for (const DampedWhole& whole : damped_)
@@ -370,7 +371,7 @@ Model SpatialAssembly::model() {
   for (std::size_t j = 0; j < multipliers_.size(); ++j) model.joints.push_back(multipliers_of(static_cast<int>(j)));
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
-  model.latches = latches_;
+  model.switches = switches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));

@@ -50,7 +50,7 @@ class SpatialAssembly {
   bool compact(int body) const;    // described by a ReducedBody
   bool corotated(int body) const;  // a CorotationalBody
   bool stands(int joint) const;    // the ground holds a body that stands still there: nothing is left to do
-  const fem::Conditions& held(int body) const;
+  const fem::Conditions& constrained(int body) const;
   int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
@@ -69,7 +69,7 @@ class SpatialAssembly {
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
-  std::vector<HeldPlace> held_places(const DampedWhole& whole, int body);
+  std::vector<ConstrainedPlace> constrained_places(const DampedWhole& whole, int body);
   void add_gravity(int body, const BodyPart* part = nullptr);
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative, const BodyPart* part);
@@ -90,7 +90,7 @@ class SpatialAssembly {
   void add_joints(Model& model);
   void connect(int joint, std::unique_ptr<dynamics::Connection> term);
   /// @param first  of its multipliers
-  void add_joint(int joint, const PlacedJoint& placed, int first, const std::vector<int>& standing);
+  void add_joint(int joint, const PlacedJoint& placed, int first, const std::vector<int>& independent);
   int row_count(int joint) const;
   void count_uses();
   /// What couples the nodes of a cut (Interface), or the joint itself. Collective.
@@ -136,7 +136,7 @@ class SpatialAssembly {
   Connections connections_;                                       // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
   std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
-  std::map<std::string, JointLatches> latches_;
+  std::map<std::string, JointSwitches> switches_;
 };
 
 /// Rows that the kind of joint holds in space; none: a spring or bushing.

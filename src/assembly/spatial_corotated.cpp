@@ -17,20 +17,22 @@ using Pieces = std::vector<std::vector<PetscInt>>;
 
 namespace {
 
-bool leads(const Lever& lever) { return lever.share != 0; }
+bool leads(const AveragingWeight& weight) { return weight.share != 0; }
 
-/// a of a lever's arm, which maps theta to theta x a.
-Vector3d arm_of(const Lever& lever) { return {-lever.arm(2, 1), -lever.arm(0, 2), -lever.arm(1, 0)}; }
+/// a of an averaging weight's arm, which maps theta to theta x a.
+Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
 
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
-  return std::all_of(place.levers.begin(), place.levers.end(), [&](const Lever& lever) {
-    return !leads(lever) || std::binary_search(piece.begin(), piece.end(), lever.node);
-  });
+  return std::all_of(place.averaging_weights.begin(), place.averaging_weights.end(),
+                     [&](const AveragingWeight& weight) {
+                       return !leads(weight) || std::binary_search(piece.begin(), piece.end(), weight.node);
+                     });
 }
 
 /// Whether the place is the mean of nodes that move by themselves.
 bool is_mean(const Anchor& place, const Pieces& pieces) {
-  return place.nodes.size() > 1 && !place.line && std::count_if(place.levers.begin(), place.levers.end(), leads) > 1 &&
+  return place.nodes.size() > 1 && !place.line &&
+         std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads) > 1 &&
          std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return in(piece, place); });
 }
 
@@ -40,14 +42,16 @@ bool is_mean(const Anchor& place, const Pieces& pieces) {
 std::vector<std::vector<PetscInt>> SpatialAssembly::clamped_edges(int b) const {
   Pieces pieces;
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const Anchor* place = held_place(plan_, j);
+    const Anchor* place = constrained_place(plan_, j);
     const Joint& joint = plan_.scene.joints[j];
-    if (!place || place->body != b || !plan_.joint_held[j] || !clamps(joint)) continue;
+    if (!place || place->body != b || !plan_.joint_constrained[j] || !clamps(joint)) continue;
     if (is_unlocked(plan_.scene, joint.name)) continue;  // its edge deforms when it is free
-    if (place->nodes.size() < 2 || std::count_if(place->levers.begin(), place->levers.end(), leads) < 2) continue;
+    if (place->nodes.size() < 2 ||
+        std::count_if(place->averaging_weights.begin(), place->averaging_weights.end(), leads) < 2)
+      continue;
     std::vector<PetscInt> piece;
-    for (const Lever& lever : place->levers)
-      if (leads(lever)) piece.push_back(lever.node);
+    for (const AveragingWeight& weight : place->averaging_weights)
+      if (leads(weight)) piece.push_back(weight.node);
     std::sort(piece.begin(), piece.end());
     for (std::size_t p = 0; p < pieces.size();) {
       std::vector<PetscInt> both;
@@ -131,15 +135,15 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
   std::vector<std::pair<SpatialMarker, double>> parts;
   int piece = -1;
   bool one = place.nodes.size() > 1;
-  for (const Lever& lever : place.levers) {
-    if (!leads(lever)) continue;
-    const int other = body.piece_of(lever.node);
+  for (const AveragingWeight& weight : place.averaging_weights) {
+    if (!leads(weight)) continue;
+    const int other = body.piece_of(weight.node);
     one = one && other >= 0 && (parts.empty() || other == piece);
     piece = other;
-    SpatialMarker at = body.place(lever.node);
-    at.mass = lever.share;
-    at.x0 = lever.share * at.x0 + arm_of(lever);
-    parts.emplace_back(std::move(at), lever.share);
+    SpatialMarker at = body.place(weight.node);
+    at.mass = weight.share;
+    at.x0 = weight.share * at.x0 + arm_of(weight);
+    parts.emplace_back(std::move(at), weight.share);
   }
   if (one) return {{body.place_on_piece(piece, place.x), 1.}};
   return parts;

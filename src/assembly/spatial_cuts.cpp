@@ -33,7 +33,7 @@ int SpatialAssembly::row_count(int j) const {
 
 void SpatialAssembly::count_uses() {
   const auto use = [&](const Anchor& place) {
-    for (const Lever& lever : place.levers) ++uses_[{place.body, lever.node}];
+    for (const AveragingWeight& weight : place.averaging_weights) ++uses_[{place.body, weight.node}];
   };
   for (int j = 0; j < static_cast<int>(plan_.joints.size()); ++j) {
     if (const Interface& cut = interface_of(plan_, j); cut.empty())
@@ -47,8 +47,8 @@ bool SpatialAssembly::stands_apart(int j, std::size_t piece) const {
   const Interface& cut = interface_of(plan_, j);
   if (cut.empty() || is_reduced(formulation_)) return false;
   const auto free = [&](const Anchor& node) {
-    if (node.levers.size() != 1 || node.levers[0].node != node.nodes[0]) return false;
-    const fem::Conditions& none = held(node.body);
+    if (node.averaging_weights.size() != 1 || node.averaging_weights[0].node != node.nodes[0]) return false;
+    const fem::Conditions& none = constrained(node.body);
     const auto first = std::lower_bound(none.begin(), none.end(), 6 * node.nodes[0]);
     return (first == none.end() || *first >= 6 * node.nodes[0] + 6) && uses_.at({node.body, node.nodes[0]}) == 1;
   };

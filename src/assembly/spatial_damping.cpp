@@ -73,20 +73,20 @@ std::vector<CarriedMass> SpatialAssembly::add_masses(const DampedWhole& whole, i
     return all;
   }
   for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
-    const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slot.nodes);
+    const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slot.nodes);
     add(frame, free.coordinates, fem::inertia(body.structure.maps(cell), free.V), none);
   }
   return all;
 }
 
-std::vector<HeldPlace> SpatialAssembly::held_places(const DampedWhole& whole, int b) {
+std::vector<ConstrainedPlace> SpatialAssembly::constrained_places(const DampedWhole& whole, int b) {
   const PlannedBody& body = plan_.bodies[b];
   const Slot& slot = slots_[b];
   std::map<PetscInt, std::vector<int>> of_node;
-  for (PetscInt dof : whole.held[whole.place_in(b)]) of_node[dof / 6].push_back(static_cast<int>(dof % 6));
-  std::vector<HeldPlace> all;
+  for (PetscInt dof : whole.constrained[whole.place_in(b)]) of_node[dof / 6].push_back(static_cast<int>(dof % 6));
+  std::vector<ConstrainedPlace> all;
   for (const auto& [node, dofs] : of_node) {
-    HeldPlace place;
+    ConstrainedPlace place;
     place.axes = {slot.frame, slot.frame + 3, slot.attitude};
     place.x.setZero(), place.dofs = dofs, place.X = body.origin, place.A0 = body.axes;
     if (compact(b)) {
@@ -110,7 +110,7 @@ std::vector<HeldPlace> SpatialAssembly::held_places(const DampedWhole& whole, in
     }
     for (int d = 0; d < 6 && !slot.corotated; ++d) {
       place.elastic.push_back(slot.nodes->of_local_node(static_cast<int>(local)) + d);
-      if (!std::binary_search(held(b).begin(), held(b).end(), 6 * node + d))
+      if (!std::binary_search(constrained(b).begin(), constrained(b).end(), 6 * node + d))
         (d < 3 ? place.S(d, d) : place.psi(d - 3, d)) = 1;
     }
     all.push_back(std::move(place));
@@ -120,7 +120,7 @@ std::vector<HeldPlace> SpatialAssembly::held_places(const DampedWhole& whole, in
 
 void SpatialAssembly::add_damping(const DampedWhole& whole, Model& model) {
   auto rows = conditions(
-      whole, 6, [&](int b) { return add_masses(whole, b); }, [&](int b) { return held_places(whole, b); });
+      whole, 6, [&](int b) { return add_masses(whole, b); }, [&](int b) { return constrained_places(whole, b); });
   if (whole.fixed) return;
   const dynamics::System layout(coordinates_, {});
   Eigen::VectorXd v;

@@ -137,17 +137,17 @@ void SpatialAssembly::add_spring(int j, const PlacedJoint& placed) {
                      joint.torsional_stiffness, joint.torsional_viscosity, 0, joint.rest_angle}));
 }
 
-void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, int first, const std::vector<int>& standing) {
-  const auto found = latches_.find(plan_.scene.joints[j].name);
-  const JointLatches latches = found == latches_.end() ? JointLatches{} : found->second;
+void SpatialAssembly::add_joint(int j, const PlacedJoint& placed, int first, const std::vector<int>& independent) {
+  const auto found = switches_.find(plan_.scene.joints[j].name);
+  const JointSwitches switches = found == switches_.end() ? JointSwitches{} : found->second;
   connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1], placed.constraint, first,
-                                                      standing, plan_.extent, latches.joint));
-  if (latches.lock)
+                                                      independent, plan_.extent, switches.joint));
+  if (switches.lock)
     connect(j, std::make_unique<dynamics::SpatialJoint>(placed.places[0], placed.places[1],
-                                                        dynamics::lock_of(placed.constraint), latches.first_row,
-                                                        latches.lock, true));
-  for (int i = static_cast<int>(standing.size()); i < dynamics::rows(placed.constraint); ++i)
-    terms_.push_back(std::make_unique<reference::HeldDof>(first + i, 1));  // of a row that is left out
+                                                        dynamics::lock_of(placed.constraint), switches.first_row,
+                                                        switches.lock, true));
+  for (int i = static_cast<int>(independent.size()); i < dynamics::rows(placed.constraint); ++i)
+    terms_.push_back(std::make_unique<reference::ConstrainedDof>(first + i, 1));  // of a row that is left out
 }
 
 std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int j, Of of,
@@ -159,25 +159,25 @@ std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int 
 
 void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
   const Joint& joint = plan_.scene.joints[j];
-  const std::shared_ptr<const dynamics::Latch> active = own_latch(latches_, joint.name);
+  const std::shared_ptr<const dynamics::ConstraintSwitch> active = own_latch(switches_, joint.name);
   const auto add = [&](const LimitsSpec& limits, Of of) {
     const dynamics::Stop* term = nullptr;
     if (owner_) {
       auto stop = std::make_unique<dynamics::Stop>(coordinate_of(j, of, placed),
-                                                   law_of(limits, of == Of::turn, plan_.extent), active);
+                                                   law_of(limits, of == Of::rotation, plan_.extent), active);
       term = stop.get();
       connect(j, std::move(stop));
     }
     note_stops(joint, limits, term, stops);
   };
-  const Of main = joint.kind == Kind::revolute ? Of::turn : Of::slide;
+  const Of main = joint.kind == Kind::revolute ? Of::rotation : Of::slide;
   if (joint.friction && owner_)
     connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, main, placed), law_of(*joint.friction), active));
-  if (joint.turn_friction && owner_)
-    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, Of::turn, placed), law_of(*joint.turn_friction),
-                                                      active));
+  if (joint.rotation_friction && owner_)
+    connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, Of::rotation, placed),
+                                                      law_of(*joint.rotation_friction), active));
   if (joint.limits) add(*joint.limits, main);
-  if (joint.turn_limits) add(*joint.turn_limits, Of::turn);
+  if (joint.rotation_limits) add(*joint.rotation_limits, Of::rotation);
 }
 
 /// A support has no constraint rows: it holds dofs of a body that does not move as a whole.
@@ -230,14 +230,14 @@ void SpatialAssembly::add_joints(Model& model) {
     SpatialRows rows(plan_, start_);
     for (const Piece& piece : pieces)
       if (!piece.apart) rows.add(piece.joint, piece.placed.places, piece.placed.constraint);
-    const std::vector<std::vector<int>> standing = rows.standing(notes, undetermined_);
+    const std::vector<std::vector<int>> independent = rows.independent(notes, undetermined_);
     std::size_t next = 0;
     for (const int j : all)
       if (placed_[j].constraint.rows.empty()) add_spring(j, placed_[j]);
     for (const Piece& piece : pieces) {
       std::vector<int> every(piece.placed.constraint.rows.size());
       std::iota(every.begin(), every.end(), 0);
-      add_joint(piece.joint, piece.placed, piece.first, piece.apart ? every : standing[next++]);
+      add_joint(piece.joint, piece.placed, piece.first, piece.apart ? every : independent[next++]);
     }
     for (const int j : all) add_stops(j, placed_[j], model.stops);
   };

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/fixed_frame_body.h"
 #include "floe/dynamics/spatial_force.h"
 #include "floe/math/rotation.h"
 #include "floe/plan/weight.h"
@@ -35,30 +35,30 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
     return at;
   }
   if (!owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());  // its term lives on the last rank
-  const Eigen::Index n = static_cast<Eigen::Index>(place.levers.size());
+  const Eigen::Index n = static_cast<Eigen::Index>(place.averaging_weights.size());
   for (int i = 0; i < 6 && !slot.still; ++i) at.coordinates.push_back(slot.frame + i);
   at.S = at.psi = Eigen::Matrix3Xd::Zero(3, 6 * n);
   const auto holds = [&](PetscInt dof) {
-    return std::binary_search(held(place.body).begin(), held(place.body).end(), dof);
+    return std::binary_search(constrained(place.body).begin(), constrained(place.body).end(), dof);
   };
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Lever& lever = place.levers[i];
+    const AveragingWeight& weight = place.averaging_weights[i];
     for (int d = 0; d < 6; ++d) {
-      at.coordinates.push_back(slot.nodes->of_node(lever.node) + d);
-      if (holds(6 * lever.node + d)) continue;
+      at.coordinates.push_back(slot.nodes->of_node(weight.node) + d);
+      if (holds(6 * weight.node + d)) continue;
       if (d < 3) {
-        at.S(d, 6 * i + d) = lever.share;
+        at.S(d, 6 * i + d) = weight.share;
         continue;
       }
-      at.psi.col(6 * i + d) = lever.turn.col(d - 3);
-      at.S.col(6 * i + d) = lever.arm.col(d - 3);
+      at.psi.col(6 * i + d) = weight.rotation.col(d - 3);
+      at.S.col(6 * i + d) = weight.arm.col(d - 3);
     }
-    if (lever.lead.isZero(0)) continue;
+    if (weight.lead.isZero(0)) continue;
     if (at.Q.empty()) at.Q.assign(3, Eigen::MatrixXd::Zero(6 * n, 6 * n));
     Eigen::Matrix3d free = Eigen::Matrix3d::Identity();
-    for (int d = 0; d < 3; ++d) free(d, d) = holds(6 * lever.node + 3 + d) ? 0 : 1;
+    for (int d = 0; d < 3; ++d) free(d, d) = holds(6 * weight.node + 3 + d) ? 0 : 1;
     for (int a = 0; a < 3; ++a)
-      at.Q[a].block<3, 3>(6 * i + 3, 6 * i + 3) = free * math::arm_form(Eigen::Vector3d::Unit(a), lever.lead) * free;
+      at.Q[a].block<3, 3>(6 * i + 3, 6 * i + 3) = free * math::arm_form(Eigen::Vector3d::Unit(a), weight.lead) * free;
   }
   return at;
 }
@@ -104,7 +104,7 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
       return;
     }
     for (const fem::Mesh::Cell& cell : body.structure.mesh.cells) {
-      const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
+      const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slots_[b].nodes);
       if (free.coordinates.empty()) continue;
       add(free.coordinates, reference::density_inertia(body.structure, cell, density, free.V));
     }
@@ -114,8 +114,8 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
   if (slots_[b].corotated)
     markers = slots_[b].corotated->density(density, cells);
   else if (!compact(b))
-    markers =
-        reference::spatial_density_markers(body.structure, held(b), *slots_[b].nodes, frame_of(b), density, cells);
+    markers = reference::spatial_density_markers(body.structure, constrained(b), *slots_[b].nodes, frame_of(b), density,
+                                                 cells);
   else if (owner_ && part)
     markers.push_back(density_marker(b, density == Density::mass ? part->masses.mass : part->masses.line));
   else if (owner_)
@@ -173,7 +173,7 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
     const Load& load, const LoadPart& part, const std::function<Eigen::Vector3d(double)>& value) {
   const Anchor& place = part.at;
   const PlannedBody& body = plan_.bodies[place.body];
-  const bool of_body = load.axes == Load::Axes::body, turns = load.kind == Load::Kind::moment;
+  const bool of_body = load.axes == Load::Axes::body, rotations = load.kind == Load::Kind::moment;
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   std::vector<std::pair<SpatialMarker, double>> parts;
   if (slots_[place.body].corotated) {
@@ -182,12 +182,12 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
     parts.emplace_back(std::move(at), 1.);
   }
   for (auto& [at, share] : parts) {
-    const Eigen::Matrix3d A = part.size * (turns ? share : 1.) *
+    const Eigen::Matrix3d A = part.size * (rotations ? share : 1.) *
                               (of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
     at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
     terms.push_back(std::make_unique<SpatialForce>(
         std::move(at),
-        [A, value, first = turns ? 3 : 0](double t) {
+        [A, value, first = rotations ? 3 : 0](double t) {
           Wrench w = Wrench::Zero();
           w.segment<3>(first) = A * value(t);
           return w;

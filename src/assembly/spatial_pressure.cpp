@@ -91,7 +91,7 @@ void SpatialAssembly::add_pressure(const Load& load, int b, const BodyPart* part
       add_corotated_pressure(load, b, cell);
       continue;
     }
-    const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slots_[b].nodes);
+    const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slots_[b].nodes);
     std::vector<int> coordinates;
     for (int i = 0; i < 6 && !slots_[b].still; ++i) coordinates.push_back(slots_[b].frame + i);
     coordinates.insert(coordinates.end(), free.coordinates.begin(), free.coordinates.end());

@@ -168,11 +168,11 @@ bool SpatialRows::on_branch(const VectorXd& q, double t) const {
     VectorXd own = VectorXd::Zero(n + entry.rows);
     const VectorXd none = own;
     for (Index i = 0; i < n; ++i) own[i] = q[entry.coordinates[i]];
-    return entry.term->standing({t, own, none, none}) == dynamics::Standing::met;
+    return entry.term->constraint_status({t, own, none, none}) == dynamics::ConstraintStatus::satisfied;
   });
 }
 
-std::vector<std::vector<int>> SpatialRows::standing(std::string& notes, std::vector<int>& undetermined) const {
+std::vector<std::vector<int>> SpatialRows::independent(std::string& notes, std::vector<int>& undetermined) const {
   std::vector<std::vector<int>> all;
   if (entries_.empty()) return all;
   MatrixXd gradient;

@@ -22,7 +22,7 @@ class SpatialRows {
   /// @param notes  a line for each joint that loses rows
   /// @param undetermined  receives the joints whose multipliers the rows do not determine
   /// @throws InputError  a row that depends on others is not met: joints contradict one another
-  std::vector<std::vector<int>> standing(std::string& notes, std::vector<int>& undetermined) const;
+  std::vector<std::vector<int>> independent(std::string& notes, std::vector<int>& undetermined) const;
 
  private:
   struct Entry {
@@ -31,8 +31,8 @@ class SpatialRows {
     std::vector<int> coordinates;  // without multipliers, among those that any joint sees
     int rows;
   };
-  /// A frame's six coordinates among those seen; directions of change turn it about the first place that joints have on
-  /// it, so that places far away from the frame have gradients of a common size: dR = about dx.
+  /// A frame's six coordinates among those seen; directions of change rotate it about the first place that joints have
+  /// on it, so that places far away from the frame have gradients of a common size: dR = about dx.
   struct Frame {
     std::array<Eigen::Index, 6> at;
     Eigen::Matrix3d about;

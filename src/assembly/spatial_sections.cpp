@@ -14,7 +14,7 @@ std::vector<std::shared_ptr<const dynamics::Term>> SpatialAssembly::terms_of(int
   if (slot.corotated) {
     terms_ = slot.corotated->terms_of(&part.cells, body.spec.damping.stiffness);
   } else if (!compact(b)) {
-    terms_ = reference::spatial_inertia_terms(body.structure, held(b), *slot.nodes, frame_of(b), &part.cells);
+    terms_ = reference::spatial_inertia_terms(body.structure, constrained(b), *slot.nodes, frame_of(b), &part.cells);
   } else if (owner_) {
     const Eigen::Index k = reduced_[b].body.coordinates();
     terms_.push_back(std::make_unique<dynamics::SpatialBody>(

@@ -34,7 +34,7 @@ std::shared_ptr<const ShellPoint> SpatialAssembly::shell_point(std::size_t p) co
       point->shares.push_back(std::move(share));
       continue;
     }
-    const reference::FreeDofs free = reference::free_dofs(body.structure, held(b), cell, *slot.nodes);
+    const reference::FreeDofs free = reference::free_dofs(body.structure, constrained(b), cell, *slot.nodes);
     point->shares.push_back(share_of(
         sample, one, cell.follows() ? Eigen::MatrixXd(fem::following(body.structure.mesh, cell) * free.V) : free.V));
     point->shares.back().coordinates = free.coordinates;

@@ -18,11 +18,11 @@ Vector3d displacement_at(const PlannedBody& body, const Anchor& place, Vec shape
   Vector3d u = Vector3d::Zero();
   {
     petsc::Values own(shape);
-    for (const Lever& lever : place.moved_by()) {
-      const PetscInt first = n * lever.node;
+    for (const AveragingWeight& weight : place.moved_by()) {
+      const PetscInt first = n * weight.node;
       if (first < own.first || first >= own.end) continue;
-      for (int i = 0; i < d; ++i) u[i] += lever.share * own[first + i];
-      if (d == 3) u += lever.arm * Vector3d(own[first + 3], own[first + 4], own[first + 5]);
+      for (int i = 0; i < d; ++i) u[i] += weight.share * own[first + i];
+      if (d == 3) u += weight.arm * Vector3d(own[first + 3], own[first + 4], own[first + 5]);
     }
   }
   MPI_Allreduce(MPI_IN_PLACE, u.data(), 3, MPI_DOUBLE, MPI_SUM, body.structure.mesh.comm);

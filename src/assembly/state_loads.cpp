@@ -13,11 +13,11 @@ using Quantity = Probe::Quantity;
 
 dynamics::RelativeCoordinate::Of of_dynamics(JointCoordinate of) {
   using Of = dynamics::RelativeCoordinate::Of;
-  return of == JointCoordinate::turn ? Of::turn : of == JointCoordinate::travel ? Of::slide : Of::length;
+  return of == JointCoordinate::rotation ? Of::rotation : of == JointCoordinate::travel ? Of::slide : Of::length;
 }
 
 std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoordinate> of,
-                                          std::shared_ptr<const dynamics::Latch> active) {
+                                          std::shared_ptr<const dynamics::ConstraintSwitch> active) {
   return std::make_unique<dynamics::JointForce>(
       std::move(of),
       [](double, double) {
@@ -45,16 +45,18 @@ void watch(std::shared_ptr<StateFormula> formula, ModelProbe& probe,
 
 /// A component of a probe in the plane (add_values of probes.cpp).
 std::unique_ptr<dynamics::Sensor> sensor_of(const ModelProbe& probe, int component) {
-  const bool turns = probe.quantity == Quantity::rotation || probe.quantity == Quantity::angular_velocity;
+  const bool rotations = probe.quantity == Quantity::rotation || probe.quantity == Quantity::angular_velocity;
   const dynamics::Marker from = probe.relative_to.value_or(dynamics::Marker::ground({0, 0}));
   const Eigen::Vector3d start = probe.start, other = probe.relative_to ? probe.start_relative : Eigen::Vector3d::Zero();
   double offset = 0;
   if (probe.quantity == Quantity::rotation) offset = start[2] - other[2];
-  if (probe.quantity == Quantity::displacement) offset = (turn(-other[2]) * (start - other).head<2>())[component];
+  if (probe.quantity == Quantity::displacement)
+    offset = (rotation_matrix(-other[2]) * (start - other).head<2>())[component];
   return std::make_unique<CoordinateSensor>(
       std::make_unique<dynamics::PlanarCoordinate>(
-          from, probe.marker, turns ? dynamics::RelativeCoordinate::Of::turn : dynamics::RelativeCoordinate::Of::slide,
-          offset, turns ? Eigen::Vector2d::Zero() : Eigen::Vector2d(Eigen::Vector2d::Unit(component))),
+          from, probe.marker,
+          rotations ? dynamics::RelativeCoordinate::Of::rotation : dynamics::RelativeCoordinate::Of::slide, offset,
+          rotations ? Eigen::Vector2d::Zero() : Eigen::Vector2d(Eigen::Vector2d::Unit(component))),
       is_rate(probe.quantity));
 }
 
@@ -62,7 +64,7 @@ std::unique_ptr<dynamics::Sensor> sensor_of(const ModelProbe& probe, int compone
 std::unique_ptr<dynamics::Sensor> sensor_of(const SpatialProbe& probe, Quantity quantity, int component) {
   dynamics::SpatialMarker from = probe.relative_to.value_or(dynamics::SpatialMarker::ground(Eigen::Vector3d::Zero()));
   if (quantity == Quantity::rotation || quantity == Quantity::angular_velocity)
-    return std::make_unique<dynamics::SpatialTurnSensor>(from, probe.marker, component, is_rate(quantity));
+    return std::make_unique<dynamics::SpatialRotationSensor>(from, probe.marker, component, is_rate(quantity));
   Eigen::Matrix3d axes;  // the component's axis as the third
   for (int i = 0; i < 3; ++i) axes.col(i) = Eigen::Vector3d::Unit((component + 1 + i) % 3);
   from.D0 = (from.D0 * axes).eval();
@@ -101,7 +103,7 @@ void PlanarAssembly::add_state_loads(Model& model, const Eigen::VectorXd& q) {
       const std::size_t j = joint_index(plan_.scene, load.joint);
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 2));
       connect(j, std::make_unique<StateForce>(
-                     unit_load(coordinate_of(j, of, joint_places_[j], q), own_latch(latches_, load.joint)),
+                     unit_load(coordinate_of(j, of, joint_places_[j], q), own_latch(switches_, load.joint)),
                      StateFormula(load.on_joint, sensors(load.on_joint, model, q))));
       continue;
     }
@@ -146,9 +148,9 @@ void SpatialAssembly::add_state_loads(Model& model) {
       if (!owner_) continue;
       const auto j = static_cast<int>(joint_index(plan_.scene, load.joint));
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 3));
-      connect(j,
-              std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_latch(latches_, load.joint)),
-                                           StateFormula(load.on_joint, sensors(load.on_joint, model))));
+      connect(
+          j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_latch(switches_, load.joint)),
+                                          StateFormula(load.on_joint, sensors(load.on_joint, model))));
       continue;
     }
     if (!load.has_sensors()) continue;

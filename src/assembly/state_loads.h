@@ -12,6 +12,6 @@ dynamics::RelativeCoordinate::Of of_dynamics(JointCoordinate of);
 
 /// A force of size 1 that increases a joint's coordinate. @param active  null, or whether the joint is: else no force
 std::unique_ptr<dynamics::Term> unit_load(std::unique_ptr<dynamics::RelativeCoordinate> of,
-                                          std::shared_ptr<const dynamics::Latch> active);
+                                          std::shared_ptr<const dynamics::ConstraintSwitch> active);
 
 }  // namespace floe::assembly

@@ -4,17 +4,17 @@
 
 namespace floe::assembly {
 
-dynamics::StopLaw law_of(const LimitsSpec& limits, bool turn, double extent) {
+dynamics::StopLaw law_of(const LimitsSpec& limits, bool rotation, double extent) {
   return {limits.lower, limits.upper, limits.stiffness, limits.damping,
-          limits.width.value_or(turn ? 1e-3 : 1e-3 * extent)};
+          limits.width.value_or(rotation ? 1e-3 : 1e-3 * extent)};
 }
 
 dynamics::FrictionLaw law_of(const FrictionSpec& friction) {
   return {friction.level, friction.viscosity, friction.speed};
 }
 
-std::shared_ptr<const dynamics::Latch> own_latch(const std::map<std::string, JointLatches>& all,
-                                                 const std::string& joint) {
+std::shared_ptr<const dynamics::ConstraintSwitch> own_latch(const std::map<std::string, JointSwitches>& all,
+                                                            const std::string& joint) {
   const auto found = all.find(joint);
   return found == all.end() ? nullptr : found->second.joint;
 }

@@ -3,15 +3,15 @@
 
 namespace floe::assembly {
 
-/// @param turn   radians, else metres
+/// @param rotation  radians, else metres
 /// @param extent a length of the scene
-dynamics::StopLaw law_of(const LimitsSpec& limits, bool turn, double extent);
+dynamics::StopLaw law_of(const LimitsSpec& limits, bool rotation, double extent);
 
 dynamics::FrictionLaw law_of(const FrictionSpec& friction);
 
 /// What states whether a joint's own constraints are active; none: no event unlocks it.
-std::shared_ptr<const dynamics::Latch> own_latch(const std::map<std::string, JointLatches>& all,
-                                                 const std::string& joint);
+std::shared_ptr<const dynamics::ConstraintSwitch> own_latch(const std::map<std::string, JointSwitches>& all,
+                                                            const std::string& joint);
 
 /// Notes the stops of a joint. @param term  null where another rank has it
 void note_stops(const Joint& joint, const LimitsSpec& limits, const dynamics::Stop* term, std::vector<ModelStop>& all);

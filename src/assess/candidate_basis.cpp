@@ -31,7 +31,7 @@ constexpr std::size_t most_generators = 7;
 
 bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
 
-/// With all that the pool may offer, and no choice of the scene's own.
+/// With all that the candidate basis may offer, and no choice of the scene's own.
 Scene generous(const Scene& whole, MPI_Comm comm) {
   Scene scene = split_frames(whole, comm);
   for (Body& body : scene.bodies) {
@@ -49,7 +49,7 @@ struct Source {
   BodyReport report;
   reduction::Columns columns;
   std::vector<ColumnOrigin> origins;
-  std::vector<std::size_t> group;  ///< of each column: its place among the pool's
+  std::vector<std::size_t> group;  ///< of each column: its place among the candidate basis's
   std::shared_ptr<const reduction::Statics> statics;
 };
 
@@ -57,12 +57,12 @@ struct Source {
 
 std::size_t Selection::count() const { return std::count(taken.begin(), taken.end(), 1); }
 
-struct Pool::Parts {
+struct CandidateBasis::Parts {
   Scene whole;  ///< as the user wrote it
   MPI_Comm comm;
   std::shared_ptr<Offline> offline;  ///< of the bodies as flexible as they come
   std::vector<Source> sources;       ///< of each body
-  std::vector<PoolColumn> columns;
+  std::vector<CandidateVector> columns;
   mutable std::map<std::vector<char>, std::shared_ptr<Offline>> rigid;  ///< by the bodies that are made rigid
   mutable std::map<std::pair<std::size_t, std::vector<char>>, ReducedBody> reduced;
 
@@ -109,12 +109,12 @@ struct Pool::Parts {
     return std::find(all.begin(), all.end(), 1) == all.end() ? offline : offline_of(all);
   }
   bool shares_frames(const Selection& selection) const { return offline_of(selection)->scene.share_frames; }
-  reduction::Pairs leading_pairs(std::size_t b, const std::vector<Participation>& order) const;
+  reduction::Pairs leading_pairs(std::size_t b, const std::vector<EnergyContribution>& order) const;
   void add_derivatives(std::size_t b, const std::set<std::string>& offered);
 };
 
 /// The body on those of its columns that are taken, in their order.
-const ReducedBody& Pool::Parts::reduced_body(std::size_t b, const std::vector<char>& taken) const {
+const ReducedBody& CandidateBasis::Parts::reduced_body(std::size_t b, const std::vector<char>& taken) const {
   const auto found = reduced.find({b, taken});
   if (found != reduced.end()) return found->second;
   if (reduced.size() > 64) reduced.clear();
@@ -131,19 +131,20 @@ const ReducedBody& Pool::Parts::reduced_body(std::size_t b, const std::vector<ch
   fem::FieldRows candidates =
       fem::gather(plan.structure, static_cast<Eigen::Index>(some.size()),
                   [&](Eigen::Index j, double* local) { plan.structure.exchange.gather(some[j], local); });
-  put_on(plan,
-         std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
-             plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance)),
-         *source.statics, source.stage.generators.modes, one);
+  project_onto(plan,
+               std::make_shared<reduction::Basis>(reduction::orthonormal_basis(
+                   plan.structure, std::move(candidates), std::move(origins), plan.spec.reduction.drop_tolerance)),
+               *source.statics, source.stage.generators.modes, one);
   one.report.seconds_projection = MPI_Wtime() - start;
   one.statics = source.statics;
   join_start(plan, one);
   return reduced.emplace(std::pair{b, taken}, std::move(one)).first->second;
 }
 
-/// The scene prepared with some more rigid bodies. Those that are not must stay as they are in the pool: a body that a
-/// joint makes one with a rigid one would get its frame (shared_frames), for which the columns are not made.
-std::shared_ptr<Offline> Pool::Parts::offline_of(const std::vector<char>& made_rigid) const {
+/// The scene prepared with some more rigid bodies. Those that are not must stay as they are in the candidate basis: a
+/// body that a joint makes one with a rigid one would get its frame (shared_frames), for which the columns are not
+/// made.
+std::shared_ptr<Offline> CandidateBasis::Parts::offline_of(const std::vector<char>& made_rigid) const {
   std::shared_ptr<Offline>& one = rigid[made_rigid];
   if (one) return one;
   const auto prepared_with = [&](bool share_frames) {
@@ -155,7 +156,7 @@ std::shared_ptr<Offline> Pool::Parts::offline_of(const std::vector<char>& made_r
   };
   const auto same_frames = [&](const Offline& other) {
     for (std::size_t b = 0; b < made_rigid.size(); ++b)
-      if (!made_rigid[b] && other.plan.bodies[b].host != body(b).host) return false;
+      if (!made_rigid[b] && other.plan.bodies[b].parent != body(b).parent) return false;
     return true;
   };
   one = prepared_with(true);
@@ -168,11 +169,12 @@ std::shared_ptr<Offline> Pool::Parts::offline_of(const std::vector<char>& made_r
 }
 
 /// Of the generators that take part most.
-reduction::Pairs Pool::Parts::leading_pairs(std::size_t b, const std::vector<Participation>& order) const {
+reduction::Pairs CandidateBasis::Parts::leading_pairs(std::size_t b,
+                                                      const std::vector<EnergyContribution>& order) const {
   const Source& source = sources[b];
   const std::size_t count = source.stage.generators.fields.size();
   std::vector<int> first;
-  for (const Participation& one : order)  // by the places of the groups in this body
+  for (const EnergyContribution& one : order)  // by the places of the groups in this body
     for (std::size_t i = 0; i < count && first.size() < most_generators; ++i)
       if (source.group[i] == one.column) first.push_back(static_cast<int>(i));
   if (order.empty()) {
@@ -187,7 +189,7 @@ reduction::Pairs Pool::Parts::leading_pairs(std::size_t b, const std::vector<Par
 }
 
 /// A label stands for a column of every piece of a body that has it: what is offered of one is offered of all.
-void Pool::Parts::add_derivatives(std::size_t b, const std::set<std::string>& offered) {
+void CandidateBasis::Parts::add_derivatives(std::size_t b, const std::set<std::string>& offered) {
   Source& source = sources[b];
   reduction::Pairs pairs;
   for (const auto& pair : reduction::all_pairs(static_cast<int>(source.stage.generators.fields.size())))
@@ -203,7 +205,7 @@ void Pool::Parts::add_derivatives(std::size_t b, const std::set<std::string>& of
   }
 }
 
-std::vector<Participation> Pool::linear_participation(const Scene& scene) const {
+std::vector<EnergyContribution> CandidateBasis::linear_energy_contribution(const Scene& scene) const {
   Selection linear = whole();
   linear.linear = true;
   const Model model = this->model(linear);
@@ -215,12 +217,12 @@ std::vector<Participation> Pool::linear_participation(const Scene& scene) const 
     solve::simulate(*model.system, with, model.U, model.V,
                     [&](const solve::Instant& instant) { motion.keep(instant); });
   } catch (const solve::MotionStopped&) {
-    // A linear body that is turned too fast diverges: what it did until then ranks its columns.
+    // A linear body that is rotated too fast diverges: what it did until then ranks its columns.
   }
-  return participation(model, motion.states());
+  return energy_contribution(model, motion.states());
 }
 
-Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(scene, comm)) {
+CandidateBasis::CandidateBasis(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(scene, comm)) {
   Parts& parts = *parts_;
   const Plan& plan = parts.offline->plan;
   parts.sources.resize(plan.bodies.size());
@@ -235,10 +237,10 @@ Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(s
       parts.add(b, reduction::copy(fields[i]), source.stage.generators.origins[i], false);
     many = many || fields.size() > most_generators;
   }
-  std::vector<Participation> order;
+  std::vector<EnergyContribution> order;
   if (many) {
     try {
-      order = linear_participation(scene);
+      order = linear_energy_contribution(scene);
     } catch (const InputError&) {
       // A shape at the start that only derivatives bring to the joints (it stretches the body): no ranking.
     }
@@ -256,13 +258,13 @@ Pool::Pool(const Scene& scene, MPI_Comm comm) : parts_(std::make_unique<Parts>(s
   }
 }
 
-Pool::~Pool() = default;
+CandidateBasis::~CandidateBasis() = default;
 
-const std::vector<PoolColumn>& Pool::columns() const { return parts_->columns; }
+const std::vector<CandidateVector>& CandidateBasis::columns() const { return parts_->columns; }
 
-Selection Pool::whole() const { return {std::vector<char>(columns().size(), 1), false}; }
+Selection CandidateBasis::whole() const { return {std::vector<char>(columns().size(), 1), false}; }
 
-Model Pool::model(const Selection& selection, bool keep_offline) const {
+Model CandidateBasis::model(const Selection& selection, bool keep_offline) const {
   const Parts& parts = *parts_;
   const std::size_t count = parts.sources.size();
   const std::shared_ptr<Offline> offline = parts.offline_of(selection);
@@ -285,7 +287,7 @@ Model Pool::model(const Selection& selection, bool keep_offline) const {
   return model;
 }
 
-int Pool::add_responses(const Estimate& estimate) {
+int CandidateBasis::add_responses(const Estimate& estimate) {
   Parts& parts = *parts_;
   int count = 0;
   for (std::size_t b = 0; b < parts.sources.size() && b < estimate.responses.size(); ++b) {
@@ -303,7 +305,8 @@ int Pool::add_responses(const Estimate& estimate) {
   return count;
 }
 
-std::vector<Participation> Pool::participation(const Model& whole, const std::vector<solve::State>& states) const {
+std::vector<EnergyContribution> CandidateBasis::energy_contribution(const Model& whole,
+                                                                    const std::vector<solve::State>& states) const {
   const Parts& parts = *parts_;
   std::vector<Directions> bodies;
   for (std::size_t b = 0; b < parts.sources.size(); ++b) {
@@ -328,25 +331,25 @@ std::vector<Participation> Pool::participation(const Model& whole, const std::ve
       one.Y.col(static_cast<Eigen::Index>(s)) = root * states[s].q.segment(whole.bodies[b].first_elastic, k);
     bodies.push_back(std::move(one));
   }
-  std::vector<Participation> order;
+  std::vector<EnergyContribution> order;
   for (const Taken& one : matching_pursuit(std::move(bodies), static_cast<int>(columns().size())))
     order.push_back({static_cast<std::size_t>(one.group), one.share});
   return order;
 }
 
-std::string Pool::text(const Selection& selection, const Motion& motion) const {
-  return pool_text(parts_->whole, columns(), selection, motion, {}, parts_->shares_frames(selection));
+std::string CandidateBasis::text(const Selection& selection, const Motion& motion) const {
+  return candidates_text(parts_->whole, columns(), selection, motion, {}, parts_->shares_frames(selection));
 }
 
-bool Pool::has_responses(const Selection& selection) const {
+bool CandidateBasis::has_responses(const Selection& selection) const {
   if (selection.responses > 0) return false;
   for (std::size_t i = 0; i < columns().size(); ++i)
     if (selection.taken[i] && columns()[i].response) return true;
   return false;
 }
 
-std::vector<std::string> Pool::write(const Selection& selection, const Motion& motion, const std::string& path,
-                                     bool overwrite) const {
+std::vector<std::string> CandidateBasis::write(const Selection& selection, const Motion& motion,
+                                               const std::string& path, bool overwrite) const {
   const Parts& parts = *parts_;
   std::map<std::string, std::string> files;
   const std::filesystem::path scene(path);
@@ -386,9 +389,10 @@ std::vector<std::string> Pool::write(const Selection& selection, const Motion& m
     }
     written.push_back(beside.string());
   }
-  const std::string text = pool_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection),
-                                     std::filesystem::absolute(scene).parent_path()) +
-                           "\n";
+  const std::string text =
+      candidates_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection),
+                      std::filesystem::absolute(scene).parent_path()) +
+      "\n";
   petsc::agree(parts.comm, [&] {
     int rank = 0;
     MPI_Comm_rank(parts.comm, &rank);

@@ -10,8 +10,8 @@ namespace floe::assess {
 /// steps of a motion.
 /// @param files   bodies that are read from these instead
 /// @param folder  where the text will stand: paths in it are taken from there; empty: where the scene stands
-std::string pool_text(const Scene& scene, const std::vector<PoolColumn>& columns, const Selection& selection,
-                      const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
-                      const std::filesystem::path& folder = {});
+std::string candidates_text(const Scene& scene, const std::vector<CandidateVector>& columns, const Selection& selection,
+                            const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
+                            const std::filesystem::path& folder = {});
 
 }  // namespace floe::assess

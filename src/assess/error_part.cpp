@@ -107,7 +107,7 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
   return std::move(*model);
 }
 
-ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
+ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, const Scene& scene, const Model& model,
                        const solve::Integration& how, const std::vector<double>& times, const Enough& enough) {
   const auto looks = [&](const solve::Instant& instant) {
     return motion.at_rest || instant.step <= looked_at || instant.step % look_every == 0;
@@ -145,7 +145,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, cons
 
 bool can_lengthen(const FinishedMotion& motion) { return !motion.at_rest && !motion.how.tolerance; }
 
-Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double times, double end,
+Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double times, double end,
                 ErrorPart& part) {
   solve::Integration how = motion.how;
   how.step *= times, how.end = end;

@@ -39,7 +39,7 @@ bool can_lengthen(const FinishedMotion& motion);
 /// The probes of a model that built() made, or of the motion's own: simulated, or its equilibria. Where every rank has
 /// its own copy, one that fails stops all of them when they look at the time next: they have as many values, and the
 /// reason (ProbeHistory::stopped) is that of the first one that failed. Collective.
-ProbeHistory simulated(const FinishedMotion& motion, const Allowance& time, const Scene& scene, const Model& model,
+ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, const Scene& scene, const Model& model,
                        const solve::Integration& how, const std::vector<double>& times, const Enough& enough = {});
 
 /// A share of the motion: what simulates less than that is no estimate.
@@ -52,7 +52,7 @@ Simulated compared(const FinishedMotion& motion, std::vector<ProbeColumn> column
                    const std::string& what, ErrorPart& part);
 
 /// The motion itself, in steps `times` as long, until `end`. @throws RunError  as compared(). Collective.
-Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double times, double end,
+Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double times, double end,
                 ErrorPart& part);
 
 /// Runs `work`, which fills the part in: a fault of any rank, also of models that every rank has for itself, leaves the

@@ -30,7 +30,7 @@ bool keeps_factors(const Offline& offline) {
 }
 
 /// Where the motion deforms most, and some instants along it.
-void sample(const Model& model, const KeptMotion& motion, const Allowance& time, Residuals& residuals,
+void sample(const Model& model, const KeptMotion& motion, const TimeBudget& time, Residuals& residuals,
             Estimate& estimate) {
   const std::vector<State> states = spread(motion.states(), most_samples - 1);
   const State& greatest = most_deformed(model, motion.states());
@@ -53,7 +53,7 @@ int columns_in(double seconds, const ReducedBody& reduced) {
   return std::clamp(static_cast<int>(k * (factor - 1)), least_columns, most_columns);
 }
 
-std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const Allowance& time,
+std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const TimeBudget& time,
                                   Estimate& estimate) {
   std::vector<ReducedBody> bodies;
   note_files(offline, estimate);
@@ -81,7 +81,7 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
 }
 
 /// Follows the deviation, on every rank alike.
-void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const Allowance& time,
+void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const TimeBudget& time,
             Estimate& estimate) {
   const dynamics::System& system = *more.system;
   std::vector<State> states;
@@ -127,7 +127,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   estimate.deformation = nothing ? 0 : known(std::sqrt(error / size));
 }
 
-void make(const Model& model, const KeptMotion& motion, const Allowance& time, Estimate& estimate) {
+void make(const Model& model, const KeptMotion& motion, const TimeBudget& time, Estimate& estimate) {
   Offline& offline = *model.offline;
   Residuals residuals(model, offline, full_order(offline));
   sample(model, motion, time, residuals, estimate);
@@ -147,7 +147,7 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
     return estimate;
   }
   const Offline& offline = *model.offline;
-  const Allowance time(offline.plan.comm, seconds);
+  const TimeBudget time(offline.plan.comm, seconds);
   estimate.none = without_estimate(offline);
   if (!estimate.none.empty()) return estimate;
   if (!keeps_factors(offline))

@@ -162,7 +162,7 @@ struct Gap {
 };
 
 /// From a reduced equilibrium towards that of full order, at least one step.
-void approach(FullOrder& full, const State& state, const Allowance& time, VectorXd& d, Gap& gap, Estimate& estimate) {
+void approach(FullOrder& full, const State& state, const TimeBudget& time, VectorXd& d, Gap& gap, Estimate& estimate) {
   for (int i = 0; i < most_steps; ++i) {
     if (i > 0 && time.left() == 0) {
       gap.late = true;
@@ -180,10 +180,10 @@ void approach(FullOrder& full, const State& state, const Allowance& time, Vector
   gap.open = true;
 }
 
-Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& turns, const Allowance& time,
+Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& rotations, const TimeBudget& time,
            Estimate& estimate) {
   full.put(state);
-  full.take_up(turns);
+  full.take_up(rotations);
   const std::vector<double> was = full.values();
   Gap gap;
   VectorXd d;
@@ -196,11 +196,11 @@ Gap gap_of(FullOrder& full, const State& state, const std::vector<double>& turns
 }
 
 /// The last equilibrium, and as many of the others as there is time for, in their order.
-std::vector<Gap> gaps(const std::vector<State>& states, const Allowance& time, FullOrder& full, Estimate& estimate) {
-  std::vector<std::vector<double>> turns;  // of springs, which are counted from one equilibrium to the next
-  for (const State& state : states) full.put(state), turns.push_back(full.carried());
+std::vector<Gap> gaps(const std::vector<State>& states, const TimeBudget& time, FullOrder& full, Estimate& estimate) {
+  std::vector<std::vector<double>> rotations;  // of springs, which are counted from one equilibrium to the next
+  for (const State& state : states) full.put(state), rotations.push_back(full.carried());
   const double before = time.spent();
-  std::vector<Gap> all = {gap_of(full, states.back(), turns.back(), time, estimate)};
+  std::vector<Gap> all = {gap_of(full, states.back(), rotations.back(), time, estimate)};
   const double each = std::max(time.spent() - before, 1e-9);
   std::vector<std::size_t> others(states.size() - 1);
   std::iota(others.begin(), others.end(), 0);
@@ -208,11 +208,11 @@ std::vector<Gap> gaps(const std::vector<State>& states, const Allowance& time, F
   if (count < others.size())
     estimate.notes.push_back(fmt::format("{} equilibria instead of {}, to save time", count + 1, states.size()));
   for (const std::size_t i : count > 0 ? spread(others, count) : std::vector<std::size_t>())
-    all.insert(all.end() - 1, gap_of(full, states[i], turns[i], time, estimate));
+    all.insert(all.end() - 1, gap_of(full, states[i], rotations[i], time, estimate));
   return all;
 }
 
-void make(const Model& model, const std::vector<State>& states, const Allowance& time, Estimate& estimate) {
+void make(const Model& model, const std::vector<State>& states, const TimeBudget& time, Estimate& estimate) {
   FullOrder full(model, *model.offline);
   const std::vector<Gap> all = gaps(states, time, full, estimate);
   const auto count = static_cast<double>(all.size());
@@ -255,7 +255,7 @@ Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& st
     estimate.none = "it applies to reduced models only (vm, vm+md)";
     return estimate;
   }
-  const Allowance time(model.offline->plan.comm, seconds);
+  const TimeBudget time(model.offline->plan.comm, seconds);
   estimate.none = states.empty() ? "there is no equilibrium" : without_estimate(*model.offline);
   if (!estimate.none.empty()) return estimate;
   note_files(*model.offline, estimate);

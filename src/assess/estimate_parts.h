@@ -14,9 +14,9 @@
 namespace floe::assess {
 
 /// Processor time that is left, as rank 0 sees it: all ranks decide alike, and not by what else the machine does.
-class Allowance {
+class TimeBudget {
  public:
-  Allowance(MPI_Comm comm, double seconds) : comm_(comm), begin_(now()), allowed_(of_first(seconds)) {}
+  TimeBudget(MPI_Comm comm, double seconds) : comm_(comm), begin_(now()), allowed_(of_first(seconds)) {}
   double spent() const { return of_first(spent_here()); }
   double spent_here() const { return now() - begin_; }  ///< as this rank sees it
   double left() const { return left_after(spent()); }
@@ -42,7 +42,7 @@ std::string without_estimate(const Offline& offline);
 /// Runs `make`, which fills the estimate in within the time; where it cannot, the estimate says why and the result
 /// stands without it. Collective. @throws  what this rank alone has failed of (petsc::failed_together)
 template <class Make>
-void fill_in(Estimate& estimate, MPI_Comm comm, const Allowance& time, double seconds, const Make& make) {
+void fill_in(Estimate& estimate, MPI_Comm comm, const TimeBudget& time, double seconds, const Make& make) {
   if (const std::string why = petsc::failed_together(comm, make); !why.empty()) estimate.none = why;
   estimate.seconds = time.spent(), estimate.allowed = seconds;
 }

@@ -26,7 +26,7 @@ double growth(const Scene& scene) {
   return plates ? 4 : 2;
 }
 
-void estimate(const FinishedMotion& motion, const ProbeSeries& own, const Allowance& time, double allowed,
+void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double allowed,
               ErrorPart& part) {
   const double offline = time.of_first(motion.offline), took = std::max(1e-6, time.of_first(motion.seconds));
   Scene other = motion.scene;
@@ -76,7 +76,7 @@ ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& o
     part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));
   for (const Body& body : motion.scene.bodies)
     if (body.reduced) part.notes.push_back(fmt::format("body {} comes from a file without its mesh", body.name));
-  const Allowance time(motion.comm, allowed);
+  const TimeBudget time(motion.comm, allowed);
   fill_in(motion, part, [&] { estimate(motion, own, time, allowed, part); });
   part.seconds = time.spent();
   return part;

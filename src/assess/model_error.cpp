@@ -223,7 +223,7 @@ class ModelError {
   const Estimate& reduction_;
   const ErrorPart& mesh_;
   ErrorPart& part_;
-  Allowance time_;
+  TimeBudget time_;
   double allowed_, took_;
   Scene scene_;
   double each_ = 0;   // a step of formulation cfr [s]

@@ -29,15 +29,15 @@ std::array<double, numbers> packed(const fem::Structure& structure, const fem::M
   const fem::Mesh& mesh = structure.mesh;
   const int a = cell.moved[ends[0]], b = cell.moved[ends[1]], n = structure.dofs_per_node;
   const Vector3d along = mesh.positions[cell.place[ends[1]]] - mesh.positions[cell.place[ends[0]]];
-  const auto turn = [&](int node) {
+  const auto rotation = [&](int node) {
     return n == 3 ? Vector3d(0, 0, local[3 * node + 2]) : Vector3d(local.segment<3>(6 * node + 3));
   };
   std::array<double, numbers> out{static_cast<double>(mesh.original_node(a)),
                                   static_cast<double>(mesh.original_node(b)), along.norm(),
                                   bending_stiffness(structure.sections[cell.part])};
   Eigen::Map<Vector3d>(out.data() + 4) = along.normalized();
-  Eigen::Map<Vector3d>(out.data() + 7) = turn(a);
-  Eigen::Map<Vector3d>(out.data() + 10) = turn(b);
+  Eigen::Map<Vector3d>(out.data() + 7) = rotation(a);
+  Eigen::Map<Vector3d>(out.data() + 10) = rotation(b);
   return out;
 }
 
@@ -180,13 +180,13 @@ class PathError {
       length += link.element.length;
     }
     const Vector3d chord = place.back();
-    const Vector3d turn = hinged_ && chord.norm() > 1e-6 * length
-                              ? Vector3d(chord.cross(shift.back()) / chord.squaredNorm())
-                              : Vector3d(Vector3d::Zero());
+    const Vector3d rotation = hinged_ && chord.norm() > 1e-6 * length
+                                  ? Vector3d(chord.cross(shift.back()) / chord.squaredNorm())
+                                  : Vector3d(Vector3d::Zero());
     double most = shift.back().norm();
     if (hinged_) most = 0;
     for (std::size_t i = 0; hinged_ && i < shift.size(); ++i)
-      most = std::max(most, (shift[i] - turn.cross(place[i])).norm());
+      most = std::max(most, (shift[i] - rotation.cross(place[i])).norm());
     return length > 0 ? most / length : 0;
   }
 

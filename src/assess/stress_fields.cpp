@@ -46,17 +46,17 @@ void take_deformation(const std::vector<Vector3d>& X, const Eigen::Matrix3d& axe
   const auto n = static_cast<Eigen::Index>(X.size());
   Vector3d centre = Vector3d::Zero(), at = Vector3d::Zero();
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Matrix3d> turns;
+  std::vector<Eigen::Matrix3d> rotations;
   for (Eigen::Index i = 0; i < n; ++i) {
-    turns.push_back(math::rotation(q.segment<3>(6 * i + 3)) * axes);  // from the body's axes to the node's
-    sum += turns.back();
+    rotations.push_back(math::rotation(q.segment<3>(6 * i + 3)) * axes);  // from the body's axes to the node's
+    sum += rotations.back();
     centre += X[static_cast<std::size_t>(i)] / static_cast<double>(n),
         at += q.segment<3>(6 * i) / static_cast<double>(n);
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Matrix3d mean = svd.matrixU() * svd.matrixV().transpose();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Matrix3d own = mean.transpose() * turns[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d own = mean.transpose() * rotations[static_cast<std::size_t>(i)];
     const Vector3d u = mean.transpose() * (q.segment<3>(6 * i) - at) - (X[static_cast<std::size_t>(i)] - centre);
     q.segment<3>(6 * i) = u;
     q.segment<3>(6 * i + 3) = math::rotation_vector(Eigen::Quaterniond(own).normalized());

@@ -30,7 +30,7 @@ double spin_of(const BodyReport& body, const State& state) {
 
 /// Of a deformation, this rank's part.
 struct Greatest {
-  double turn = 0, shift = 0;  // of a node [rad], [m]
+  double rotation = 0, shift = 0;  // of a node [rad], [m]
 };
 
 Greatest greatest_of(int dimension, const double* values, PetscInt dofs) {
@@ -38,7 +38,7 @@ Greatest greatest_of(int dimension, const double* values, PetscInt dofs) {
   Greatest most;
   for (PetscInt i = 0; i + n <= dofs; i += n) {
     most.shift = std::max(most.shift, Eigen::Map<const VectorXd>(values + i, dimension).norm());
-    most.turn = std::max(most.turn, Eigen::Map<const VectorXd>(values + i + dimension, n - dimension).norm());
+    most.rotation = std::max(most.rotation, Eigen::Map<const VectorXd>(values + i + dimension, n - dimension).norm());
   }
   return most;
 }
@@ -92,11 +92,11 @@ std::vector<const State*> samples_of(const std::vector<State>& states) {
   return some;
 }
 
-double sag_of(const BodyReport& body, const State& state) {
+double intra_deflection_of(const BodyReport& body, const State& state) {
   if (body.dimension == 2) return 0;
   std::vector<petsc::VecHandle> fields;
   fields.push_back(deformation_of(body, state));
-  return fields[0].get() ? fem::sags(*body.structure, fem::gather(*body.structure, fields))[0] : 0;
+  return fields[0].get() ? fem::intra_deflections(*body.structure, fem::gather(*body.structure, fields))[0] : 0;
 }
 
 std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI_Comm comm) {
@@ -109,7 +109,7 @@ std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI
     for (const State* state : some) {
       all[b].spin = std::max(all[b].spin, spin_of(model.bodies[b], *state));
       const Greatest most = greatest_of(model.bodies[b], *state);
-      slopes.push_back(most.turn), shift = std::max(shift, most.shift);
+      slopes.push_back(most.rotation), shift = std::max(shift, most.shift);
       see_deformation(model, b, *state, all[b]);
     }
     MPI_Allreduce(MPI_IN_PLACE, &shift, 1, MPI_DOUBLE, MPI_MAX, comm);
@@ -121,7 +121,7 @@ std::vector<Seen> look(const Model& model, const std::vector<State>& states, MPI
       continue;
     }
     all[b].slope = *steepest;
-    all[b].sag = sag_of(model.bodies[b], *some[steepest - slopes.begin()]);
+    all[b].intra_deflection = intra_deflection_of(model.bodies[b], *some[steepest - slopes.begin()]);
     double sums[2] = {all[b].rate, all[b].size};  // of distributed dofs; replicated ones keep their quotient
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, comm);
     all[b].rate = sums[0], all[b].size = sums[1];
@@ -182,9 +182,10 @@ void judge_shape(const Model& model, const BodyReport& body, const Seen& seen, s
   judge_file(body, seen.spin, out);
   const bool linear = model.formulation == Formulation::lffr;
   if (linear) judge_shortening(body, seen.slope, out);
-  if (seen.sag > greatest_sag)
-    out.push_back({"mesh", body.name, seen.sag, greatest_sag,
-                   sag_text(body.name, "where it bends most", seen.sag, greatest_sag)});
+  if (seen.intra_deflection > max_intra_deflection)
+    out.push_back(
+        {"mesh", body.name, seen.intra_deflection, max_intra_deflection,
+         intra_deflection_text(body.name, "where it bends most", seen.intra_deflection, max_intra_deflection)});
   if (model.formulation != Formulation::nlffr && !linear) judge_stretching(body, seen, out);
 }
 
@@ -231,8 +232,8 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
   judge_slopes(model, samples_of(motion.states()), seen, comm, out);
   const bool linear = model.formulation == Formulation::lffr;
   std::vector<BodyReport> modes;
-  const bool turns = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.spin > 0; });
-  if (linear && turns) modes = body_modes(whole, comm);
+  const bool rotations = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.spin > 0; });
+  if (linear && rotations) modes = body_modes(whole, comm);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyReport& body = model.bodies[b];
     if (body.rigid) continue;

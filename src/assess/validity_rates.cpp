@@ -81,13 +81,13 @@ void judge_step(const Scene& scene, const Model& model, const std::vector<Seen>&
       fastest = std::sqrt(seen[b].rate / seen[b].size), of = "deformations of body " + model.bodies[b].name;
   for (const LoadRate& load : rates_of_loads(scene))
     if (load.omega > fastest) fastest = load.omega, of = load.of.words;
-  const double turn = scene.motion.step * fastest;
-  if (turn > 0.25)
+  const double rotation = scene.motion.step * fastest;
+  if (rotation > 0.25)
     out.push_back(
-        {"step", of, turn, 0.25,
+        {"step", of, rotation, 0.25,
          fmt::format(
              "motion.step {:.3g} s: only {:.2g} steps per period of the {}, {:.3g} s (limit 25); use at most {:.2g} s",
-             scene.motion.step, 2 * M_PI / turn, of, 2 * M_PI / fastest, 0.25 / fastest)});
+             scene.motion.step, 2 * M_PI / rotation, of, 2 * M_PI / fastest, 0.25 / fastest)});
 }
 
 }  // namespace floe::assess

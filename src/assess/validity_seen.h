@@ -6,7 +6,7 @@ namespace floe::assess {
 /// Of one body over the motion.
 struct Seen {
   double slope = 0, spin = 0;        // greatest
-  double sag = 0;                    // where the slope is greatest
+  double intra_deflection = 0;       // where the slope is greatest
   double bending = 0, membrane = 0;  // energies where membrane's is greatest
   double rate = 0, size = 0;         // sums of squares of deformations
 };

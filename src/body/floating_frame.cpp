@@ -100,7 +100,7 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
   const auto [sigma, sigma_d, sigma_dd] = first_moments(in, work);
   const Eigen::Matrix2Xd& S_of_e = directions(in, work);
   const Vector2d Jsigma = rotated_quarter(sigma);
-  const Vector2d Rdd = A.transpose() * a.head<2>(), turned_Rdd = rotated_quarter(Rdd);
+  const Vector2d Rdd = A.transpose() * a.head<2>(), rotated_Rdd = rotated_quarter(Rdd);
 
   // frame by frame
   const Vector2d relative = Jsigma * wd + sigma_dd - w * w * sigma + 2 * w * rotated_quarter(sigma_d);
@@ -115,7 +115,7 @@ void add_inertia_tangent(const PlanarInertia& in, const Eigen::VectorXd& q, cons
   const Eigen::Matrix2d onS = A * ((wa - wq * w * w) * Eigen::Matrix2d::Identity() + (wq * wd + wv * 2 * w) * quarter);
   for (Eigen::Index j = 0; j < k; ++j) {
     const Vector2d S = S_of_e.col(j);
-    const double hDe = in.h[j] + De[j], gBe = in.g[j] - Be[j], across = S.dot(turned_Rdd);  // (J S)' R = -S' J R
+    const double hDe = in.h[j] + De[j], gBe = in.g[j] - Be[j], across = S.dot(rotated_Rdd);  // (J S)' R = -S' J R
     J.block<2, 1>(0, 3 + j) += onS * S;
     J.block<1, 2>(3 + j, 0) += wa * (A * S).transpose();
     J(2, 3 + j) +=

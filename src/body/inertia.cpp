@@ -83,7 +83,7 @@ void Inertia::add(const RotatingMass& mass) {
   if (arms) allocate_first();
   allocate_rotary();
   const auto add_form = [&](const RotatingMass::Form& form, Eigen::MatrixXd& to) {
-    to.noalias() += mass.turn.transpose() * (form * mass.turn);
+    to.noalias() += mass.rotation.transpose() * (form * mass.rotation);
   };
   for (int a = 0; a < dimension(); ++a) {
     if (arms) add_form(mass.first[a], Q[a]);

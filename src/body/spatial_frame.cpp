@@ -73,24 +73,24 @@ Matrix3d moment_rate(const Rates& rates, Index i) {
 
 /// G_i but for (Y e)_i, and that.
 Vector3d spin_rate(const Rates& rates, Index i) { return {rates(i, 6), rates(i, 7), rates(i, 8)}; }
-Vector3d turn_rate(const Rates& rates, Index i) { return {rates(i, 9), rates(i, 10), rates(i, 11)}; }
+Vector3d rotation_rate(const Rates& rates, Index i) { return {rates(i, 9), rates(i, 10), rates(i, 11)}; }
 
 /// What e and e' make of the body as a whole.
 struct Sums {
   Vector3d sigma, sigma_d, sigma_dd;  ///< and its rates in body axes
   Matrix3d J, J_d;                    ///< and its rate
   Vector3d spin;                      ///< G e'
-  Vector3d turn;                      ///< Y(e', e')
+  Vector3d rotation;                  ///< Y(e', e')
 };
 
 Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
   const auto &e = work.e, &ed = work.ed;
   double J[6] = {0, 0, 0, 0, 0, 0}, rate[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-  Vector3d turn;
+  Vector3d rotation;
   for (int c = 0; c < 9; ++c) rate[c] = ed.dot(work.of_e.col(c));
   for (int c = 0; c < 3; ++c) {
     rate[6 + c] += ed.dot(work.of_e.col(9 + c));
-    turn[c] = ed.dot(work.of_ed.col(9 + c));
+    rotation[c] = ed.dot(work.of_ed.col(9 + c));
   }
   for (int c = 0; c < 6; ++c) J[c] = 0.5 * (e.dot(in.linear.col(c)) + e.dot(work.of_e.col(c)));
   const Eigen::Matrix3Xd& S = first_moments(in, work);
@@ -105,7 +105,7 @@ Sums sums_of(const SpatialInertia& in, const SpatialInertiaWork& work) {
           in.J0 + symmetric(J[0], J[1], J[2], J[3], J[4], J[5]),
           symmetric(rate[0], rate[1], rate[2], rate[3], rate[4], rate[5]),
           Vector3d(rate[6], rate[7], rate[8]),
-          turn};
+          rotation};
 }
 
 /// The acceleration of the mass relative to the frame's origin: body axes, times mass.
@@ -114,7 +114,7 @@ Vector3d relative_acceleration(const Sums& s, const Vector3d& w, const Vector3d&
 }
 
 /// The e by e block but for M: all forms, each with its weight.
-void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d& skew, const Vector3d& turn,
+void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d& skew, const Vector3d& rotation,
                Eigen::VectorXd& sum, Eigen::MatrixXd& tangent) {
   const Index k = in.S.cols(), n = static_cast<Index>(in.kinds.size());
   if (k == 0 || n == 0) return;
@@ -126,7 +126,7 @@ void add_forms(const SpatialInertia& in, const Matrix3d& squares, const Vector3d
     else if (kind < 6)
       weights[i] = squares((axis + 1) % 3, (axis + 2) % 3);
     else
-      weights[i] = kind < 9 ? skew[axis] : turn[axis];
+      weights[i] = kind < 9 ? skew[axis] : rotation[axis];
   }
   sum.resize(k * k);
   math::multiply(Eigen::Map<const Eigen::MatrixXd>(in.forms.data(), k * k, n), weights, sum);
@@ -152,7 +152,7 @@ void add_spatial_inertia_force(const SpatialInertia& in, const Matrix3d& A, cons
   const Sums s = sums_of(in, work);
   const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
   r.head<3>() += in.m * a.head<3>() + A * relative_acceleration(s, w, wd);
-  Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + s.turn + w.cross(s.J * w + s.spin);
+  Vector3d moment = s.sigma.cross(u) + s.J * wd + s.J_d * w + s.rotation + w.cross(s.J * w + s.spin);
   for (int c = 0; c < 3; ++c) moment[c] += work.edd.dot(work.of_e.col(6 + c) + work.of_e.col(9 + c));
   r.segment<3>(3) += moment;
   work.Medd.resize(k);
@@ -188,7 +188,7 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
   if (wq != 0) add_products(in, in.symmetric, work.edd, work.products, work.of_edd);
   const Sums s = sums_of(in, work);
   const Vector3d w = v.segment<3>(3), wd = a.segment<3>(3), u = A.transpose() * a.head<3>();
-  const Matrix3d I = Matrix3d::Identity(), turn = skew(w), squares = turn * turn, of_sigma = skew(s.sigma);
+  const Matrix3d I = Matrix3d::Identity(), rotation = skew(w), squares = rotation * rotation, of_sigma = skew(s.sigma);
   const Matrix3d T = wq * math::rotation_tangent(q.segment<3>(3));
 
   // frame by frame
@@ -198,21 +198,22 @@ void add_spatial_inertia_tangent(const SpatialInertia& in, const Matrix3d& A, co
       A * (wv * (w.dot(s.sigma) * I + w * s.sigma.transpose() - 2 * s.sigma * w.transpose() - 2 * skew(s.sigma_d)) -
            wa * of_sigma - skew(relative) * T);
   tangent.block<3, 3>(3, 0) += wa * of_sigma * A.transpose();
-  tangent.block<3, 3>(3, 3) += wv * (turn * s.J - skew(s.J * w + s.spin) + s.J_d) + wa * s.J + of_sigma * skew(u) * T;
+  tangent.block<3, 3>(3, 3) +=
+      wv * (rotation * s.J - skew(s.J * w + s.spin) + s.J_d) + wa * s.J + of_sigma * skew(u) * T;
 
   // frame by e and e by frame
   const Eigen::Matrix3Xd& all_S = first_moments(in, work);
-  const Matrix3d on_S = A * (wa * I + wq * (skew(wd) + squares) + 2 * wv * turn);
+  const Matrix3d on_S = A * (wa * I + wq * (skew(wd) + squares) + 2 * wv * rotation);
   for (Index i = 0; i < k; ++i) {
-    const Vector3d S = all_S.col(i), G = spin_rate(work.of_e, i) + turn_rate(work.of_e, i);
-    const Vector3d Bed = spin_rate(work.of_ed, i), Yed = turn_rate(work.of_ed, i);
+    const Vector3d S = all_S.col(i), G = spin_rate(work.of_e, i) + rotation_rate(work.of_e, i);
+    const Vector3d Bed = spin_rate(work.of_ed, i), Yed = rotation_rate(work.of_ed, i);
     const Matrix3d J = moment_rate(work.of_e, i);
     const Vector3d Jw = J * w, across = S.cross(u);
     tangent.block<3, 1>(0, 6 + i) += on_S * S;
     tangent.block<1, 3>(6 + i, 0) += wa * (A * S).transpose();
     tangent.block<3, 1>(3, 6 + i) +=
-        wq * (across + J * wd + moment_rate(work.of_ed, i) * w - spin_rate(work.of_edd, i) + turn_rate(work.of_edd, i) +
-              w.cross(Jw - Bed + Yed)) +
+        wq * (across + J * wd + moment_rate(work.of_ed, i) * w - spin_rate(work.of_edd, i) +
+              rotation_rate(work.of_edd, i) + w.cross(Jw - Bed + Yed)) +
         wv * (Jw + 2 * Yed + w.cross(G)) + wa * G;
     tangent.block<1, 3>(6 + i, 3) += (wv * (2 * Bed - Jw) + wa * G + T.transpose() * across).transpose();
   }

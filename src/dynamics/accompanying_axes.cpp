@@ -22,7 +22,7 @@ Vector3d ax(const Matrix3d& M) { return {M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M
 
 /// A row, or a sum of rows, at a configuration.
 struct SeenRow {
-  Vector3d g, m, turn;  ///< on R, A and the rotation of f
+  Vector3d g, m, rotation;  ///< on R, A and the rotation of f
   VectorXd e;
   Matrix3d N;
   Eigen::Matrix3Xd m_e;  ///< ax N_k
@@ -31,18 +31,18 @@ struct SeenRow {
 
   SeenRow(const AccompanyingAxes::Row& row, const SeenAxes& at, const SeenAxes& f, const VectorXd& elastic)
       : rho(at.R - f.R) {
-    const Matrix3d rotation = f.A.transpose() * at.A;
+    const Matrix3d relative = f.A.transpose() * at.A;
     const auto part = [&](Index k) { return Matrix3d(row.B.col(k).reshaped(3, 3)); };
     Matrix3d B = part(0);
     e.resize(elastic.size()), m_e.resize(3, elastic.size());
     for (Index k = 0; k < elastic.size(); ++k) {
       B += elastic[k] * part(k + 1);
-      e[k] = part(k + 1).cwiseProduct(rotation).sum();
+      e[k] = part(k + 1).cwiseProduct(relative).sum();
       m_e.col(k) = ax(f.A * part(k + 1) * at.A.transpose());
     }
     N = f.A * B * at.A.transpose();
-    g = f.A * row.b, m = ax(N), turn = g.cross(rho) - m;
-    value = g.dot(rho) + B.cwiseProduct(rotation).sum();
+    g = f.A * row.b, m = ax(N), rotation = g.cross(rho) - m;
+    value = g.dot(rho) + B.cwiseProduct(relative).sum();
   }
 };
 
@@ -53,12 +53,12 @@ struct Change {
 
 /// Of the gradient's parts.
 struct Curvature {
-  MatrixXd g, m, turn, e;
+  MatrixXd g, m, rotation, e;
   Curvature(const SeenRow& row, const Change& c) {
     const Matrix3d trace = row.N.trace() * Matrix3d::Identity();
     g = -skew(row.g) * c.phi_f;
     m = (trace - row.N) * c.phi_f - (trace - row.N.transpose()) * c.phi + row.m_e * c.e;
-    turn = -skew(row.rho) * g + skew(row.g) * c.rho - m;
+    rotation = -skew(row.rho) * g + skew(row.g) * c.rho - m;
     e = row.m_e.transpose() * (c.phi - c.phi_f);
   }
 };
@@ -100,7 +100,7 @@ void AccompanyingAxes::residual(const Motion& motion, VectorXd& r) const {
     sum += rows_[i] * motion.q[first + i];
     const SeenRow row(rows_[i], at, f, e);
     const auto along = [&](const Vector3d& rho, const Vector3d& w, const Vector3d& w_f, const VectorXd& rate) {
-      return row.g.dot(rho) + row.m.dot(w) + row.turn.dot(w_f) + row.e.dot(rate);
+      return row.g.dot(rho) + row.m.dot(w) + row.rotation.dot(w_f) + row.e.dot(rate);
     };
     double& value = r[first + i];
     if (motion.level == ConstraintLevel::position) {
@@ -111,7 +111,7 @@ void AccompanyingAxes::residual(const Motion& motion, VectorXd& r) const {
       const Vector3d rho = at.v - f.v;
       const Curvature c(row, {rho, at.w, f.w, v});
       value += along(at.vd - f.vd, at.wd, f.wd, a) + c.g.col(0).dot(rho) + c.m.col(0).dot(at.w) +
-               c.turn.col(0).dot(f.w) + c.e.col(0).dot(v);
+               c.rotation.col(0).dot(f.w) + c.e.col(0).dot(v);
     }
   }
   const SeenRow force(sum, at, f, e);
@@ -119,7 +119,7 @@ void AccompanyingAxes::residual(const Motion& motion, VectorXd& r) const {
   r.segment(at.p, at.d) += force.g.head(at.d);
   r.segment(at.o, at.n) += at.E.transpose() * force.m;
   r.segment(f.p, f.d) -= force.g.head(f.d);
-  r.segment(f.o, f.n) += f.E.transpose() * force.turn;
+  r.segment(f.o, f.n) += f.E.transpose() * force.rotation;
 }
 
 void AccompanyingAxes::tangent(const Motion& motion, Weights weights, MatrixXd& J) const {
@@ -134,7 +134,7 @@ void AccompanyingAxes::tangent(const Motion& motion, Weights weights, MatrixXd& 
     on.head(elastic_) = row.e;
     on.segment(at.p, at.d) = row.g.head(at.d), on.segment(f.p, f.d) = -row.g.head(f.d);
     by = on;
-    on.segment(at.o, at.n) = at.E.transpose() * row.m, on.segment(f.o, f.n) = f.E.transpose() * row.turn;
+    on.segment(at.o, at.n) = at.E.transpose() * row.m, on.segment(f.o, f.n) = f.E.transpose() * row.rotation;
     by.segment(at.o, at.n) = at.T.transpose() * on.segment(at.o, at.n);
     by.segment(f.o, f.n) = f.T.transpose() * on.segment(f.o, f.n);
     J.col(first + i) += on;
@@ -152,7 +152,7 @@ void AccompanyingAxes::tangent(const Motion& motion, Weights weights, MatrixXd& 
   J.middleRows(at.p, at.d) += weights.q * d.g.topRows(at.d);
   J.middleRows(f.p, f.d) -= weights.q * d.g.topRows(f.d);
   J.middleRows(at.o, at.n) += weights.q * at.E.transpose() * (d.m + skew(force.m) * c.phi);
-  J.middleRows(f.o, f.n) += weights.q * f.E.transpose() * (d.turn + skew(force.turn) * c.phi_f);
+  J.middleRows(f.o, f.n) += weights.q * f.E.transpose() * (d.rotation + skew(force.rotation) * c.phi_f);
 }
 
 }  // namespace floe::dynamics

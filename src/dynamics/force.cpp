@@ -17,13 +17,13 @@ Eigen::Vector3d Force::wrench(const Motion& motion) const {
 }
 
 void Force::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   const Eigen::Vector3d f = wrench(motion);
   for (Eigen::Index i = 0; i < r.size(); ++i) r[i] -= pose_.P.col(i).dot(f);
 }
 
 void Force::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   const Eigen::Vector3d f = wrench(motion);
   add_geometric_stiffness(at_, pose_, f, -weights.q, J);
   if (axes_ == Axes::body && at_.framed)
@@ -34,7 +34,7 @@ void Force::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) c
 
 Energy Force::energy(const Motion& motion) const {
   if (!conservative) return {};
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   return {0, 0, -wrench(motion).dot(pose_.y)};
 }
 

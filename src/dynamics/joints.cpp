@@ -87,8 +87,8 @@ int rows(const Constraint& constraint) { return std::holds_alternative<Clamp>(co
 namespace {
 
 /// Positions need no rates, nor do their derivatives.
-Extent wanted(const Motion& motion) {
-  return motion.level == ConstraintLevel::position ? Extent::place : Extent::motion;
+EvaluationLevel wanted(const Motion& motion) {
+  return motion.level == ConstraintLevel::position ? EvaluationLevel::position : EvaluationLevel::velocity;
 }
 
 std::vector<int> all_rows(const Constraint& constraint) {
@@ -99,15 +99,15 @@ std::vector<int> all_rows(const Constraint& constraint) {
 
 }  // namespace
 
-Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
-             std::shared_ptr<Latch> latch, bool captures)
+Joint::Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> independent,
+             std::shared_ptr<ConstraintSwitch> constraint_switch, bool captures)
     : pair_(std::move(first), std::move(second)),
       constraint_(std::move(constraint)),
-      standing_(std::move(standing)),
+      independent_(std::move(independent)),
       multiplier_(static_cast<int>(pair_.coordinates.size())),
-      latch_(std::move(latch)),
+      constraint_switch_(std::move(constraint_switch)),
       captures_(captures) {
-  for (std::size_t i = 0; i < standing_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
+  for (std::size_t i = 0; i < independent_.size(); ++i) pair_.coordinates.push_back(multipliers + static_cast<int>(i));
 }
 
 Joint::Joint(Marker first, Marker second, const Constraint& constraint, int multipliers)
@@ -115,17 +115,17 @@ Joint::Joint(Marker first, Marker second, const Constraint& constraint, int mult
 
 Eigen::Vector3d Joint::multipliers(const Motion& motion) const {
   Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < standing_.size(); ++i) lambda[standing_[i]] = motion.q[multiplier_ + i];
+  for (std::size_t i = 0; i < independent_.size(); ++i) lambda[independent_[i]] = motion.q[multiplier_ + i];
   return lambda;
 }
 
 void Joint::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  if (!holds()) return add_open_rows(motion, multiplier_, static_cast<int>(standing_.size()), r);
+  if (!holds()) return add_open_rows(motion, multiplier_, static_cast<int>(independent_.size()), r);
   const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add(e.gradient.transpose() * lambda, r);
-  for (std::size_t i = 0; i < standing_.size(); ++i) r[multiplier_ + i] += e.C[standing_[i]];
+  for (std::size_t i = 0; i < independent_.size(); ++i) r[multiplier_ + i] += e.C[independent_[i]];
 }
 
 Wrench Joint::on_second(const Motion& motion) const {
@@ -136,21 +136,21 @@ Wrench Joint::on_second(const Motion& motion) const {
 }
 
 void Joint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  if (!holds()) return add_open_tangent(multiplier_, static_cast<int>(standing_.size()), J);
+  if (!holds()) return add_open_tangent(multiplier_, static_cast<int>(independent_.size()), J);
   const Eigen::Vector3d lambda = multipliers(motion);
   pair_.evaluate(motion, wanted(motion));
   const Evaluation e = std::visit(Evaluate{motion, pair_, lambda}, constraint_);
   pair_.add_tangent(e.gradient.transpose() * lambda, e.hessian, Matrix6::Zero(), weights, J);
-  for (std::size_t i = 0; i < standing_.size(); ++i) {
+  for (std::size_t i = 0; i < independent_.size(); ++i) {
     row_.setZero(J.rows());
-    pair_.add(e.gradient.row(standing_[i]).transpose(), row_);
+    pair_.add(e.gradient.row(independent_[i]).transpose(), row_);
     J.row(multiplier_ + i) += row_.transpose();
     J.col(multiplier_ + i) += row_;
   }
 }
 
 void Joint::add_corotated(std::vector<Corotated>& corotated) const {
-  const bool whole = standing_.size() >= 2 && standing_[0] == 0 && standing_[1] == 1;
+  const bool whole = independent_.size() >= 2 && independent_[0] == 0 && independent_[1] == 1;
   const Marker& by = pair_.second.framed ? pair_.second : pair_.first;
   if (std::holds_alternative<Prismatic>(constraint_) || !whole || !by.framed) return;
   corotated.push_back({pair_.coordinates[multiplier_], by.coordinates[2]});
@@ -158,8 +158,8 @@ void Joint::add_corotated(std::vector<Corotated>& corotated) const {
 
 void Joint::begin_step(const Motion& motion) {
   if (!captures_) return;
-  if (!latch_->closed) captured_ = false;
-  if (captured_ || !latch_->closed) return;
+  if (!constraint_switch_->closed) captured_ = false;
+  if (captured_ || !constraint_switch_->closed) return;
   captured_ = true;
   pair_.evaluate(motion);
   const Vector6 y = pair_.y();
@@ -171,15 +171,15 @@ void Joint::begin_step(const Motion& motion) {
 }
 
 void Joint::save(std::vector<double>& carried) const {
-  if (!latch_) return;
+  if (!constraint_switch_) return;
   const auto* clamp = std::get_if<Clamp>(&constraint_);
   const auto* slide = std::get_if<Prismatic>(&constraint_);
-  carried.push_back(latch_->closed), carried.push_back(captured_);
+  carried.push_back(constraint_switch_->closed), carried.push_back(captured_);
   carried.push_back(slide ? slide->gap : 0), carried.push_back(slide ? slide->offset : clamp ? clamp->offset : 0);
 }
 
 void Joint::load(std::span<const double> carried) {
-  latch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
+  constraint_switch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
   if (auto* clamp = std::get_if<Clamp>(&constraint_)) clamp->offset = carried[3];
   if (auto* slide = std::get_if<Prismatic>(&constraint_)) slide->gap = carried[2], slide->offset = carried[3];
 }

@@ -21,19 +21,19 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector2d;
 
-/// A displacement and a turning.
-struct Turned {
+/// A displacement and a rotating.
+struct Rotated {
   Vector2d u = Vector2d::Zero();
-  double turn = 0;
+  double rotation = 0;
 };
 
 /// (S x, psi x), x from entry `frame` on.
-Turned elastic(const Marker& marker, const Eigen::Matrix2Xd& S, const Eigen::VectorXd& x) {
-  Turned sum;
+Rotated elastic(const Marker& marker, const Eigen::Matrix2Xd& S, const Eigen::VectorXd& x) {
+  Rotated sum;
   const Index frame = marker.framed ? 3 : 0;
   for (Index j = 0; j < S.cols(); ++j) {
     sum.u += x[frame + j] * S.col(j);
-    sum.turn += x[frame + j] * marker.psi[j];
+    sum.rotation += x[frame + j] * marker.psi[j];
   }
   return sum;
 }
@@ -51,7 +51,7 @@ const Eigen::Matrix2Xd& directions(const Marker& marker, const Pose& out) {
 
 void see_place(const Marker& marker, const Eigen::VectorXd& q, Pose& out) {
   const Index k = marker.S.cols();
-  Turned e = elastic(marker, marker.S, q);
+  Rotated e = elastic(marker, marker.S, q);
   if (!marker.Q.empty()) {
     e.u += 0.5 * quadratic(marker, q);
     math::multiply_forms(marker.Q, q.tail(k), out.S);
@@ -61,7 +61,7 @@ void see_place(const Marker& marker, const Eigen::VectorXd& q, Pose& out) {
   out.angle = marker.framed ? q[2] : 0;
   if (!marker.framed) {
     out.arm = marker.x + e.u;
-    out.y << out.arm, marker.angle0 + e.turn;
+    out.y << out.arm, marker.angle0 + e.rotation;
     out.P.resize(3, k);
     out.P.topRows<2>() = S_of_q;
     out.P.row(2) = marker.psi;
@@ -70,7 +70,7 @@ void see_place(const Marker& marker, const Eigen::VectorXd& q, Pose& out) {
   const double c = std::cos(q[2]), s = std::sin(q[2]);
   const Vector2d u = marker.x + e.u;
   out.arm = Vector2d(c * u.x() - s * u.y(), s * u.x() + c * u.y());
-  out.y << marker.mass * q.head<2>() + out.arm, marker.angle0 + q[2] + e.turn;
+  out.y << marker.mass * q.head<2>() + out.arm, marker.angle0 + q[2] + e.rotation;
   out.P.resize(3, 3 + k);
   out.P.leftCols<3>() << marker.mass, 0, -out.arm.y(), 0, marker.mass, out.arm.x(), 0, 0, 1;
   const double *S = S_of_q.data(), *psi = marker.psi.data();
@@ -93,13 +93,13 @@ void add_rate_of_directions(const Marker& marker, const Eigen::VectorXd& v, doub
 void see_motion(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                 Pose& out) {
   const Index k = marker.S.cols(), frame = marker.framed ? 3 : 0;
-  const auto [ud, turn_d] = elastic(marker, directions(marker, out), v);
-  auto [udd, turn_dd] = elastic(marker, directions(marker, out), a);
+  const auto [ud, rotation_d] = elastic(marker, directions(marker, out), v);
+  auto [udd, rotation_dd] = elastic(marker, directions(marker, out), a);
   if (!marker.Q.empty()) udd += quadratic(marker, v);
   out.dyd.resize(3, frame + k);
   if (!marker.framed) {
-    out.yd << ud, turn_d;
-    out.ydd << udd, turn_dd;
+    out.yd << ud, rotation_d;
+    out.ydd << udd, rotation_dd;
     out.dyd.setZero();
     if (!marker.Q.empty()) add_rate_of_directions(marker, v, out.angle, out.dyd);
     return;
@@ -108,8 +108,8 @@ void see_motion(const Marker& marker, const Eigen::VectorXd& q, const Eigen::Vec
   const Eigen::Matrix2d A = (Eigen::Matrix2d() << c, -s, s, c).finished();
   const Eigen::Matrix2d AJ = (Eigen::Matrix2d() << -s, -c, c, -s).finished();
   const Vector2d across(-out.arm.y(), out.arm.x()), across_d = AJ * ud;
-  out.yd << marker.mass * v.head<2>() + across * w + A * ud, w + turn_d;
-  out.ydd << marker.mass * a.head<2>() + across * wd + A * udd - w * w * out.arm + 2 * w * across_d, wd + turn_dd;
+  out.yd << marker.mass * v.head<2>() + across * w + A * ud, w + rotation_d;
+  out.ydd << marker.mass * a.head<2>() + across * wd + A * udd - w * w * out.arm + 2 * w * across_d, wd + rotation_dd;
   out.dyd.leftCols<3>().setZero();
   out.dyd.col(2).head<2>() = -w * out.arm + across_d;
   for (Index j = 3; j < 3 + k; ++j) out.dyd.col(j) << -w * out.P(1, j), w * out.P(0, j), 0;  // A J S = J A S
@@ -119,15 +119,15 @@ void see_motion(const Marker& marker, const Eigen::VectorXd& q, const Eigen::Vec
 }  // namespace
 
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
-          Extent extent) {
+          EvaluationLevel extent) {
   see_place(marker, q, out);
-  if (extent == Extent::motion) see_motion(marker, q, v, a, out);
+  if (extent == EvaluationLevel::velocity) see_motion(marker, q, v, a, out);
 }
 
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i) {
   if (i < 2) return 0;
   if (i == 2) return -at.arm.dot(wrench.head<2>());
-  // A S q is turned by theta: d(A S)/dtheta = J A S, and P holds A S
+  // A S q is rotated by theta: d(A S)/dtheta = J A S, and P holds A S
   return wrench.y() * at.P(0, i) - wrench.x() * at.P(1, i);
 }
 

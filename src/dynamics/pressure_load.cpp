@@ -65,18 +65,18 @@ void PressureLoad::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
   J.block(3, 6, 3, k) -= p * unit_.moment_by;
 }
 
-/// A turn by w = T(x) dx in body axes changes B by -~w B.
+/// A rotation by w = T(x) dx in body axes changes B by -~w B.
 void PressureLoad::add_dead_tangent(const Motion& motion, double p, Eigen::MatrixXd& J) const {
   const Index k = unit_.coordinates();
   const Vector3d x = motion.q.segment<3>(3);
   const Matrix3d B = attitude_->axes(x).transpose() * start_, C = spread(motion), T = math::rotation_tangent(x);
-  Eigen::MatrixXd by_turn(3 + k, 3);
+  Eigen::MatrixXd by_rotation(3 + k, 3);
   for (int i = 0; i < 3; ++i) {
     const Matrix3d dB = -skew(Vector3d::Unit(i)) * B;
-    by_turn.col(i).head<3>() = axial(C * dB.transpose());
-    for (Index j = 0; j < k; ++j) by_turn(3 + j, i) = unit_.spread_by[j].cwiseProduct(dB).sum();
+    by_rotation.col(i).head<3>() = axial(C * dB.transpose());
+    for (Index j = 0; j < k; ++j) by_rotation(3 + j, i) = unit_.spread_by[j].cwiseProduct(dB).sum();
   }
-  J.block(3, 3, 3 + k, 3) -= p * by_turn * T;
+  J.block(3, 3, 3 + k, 3) -= p * by_rotation * T;
   for (Index j = 0; j < k; ++j) J.block<3, 1>(3, 6 + j) -= p * axial(unit_.spread_by[j] * B.transpose());
 }
 

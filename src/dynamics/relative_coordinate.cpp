@@ -28,7 +28,7 @@ RelativeCoordinate::Value PlanarCoordinate::see(const Motion& motion) {
   double x = -start_;
   yd_ = pair_.yd();
   switch (of_) {
-    case Of::turn:
+    case Of::rotation:
       x += y[5] - y[2];
       gradient_[2] = -1, gradient_[5] = 1;
       break;
@@ -82,23 +82,23 @@ RelativeCoordinate::Value SpatialCoordinate::see(const Motion& motion) {
   double x = -start_;
   velocity_ << one.velocity, one.spin, two.velocity, two.spin;
   switch (of_) {
-    case Of::turn: {
+    case Of::rotation: {
       const Twist t = twist(pair_, nearest_);
       x += t.angle;
       gradient_.segment<3>(3) = -t.h, gradient_.segment<3>(9) = t.h;
       for (int j = 0; j < 2; ++j) {
-        by_motion_.block<3, 3>(3, 6 * j + 3) = -t.by_turn[j];
-        by_motion_.block<3, 3>(9, 6 * j + 3) = t.by_turn[j];
+        by_motion_.block<3, 3>(3, 6 * j + 3) = -t.by_rotation[j];
+        by_motion_.block<3, 3>(9, 6 * j + 3) = t.by_rotation[j];
       }
       break;
     }
     case Of::slide: {
       const Vector3d z = one.D.col(2);
-      const Matrix3d turned = -skew(z);  // dz = turned dphi_1
+      const Matrix3d rotated = -skew(z);  // dz = rotated dphi_1
       x += z.dot(d);
       gradient_ << -z, z.cross(d), z, Vector3d::Zero();
-      by_motion_.block<3, 3>(0, 3) = -turned, by_motion_.block<3, 3>(6, 3) = turned;
-      by_motion_.block<3, 3>(3, 3) = -skew(d) * turned;
+      by_motion_.block<3, 3>(0, 3) = -rotated, by_motion_.block<3, 3>(6, 3) = rotated;
+      by_motion_.block<3, 3>(3, 3) = -skew(d) * rotated;
       by_motion_.block<3, 3>(3, 0) = -skew(z), by_motion_.block<3, 3>(3, 6) = skew(z);
       break;
     }
@@ -134,7 +134,7 @@ void SpatialCoordinate::add_gradient(bool of_rate, Eigen::VectorXd& by_q, Eigen:
 Wrench SpatialCoordinate::on_second(double force) const { return force * gradient_.tail<6>(); }
 
 void SpatialCoordinate::begin_step(const Motion& motion) {
-  if (of_ != Of::turn) return;
+  if (of_ != Of::rotation) return;
   pair_.evaluate(motion);
   nearest_ = twist(pair_, nearest_).angle;
 }

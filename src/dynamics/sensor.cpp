@@ -25,14 +25,14 @@ Vector3d rotation_between(const SpatialPair& pair) {
 
 }  // namespace
 
-double SpatialTurnSensor::value(const Motion& motion) const {
-  pair_.evaluate(motion, rate_ ? Extent::motion : Extent::place);
+double SpatialRotationSensor::value(const Motion& motion) const {
+  pair_.evaluate(motion, rate_ ? EvaluationLevel::velocity : EvaluationLevel::position);
   if (!rate_) return rotation_between(pair_)[component_];
   return pair_.pose[0].D.col(component_).dot(pair_.pose[1].spin - pair_.pose[0].spin);
 }
 
-void SpatialTurnSensor::add_gradient(const Motion& motion, Eigen::VectorXd& by_q, Eigen::VectorXd& by_v) const {
-  pair_.evaluate(motion, rate_ ? Extent::motion : Extent::directions);
+void SpatialRotationSensor::add_gradient(const Motion& motion, Eigen::VectorXd& by_q, Eigen::VectorXd& by_v) const {
+  pair_.evaluate(motion, rate_ ? EvaluationLevel::velocity : EvaluationLevel::jacobian);
   const Matrix3d& D = pair_.pose[0].D;
   Vector12 gradient = Vector12::Zero();
   if (!rate_) {  // rho. = T(rho)'^-1 D1'(w_2 - w_1)

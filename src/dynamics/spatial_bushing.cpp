@@ -64,8 +64,8 @@ Matrix12 both_places(const Strain& s, const Row& dF, const Row& dM) {
 
 Matrix12 of_places(const BushingProperties& p, const Strain& s, const Wrench& in) {
   const Matrix3d inverse_D = s.D.transpose();
-  Row du = Row::Zero(), du_rate = Row::Zero(), drho = Row::Zero(), dspin = Row::Zero(), turn = Row::Zero();
-  turn.middleCols<3>(3).setIdentity();
+  Row du = Row::Zero(), du_rate = Row::Zero(), drho = Row::Zero(), dspin = Row::Zero(), rotation = Row::Zero();
+  rotation.middleCols<3>(3).setIdentity();
   du.leftCols<3>() = -inverse_D, du.middleCols<3>(6) = inverse_D, du.middleCols<3>(3) = inverse_D * skew(s.d);
   du_rate.leftCols<3>() = inverse_D * skew(s.w), du_rate.middleCols<3>(6) = -inverse_D * skew(s.w);
   du_rate.middleCols<3>(3) = inverse_D * skew(s.g);
@@ -78,9 +78,9 @@ Matrix12 of_places(const BushingProperties& p, const Strain& s, const Wrench& in
   const Vector3d F = s.D * in.head<3>(), n = s.T_inverse * in.tail<3>(), M = s.D * n;
   const Row df = p.stiffness.head<3>().asDiagonal() * du + Row(p.viscosity.head<3>().asDiagonal() * du_rate);
   const Row dm = p.stiffness.tail<3>().asDiagonal() * drho + Row(p.viscosity.tail<3>().asDiagonal() * drho_rate);
-  const Row dF = s.D * df - skew(F) * turn;
+  const Row dF = s.D * df - skew(F) * rotation;
   // T n = m, hence T dn = dm - [d(T n)/drho] drho
-  const Row dM = s.D * s.T_inverse * (dm - rotation_tangent_derivative(s.rho, n) * drho) - skew(M) * turn;
+  const Row dM = s.D * s.T_inverse * (dm - rotation_tangent_derivative(s.rho, n) * drho) - skew(M) * rotation;
   Matrix12 Y = both_places(s, dF, dM);
   Y.block<3, 3>(3, 0) -= skew(F), Y.block<3, 3>(3, 6) += skew(F);
   return Y;

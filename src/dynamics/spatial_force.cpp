@@ -16,24 +16,24 @@ Wrench SpatialForce::world(const Motion& motion) const {
 }
 
 void SpatialForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   pull_back(at_, pose_, world(motion), rows_);
   r -= rows_;
 }
 
 void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::directions);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::jacobian);
   const Wrench w = world(motion);
   add_geometric_stiffness(at_, pose_, w, -weights.q, J);
-  // the wrench turns by dphi with its axes: dw = -~w dphi
-  const Eigen::Matrix<double, 6, 3> turning =
+  // the wrench rotates by dphi with its axes: dw = -~w dphi
+  const Eigen::Matrix<double, 6, 3> rotating =
       weights.q * (Eigen::Matrix<double, 6, 3>() << skew(w.head<3>()), skew(w.tail<3>())).finished();
   if (axes_ == Axes::body && at_.framed()) {
-    const Eigen::Matrix<double, 6, 3> by_x = turning * pose_.A * pose_.T;
+    const Eigen::Matrix<double, 6, 3> by_x = rotating * pose_.A * pose_.T;
     J.middleCols<3>(3) += pose_.P.transpose().lazyProduct(by_x);
   }
   if (axes_ == Axes::place) {
-    change_.noalias() = turning * pose_.P.bottomRows<3>();
+    change_.noalias() = rotating * pose_.P.bottomRows<3>();
     if (at_.framed()) change_.middleCols<3>(3) = (change_.middleCols<3>(3) * pose_.T).eval();
     J += pose_.P.transpose().lazyProduct(change_);
   }
@@ -41,7 +41,7 @@ void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
 
 Energy SpatialForce::energy(const Motion& motion) const {
   if (!conservative) return {};
-  pose(at_, motion.q, motion.v, motion.a, pose_, Extent::place);
+  pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   return {0, 0, -world(motion).head<3>().dot(pose_.p)};
 }
 

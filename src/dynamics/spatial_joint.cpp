@@ -13,7 +13,7 @@ namespace {
 
 using Rows = std::vector<SpatialRow>;
 
-Rows point() { return {Coincide{0}, Coincide{1}, Coincide{2}}; }
+Rows point() { return {PointCoincidence{0}, PointCoincidence{1}, PointCoincidence{2}}; }
 /// The second place on the z of the first.
 Rows line() { return {Along{0}, Along{1}}; }
 Rows axes() { return {Product{1, 0}, Product{2, 1}, Product{0, 2}}; }
@@ -32,9 +32,9 @@ void find_aligned(const SpatialConstraint& constraint, bool (&aligned)[3]) {
   aligned[2] = products >= 2;
 }
 
-SpatialConstraint pick_rows(const SpatialConstraint& constraint, const std::vector<int>& standing) {
+SpatialConstraint pick_rows(const SpatialConstraint& constraint, const std::vector<int>& independent) {
   SpatialConstraint picked{{}, constraint.angle};
-  for (int row : standing) picked.rows.push_back(constraint.rows.at(row));
+  for (int row : independent) picked.rows.push_back(constraint.rows.at(row));
   return picked;
 }
 
@@ -63,43 +63,44 @@ SpatialConstraint SpatialConstraint::driven_prismatic(TimeFunction position) {
 }
 
 SpatialConstraint lock_of(const SpatialConstraint& joint) {
-  bool places[3] = {true, true, true}, turns[3] = {true, true, true};  // free: along and about x, y, z
+  bool places[3] = {true, true, true}, rotations[3] = {true, true, true};  // free: along and about x, y, z
   int products = 0;
   for (const SpatialRow& row : joint.rows) {
-    if (const auto* coincide = std::get_if<Coincide>(&row)) places[coincide->axis] = false;
+    if (const auto* coincide = std::get_if<PointCoincidence>(&row)) places[coincide->axis] = false;
     if (const auto* along = std::get_if<Along>(&row)) places[along->axis] = false;
     if (std::holds_alternative<Product>(row)) ++products;
     if (std::holds_alternative<Separation>(row)) return {};
   }
-  if (products == 1) return {};  // universal: what it leaves free turns about axes of both places
-  if (products >= 2) turns[0] = turns[1] = false;
-  if (products == 3) turns[2] = false;
+  if (products == 1) return {};  // universal: what it leaves free rotates about axes of both places
+  if (products >= 2) rotations[0] = rotations[1] = false;
+  if (products == 3) rotations[2] = false;
   SpatialConstraint lock;
   for (int axis = 0; axis < 3; ++axis)
     if (places[axis]) lock.rows.push_back(Along{axis});
-  if (turns[2]) lock.rows.push_back(Product{1, 0});
-  if (turns[0]) lock.rows.push_back(Product{2, 1});
-  if (turns[1]) lock.rows.push_back(Product{0, 2});
+  if (rotations[2]) lock.rows.push_back(Product{1, 0});
+  if (rotations[0]) lock.rows.push_back(Product{2, 1});
+  if (rotations[1]) lock.rows.push_back(Product{0, 2});
   return lock;
 }
 
 int rows(const SpatialConstraint& constraint) { return static_cast<int>(constraint.rows.size()); }
 
 SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint,
-                           int multipliers, const std::vector<int>& standing, double unit, std::shared_ptr<Latch> latch)
-    : SpatialJoint(std::move(first), std::move(second), pick_rows(constraint, standing), multipliers,
-                   std::move(latch)) {
+                           int multipliers, const std::vector<int>& independent, double unit,
+                           std::shared_ptr<ConstraintSwitch> constraint_switch)
+    : SpatialJoint(std::move(first), std::move(second), pick_rows(constraint, independent), multipliers,
+                   std::move(constraint_switch)) {
   find_aligned(constraint, aligned_);  // rows that are left out are met by others, on the same branch
-  if (standing.empty()) pair_.coordinates.push_back(multipliers);  // by which it is known
+  if (independent.empty()) pair_.coordinates.push_back(multipliers);  // by which it is known
   unit_ = unit;
   for (int row = 0; row < rows(constraint); ++row)
-    if (!std::binary_search(standing.begin(), standing.end(), row)) left_out_.push_back(constraint.rows[row]);
+    if (!std::binary_search(independent.begin(), independent.end(), row)) left_out_.push_back(constraint.rows[row]);
 }
 
 SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,
-                           std::shared_ptr<Latch> latch, bool captures)
+                           std::shared_ptr<ConstraintSwitch> constraint_switch, bool captures)
     : pair_(std::move(first), std::move(second)),
-      latch_(std::move(latch)),
+      constraint_switch_(std::move(constraint_switch)),
       captures_(captures),
       constraint_(std::move(constraint)),
       multiplier_(static_cast<int>(pair_.coordinates.size())) {
@@ -107,23 +108,25 @@ SpatialJoint::SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialCon
   find_aligned(constraint_, aligned_);
 }
 
-Standing SpatialJoint::standing(const Motion& motion) const {
-  if (!holds() || (captures_ && !captured_)) return Standing::met;
-  pair_.evaluate(motion, Extent::place);
+ConstraintStatus SpatialJoint::constraint_status(const Motion& motion) const {
+  if (!holds() || (captures_ && !captured_)) return ConstraintStatus::satisfied;
+  pair_.evaluate(motion, EvaluationLevel::position);
   const SeenPair seen(pair_, constraint_.angle, motion);
   for (int axis = 0; axis < 3; ++axis)
-    if (aligned_[axis] && seen.first.D.col(axis).dot(seen.turned.col(axis)) < 0) return Standing::half_turn;
+    if (aligned_[axis] && seen.first.D.col(axis).dot(seen.rotated.col(axis)) < 0)
+      return ConstraintStatus::flipped_branch;
   for (const SpatialRow& row : left_out_) {
     const double unit = std::holds_alternative<Product>(row) ? 1 : unit_;
-    if (!(std::abs(evaluate(row, seen).C) <= 1e-3 * unit)) return Standing::open;
+    if (!(std::abs(evaluate(row, seen).C) <= 1e-3 * unit)) return ConstraintStatus::violated;
   }
-  return Standing::met;
+  return ConstraintStatus::satisfied;
 }
 
 void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
   if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_rows(motion, multiplier_, rows(constraint_), r);
-  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::place : Extent::motion);
+  pair_.evaluate(motion,
+                 motion.level == ConstraintLevel::position ? EvaluationLevel::position : EvaluationLevel::velocity);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   for (int i = 0; i < rows(constraint_); ++i) {
@@ -136,7 +139,7 @@ void SpatialJoint::residual(const Motion& motion, Eigen::VectorXd& r) const {
 
 Wrench SpatialJoint::on_second(const Motion& motion) const {
   if (!holds()) return Wrench::Zero();
-  pair_.evaluate(motion, Extent::place);
+  pair_.evaluate(motion, EvaluationLevel::position);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Wrench wrench = Wrench::Zero();
   for (int i = 0; i < rows(constraint_); ++i)
@@ -147,7 +150,8 @@ Wrench SpatialJoint::on_second(const Motion& motion) const {
 void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   if (constraint_.rows.empty()) return;
   if (!holds()) return add_open_tangent(multiplier_, rows(constraint_), J);
-  pair_.evaluate(motion, motion.level == ConstraintLevel::position ? Extent::directions : Extent::motion);
+  pair_.evaluate(motion,
+                 motion.level == ConstraintLevel::position ? EvaluationLevel::jacobian : EvaluationLevel::velocity);
   const SeenPair seen(pair_, constraint_.angle, motion);
   Vector12 wrench = Vector12::Zero();
   Matrix12 Y = Matrix12::Zero();
@@ -168,7 +172,7 @@ void SpatialJoint::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
 
 void SpatialJoint::add_corotated(std::vector<Corotated>& corotated) const {
   const auto holds_axis = [&](int row, int axis) {
-    const auto* coincide = row < rows(constraint_) ? std::get_if<Coincide>(&constraint_.rows[row]) : nullptr;
+    const auto* coincide = row < rows(constraint_) ? std::get_if<PointCoincidence>(&constraint_.rows[row]) : nullptr;
     return coincide && coincide->axis == axis;
   };
   const SpatialMarker& by = pair_.marker[pair_.marker[1].framed() ? 1 : 0];
@@ -180,8 +184,8 @@ void SpatialJoint::add_corotated(std::vector<Corotated>& corotated) const {
 
 void SpatialJoint::begin_step(const Motion& motion) {
   if (!captures_) return;
-  if (!latch_->closed) captured_ = false;
-  if (captured_ || !latch_->closed) return;
+  if (!constraint_switch_->closed) captured_ = false;
+  if (captured_ || !constraint_switch_->closed) return;
   captured_ = true;
   pair_.evaluate(motion);
   const SpatialPose &one = pair_.pose[0], &two = pair_.pose[1];
@@ -191,8 +195,8 @@ void SpatialJoint::begin_step(const Motion& motion) {
 }
 
 void SpatialJoint::save(std::vector<double>& carried) const {
-  if (!latch_) return;
-  carried.push_back(latch_->closed), carried.push_back(captured_);
+  if (!constraint_switch_) return;
+  carried.push_back(constraint_switch_->closed), carried.push_back(captured_);
   if (!captures_) return;
   for (const double entry : pair_.marker[1].D0.reshaped()) carried.push_back(entry);
   for (const SpatialRow& row : constraint_.rows)
@@ -200,7 +204,7 @@ void SpatialJoint::save(std::vector<double>& carried) const {
 }
 
 void SpatialJoint::load(std::span<const double> carried) {
-  latch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
+  constraint_switch_->closed = carried[0] != 0, captured_ = carried[1] != 0;
   if (!captures_) return;
   pair_.marker[1].D0 = Eigen::Map<const Eigen::Matrix3d>(carried.data() + 2);
   std::size_t next = 11;

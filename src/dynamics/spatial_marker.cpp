@@ -11,9 +11,9 @@ using Eigen::Vector3d;
 using math::rotation_tangent_derivative;
 using math::skew;
 
-/// Displacement and turning of the place by the elastic coordinates, or rates of both by theirs.
+/// Displacement and rotating of the place by the elastic coordinates, or rates of both by theirs.
 struct Elastic {
-  Vector3d u = Vector3d::Zero(), turn = Vector3d::Zero();
+  Vector3d u = Vector3d::Zero(), rotation = Vector3d::Zero();
 };
 
 Elastic elastic(const SpatialMarker& marker, const Eigen::Matrix3Xd& S, const Eigen::VectorXd& x) {
@@ -21,7 +21,7 @@ Elastic elastic(const SpatialMarker& marker, const Eigen::Matrix3Xd& S, const Ei
   const Index frame = marker.framed() ? 6 : 0;
   for (Index j = 0; j < S.cols(); ++j) {
     e.u += x[frame + j] * S.col(j);
-    e.turn += x[frame + j] * marker.psi.col(j);
+    e.rotation += x[frame + j] * marker.psi.col(j);
   }
   return e;
 }
@@ -38,10 +38,10 @@ void fill_directions(const SpatialMarker& marker, SpatialPose& out) {
     out.P.leftCols<3>() << marker.mass * Matrix3d::Identity(), Matrix3d::Zero();
     out.P.middleCols<3>(3) << -out.A * skew(out.c), out.A;
   }
-  const Matrix3d turned = out.A * out.bend.transpose();
+  const Matrix3d rotated = out.A * out.bend.transpose();
   for (Index j = 0; j < k; ++j) {
-    const Vector3d shift = directions(marker, out).col(j), turn = marker.psi.col(j);
-    out.P.col(frame + j) << out.A * shift, turned * turn;
+    const Vector3d shift = directions(marker, out).col(j), rotation = marker.psi.col(j);
+    out.P.col(frame + j) << out.A * shift, rotated * rotation;
   }
 }
 
@@ -54,7 +54,7 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
     out.A = marker.axes, out.T = Matrix3d::Identity();
   }
   const Elastic e = elastic(marker, marker.S, q);
-  out.c = marker.x0 + e.u, out.beta = e.turn;
+  out.c = marker.x0 + e.u, out.beta = e.rotation;
   if (!marker.Q.empty()) {
     const Eigen::VectorXd own = q.tail(marker.S.cols());
     math::multiply_forms(marker.Q, own, out.S);
@@ -63,9 +63,9 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   }
   out.p = marker.mass * R + out.A * out.c;
   out.D = out.A * marker.D0, out.bend = Matrix3d::Identity();
-  if (e.turn.isZero(0)) return;
-  out.D = out.A * math::rotation(e.turn) * marker.D0;
-  out.bend = math::rotation_tangent(e.turn);
+  if (e.rotation.isZero(0)) return;
+  out.D = out.A * math::rotation(e.rotation) * marker.D0;
+  out.bend = math::rotation_tangent(e.rotation);
 }
 
 /// After see_place.
@@ -79,16 +79,16 @@ void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eig
     math::multiply_forms(marker.Q, own, out.Qed);
     edd.u += out.Qed * own;
   }
-  out.omega = w, out.beta_rate = ed.turn;
+  out.omega = w, out.beta_rate = ed.rotation;
   out.c_rate = w.cross(out.c) + ed.u;
   out.velocity = marker.mass * Rd + out.A * out.c_rate;
   out.acceleration = marker.mass * Rdd + out.A * (alpha.cross(out.c) + w.cross(out.c_rate) + w.cross(ed.u) + edd.u);
-  const Vector3d bending = out.bend.transpose() * ed.turn;
-  out.turn = w + bending;
-  out.spin = out.A * out.turn;
+  const Vector3d bending = out.bend.transpose() * ed.rotation;
+  out.rotation = w + bending;
+  out.spin = out.A * out.rotation;
   // T' = T(-beta): d(T(-beta) b)/dbeta = -d(T(x) b)/dx at x = -beta
-  out.spin_rate = out.A * (alpha + w.cross(bending) + out.bend.transpose() * edd.turn -
-                           rotation_tangent_derivative(-out.beta, ed.turn) * ed.turn);
+  out.spin_rate = out.A * (alpha + w.cross(bending) + out.bend.transpose() * edd.rotation -
+                           rotation_tangent_derivative(-out.beta, ed.rotation) * ed.rotation);
 }
 
 }  // namespace
@@ -101,10 +101,10 @@ SpatialMarker SpatialMarker::ground(const Vector3d& point, const Matrix3d& axes)
 }
 
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out, Extent extent) {
+          SpatialPose& out, EvaluationLevel extent) {
   see_place(marker, q, out);
-  if (extent != Extent::place) fill_directions(marker, out);
-  if (extent == Extent::motion) see_motion(marker, v, a, out);
+  if (extent != EvaluationLevel::position) fill_directions(marker, out);
+  if (extent == EvaluationLevel::velocity) see_motion(marker, v, a, out);
 }
 
 void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, Eigen::VectorXd& rows) {
@@ -124,7 +124,7 @@ void rate_gradient(const SpatialMarker& marker, const SpatialPose& at, Matrix6Xd
   out.resize(6, frame + k);
   if (marker.framed()) {
     out.leftCols<3>().setZero();
-    out.middleCols<3>(3) << -at.A * skew(at.c_rate), -at.A * skew(at.turn);
+    out.middleCols<3>(3) << -at.A * skew(at.c_rate), -at.A * skew(at.rotation);
   }
   const Matrix3d dragged = at.A * skew(at.omega), bent = -at.A * rotation_tangent_derivative(-at.beta, at.beta_rate);
   out.topRightCorner(3, k).noalias() = dragged * directions(marker, at);
@@ -141,9 +141,9 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
     const Matrix3d m = skew(moment), of_x = at.bend * m * at.T, force_of_x = f * at.T;
     K.block<3, 3>(3, 3) += (skew(at.c) * f + m) * at.T;
     for (Index j = 0; j < k; ++j) {
-      const Vector3d shift = directions(marker, at).col(j), turn = marker.psi.col(j);
+      const Vector3d shift = directions(marker, at).col(j), rotation = marker.psi.col(j);
       K.block<3, 1>(3, 6 + j) -= f * shift;
-      K.block<1, 3>(6 + j, 3) += shift.transpose() * force_of_x + turn.transpose() * of_x;
+      K.block<1, 3>(6 + j, 3) += shift.transpose() * force_of_x + rotation.transpose() * of_x;
     }
   }
   if (!marker.Q.empty()) {
@@ -153,8 +153,8 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
   if (k == 0 || moment.isZero(0)) return;
   const Matrix3d bent = rotation_tangent_derivative(at.beta, moment);
   for (Index j = 0; j < k; ++j) {
-    const Vector3d turned = bent * marker.psi.col(j);
-    K.col(frame + j).tail(k) += marker.psi.transpose().lazyProduct(turned);
+    const Vector3d rotated = bent * marker.psi.col(j);
+    K.col(frame + j).tail(k) += marker.psi.transpose().lazyProduct(rotated);
   }
 }
 

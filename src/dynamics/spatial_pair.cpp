@@ -10,11 +10,11 @@ SpatialPair::SpatialPair(SpatialMarker first, SpatialMarker second) : marker{std
   for (int i = 0; i < 2; ++i) where[i] = place_all(marker[i].coordinates, coordinates);
 }
 
-void SpatialPair::evaluate(const Motion& motion, Extent extent) {
+void SpatialPair::evaluate(const Motion& motion, EvaluationLevel extent) {
   for (int i = 0; i < 2; ++i) {
     auto& [q, v, a] = state_[i];
     pick(where[i], motion.q, q);
-    if (extent == Extent::motion) pick(where[i], motion.v, v), pick(where[i], motion.a, a);
+    if (extent == EvaluationLevel::velocity) pick(where[i], motion.v, v), pick(where[i], motion.a, a);
     dynamics::pose(marker[i], q, v, a, pose[i], extent);
   }
 }

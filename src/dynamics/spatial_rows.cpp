@@ -14,8 +14,8 @@ struct Moving {
   Vector3d at, rate, acceleration;
 };
 
-/// An axis that turns with given spin and spin rate.
-Moving turning(const Vector3d& axis, const Vector3d& spin, const Vector3d& spin_rate) {
+/// An axis that rotates with given spin and spin rate.
+Moving rotating(const Vector3d& axis, const Vector3d& spin, const Vector3d& spin_rate) {
   const Vector3d rate = spin.cross(axis);
   return {axis, rate, spin_rate.cross(axis) + spin.cross(rate)};
 }
@@ -26,7 +26,7 @@ Moving gap(const SeenPair& pair) {
 }
 
 Moving first_axis(const SeenPair& pair, int axis) {
-  return turning(pair.first.D.col(axis), pair.first.spin, pair.first.spin_rate);
+  return rotating(pair.first.D.col(axis), pair.first.spin, pair.first.spin_rate);
 }
 
 /// a.b at a level.
@@ -51,7 +51,7 @@ double distance(const Vector3d& d) {
 struct Evaluate {
   const SeenPair& pair;
 
-  RowValue operator()(const Coincide& row) const {
+  RowValue operator()(const PointCoincidence& row) const {
     const Moving d = gap(pair);
     RowValue out;
     out.C = (pair.level == ConstraintLevel::position   ? d.at
@@ -70,7 +70,7 @@ struct Evaluate {
   }
   RowValue operator()(const Product& row) const {
     const Moving a = first_axis(pair, row.i),
-                 b = turning(pair.turned.col(row.j), pair.turned_spin, pair.turned_spin_rate);
+                 b = rotating(pair.rotated.col(row.j), pair.rotated_spin, pair.rotated_spin_rate);
     const Vector3d normal = a.at.cross(b.at);
     RowValue out;
     out.C = product(pair.level, a, b);
@@ -96,7 +96,7 @@ struct Curve {
   double lambda;
   Matrix12& Y;
 
-  void operator()(const Coincide&) const {}
+  void operator()(const PointCoincidence&) const {}
   void operator()(const Along& row) const {
     const Vector3d d = pair.second.p - pair.first.p;
     const Matrix3d a = lambda * skew(pair.first.D.col(row.axis));
@@ -105,7 +105,7 @@ struct Curve {
     Y.block<3, 3>(3, 3) += skew(d) * a;
   }
   void operator()(const Product& row) const {
-    const Matrix3d a = skew(pair.first.D.col(row.i)), b = lambda * skew(pair.turned.col(row.j));
+    const Matrix3d a = skew(pair.first.D.col(row.i)), b = lambda * skew(pair.rotated.col(row.j));
     const Matrix3d ab = a * b, ba = b * a;
     Y.block<3, 3>(3, 3) += ba, Y.block<3, 3>(3, 9) -= ab;
     Y.block<3, 3>(9, 3) -= ba, Y.block<3, 3>(9, 9) += ab;
@@ -127,17 +127,17 @@ SeenPair::SeenPair(const SpatialPair& pair, const TimeFunction& angle, const Mot
       second(pair.pose[1]),
       level(motion.level),
       t(motion.t),
-      turned(second.D),
-      turned_spin(second.spin),
-      turned_spin_rate(second.spin_rate) {
+      rotated(second.D),
+      rotated_spin(second.spin),
+      rotated_spin_rate(second.spin_rate) {
   if (!angle.value) return;
   const Vector3d z = second.D.col(2);
-  turned = second.D * Eigen::AngleAxisd(-angle.value(t), Vector3d::UnitZ()).toRotationMatrix();
+  rotated = second.D * Eigen::AngleAxisd(-angle.value(t), Vector3d::UnitZ()).toRotationMatrix();
   if (level == ConstraintLevel::position) return;
   const double rate = angle.rate(t);
-  turned_spin -= rate * z;
+  rotated_spin -= rate * z;
   if (level == ConstraintLevel::velocity) return;
-  turned_spin_rate -= angle.acceleration(t) * z + rate * second.spin.cross(z);
+  rotated_spin_rate -= angle.acceleration(t) * z + rate * second.spin.cross(z);
 }
 
 RowValue evaluate(const SpatialRow& row, const SeenPair& pair) { return std::visit(Evaluate{pair}, row); }

@@ -10,8 +10,8 @@ struct SeenPair {
   ConstraintLevel level;
   double t;
   /// D2 E(t)', its spin and its spin rate; of a constraint without angle, those of the second place.
-  Eigen::Matrix3d turned;
-  Eigen::Vector3d turned_spin, turned_spin_rate;
+  Eigen::Matrix3d rotated;
+  Eigen::Vector3d rotated_spin, rotated_spin_rate;
 
   SeenPair(const SpatialPair& pair, const TimeFunction& angle, const Motion& motion);
 };

@@ -64,8 +64,8 @@ void add_torsion(const SpatialSpringProperties& p, const Twist& t, Matrix12& Y, 
   for (int j = 0; j < 2; ++j) {
     const double sign = j == 0 ? -1 : 1;
     const Eigen::RowVector3d of_moment =
-        sign * p.torsional_stiffness * t.h.transpose() + p.torsional_viscosity * t.slip.transpose() * t.by_turn[j];
-    const Matrix3d of_place = t.h * of_moment + moment(p, t) * t.by_turn[j],
+        sign * p.torsional_stiffness * t.h.transpose() + p.torsional_viscosity * t.slip.transpose() * t.by_rotation[j];
+    const Matrix3d of_place = t.h * of_moment + moment(p, t) * t.by_rotation[j],
                    of_spin = sign * p.torsional_viscosity * t.h * t.h.transpose();
     Y.block<3, 3>(9, 6 * j + 3) += of_place, Y.block<3, 3>(3, 6 * j + 3) -= of_place;
     Yd.block<3, 3>(9, 6 * j + 3) += of_spin, Yd.block<3, 3>(3, 6 * j + 3) -= of_spin;
@@ -99,8 +99,8 @@ Energy SpatialSpring::energy(const Motion& motion) const {
   pair_.evaluate(motion);
   const SpatialSpringProperties& p = properties_;
   const double stretch = line(pair_).length - p.length;
-  const double turned = torsional(p) ? twist(pair_, nearest_).angle - p.angle - p.rest : 0;
-  return {0, 0.5 * p.stiffness * stretch * stretch + 0.5 * p.torsional_stiffness * turned * turned, 0};
+  const double rotated = torsional(p) ? twist(pair_, nearest_).angle - p.angle - p.rest : 0;
+  return {0, 0.5 * p.stiffness * stretch * stretch + 0.5 * p.torsional_stiffness * rotated * rotated, 0};
 }
 
 void SpatialSpring::begin_step(const Motion& motion) {

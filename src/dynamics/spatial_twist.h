@@ -6,8 +6,8 @@ namespace floe::dynamics {
 /// Twist of the second place against the first about z (SpatialSpring), and its rate h.(w_2 - w_1).
 struct Twist {
   double angle, rate;
-  Eigen::Vector3d h, slip;                 ///< slip = w_2 - w_1
-  std::array<Eigen::Matrix3d, 2> by_turn;  ///< dh = by_turn[0] dphi_1 + by_turn[1] dphi_2
+  Eigen::Vector3d h, slip;                     ///< slip = w_2 - w_1
+  std::array<Eigen::Matrix3d, 2> by_rotation;  ///< dh = by_rotation[0] dphi_1 + by_rotation[1] dphi_2
 };
 
 /// @param nearest  the angle is the one within half a turn of this

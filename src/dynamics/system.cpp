@@ -22,8 +22,8 @@ System::System(Coordinates coordinates, std::vector<std::unique_ptr<Term>> terms
   const int mine = identity_;
   MPI_Allreduce(&mine, &all, 1, MPI_INT, MPI_LAND, comm());
   identity_ = all;
-  const int turns = !attitudes_.empty();
-  MPI_Allreduce(&turns, &all, 1, MPI_INT, MPI_LOR, comm());
+  const int rotations = !attitudes_.empty();
+  MPI_Allreduce(&rotations, &all, 1, MPI_INT, MPI_LOR, comm());
   has_attitudes_ = all;
   int ranks = 1;
   MPI_Comm_size(comm(), &ranks);
@@ -195,7 +195,7 @@ double System::constraint_violation(double t, Vec U, Vec V, ConstraintLevel leve
   return greatest;
 }
 
-System::Astray System::astray(double t, Vec U) const {
+System::FailedConstraint System::failed_constraint(double t, Vec U) const {
   gather(U, local_.q);
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
   const auto& is_multiplier = coordinates_.multiplier();
@@ -203,19 +203,20 @@ System::Astray System::astray(double t, Vec U) const {
   for (std::size_t term = 0; term < terms_.size() && code < 0; ++term) {
     if (!constrains_[term]) continue;
     const TermWork& w = pick(*terms_[term]);
-    const Standing standing = terms_[term]->standing({t, w.q, w.v, w.a});
-    if (standing == Standing::met) continue;
+    const ConstraintStatus constraint_status = terms_[term]->constraint_status({t, w.q, w.v, w.a});
+    if (constraint_status == ConstraintStatus::satisfied) continue;
     const auto& indices = terms_[term]->coordinates();
     const int first = *std::find_if(indices.begin(), indices.end(), [&](int index) { return is_multiplier[index]; });
-    code = 3 * coordinates_.owner_of_local()[first] + static_cast<int>(standing);
+    code = 3 * coordinates_.owner_of_local()[first] + static_cast<int>(constraint_status);
   }
   if (!whole_) MPI_Allreduce(MPI_IN_PLACE, &code, 1, MPI_INT, MPI_MAX, comm());
   if (code < 0) return {};
-  return {coordinates_.owners()[code / 3], static_cast<Standing>(code % 3)};
+  return {coordinates_.owners()[code / 3], static_cast<ConstraintStatus>(code % 3)};
 }
 
-std::string System::Astray::text() const {
-  if (standing == Standing::half_turn) return joint + " is satisfied on the flipped branch (rotated by 180 deg)";
+std::string System::FailedConstraint::text() const {
+  if (constraint_status == ConstraintStatus::flipped_branch)
+    return joint + " is satisfied on the flipped branch (rotated by 180 deg)";
   return joint +
          " is violated: some of its constraints were eliminated as redundant with other joints, and these "
          "no longer imply them";

@@ -24,7 +24,7 @@ void System::rebase(Vec U) const {
   begin_terms();
 }
 
-void System::settle(Vec U) const {
+void System::commit_step(Vec U) const {
   gather(U, local_.q);
   begin_terms();
 }

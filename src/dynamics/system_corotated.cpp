@@ -3,8 +3,9 @@
 #include "floe/dynamics/system.h"
 #include "floe/petsc/values.h"
 
-// A Jacobian kept from before is one of a scene whose bodies have turned since. Rows and unknowns in the axes of bodies
-// (moments, elastic coordinates) hardly see that; those in world axes do, and turn with the body they belong to.
+// A Jacobian kept from before is one of a scene whose bodies have rotated since. Rows and unknowns in the axes of
+// bodies (moments, elastic coordinates) hardly see that; those in world axes do, and rotate with the body they belong
+// to.
 
 namespace floe::dynamics {
 
@@ -40,7 +41,7 @@ void System::set_up_corotated() {
   const petsc::VecHandle layout = create_vector();
   petsc::check(VecGetOwnershipRange(layout, &first, &end));
   // Shared unknowns have one owner. A vector with parts on another rank than its frame's stays as it is: the Jacobian
-  // is no better there than one that is not turned.
+  // is no better there than one that is not rotated.
   const auto own = [&](PetscInt from, int count) { return from >= first && from + count <= end; };
   const auto add_frame = [&](int R, int x, const Attitude* attitude) {
     const int parts = attitude ? 3 : 2;
@@ -66,7 +67,7 @@ void System::frame_axes(Vec U, std::vector<Eigen::Matrix3d>& axes) const {
   }
 }
 
-void System::turn(const std::vector<Eigen::Matrix3d>& from, Vec U, bool back, Vec y) const {
+void System::rotate(const std::vector<Eigen::Matrix3d>& from, Vec U, bool back, Vec y) const {
   frame_axes(U, axes_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     axes_[i] = (axes_[i] * from[i].transpose()).eval();

@@ -31,7 +31,7 @@ petsc::MatHandle empty_matrix(const Structure& structure) {
   return A;
 }
 
-/// Empties the rows and columns of held dofs.
+/// Empties the rows and columns of constrained dofs.
 void hold(const Structure& structure, const Conditions& conditions, const std::vector<int>& dofs, Eigen::MatrixXd& A) {
   if (conditions.empty()) return;
   for (std::size_t i = 0; i < dofs.size(); ++i)
@@ -93,7 +93,7 @@ PetscObjectState changes(Mat A) {
 }
 
 /// The one that is shared.
-Mat unheld_mass(const Structure& structure) {
+Mat unconstrained_mass(const Structure& structure) {
   Kept& kept = *structure.kept;
   if (kept.mass && changes(kept.mass) == kept.mass_changes) return kept.mass;
   kept.mass = assemble(structure, {}, 0, 0, 1);
@@ -104,7 +104,7 @@ Mat unheld_mass(const Structure& structure) {
 }  // namespace
 
 petsc::MatHandle mass(const Structure& structure, const Conditions& conditions) {
-  Mat shared = unheld_mass(structure);
+  Mat shared = unconstrained_mass(structure);
   if (conditions.empty()) {
     check(PetscObjectReference(reinterpret_cast<PetscObject>(shared)));
     return petsc::MatHandle(shared);

@@ -268,16 +268,16 @@ void check_cells(const Structure& structure) {
 
 namespace {
 
-Section turn(const BeamSection& section, const Eigen::Matrix3d&) { return section; }
-Section turn(SpatialBeam beam, const Eigen::Matrix3d& R) {
+Section rotate(const BeamSection& section, const Eigen::Matrix3d&) { return section; }
+Section rotate(SpatialBeam beam, const Eigen::Matrix3d& R) {
   beam.orientation = R.transpose() * beam.orientation;
   return beam;
 }
-Section turn(ShellSection section, const Eigen::Matrix3d& R) {
+Section rotate(ShellSection section, const Eigen::Matrix3d& R) {
   section.axis = R.transpose() * section.axis;
   return section;
 }
-Section turn(PointMass point, const Eigen::Matrix3d& R) {
+Section rotate(PointMass point, const Eigen::Matrix3d& R) {
   point.inertia = R.transpose() * point.inertia * R;
   point.offset = R.transpose() * point.offset;
   return point;
@@ -285,8 +285,8 @@ Section turn(PointMass point, const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-Section turned(const Section& section, const Eigen::Matrix3d& rotation) {
-  return std::visit([&](const auto& s) { return turn(s, rotation); }, section);
+Section rotated(const Section& section, const Eigen::Matrix3d& rotation) {
+  return std::visit([&](const auto& s) { return rotate(s, rotation); }, section);
 }
 
 }  // namespace floe::fem

@@ -55,8 +55,11 @@ bool same_numbering(const Mesh& a, const Mesh& b) {
 }
 
 bool same_followers(const Mesh& a, const Mesh& b, bool rotates) {
-  return std::equal(a.followers.begin(), a.followers.end(), b.followers.begin(), b.followers.end(),
-                    [](const auto& f, const auto& g) { return f.node == g.node && f.leader == g.leader; }) &&
+  return std::equal(a.dependent_nodes.begin(), a.dependent_nodes.end(), b.dependent_nodes.begin(),
+                    b.dependent_nodes.end(),
+                    [](const auto& f, const auto& g) {
+                      return f.node == g.node && f.independent_node == g.independent_node;
+                    }) &&
          std::equal(a.spins.begin(), a.spins.end(), b.spins.begin(), b.spins.end(),
                     [&](const auto& s, const auto& t) { return !rotates && s.node == t.node && near(s.axis, t.axis); });
 }
@@ -71,7 +74,7 @@ bool congruent(const Structure& a, const Structure& b, const Placement& placemen
   if (!std::equal(a.mesh.cells.begin(), a.mesh.cells.end(), b.mesh.cells.begin(), same_cell)) return false;
   const Eigen::Matrix3d back = placement.rotation.transpose();
   for (std::size_t i = 0; i < a.sections.size(); ++i)
-    if (!same(placement.rotates ? turned(a.sections[i], back) : a.sections[i], b.sections[i])) return false;
+    if (!same(placement.rotates ? rotated(a.sections[i], back) : a.sections[i], b.sections[i])) return false;
   double size = placement.translation.norm();
   for (const Eigen::Vector3d& x : b.mesh.positions) size = std::max(size, x.norm());
   for (std::size_t i = 0; i < a.mesh.positions.size(); ++i) {

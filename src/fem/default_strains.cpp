@@ -42,7 +42,7 @@ struct Surface {
   }
 };
 
-/// Extent of all nodes along a direction.
+/// EvaluationLevel of all nodes along a direction.
 double extent_along(const Mesh& mesh, const Vector3d& n) {
   double ends[2] = {-INFINITY, -INFINITY};  // of -n.x and n.x
   for (const Vector3d& x : mesh.positions)

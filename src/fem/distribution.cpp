@@ -45,17 +45,19 @@ void move_nodes(const mesh::RawMesh& raw, const std::vector<int>& ranks, Mesh& m
   mesh.renumbering = std::move(renumbering);
 }
 
-/// The ranks of followers: those of their leaders. Collective.
-void follow(const mesh::RawMesh& raw, const std::vector<mesh::Follower>& followers, std::vector<int>& ranks) {
+/// The ranks of dependent nodes: those of their independent nodes. Collective.
+void follow(const mesh::RawMesh& raw, const std::vector<mesh::DependentNode>& dependent_nodes,
+            std::vector<int>& ranks) {
   const auto mine = [&](PetscInt node) {
     return node >= raw.first_node && node < raw.first_node + static_cast<PetscInt>(ranks.size());
   };
-  std::vector<int> rank(followers.size(), -1);
-  for (std::size_t i = 0; i < followers.size(); ++i)
-    if (mine(followers[i].leader)) rank[i] = ranks[followers[i].leader - raw.first_node];
+  std::vector<int> rank(dependent_nodes.size(), -1);
+  for (std::size_t i = 0; i < dependent_nodes.size(); ++i)
+    if (mine(dependent_nodes[i].independent_node))
+      rank[i] = ranks[dependent_nodes[i].independent_node - raw.first_node];
   MPI_Allreduce(MPI_IN_PLACE, rank.data(), static_cast<int>(rank.size()), MPI_INT, MPI_MAX, raw.comm);
-  for (std::size_t i = 0; i < followers.size(); ++i)
-    if (mine(followers[i].node)) ranks[followers[i].node - raw.first_node] = rank[i];
+  for (std::size_t i = 0; i < dependent_nodes.size(); ++i)
+    if (mine(dependent_nodes[i].node)) ranks[dependent_nodes[i].node - raw.first_node] = rank[i];
 }
 
 /// Cells to the ranks of their first nodes. Collective.
@@ -81,12 +83,13 @@ std::vector<NewCell> move_cells(const mesh::RawMesh& raw, const Mesh& mesh) {
 }
 
 /// Copies of the foreign nodes that this rank's cells touch, and of those that these follow. Collective.
-/// @param followers  by new global numbers
-void fetch_foreign(const std::vector<NewCell>& cells, const std::vector<mesh::Follower>& followers, Mesh& mesh) {
+/// @param dependent_nodes  by new global numbers
+void fetch_foreign(const std::vector<NewCell>& cells, const std::vector<mesh::DependentNode>& dependent_nodes,
+                   Mesh& mesh) {
   const PetscInt begin = mesh.first_node, end = begin + mesh.owned_nodes;
   for (const NewCell& cell : cells)
     for (int i = 0; i < mesh::node_count(cell.kind); ++i)
-      for (const PetscInt node : {cell.nodes[i], mesh::leader_of(followers, cell.nodes[i])})
+      for (const PetscInt node : {cell.nodes[i], mesh::independent_node_of(dependent_nodes, cell.nodes[i])})
         if (node < begin || node >= end) mesh.foreign.push_back(node);
   std::sort(mesh.foreign.begin(), mesh.foreign.end());
   mesh.foreign.erase(std::unique(mesh.foreign.begin(), mesh.foreign.end()), mesh.foreign.end());
@@ -103,42 +106,45 @@ void fetch_foreign(const std::vector<NewCell>& cells, const std::vector<mesh::Fo
   }
 }
 
-/// Followers by new global numbers, ascending. Collective.
-std::vector<mesh::Follower> renumbered(const Mesh& mesh, const std::vector<mesh::Follower>& followers) {
+/// Dependent nodes by new global numbers, ascending. Collective.
+std::vector<mesh::DependentNode> renumbered(const Mesh& mesh, const std::vector<mesh::DependentNode>& dependent_nodes) {
   std::vector<PetscInt> originals;
-  for (const mesh::Follower& f : followers) originals.push_back(f.node), originals.push_back(f.leader);
+  for (const mesh::DependentNode& f : dependent_nodes)
+    originals.push_back(f.node), originals.push_back(f.independent_node);
   const std::vector<PetscInt> found = global_nodes(mesh, originals);
-  std::vector<mesh::Follower> all;
-  for (std::size_t i = 0; i < found.size(); i += 2) all.push_back({found[i], found[i + 1], followers[i / 2].axis});
+  std::vector<mesh::DependentNode> all;
+  for (std::size_t i = 0; i < found.size(); i += 2)
+    all.push_back({found[i], found[i + 1], dependent_nodes[i / 2].axis});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return all;
 }
 
-bool spins(const std::vector<mesh::Follower>& links, PetscInt node) {
+bool spins(const std::vector<mesh::DependentNode>& links, PetscInt node) {
   const auto found = std::lower_bound(links.begin(), links.end(), node,
-                                      [](const mesh::Follower& f, PetscInt wanted) { return f.node < wanted; });
+                                      [](const mesh::DependentNode& f, PetscInt wanted) { return f.node < wanted; });
   return found != links.end() && found->node == node && found->spins();
 }
 
-/// The leader of a corner on a hinge line among the nodes that the cell acts on.
-void lead(Mesh::Cell& cell, int corner, int leader) {
+/// The independent node of a corner on a hinge line among the nodes that the cell acts on.
+void lead(Mesh::Cell& cell, int corner, int independent_node) {
   const auto end = cell.moved.begin() + cell.moving;
-  const auto found = std::find(cell.moved.begin(), end, leader);
+  const auto found = std::find(cell.moved.begin(), end, independent_node);
   cell.line[corner] = static_cast<int>(found - cell.moved.begin());
-  if (found == end) cell.moved[cell.moving++] = leader;
+  if (found == end) cell.moved[cell.moving++] = independent_node;
 }
 
 }  // namespace
 
-Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers) {
+Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks,
+             const std::vector<mesh::DependentNode>& dependent_nodes) {
   Mesh mesh;
   mesh.comm = raw.comm;
   mesh.dimension = 3;
   mesh.node_count = raw.node_count, mesh.cell_count = raw.cell_count;
-  follow(raw, followers, ranks);
+  follow(raw, dependent_nodes, ranks);
   move_nodes(raw, ranks, mesh);
   const std::vector<NewCell> cells = move_cells(raw, mesh);
-  const std::vector<mesh::Follower> links = renumbered(mesh, followers);
+  const std::vector<mesh::DependentNode> links = renumbered(mesh, dependent_nodes);
   fetch_foreign(cells, links, mesh);
   const PetscInt begin = mesh.first_node, end = begin + mesh.owned_nodes;
   const auto local = [&](PetscInt node) {
@@ -149,17 +155,18 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector
     Mesh::Cell own(cell.kind, cell.part, {});
     for (int i = 0; i < mesh::node_count(cell.kind); ++i) {
       own.place[i] = local(cell.nodes[i]);
-      own.moved[i] = local(spins(links, cell.nodes[i]) ? cell.nodes[i] : mesh::leader_of(links, cell.nodes[i]));
+      own.moved[i] =
+          local(spins(links, cell.nodes[i]) ? cell.nodes[i] : mesh::independent_node_of(links, cell.nodes[i]));
     }
     for (int i = 0; i < mesh::node_count(cell.kind); ++i)
-      if (spins(links, cell.nodes[i])) lead(own, i, local(mesh::leader_of(links, cell.nodes[i])));
+      if (spins(links, cell.nodes[i])) lead(own, i, local(mesh::independent_node_of(links, cell.nodes[i])));
     mesh.cells.push_back(own);
   }
   const auto is_local = [&](PetscInt node) {
     return (node >= begin && node < end) || std::binary_search(mesh.foreign.begin(), mesh.foreign.end(), node);
   };
-  for (const mesh::Follower& f : links) {
-    if (f.node >= begin && f.node < end) mesh.followers.push_back({local(f.node), local(f.leader)});
+  for (const mesh::DependentNode& f : links) {
+    if (f.node >= begin && f.node < end) mesh.dependent_nodes.push_back({local(f.node), local(f.independent_node)});
     if (f.spins() && is_local(f.node))
       mesh.spins.push_back({local(f.node), Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2])});
   }
@@ -176,9 +183,9 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
       [&](PetscInt node) { return table.global[node - first]; });
 }
 
-std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node) {
+std::vector<PetscInt> dependent_dofs(const Mesh& mesh, int dofs_per_node) {
   std::vector<PetscInt> mine;
-  for (const Mesh::Follower& f : mesh.followers) {
+  for (const Mesh::DependentNode& f : mesh.dependent_nodes) {
     const Eigen::Vector3d* axis = spin_axis(mesh, f.node);
     for (int d = 0; d < dofs_per_node; ++d)
       if (!axis || d != 3 + spin_slot(*axis)) mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);

@@ -112,7 +112,7 @@ body::Inertia inertia(const ElementMaps& maps, const Eigen::MatrixXd& V) {
   const int d = maps.mass.empty() ? 2 : static_cast<int>(maps.mass.front().x.size());
   body::Inertia sum(d, static_cast<int>(V.cols()));
   for (const body::MassPoint& point : maps.mass) sum.add(body::MassPoint{point.mass, point.x, point.N * V});
-  for (const body::RotatingMass& mass : maps.rotary) sum.add(body::RotatingMass(mass, mass.turn * V));
+  for (const body::RotatingMass& mass : maps.rotary) sum.add(body::RotatingMass(mass, mass.rotation * V));
   return sum;
 }
 

@@ -17,8 +17,8 @@ void take_rigid_motion(Eigen::Ref<Eigen::MatrixXd> q, const Eigen::Matrix3Xd& ar
         column[3 * i] += column[2] * arms(1, i);
         column[3 * i + 1] -= column[2] * arms(0, i);
       } else {
-        const Eigen::Vector3d turn = column.segment<3>(3), arm = arms.col(i);
-        column.segment<3>(dofs * i) -= turn.cross(arm);
+        const Eigen::Vector3d rotation = column.segment<3>(3), arm = arms.col(i);
+        column.segment<3>(dofs * i) -= rotation.cross(arm);
       }
     }
   }

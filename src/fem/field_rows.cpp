@@ -14,10 +14,10 @@ FLOE_CLONES void add_multiple(double c, const double* __restrict in, double* __r
 
 namespace {
 
-constexpr Eigen::Index together = 8;  // columns that are turned from columns into rows at once
+constexpr Eigen::Index together = 8;  // columns that are rotated from columns into rows at once
 
 /// v <- R v of all displacements and rotations.
-void turn(const Eigen::Matrix3d& R, Eigen::Ref<Eigen::VectorXd> field) {
+void rotate(const Eigen::Matrix3d& R, Eigen::Ref<Eigen::VectorXd> field) {
   if (R.isIdentity(0)) return;
   for (Eigen::Index i = 0; i < field.size(); i += 3) field.segment<3>(i) = R * Eigen::Vector3d(field.segment<3>(i));
 }
@@ -38,7 +38,7 @@ FieldRows gather(const Structure& structure, Eigen::Index count,
     const Eigen::Index last = std::min(count, first + together);
     for (Eigen::Index j = first; j < last; ++j) {
       local(j, some.col(j - first).data());
-      if (const FlatBody* flat = flat_body(structure)) turn(flat->axes.transpose(), some.col(j - first));
+      if (const FlatBody* flat = flat_body(structure)) rotate(flat->axes.transpose(), some.col(j - first));
     }
     rows.middleCols(first, last - first) = some.leftCols(last - first);
   }
@@ -52,7 +52,7 @@ void for_each_field(const Structure& structure, const FieldRows& fields,
     const Eigen::Index last = std::min(fields.cols(), first + together);
     some.leftCols(last - first) = fields.middleCols(first, last - first);
     for (Eigen::Index j = first; j < last; ++j) {
-      if (const FlatBody* flat = flat_body(structure)) turn(flat->axes, some.col(j - first));
+      if (const FlatBody* flat = flat_body(structure)) rotate(flat->axes, some.col(j - first));
       use(j, some.col(j - first).data());
     }
   }
@@ -111,17 +111,17 @@ namespace {
 
 /// Turns about the first node's rotation: translation `to` loses `factor` (+-1) times the arm along `along` times the
 /// rotation `about`.
-struct Turn {
+struct Rotation {
   int to, about, along;
   double sign;
 };
-constexpr Turn planar_turns[] = {{0, 2, 1, 1}, {1, 2, 0, -1}};
-constexpr Turn spatial_turns[] = {{0, 4, 2, -1}, {0, 5, 1, 1},  {1, 5, 0, -1},
-                                  {1, 3, 2, 1},  {2, 3, 1, -1}, {2, 4, 0, 1}};
+constexpr Rotation planar_rotations[] = {{0, 2, 1, 1}, {1, 2, 0, -1}};
+constexpr Rotation spatial_rotations[] = {{0, 4, 2, -1}, {0, 5, 1, 1},  {1, 5, 0, -1},
+                                          {1, 3, 2, 1},  {2, 3, 1, -1}, {2, 4, 0, 1}};
 
-/// A node's own turn about a hinge line less that of the reference about it; rows of their rotations.
-void take_turned(const PieceRows::Spin& spin, const FieldRows& fields, const DofRanges& ranges, Eigen::Index own,
-                 Eigen::Index reference, Eigen::Index out, Strained& strained) {
+/// A node's own rotation about a hinge line less that of the reference about it; rows of their rotations.
+void take_rotated(const PieceRows::Spin& spin, const FieldRows& fields, const DofRanges& ranges, Eigen::Index own,
+                  Eigen::Index reference, Eigen::Index out, Strained& strained) {
   for (int d = 0; d < 3; ++d) {
     if (spin.slot[d] == 0) continue;
     double* to = strained.rows.row(out + d).data();
@@ -142,7 +142,8 @@ void take_turned(const PieceRows::Spin& spin, const FieldRows& fields, const Dof
 void take_strained(const Structure& structure, const PieceRows& piece, const FieldRows& fields, const DofRanges& ranges,
                    Strained& strained) {
   const Eigen::Index per_node = structure.dofs_per_node;
-  const std::span<const Turn> turns = per_node == 3 ? std::span<const Turn>(planar_turns) : spatial_turns;
+  const std::span<const Rotation> rotations =
+      per_node == 3 ? std::span<const Rotation>(planar_rotations) : spatial_rotations;
   const FlatBody* flat = flat_body(structure);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
   strained.rows.setZero(per_node * piece.nodes, fields.cols());
@@ -153,12 +154,12 @@ void take_strained(const Structure& structure, const PieceRows& piece, const Fie
     return found == piece.spins.end() ? nullptr : &*found;
   };
   int& reference = strained.reference;
-  for (reference = 0; spins(reference);) ++reference;  // a line's leader, at the latest
+  for (reference = 0; spins(reference);) ++reference;  // a line's independent node, at the latest
   for (int a = 0; a < piece.nodes; ++a) {
     if (a == reference) continue;
     if (const PieceRows::Spin* spin = spins(a)) {
-      take_turned(*spin, fields, ranges, per_node * piece.node[a] + 3, per_node * piece.node[reference] + 3,
-                  per_node * a + 3, strained);
+      take_rotated(*spin, fields, ranges, per_node * piece.node[a] + 3, per_node * piece.node[reference] + 3,
+                   per_node * a + 3, strained);
       continue;
     }
     const Eigen::Vector3d arm = at[piece.node[a]] - at[piece.node[reference]];
@@ -168,12 +169,12 @@ void take_strained(const Structure& structure, const PieceRows& piece, const Fie
       const double *own = row(a, d), *first = row(reference, d);
       for (int j = begin; j < end; ++j) out[j] = own[j] - first[j];
     }
-    for (const Turn& turn : turns) {
-      const ColumnRange& range = ranges[turn.about];
-      if (arm[turn.along] == 0 || range.empty()) continue;
-      strained.ranges[turn.to].include(range);
-      add_multiple(turn.sign * arm[turn.along], row(reference, turn.about) + range.begin,
-                   strained.rows.row(per_node * a + turn.to).data() + range.begin, range.end - range.begin);
+    for (const Rotation& rotation : rotations) {
+      const ColumnRange& range = ranges[rotation.about];
+      if (arm[rotation.along] == 0 || range.empty()) continue;
+      strained.ranges[rotation.to].include(range);
+      add_multiple(rotation.sign * arm[rotation.along], row(reference, rotation.about) + range.begin,
+                   strained.rows.row(per_node * a + rotation.to).data() + range.begin, range.end - range.begin);
     }
   }
 }

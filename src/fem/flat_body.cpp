@@ -32,7 +32,7 @@ bool uncoupled_shells(const Structure& structure) {
   return everywhere(structure.mesh.comm, yes);
 }
 
-/// Twice the areas of the triangles at the first corners, as vectors, turned to the side of `up`.
+/// Twice the areas of the triangles at the first corners, as vectors, rotated to the side of `up`.
 Vector3d area(const Structure& structure, const Vector3d& up) {
   Vector3d sum = Vector3d::Zero();
   const auto& at = structure.mesh.positions;
@@ -101,7 +101,7 @@ std::unique_ptr<const FlatBody> find(const Structure& structure) {
     flat->positions.back().z() = (low + high) / 2;
   }
   for (const Section& section : structure.sections) {
-    ShellSection shell = std::get<ShellSection>(turned(section, flat->axes));
+    ShellSection shell = std::get<ShellSection>(rotated(section, flat->axes));
     shell.coupling.setZero(), shell.mass_centre = 0;  // not round-off either
     flat->sections.push_back(shell);
   }
@@ -119,7 +119,7 @@ const FlatBody* flat_body(const Structure& structure) {
 namespace {
 
 /// A node's rotation, of one on a hinge line its own.
-Vector3d turn_of(const Mesh& mesh, const Vector3d& dofs, Eigen::Index node) {
+Vector3d rotation_of(const Mesh& mesh, const Vector3d& dofs, Eigen::Index node) {
   const Vector3d* axis = spin_axis(mesh, static_cast<int>(node));
   return axis ? Vector3d(spin(*axis) * dofs) : dofs;
 }
@@ -136,9 +136,9 @@ void separate(const Structure& structure, Vec field, double share) {
   Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> q(values.begin(), 6, structure.mesh.owned_nodes);
   double squares[2] = {0, 0};  // out of the plane, in it
   for (Eigen::Index i = 0; i < q.cols(); ++i) {
-    const Vector3d u = q.col(i).head<3>(), turn = length * turn_of(structure.mesh, q.col(i).tail<3>(), i);
-    const double w = normal.dot(u), drill = normal.dot(turn);
-    squares[0] += w * w + (turn - drill * normal).squaredNorm();
+    const Vector3d u = q.col(i).head<3>(), rotation = length * rotation_of(structure.mesh, q.col(i).tail<3>(), i);
+    const double w = normal.dot(u), drill = normal.dot(rotation);
+    squares[0] += w * w + (rotation - drill * normal).squaredNorm();
     squares[1] += drill * drill + (u - w * normal).squaredNorm();
   }
   MPI_Allreduce(MPI_IN_PLACE, squares, 2, MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
@@ -146,10 +146,10 @@ void separate(const Structure& structure, Vec field, double share) {
   for (int part : {0, 1}) {
     if (!(squares[part] < share * share * squares[1 - part])) continue;
     q.topRows<3>() = ((part == 0 ? along : across) * q.topRows<3>()).eval();
-    const Eigen::Matrix3Xd turns = q.bottomRows<3>();
-    q.bottomRows<3>() = (part == 0 ? across : along) * turns;
+    const Eigen::Matrix3Xd rotations = q.bottomRows<3>();
+    q.bottomRows<3>() = (part == 0 ? across : along) * rotations;
     for (const Mesh::Spin& spin : structure.mesh.spins)  // about a line in the plane
-      if (spin.node < q.cols()) q.col(spin.node).tail<3>() = (part == 0 ? 0 : 1) * turns.col(spin.node);
+      if (spin.node < q.cols()) q.col(spin.node).tail<3>() = (part == 0 ? 0 : 1) * rotations.col(spin.node);
   }
 }
 

@@ -115,11 +115,11 @@ NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {
     double distance = std::numeric_limits<double>::infinity();
     PetscInt original = PETSC_MAX_INT, local = -1;
   } best;
-  auto follower = mesh.followers.begin();
+  auto dependent_node = mesh.dependent_nodes.begin();
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     const double distance = (mesh.positions[i] - point).norm();
-    const bool follows = follower != mesh.followers.end() && follower->node == i;
-    if (follows) ++follower;
+    const bool follows = dependent_node != mesh.dependent_nodes.end() && dependent_node->node == i;
+    if (follows) ++dependent_node;
     const PetscInt original = mesh.original_node(static_cast<int>(i)) + (follows ? mesh.node_count : 0);
     if (distance < best.distance || (distance == best.distance && original < best.original))
       best = {distance, original, i};

@@ -51,7 +51,7 @@ std::vector<StrainRows::Term> terms_of(const StrainPoint& point, const Eigen::Ma
   return terms;
 }
 
-/// The axis of a hinge line and the dof that stands for the turn about it, in the axes of the pieces.
+/// The axis of a hinge line and the dof that stands for the rotation about it, in the axes of the pieces.
 PieceRows::Spin spin_of(const Structure& structure, int node, int at) {
   const Eigen::Vector3d& axis = *spin_axis(structure.mesh, node);
   const Eigen::Vector3d slot = Eigen::Vector3d::Unit(spin_slot(axis));
@@ -126,7 +126,7 @@ void generic_piece(const Structure& structure, const Mesh::Cell& cell, PiecePart
     const auto* section = std::get_if<ShellSection>(&structure.sections[cell.part]);
     if (parts.mass) add_masses(maps.mass, section && section->mass_radius > 0, piece.mass);
     for (const body::RotatingMass& mass : maps.rotary)
-      if (parts.mass) piece.rotary.push_back({mass, mass.turn});
+      if (parts.mass) piece.rotary.push_back({mass, mass.rotation});
   }
   if (!parts.line) return;
   std::vector<body::MassPoint> line = structure.line(cell);
@@ -154,15 +154,15 @@ void square_bending(PieceRows& piece) {
   piece.bending.resize(0, 0);
 }
 
-/// Adds what rotation vectors of the corners turn the normal by at second order.
-void add_turns(const shell::Geometry& g, StrainRows& rows) {
+/// Adds what rotation vectors of the corners rotate the normal by at second order.
+void add_rotations(const shell::Geometry& g, StrainRows& rows) {
   const int first = static_cast<int>(rows.G.rows());
   std::array<StrainRows::Term, 6> terms;
   bool any = false;
   for (int i = 0; i < 3; ++i) {
     StrainRows::Term x{first + 3 * i, first + 3 * i + 2, {}}, y{first + 3 * i + 1, first + 3 * i + 2, {}};
     for (Eigen::Index s = 0; s < rows.L.rows(); ++s) {
-      Eigen::Vector2d c = shell::second_order_turn(g, rows.L.row(s), i);
+      Eigen::Vector2d c = shell::second_order_rotation(g, rows.L.row(s), i);
       if (c.norm() < 1e-12 * rows.L.row(s).segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
       x.C[static_cast<std::size_t>(s)] = c.x(), y.C[static_cast<std::size_t>(s)] = c.y();
       any = any || !c.isZero(0);
@@ -200,14 +200,14 @@ void samples(const shell::Geometry& g, const Eigen::Vector3d& centroid, const Sh
   for (int k = 0; k < 3; ++k) {
     const shell::Middle middle = shell::middle(g, k);
     const Eigen::Vector3d at(middle.at.x(), middle.at.y(), 0);
-    shell::Rows18 N = middle.rows.topRows<3>(), turn = shell::Rows18::Zero();
-    turn.topRows<2>() = middle.rows.bottomRows<2>();
-    N = g.axes.lazyProduct(N).eval(), turn = g.axes.lazyProduct(turn).eval();
+    shell::Rows18 N = middle.rows.topRows<3>(), rotation = shell::Rows18::Zero();
+    rotation.topRows<2>() = middle.rows.bottomRows<2>();
+    N = g.axes.lazyProduct(N).eval(), rotation = g.axes.lazyProduct(rotation).eval();
     if (parts.line) piece.line.push_back({third, false, centroid + g.axes * at, N});
     if (!parts.mass) continue;
     const Eigen::Vector3d normal = g.axes.col(2);
-    piece.mass.push_back({section.mass * third, false, centroid + g.axes * at + z * normal, N + z * turn});
-    if (r > 0) piece.mass.push_back({section.mass * third, true, r * normal, r * turn});
+    piece.mass.push_back({section.mass * third, false, centroid + g.axes * at + z * normal, N + z * rotation});
+    if (r > 0) piece.mass.push_back({section.mass * third, true, r * normal, r * rotation});
   }
 }
 
@@ -225,7 +225,7 @@ void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes,
     if (parts.strain) strain(g, d, section, share, piece.strain);
     if (section.strains == Strains::second_order && parts.strain) {
       square_bending(piece);
-      for (StrainRows& rows : piece.strain) add_turns(g, rows);
+      for (StrainRows& rows : piece.strain) add_rotations(g, rows);
     }
   }
   if (parts.mass || parts.line)
@@ -239,16 +239,16 @@ void each_rows(PieceRows& piece, Act&& act) {
   for (StrainRows& point : piece.strain) act(point.L), act(point.G);
   for (auto* samples : {&piece.mass, &piece.line})
     for (MassRows& sample : *samples) act(sample.N);
-  for (RotaryRows& mass : piece.rotary) act(mass.turn);
+  for (RotaryRows& mass : piece.rotary) act(mass.rotation);
 }
 
 /// Where the piece has the node, with all its dofs; it is added where it has not.
 int place_of(int node, PieceRows& piece) {
-  const auto turns = [&](int at) {
+  const auto rotations = [&](int at) {
     return std::any_of(piece.spins.begin(), piece.spins.end(), [&](const auto& spin) { return spin.at == at; });
   };
   for (int at = 0; at < piece.nodes; ++at)
-    if (piece.node[at] == node && !turns(at)) return at;
+    if (piece.node[at] == node && !rotations(at)) return at;
   piece.node[piece.nodes++] = node;
   each_rows(piece, [&](auto& rows) {
     const Eigen::Index before = rows.cols();
@@ -271,8 +271,8 @@ void rotate_mass(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) 
   }
   if (forms.empty()) return;
   piece.rotary.push_back({forms, {}});
-  piece.rotary.back().turn.setZero(3, 6 * piece.nodes);
-  piece.rotary.back().turn.middleCols<3>(6 * led + 3).setIdentity();
+  piece.rotary.back().rotation.setZero(3, 6 * piece.nodes);
+  piece.rotary.back().rotation.middleCols<3>(6 * led + 3).setIdentity();
 }
 
 /// Adds the second-order motion of corner `at`, 1/2 theta x (theta x arm), to mass and strains: before its rows are
@@ -303,9 +303,10 @@ void rotate_arm(const Eigen::Vector3d& arm, int at, int led, bool strained, Piec
 }
 
 /// Corner `at` of the piece as a node on a hinge line.
-void spin_about(const Eigen::Vector3d& arm, int leader, PieceRows::Spin spin, bool second_order, PieceRows& piece) {
+void spin_about(const Eigen::Vector3d& arm, int independent_node, PieceRows::Spin spin, bool second_order,
+                PieceRows& piece) {
   piece.spins.push_back(spin);
-  const int led = place_of(leader, piece);
+  const int led = place_of(independent_node, piece);
   rotate_arm(arm, spin.at, led, second_order, piece);
   const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
   each_rows(piece, [&](auto& rows) {
@@ -341,8 +342,8 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
   }
   for (int i = 0; i < 3; ++i) {
     if (cell.line[of[i]] < 0) continue;
-    const int node = cell.place[of[i]], leader = cell.moved[cell.line[of[i]]];
-    spin_about(at[node] - at[leader], leader, spin_of(structure, node, i), second_order, piece);
+    const int node = cell.place[of[i]], independent_node = cell.moved[cell.line[of[i]]];
+    spin_about(at[node] - at[independent_node], independent_node, spin_of(structure, node, i), second_order, piece);
   }
 }
 

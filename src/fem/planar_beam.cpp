@@ -49,7 +49,7 @@ Row6 stretch(double s) { return (Row6() << 1 - s, 0, 0, s, 0, 0).finished(); }
 
 struct Axes {
   double length;
-  Eigen::Matrix2d turn;                  // element axes in body axes
+  Eigen::Matrix2d rotation;              // element axes in body axes
   Eigen::Matrix<double, 6, 6> to_local;  // dofs
   Row6 shear = Row6::Zero();             // gamma on local dofs
 };
@@ -64,10 +64,10 @@ Axes axes_of(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const BeamS
   const Eigen::Vector2d d = to - from;
   axes.length = d.norm();
   const Eigen::Vector2d e = d / axes.length;
-  axes.turn << e.x(), -e.y(), e.y(), e.x();
+  axes.rotation << e.x(), -e.y(), e.y(), e.x();
   axes.to_local.setZero();
   for (int node = 0; node < 2; ++node) {
-    axes.to_local.block<2, 2>(3 * node, 3 * node) = axes.turn.transpose();
+    axes.to_local.block<2, 2>(3 * node, 3 * node) = axes.rotation.transpose();
     axes.to_local(3 * node + 2, 3 * node + 2) = 1;
   }
   const double phi = softness(section, axes.length);
@@ -91,7 +91,7 @@ body::MassPoint sample(double mass, double s, double y, const Eigen::Vector2d& f
   const double l = axes.length;
   Eigen::Matrix<double, 2, 6> N;
   N << stretch(s) - y * (slope(s, axes) - axes.shear), deflection(s, l) + sway(s, l) * axes.shear;
-  return {mass, from + axes.turn * Eigen::Vector2d(s * l, y), axes.turn * N * axes.to_local};
+  return {mass, from + axes.rotation * Eigen::Vector2d(s * l, y), axes.rotation * N * axes.to_local};
 }
 
 }  // namespace
@@ -123,9 +123,9 @@ ElementMaps planar_beam(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
     for (const GaussPoint& g : gauss4()) {
       const double moment = section.rhoI * g.weight * l;
       Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-      second.topLeftCorner<2, 2>() = moment * axes.turn.col(1) * axes.turn.col(1).transpose();
+      second.topLeftCorner<2, 2>() = moment * axes.rotation.col(1) * axes.rotation.col(1).transpose();
       maps.rotary.emplace_back(body::RotatingForms(second), Eigen::MatrixXd::Zero(3, 6));
-      maps.rotary.back().turn.row(2) = (slope(g.at, axes) - axes.shear) * axes.to_local;
+      maps.rotary.back().rotation.row(2) = (slope(g.at, axes) - axes.shear) * axes.to_local;
     }
   const double radius = section.rhoA > 0 ? std::sqrt(section.rhoI / section.rhoA) : 0;
   for (const GaussPoint& g : gauss4()) {

@@ -41,7 +41,7 @@ ElementMaps point_mass(const Eigen::Vector3d& node, double mass, const Eigen::Ma
   forms.add(mass, node + offset, Eigen::Matrix3d::Identity(), offset);
   if (!forms.empty()) {
     maps.rotary.emplace_back(forms, Eigen::MatrixXd::Zero(3, 6));
-    maps.rotary.back().turn.rightCols<3>().setIdentity();
+    maps.rotary.back().rotation.rightCols<3>().setIdentity();
   }
   return maps;
 }

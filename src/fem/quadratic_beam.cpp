@@ -88,7 +88,7 @@ BeamStrains strains_at(const Curve& curve, const Station& at) {
   BeamStrains s;
   s.L.setZero();
   for (Matrix24& P : s.P) P.setZero();
-  const auto turned = [&](Strain strain, int a, const Vector3d& t, const Vector3d& f) {  // t.(sum f_i d_a,i)
+  const auto rotated = [&](Strain strain, int a, const Vector3d& t, const Vector3d& f) {  // t.(sum f_i d_a,i)
     curve.add_director(s.L.row(strain), a, t, f);
     for (Index i = 0; i < beam_nodes; ++i) {
       const Matrix3d product = t * curve.axes[i].col(1 + a).transpose();
@@ -101,15 +101,15 @@ BeamStrains strains_at(const Curve& curve, const Station& at) {
   s.P[eps].block<3, 3>(of_u, of_u).setIdentity();
   for (int a : {0, 1}) {
     const Strain b = a == 0 ? b_y : b_z, gamma = a == 0 ? gamma_y : gamma_z;
-    turned(b, a, at.tangent, at.dN);
+    rotated(b, a, at.tangent, at.dN);
     curve.add_displacement(s.L.row(b), at.dD[a], at.dN);
     multiply_rows(s.P[b], of_u, of_d_rate + 3 * a, one - along);
-    turned(gamma, a, at.tangent, at.N);
+    rotated(gamma, a, at.tangent, at.N);
     curve.add_displacement(s.L.row(gamma), at.D[a], at.dN);
     multiply_rows(s.P[gamma], of_u, of_d + 3 * a, one - 2. / 3 * along);
   }
-  turned(tau, 0, at.D[1] / 2, at.dN), turned(tau, 1, at.dD[0] / 2, at.N);
-  turned(tau, 1, -at.D[0] / 2, at.dN), turned(tau, 0, -at.dD[1] / 2, at.N);
+  rotated(tau, 0, at.D[1] / 2, at.dN), rotated(tau, 1, at.dD[0] / 2, at.N);
+  rotated(tau, 1, -at.D[0] / 2, at.dN), rotated(tau, 0, -at.dD[1] / 2, at.N);
   multiply_rows(s.P[tau], of_d_rate, of_d + 3, one / 2), multiply_rows(s.P[tau], of_d_rate + 3, of_d, -one / 2);
   return s;
 }
@@ -119,9 +119,9 @@ MatrixXd gradients(const Curve& curve, const Station& at) {
   for (Index i = 0; i < beam_nodes; ++i) {
     G.block<3, 3>(of_u, 6 * i) = at.dN[i] * Matrix3d::Identity();
     for (int a : {0, 1}) {
-      const Matrix3d turn = -math::skew(curve.axes[i].col(1 + a));
-      G.block<3, 3>(of_d + 3 * a, 6 * i + 3) = at.N[i] * turn;
-      G.block<3, 3>(of_d_rate + 3 * a, 6 * i + 3) = at.dN[i] * turn;
+      const Matrix3d rotation = -math::skew(curve.axes[i].col(1 + a));
+      G.block<3, 3>(of_d + 3 * a, 6 * i + 3) = at.N[i] * rotation;
+      G.block<3, 3>(of_d_rate + 3 * a, 6 * i + 3) = at.dN[i] * rotation;
     }
     G.block<3, 3>(of_theta + 3 * i, 6 * i + 3).setIdentity();
   }
@@ -195,12 +195,12 @@ void add_mass(const Curve& curve, const SpatialBeamSection& section, ElementMaps
     D << at.D[0], at.D[1];
     const Eigen::Matrix2d second =
         (Eigen::Matrix2d() << section.rhoIz, section.rhoIyz, section.rhoIyz, section.rhoIy).finished();
-    MatrixXd turn = MatrixXd::Zero(3, beam_dofs);
-    for (Index i = 0; i < beam_nodes; ++i) turn.middleCols<3>(6 * i + 3) = at.N[i] * Matrix3d::Identity();
+    MatrixXd rotation = MatrixXd::Zero(3, beam_dofs);
+    for (Index i = 0; i < beam_nodes; ++i) rotation.middleCols<3>(6 * i + 3) = at.N[i] * Matrix3d::Identity();
     const Vector3d arm = D * section.centroid;
     body::RotatingForms forms(length * D * second * D.transpose());
     forms.add(section.rhoA * length, at.at + arm, Matrix3d::Identity(), arm);
-    if (!forms.empty()) maps.rotary.emplace_back(forms, turn);
+    if (!forms.empty()) maps.rotary.emplace_back(forms, rotation);
   }
 }
 

@@ -120,7 +120,7 @@ Strains3 curvature(const Element& e, const Surface& at, const LocalAxes& axes) {
     const Index d = of_director + 3 * b;
     multiply(strain.P[s], a, d);
     multiply(strain.P[s], spin, a == 0 ? d + 2 : d + 1, a == 0 ? 1 : -1);
-    e.add_turns(strain.P[s], of_rotation, X[a], f[b]);
+    e.add_rotations(strain.P[s], of_rotation, X[a], f[b]);
   };
   add(0, 0, 0), add(1, 1, 1), add(2, 0, 1), add(2, 1, 0);
   if (!e.second_order) return strain;
@@ -163,7 +163,7 @@ Strains3 tied_shear(const Element& e) {
       MatrixXd& P = strain.P[static_cast<std::size_t>(k)];
       multiply(P, row, row + 3, X.norm()), multiply(P, row + 1, row + 4, third * X.norm());
       multiply(P, row + 2, row + 5, X.norm());
-      e.add_turns(P, of_rotation, X, at.N);
+      e.add_rotations(P, of_rotation, X, at.N);
       row += 6;
     }
   }

@@ -76,7 +76,7 @@ struct Element {
       row.template segment<3>(6 * i + 3) += f[i] * director[static_cast<std::size_t>(i)].cross(t).transpose();
   }
   /// P of t.(sum f_i theta_i x (theta_i x n_i)) / 2 on the rotation vectors of the nodes, from row `first` on.
-  void add_turns(MatrixXd& P, Index first, const Vector3d& t, const VectorXd& f) const {
+  void add_rotations(MatrixXd& P, Index first, const Vector3d& t, const VectorXd& f) const {
     for (Index i = 0; i < count(); ++i) {
       const Matrix3d product = t * director[static_cast<std::size_t>(i)].transpose();
       P.block<3, 3>(first + 3 * i, first + 3 * i) +=
@@ -90,8 +90,8 @@ struct Element {
   }
   void set_directors(MatrixXd& G, Index first, Index step, const VectorXd& f) const {
     for (Index i = 0; i < count(); ++i) {
-      const Matrix3d turn = -f[i] * math::skew(director[static_cast<std::size_t>(i)]);
-      for (Index c = 0; c < 3; ++c) G.block<1, 3>(first + step * c, 6 * i + 3) = turn.row(c);
+      const Matrix3d rotation = -f[i] * math::skew(director[static_cast<std::size_t>(i)]);
+      for (Index c = 0; c < 3; ++c) G.block<1, 3>(first + step * c, 6 * i + 3) = rotation.row(c);
     }
   }
   void set_rotations(MatrixXd& G, Index first) const {

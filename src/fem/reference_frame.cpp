@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "floe/fem/held_frame.h"
+#include "floe/fem/constrained_frame.h"
 #include "floe/fem/joint_frame.h"
 
 namespace floe::fem {
@@ -92,7 +92,7 @@ ReferenceFrame reference_frame(const Structure& structure, ReferenceFrame::Kind 
   return frame;
 }
 
-ReferenceFrame held_frame(const Structure& structure, const Conditions& dofs) {
+ReferenceFrame constrained_frame(const Structure& structure, const Conditions& dofs) {
   ReferenceFrame frame;
   frame.kind = ReferenceFrame::Kind::clamped;
   frame.rigid = rigid_motions(structure);
@@ -148,7 +148,7 @@ namespace {
 /// Global number of the first node that follows no other one. Collective.
 PetscInt first_free_node(const Mesh& mesh) {
   int local = 0;
-  for (const Mesh::Follower& f : mesh.followers)
+  for (const Mesh::DependentNode& f : mesh.dependent_nodes)
     if (f.node == local) ++local;
   PetscInt first = local < mesh.owned_nodes ? mesh.first_node + local : PETSC_MAX_INT;
   MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, mesh.comm);
@@ -157,17 +157,17 @@ PetscInt first_free_node(const Mesh& mesh) {
 
 }  // namespace
 
-Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions held) {
-  const Conditions followers = follower_dofs(structure.mesh, structure.dofs_per_node);
-  held.insert(held.end(), followers.begin(), followers.end());
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
+Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions constrained) {
+  const Conditions dependent_nodes = dependent_dofs(structure.mesh, structure.dofs_per_node);
+  constrained.insert(constrained.end(), dependent_nodes.begin(), dependent_nodes.end());
+  std::sort(constrained.begin(), constrained.end());
+  constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   const double length = extent(structure);
   Holding result;
-  result.held = held;
+  result.constrained = constrained;
   const int d = structure.dimension(), motions = structure.rigid_motion_count();
-  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, held, length);
-  if (held.empty()) {
+  const Eigen::MatrixXd rows = rigid_rows(structure, frame.rigid, constrained, length);
+  if (constrained.empty()) {
     result.left = Eigen::MatrixXd::Identity(motions, motions);
   } else {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
@@ -179,7 +179,7 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
   Conditions candidates = frame.conditions;
   const PetscInt n = structure.dofs_per_node, first = n * first_free_node(structure.mesh);
   for (PetscInt dof = first; dof < first + n; ++dof) candidates.push_back(dof);
-  result.statics = std::move(held);
+  result.statics = std::move(constrained);
   for (PetscInt dof : candidates) {
     Conditions more = result.statics;
     more.push_back(dof);
@@ -191,14 +191,14 @@ Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditi
   return result;
 }
 
-ReferenceFrame joint_frame(const Structure& structure, const ReferenceFrame& frame, const Conditions& held) {
+ReferenceFrame joint_frame(const Structure& structure, const ReferenceFrame& frame, const Conditions& constrained) {
   const int motions = structure.rigid_motion_count(), d = structure.dimension();
   const PetscInt n = structure.dofs_per_node;
   const double length = extent(structure);
   const Eigen::MatrixXd rows =
-      rigid_rows(structure, frame.rigid, held, length);  // of motions with rotations times length
+      rigid_rows(structure, frame.rigid, constrained, length);  // of motions with rotations times length
   Eigen::MatrixXd seen(motions, 0), free = Eigen::MatrixXd::Identity(motions, motions);
-  if (!held.empty()) {
+  if (!constrained.empty()) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeFullV);
     const int rank = static_cast<int>((svd.singularValues().array() > 1e-9).count());
     seen = svd.matrixV().leftCols(rank), free = svd.matrixV().rightCols(motions - rank);
@@ -212,9 +212,10 @@ ReferenceFrame joint_frame(const Structure& structure, const ReferenceFrame& fra
     Vec f = joints.functionals.back();
     PetscInt first = 0, end = 0;
     check(VecGetOwnershipRange(f, &first, &end));
-    for (std::size_t i = 0; i < held.size(); ++i)
-      if (held[i] >= first && held[i] < end)
-        check(VecSetValue(f, held[i], weights[static_cast<Eigen::Index>(i)] * (held[i] % n >= d ? length : 1),
+    for (std::size_t i = 0; i < constrained.size(); ++i)
+      if (constrained[i] >= first && constrained[i] < end)
+        check(VecSetValue(f, constrained[i],
+                          weights[static_cast<Eigen::Index>(i)] * (constrained[i] % n >= d ? length : 1),
                           INSERT_VALUES));
     check(VecAssemblyBegin(f));
     check(VecAssemblyEnd(f));

@@ -63,9 +63,9 @@ SectionShape i_section(double b, double h, double flange, double web) {
   return shape;
 }
 
-SectionShape turned(const SectionShape& shape, double angle) {
-  const Eigen::Rotation2Dd turn(angle);
-  const Eigen::Matrix2d R = turn.toRotationMatrix();
+SectionShape rotated(const SectionShape& shape, double angle) {
+  const Eigen::Rotation2Dd rotation(angle);
+  const Eigen::Matrix2d R = rotation.toRotationMatrix();
   Eigen::Matrix2d second;  // int [y, z]' [y, z]
   second << shape.Iz, shape.Iyz, shape.Iyz, shape.Iy;
   second = (R * second * R.transpose()).eval();

@@ -84,8 +84,9 @@ Matrix18 shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& sec
 
 namespace {
 
-/// Adds to a strain what rotation vectors of the corners turn the normal by at second order (shell::second_order_turn).
-void add_turns(const shell::Geometry& g, StrainPoint& point) {
+/// Adds to a strain what rotation vectors of the corners rotate the normal by at second order
+/// (shell::second_order_rotation).
+void add_rotations(const shell::Geometry& g, StrainPoint& point) {
   const Eigen::Index before = point.G.rows();
   std::vector<Eigen::MatrixXd> P = point.P;
   bool any = false;
@@ -93,7 +94,7 @@ void add_turns(const shell::Geometry& g, StrainPoint& point) {
     P[s].conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, before + 9));
     for (int i = 0; i < 3; ++i) {
       const auto row = point.L.row(static_cast<Eigen::Index>(s));
-      Eigen::Vector2d c = shell::second_order_turn(g, row, i);
+      Eigen::Vector2d c = shell::second_order_rotation(g, row, i);
       if (c.norm() < 1e-12 * row.segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
       const Eigen::Index x = before + 3 * i, y = x + 1, n = x + 2;
       P[s](x, n) = P[s](n, x) = c.x(), P[s](y, n) = P[s](n, y) = c.y();
@@ -125,7 +126,7 @@ ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& secti
     for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
       maps.membrane.push_back(
           {g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
-    for (StrainPoint& point : maps.membrane) add_turns(g, point);
+    for (StrainPoint& point : maps.membrane) add_rotations(g, point);
   } else {
     maps.bending = shell_triangle_bending(nodes, section);
   }

@@ -48,12 +48,12 @@ void set_gradients(const Geometry& geometry, const ShellSection& section, Rows& 
   }
 }
 
-/// Rotation vectors theta of the corners turn the normal n by exp(theta): the slopes of the surface are those of
+/// Rotation vectors theta of the corners rotate the normal n by exp(theta): the slopes of the surface are those of
 /// theta + 1/2 (theta.n) theta x n, to second order. What a row, linear in these, gets of corner i besides:
 /// (c_x theta_x + c_y theta_y) theta_n in the element's axes.
 /// @param row  on the dofs in body axes
 template <class Row>
-Eigen::Vector2d second_order_turn(const Geometry& geometry, const Row& row, int i) {
+Eigen::Vector2d second_order_rotation(const Geometry& geometry, const Row& row, int i) {
   const Eigen::Vector3d own = geometry.axes.transpose() * row.template segment<3>(6 * i + 3).transpose();
   return {-own.y() / 2, own.x() / 2};
 }
@@ -79,10 +79,10 @@ void add_edge_bending(Row&& row, const Edge& edge, double times) {
 /// Rows on dofs in the element's axes -> on dofs in body axes.
 template <class Rows>
 void to_body_axes(Rows& rows, const Eigen::Matrix3d& axes) {
-  const Eigen::Matrix3d turn = axes.transpose();
+  const Eigen::Matrix3d rotation = axes.transpose();
   for (int block = 0; block < 6; ++block) {
     auto columns = rows.template middleCols<3>(3 * block);
-    columns = columns.lazyProduct(turn).eval();
+    columns = columns.lazyProduct(rotation).eval();
   }
 }
 

@@ -77,13 +77,13 @@ BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section) 
   frame.axes = element_axes(place);
   frame.length = (place.to - place.from).norm();
   frame.C = section.centroid, frame.S = section.shear_centre;
-  const Eigen::Matrix3d turn = frame.axes.transpose();
+  const Eigen::Matrix3d rotation = frame.axes.transpose();
   frame.node.setZero();
-  frame.node.topLeftCorner<3, 3>() = turn;
-  frame.node.bottomRightCorner<3, 3>() = turn;
+  frame.node.topLeftCorner<3, 3>() = rotation;
+  frame.node.bottomRightCorner<3, 3>() = rotation;
   Eigen::Matrix3d arms;  // u_C = u + z_C ry - y_C rz,  v_S = v - z_S rx,  w_S = w + y_S rx
   arms << 0, frame.C[1], -frame.C[0], -frame.S[1], 0, 0, frame.S[0], 0, 0;
-  frame.node.topRightCorner<3, 3>() = arms * turn;
+  frame.node.topRightCorner<3, 3>() = arms * rotation;
   frame.shear.setZero();
   if (section.shears()) {
     const double l = frame.length;
@@ -136,12 +136,12 @@ Row12 centroid_slope_z(double s, const BeamFrame& f) {
 }
 
 SectionMotion section_motion(double s, const BeamFrame& f) {
-  const Row12 turn = twist(s), none = Row12::Zero();
+  const Row12 rotation = twist(s), none = Row12::Zero();
   SectionMotion motion;
-  motion.centre << stretch(s), deflection_y(s, f) - (f.C[1] - f.S[1]) * turn,
-      deflection_z(s, f) + (f.C[0] - f.S[0]) * turn;
-  motion.along_y << f.shear.row(0) - slope_y(s, f), none, turn;  // sections turn by what is no shear
-  motion.along_z << f.shear.row(1) - slope_z(s, f), -turn, none;
+  motion.centre << stretch(s), deflection_y(s, f) - (f.C[1] - f.S[1]) * rotation,
+      deflection_z(s, f) + (f.C[0] - f.S[0]) * rotation;
+  motion.along_y << f.shear.row(0) - slope_y(s, f), none, rotation;  // sections rotate by what is no shear
+  motion.along_z << f.shear.row(1) - slope_z(s, f), -rotation, none;
   return motion;
 }
 

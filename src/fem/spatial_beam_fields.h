@@ -36,7 +36,7 @@ struct BeamFrame {
 };
 BeamFrame beam_frame(const BeamPlace& place, const SpatialBeamSection& section);
 
-/// With shear the line turns by rz + gamma_y and -ry + gamma_z where sections turn by rz and ry. Gamma is constant,
+/// With shear the line rotates by rz + gamma_y and -ry + gamma_z where sections rotate by rz and ry. Gamma is constant,
 /// from the equilibrium of an element without load, GA gamma = EI d3v/dx3:
 ///
 ///   (1 + 12/l^2 GA^-1 B) gamma = 12/l^3 GA^-1 B D,   D = (v_2 - v_1 - l (rz_1 + rz_2)/2, w_2 - w_1 + l (ry_1 +

@@ -9,7 +9,7 @@
 namespace floe::fem {
 namespace {
 
-/// Strains (xx, yy, 2 xy) in axes turned by `angle` about the normal.
+/// Strains (xx, yy, 2 xy) in axes rotated by `angle` about the normal.
 Eigen::Matrix3d turned_strain(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   Eigen::Matrix3d T;
@@ -17,14 +17,14 @@ Eigen::Matrix3d turned_strain(double angle) {
   return T;
 }
 
-void add_terms(const ShellSample& sample, const Eigen::Matrix<double, 6, 6>& turn, int first, ShellRows& rows) {
+void add_terms(const ShellSample& sample, const Eigen::Matrix<double, 6, 6>& rotation, int first, ShellRows& rows) {
   const int gradients = static_cast<int>(sample.G.rows());
   for (int p = 0; p < gradients; ++p)
     for (int q = p; q < gradients; ++q) {
       Eigen::Matrix<double, 6, 1> P;
       for (int i = 0; i < 6; ++i) P[i] = sample.P[static_cast<std::size_t>(i)](p, q);
       if (P.isZero(0)) continue;
-      P = (p == q ? 0.5 : 1.) * (turn * P);
+      P = (p == q ? 0.5 : 1.) * (rotation * P);
       ShellRows::Term& term = rows.terms.emplace_back(ShellRows::Term{first + p, first + q, {}});
       std::copy(P.data(), P.data() + 6, term.C.begin());
     }
@@ -53,15 +53,15 @@ ShellRows shell_rows(const std::vector<ShellSample>& samples, std::span<const st
     const ShellSample& one = samples[i];
     const Eigen::Vector3d own = one.axes.col(0);
     const double angle = -std::atan2(out.axes.col(1).dot(own), out.axes.col(0).dot(own));
-    Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = one.share / shares * turned_strain(angle);
-    const Eigen::MatrixXd L = turn * one.L;
+    Eigen::Matrix<double, 6, 6> rotation = Eigen::Matrix<double, 6, 6>::Zero();
+    rotation.topLeftCorner<3, 3>() = rotation.bottomRightCorner<3, 3>() = one.share / shares * turned_strain(angle);
+    const Eigen::MatrixXd L = rotation * one.L;
     for (std::size_t c = 0; c < one.corners.size(); ++c) {
       const auto from = static_cast<Eigen::Index>(6 * c), to = static_cast<Eigen::Index>(6 * one.corners[c]);
       out.rows.block(0, to, 6, 6) += L.middleCols(from, 6);
       out.rows.block(next, to, one.G.rows(), 6) = one.G.middleCols(from, 6);
     }
-    add_terms(one, turn, static_cast<int>(next - 6), out);
+    add_terms(one, rotation, static_cast<int>(next - 6), out);
     next += one.G.rows();
   }
   return out;
@@ -131,10 +131,10 @@ BeamForces::Ends BeamForces::operator()(const Eigen::VectorXd& q) const {
     } else {
       force = f.segment<3>(6 * i), moment = f.segment<3>(6 * i + 3), theta = q.segment<3>(6 * i + 3);
     }
-    const Eigen::Matrix3d turn = math::rotation(theta);
-    if (rotation_vectors_)  // conjugate to changes of theta: the spin in turned axes is T dtheta
-      moment = turn * math::rotation_tangent(theta).transpose().inverse() * moment;
-    const Eigen::Matrix3d section = turn * axes_[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d rotation = math::rotation(theta);
+    if (rotation_vectors_)  // conjugate to changes of theta: the spin in rotated axes is T dtheta
+      moment = rotation * math::rotation_tangent(theta).transpose().inverse() * moment;
+    const Eigen::Matrix3d section = rotation * axes_[static_cast<std::size_t>(i)];
     ends.force[static_cast<std::size_t>(i)] = sign * (section.transpose() * force);
     ends.moment[static_cast<std::size_t>(i)] = sign * (section.transpose() * moment);
   }

@@ -69,14 +69,14 @@ std::vector<int> Structure::cell_dofs(const Mesh::Cell& cell) const {
 
 Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, int node) {
   const int n = structure.dofs_per_node;
-  const std::vector<Mesh::Follower>& all = structure.mesh.followers;
+  const std::vector<Mesh::DependentNode>& all = structure.mesh.dependent_nodes;
   const auto found = std::lower_bound(all.begin(), all.end(), node,
-                                      [](const Mesh::Follower& f, int wanted) { return f.node < wanted; });
+                                      [](const Mesh::DependentNode& f, int wanted) { return f.node < wanted; });
   const bool follows = found != all.end() && found->node == node;
-  Eigen::VectorXd q =
-      Eigen::Map<const Eigen::VectorXd>(owned + static_cast<std::ptrdiff_t>(n) * (follows ? found->leader : node), n);
+  Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(
+      owned + static_cast<std::ptrdiff_t>(n) * (follows ? found->independent_node : node), n);
   if (!follows) return q;
-  const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->leader];
+  const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->independent_node];
   if (n == 3) return rigid_arm(Eigen::Vector2d(arm.head<2>())) * q;
   const Eigen::Vector3d* axis = spin_axis(structure.mesh, node);
   if (!axis) return rigid_arm(arm) * q;
@@ -121,10 +121,10 @@ std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {
       for (int i = 0; i < d; ++i) at[i] = u[i];
       at[motion] = 1;
     }
-    for (const Mesh::Follower& follower : structure.mesh.followers) {
-      double* at = values + static_cast<std::ptrdiff_t>(per_node) * follower.node;
+    for (const Mesh::DependentNode& dependent_node : structure.mesh.dependent_nodes) {
+      double* at = values + static_cast<std::ptrdiff_t>(per_node) * dependent_node.node;
       std::fill_n(at, per_node, 0.0);
-      if (const Eigen::Vector3d* line = spin_axis(structure.mesh, follower.node); line && motion >= d)
+      if (const Eigen::Vector3d* line = spin_axis(structure.mesh, dependent_node.node); line && motion >= d)
         at[3 + spin_slot(*line)] = line->dot(axis);
     }
     check(VecRestoreArray(motions.back(), &values));

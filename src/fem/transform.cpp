@@ -63,13 +63,13 @@ void add_arms(const std::vector<RigidArm>& arms, StrainPoint& point) {
 void add_mass(const std::vector<body::MassPoint>& points, const RigidArm& arm, Eigen::Index dofs,
               std::vector<body::RotatingMass>& rotary) {
   body::RotatingForms forms;
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3, dofs);
+  Eigen::MatrixXd rotation = Eigen::MatrixXd::Zero(3, dofs);
   for (const body::MassPoint& point : points) {
     const Eigen::Index d = point.x.size();
     forms.add(point.mass, point.x, point.N.middleCols(arm.point, d), arm.arm);
-    turn.block(d == 2 ? 2 : 0, arm.rotation, 2 * d - 3, 2 * d - 3).setIdentity();
+    rotation.block(d == 2 ? 2 : 0, arm.rotation, 2 * d - 3, 2 * d - 3).setIdentity();
   }
-  if (!forms.empty()) rotary.emplace_back(forms, turn);
+  if (!forms.empty()) rotary.emplace_back(forms, rotation);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ ElementMaps transformed(const ElementMaps& maps, const Eigen::MatrixXd& T, const
     g.L = (g.L * T).eval();
   }
   result.mass = transformed(maps.mass, T);
-  for (body::RotatingMass& mass : result.rotary) mass.turn = (mass.turn * T).eval();
+  for (body::RotatingMass& mass : result.rotary) mass.rotation = (mass.rotation * T).eval();
   for (const RigidArm& arm : arms) add_mass(maps.mass, arm, T.cols(), result.rotary);
   return result;
 }

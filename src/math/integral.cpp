@@ -20,8 +20,8 @@ struct Estimate {
   }
 };
 
-/// Halves until each part is known to `error`, or as short as a jump can be told from; the tolerance does not shrink
-/// with the parts, because only those at corners and jumps are halved often.
+/// Halves until each part is known to `error`, or as short as a jump can be distinguished from; the tolerance does not
+/// shrink with the parts, because only those at corners and jumps are halved often.
 double adaptive(const std::function<double(double)>& f, double from, double to, double error, int halvings) {
   const Estimate whole(f, from, to);
   if (whole.error <= error || halvings == 0) return whole.value;

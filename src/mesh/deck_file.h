@@ -4,8 +4,8 @@
 
 namespace floe::mesh {
 
-/// The last step of every reader of decks: numbers nodes and cells, and turns the nodes of masses and links, which are
-/// numbers of mentions of `mesh`, into nodes. Collective.
+/// The last step of every reader of decks: numbers nodes and cells, and rotates the nodes of masses and links, which
+/// are numbers of mentions of `mesh`, into nodes. Collective.
 /// @throws InputError  as number_labels; no cell at all
 DeckFile deck_file(MPI_Comm comm, const std::string& path, FileMesh mesh, Deck deck, Faults& faults,
                    std::vector<std::string> notices);

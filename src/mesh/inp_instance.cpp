@@ -13,15 +13,16 @@ std::optional<Eigen::Isometry3d> motion_of(const InpBlock& block, InpReading& re
   if (!shift) return std::nullopt;
   for (std::size_t i = 0; i < shift->size(); ++i) motion.translation()[static_cast<Eigen::Index>(i)] = (*shift)[i];
   if (lines.size() == 1) return motion;
-  const auto turn = numbers(lines[1].second, lines[1].first, 7, 7, "two points and an angle", reading.faults);
-  if (!turn) return std::nullopt;
-  const Eigen::Vector3d a((*turn)[0], (*turn)[1], (*turn)[2]), b((*turn)[3], (*turn)[4], (*turn)[5]);
+  const auto rotation = numbers(lines[1].second, lines[1].first, 7, 7, "two points and an angle", reading.faults);
+  if (!rotation) return std::nullopt;
+  const Eigen::Vector3d a((*rotation)[0], (*rotation)[1], (*rotation)[2]),
+      b((*rotation)[3], (*rotation)[4], (*rotation)[5]);
   if (!((b - a).norm() > 0)) {
     reading.faults.add(lines[1].first, "the axis of an *INSTANCE has no length");
     return std::nullopt;
   }
-  const Eigen::AngleAxisd rotation((*turn)[6] * M_PI / 180, (b - a).normalized());
-  return Eigen::Translation3d(a) * rotation * Eigen::Translation3d(-a) * motion;
+  const Eigen::AngleAxisd by((*rotation)[6] * M_PI / 180, (b - a).normalized());
+  return Eigen::Translation3d(a) * by * Eigen::Translation3d(-a) * motion;
 }
 
 }  // namespace

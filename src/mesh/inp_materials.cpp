@@ -122,10 +122,10 @@ void read_orientation(const InpBlock& block, InpReading& reading) {
   if (!cylindrical && orientation.a.cross(orientation.b).norm() <= 1e-12 * orientation.a.norm() * orientation.b.norm())
     faults.add(lines[0].first, "the points of an orientation lie on one line with the origin");
   if (lines.size() == 2) {
-    const auto turn = numbers(lines[1].second, lines[1].first, 1, 2, "an axis (1, 2, 3) and an angle", faults);
-    if (!turn) return;
-    const double axis = turn->front();
-    orientation.angle = turn->size() > 1 ? (*turn)[1] : 0.0;
+    const auto rotation = numbers(lines[1].second, lines[1].first, 1, 2, "an axis (1, 2, 3) and an angle", faults);
+    if (!rotation) return;
+    const double axis = rotation->front();
+    orientation.angle = rotation->size() > 1 ? (*rotation)[1] : 0.0;
     if (axis == 1 || axis == 2 || axis == 3)
       orientation.axis = static_cast<int>(axis);
     else

@@ -177,7 +177,7 @@ std::vector<InpMember> members_of(MPI_Comm comm, const std::vector<InpElementLis
 /// The nodes of surfaces become node sets. Collective.
 void resolve_surfaces(MPI_Comm comm, InpReading& reading);
 
-/// Gives each element of the share the section or mass of its set, and turns elements into cells; the nodes of
+/// Gives each element of the share the section or mass of its set, and converts elements into cells; the nodes of
 /// reading.deck.masses are numbers of mentions. Collective.
 void assign_sections(MPI_Comm comm, InpReading& reading);
 

@@ -18,35 +18,36 @@ std::vector<long long> labels_of(const RawMesh& mesh, const std::vector<PetscInt
       [&](PetscInt node) { return mesh.node_labels[node - mesh.first_node]; });
 }
 
-bool before(const Follower& a, PetscInt node) { return a.node < node; }
+bool before(const DependentNode& a, PetscInt node) { return a.node < node; }
 
-bool follows(const std::vector<Follower>& all, PetscInt node) {
+bool follows(const std::vector<DependentNode>& all, PetscInt node) {
   const auto found = std::lower_bound(all.begin(), all.end(), node, before);
   return found != all.end() && found->node == node;
 }
 
 }  // namespace
 
-PetscInt leader_of(const std::vector<Follower>& followers, PetscInt node) {
-  const auto found = std::lower_bound(followers.begin(), followers.end(), node, before);
-  return found != followers.end() && found->node == node ? found->leader : node;
+PetscInt independent_node_of(const std::vector<DependentNode>& dependent_nodes, PetscInt node) {
+  const auto found = std::lower_bound(dependent_nodes.begin(), dependent_nodes.end(), node, before);
+  return found != dependent_nodes.end() && found->node == node ? found->independent_node : node;
 }
 
-std::vector<Follower> followers(const RawMesh& mesh, const std::vector<RigidLink>& links) {
-  std::vector<Follower> mine;
+std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const std::vector<RigidLink>& links) {
+  std::vector<DependentNode> mine;
   for (const RigidLink& link : links)
     for (PetscInt node : link.nodes)
       if (node != link.reference) mine.push_back({node, link.reference});
-  std::vector<Follower> all = of_all_ranks(mesh.comm, mine);
-  const auto order = [](const Follower& a) { return std::pair(a.node, a.leader); };
-  std::sort(all.begin(), all.end(), [&](const Follower& a, const Follower& b) { return order(a) < order(b); });
-  all.erase(
-      std::unique(all.begin(), all.end(), [&](const Follower& a, const Follower& b) { return order(a) == order(b); }),
-      all.end());
+  std::vector<DependentNode> all = of_all_ranks(mesh.comm, mine);
+  const auto order = [](const DependentNode& a) { return std::pair(a.node, a.independent_node); };
+  std::sort(all.begin(), all.end(),
+            [&](const DependentNode& a, const DependentNode& b) { return order(a) < order(b); });
+  all.erase(std::unique(all.begin(), all.end(),
+                        [&](const DependentNode& a, const DependentNode& b) { return order(a) == order(b); }),
+            all.end());
   std::vector<PetscInt> twice, chained;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i > 0 && all[i].node == all[i - 1].node) twice.push_back(all[i].node);
-    if (follows(all, all[i].leader)) chained.push_back(all[i].leader);
+    if (follows(all, all[i].independent_node)) chained.push_back(all[i].independent_node);
   }
   std::vector<std::string> faults;
   for (long long label : labels_of(mesh, twice))

@@ -107,7 +107,7 @@ std::map<std::string, std::vector<std::pair<long long, Where>>> NasBuild::suppor
     for (const NasGrid& grid : model_.grids)
       if (grid.id >= first && grid.id <= last) all["SPC" + std::to_string(set)].emplace_back(grid.id, where);
   for (const NasGrid& grid : model_.grids)
-    if (frames_.held(grid)) all["PS"].emplace_back(grid.id, grid.where);
+    if (frames_.constrained(grid)) all["PS"].emplace_back(grid.id, grid.where);
   return all;
 }
 

@@ -11,7 +11,7 @@ namespace floe::mesh {
 struct NasGrid {
   long long id, cp, cd;  // axes of its position and of its displacements; 0: basic; -1: that of GRDSET
   Eigen::Vector3d x;
-  std::optional<bool> held;  // in PS; none: as GRDSET gives it
+  std::optional<bool> constrained;  // in PS; none: as GRDSET gives it
   Where where;
 
   static bool holds(std::string_view ps) { return !ps.empty() && ps != "0"; }
@@ -142,7 +142,7 @@ class NasFrames {
   const NasGrid* grid(long long id) const;
   long long displacement_axes(const NasGrid& grid) const { return grid.cd < 0 ? default_cd_ : grid.cd; }
   /// Whether the grid has supports of its own (PS).
-  bool held(const NasGrid& grid) const { return grid.held.value_or(default_held_); }
+  bool constrained(const NasGrid& grid) const { return grid.constrained.value_or(default_constrained_); }
 
  private:
   struct Frame {
@@ -155,7 +155,7 @@ class NasFrames {
   const NasModel& model_;
   Faults& faults_;
   long long default_cp_ = 0, default_cd_ = 0;
-  bool default_held_ = false;
+  bool default_constrained_ = false;
   std::unordered_map<long long, std::size_t> grids_;
   std::map<long long, Frame> frames_;
   std::vector<long long> at_work_;  // axes that refer to each other

@@ -31,28 +31,28 @@ class Joined {
 
 }  // namespace
 
-std::vector<Follower> with_pieces(const std::vector<Follower>& links,
-                                  const std::vector<std::vector<PetscInt>>& pieces) {
+std::vector<DependentNode> with_pieces(const std::vector<DependentNode>& links,
+                                       const std::vector<std::vector<PetscInt>>& pieces) {
   if (pieces.empty()) return links;
   Joined joined;
-  for (const Follower& link : links) joined.join(link.node, link.leader);
+  for (const DependentNode& link : links) joined.join(link.node, link.independent_node);
   for (const std::vector<PetscInt>& piece : pieces)
     for (PetscInt node : piece) joined.join(node, piece.front());
-  std::map<PetscInt, PetscInt> leader;  // of each root: of several references the least
-  for (const Follower& link : links) {
-    const auto [at, fresh] = leader.emplace(joined.root(link.leader), link.leader);
-    if (!fresh) at->second = std::min(at->second, link.leader);
+  std::map<PetscInt, PetscInt> independent_node;  // of each root: of several references the least
+  for (const DependentNode& link : links) {
+    const auto [at, fresh] = independent_node.emplace(joined.root(link.independent_node), link.independent_node);
+    if (!fresh) at->second = std::min(at->second, link.independent_node);
   }
   std::map<PetscInt, PetscInt> all;
   for (const auto& [root, nodes] : joined.sets()) {
-    const auto given = leader.find(root);
-    const PetscInt first = given == leader.end() ? nodes[nodes.size() / 2] : given->second;
+    const auto given = independent_node.find(root);
+    const PetscInt first = given == independent_node.end() ? nodes[nodes.size() / 2] : given->second;
     for (PetscInt node : nodes)
       if (node != first) all.emplace(node, first);
   }
-  std::vector<Follower> followers;
-  for (const auto& [node, first] : all) followers.push_back({node, first});
-  return followers;
+  std::vector<DependentNode> dependent_nodes;
+  for (const auto& [node, first] : all) dependent_nodes.push_back({node, first});
+  return dependent_nodes;
 }
 
 namespace {
@@ -90,7 +90,7 @@ std::vector<HingeLine> joined(std::vector<HingeLine> lines) {
       std::set_union(line.nodes.begin(), line.nodes.end(), other->nodes.begin(), other->nodes.end(),
                      std::back_inserter(both));
       line.nodes = std::move(both);
-      line.held = line.held && other->held;
+      line.constrained = line.constrained && other->constrained;
       other = all.erase(other);
     }
     all.push_back(std::move(line));
@@ -145,37 +145,41 @@ std::set<PetscInt> shared_nodes(const Rim& rim, const std::vector<Rim>& all) {
 }
 
 /// What leads a rim, if not a node of its own choice: more than one where that cannot be.
-std::set<PetscInt> leaders_of(const Rim& rim, const std::vector<Rim>& all, const std::vector<Follower>& followers) {
-  std::set<PetscInt> leaders;
+std::set<PetscInt> independent_nodes_of(const Rim& rim, const std::vector<Rim>& all,
+                                        const std::vector<DependentNode>& dependent_nodes) {
+  std::set<PetscInt> independent_nodes;
   const auto leads = [&](PetscInt node) {
-    return std::any_of(followers.begin(), followers.end(), [&](const Follower& f) { return f.leader == node; });
+    return std::any_of(dependent_nodes.begin(), dependent_nodes.end(),
+                       [&](const DependentNode& f) { return f.independent_node == node; });
   };
   for (PetscInt node : nodes_of(rim))
-    if (const PetscInt leader = leader_of(followers, node); leader != node || leads(node)) leaders.insert(leader);
-  for (PetscInt node : shared_nodes(rim, all)) leaders.insert(leader_of(followers, node));
-  return leaders;
+    if (const PetscInt independent_node = independent_node_of(dependent_nodes, node);
+        independent_node != node || leads(node))
+      independent_nodes.insert(independent_node);
+  for (PetscInt node : shared_nodes(rim, all)) independent_nodes.insert(independent_node_of(dependent_nodes, node));
+  return independent_nodes;
 }
 
 /// Whether no node can lead the rim: two would, or a line of another holder pivots about a node of a rim that cannot.
-bool is_torn(const Rim& rim, const std::vector<Rim>& all, const std::vector<Follower>& followers) {
-  if (leaders_of(rim, all, followers).size() > 1) return true;
+bool is_torn(const Rim& rim, const std::vector<Rim>& all, const std::vector<DependentNode>& dependent_nodes) {
+  if (independent_nodes_of(rim, all, dependent_nodes).size() > 1) return true;
   const auto corner = [](const Rim& of) { return of.size() > 1; };
   if (corner(rim)) return !shared_nodes(rim, all).empty();
   return false;
 }
 
-bool is_held(const Rim& rim) {
-  return std::all_of(rim.begin(), rim.end(), [](const HingeLine& line) { return line.held; });
+bool is_constrained(const Rim& rim) {
+  return std::all_of(rim.begin(), rim.end(), [](const HingeLine& line) { return line.constrained; });
 }
 
 /// Without those that the ground holds and that cannot be lines beside others.
-std::vector<Rim> without_torn(const std::vector<Rim>& rims, const std::vector<Follower>& followers,
+std::vector<Rim> without_torn(const std::vector<Rim>& rims, const std::vector<DependentNode>& dependent_nodes,
                               std::vector<std::string>* left_out) {
-  const auto torn = [&](const Rim& rim) { return is_torn(rim, rims, followers); };
+  const auto torn = [&](const Rim& rim) { return is_torn(rim, rims, dependent_nodes); };
   if (std::none_of(rims.begin(), rims.end(), torn)) return rims;
   std::vector<Rim> kept;
   for (const Rim& rim : rims)
-    if (!is_held(rim) || leaders_of(rim, rims, followers).empty())
+    if (!is_constrained(rim) || independent_nodes_of(rim, rims, dependent_nodes).empty())
       kept.push_back(rim);
     else if (left_out)
       for (const HingeLine& line : rim) left_out->push_back(line.where);
@@ -183,7 +187,7 @@ std::vector<Rim> without_torn(const std::vector<Rim>& rims, const std::vector<Fo
 }
 
 /// Of a rim that nothing else leads.
-PetscInt own_leader(const Rim& rim, const std::vector<PetscInt>& preferred) {
+PetscInt own_independent_node(const Rim& rim, const std::vector<PetscInt>& preferred) {
   std::vector<PetscInt> candidates;
   for (PetscInt node : nodes_of(rim))
     if (rim.size() == 1 || lines_through(rim, node) > 1) candidates.push_back(node);
@@ -194,30 +198,32 @@ PetscInt own_leader(const Rim& rim, const std::vector<PetscInt>& preferred) {
 
 }  // namespace
 
-std::vector<Follower> with_lines(const std::vector<Follower>& followers, std::vector<HingeLine> lines,
-                                 const std::vector<PetscInt>& preferred, std::vector<std::string>* left_out) {
-  std::map<PetscInt, Follower> all;
-  for (const Follower& f : followers) all.emplace(f.node, f);
-  const std::vector<Rim> rims = without_torn(rims_of(joined(std::move(lines))), followers, left_out);
+std::vector<DependentNode> with_lines(const std::vector<DependentNode>& dependent_nodes, std::vector<HingeLine> lines,
+                                      const std::vector<PetscInt>& preferred, std::vector<std::string>* left_out) {
+  std::map<PetscInt, DependentNode> all;
+  for (const DependentNode& f : dependent_nodes) all.emplace(f.node, f);
+  const std::vector<Rim> rims = without_torn(rims_of(joined(std::move(lines))), dependent_nodes, left_out);
   std::vector<std::string> faults;
   for (const Rim& rim : rims) {
-    if (is_torn(rim, rims, followers)) {
+    if (is_torn(rim, rims, dependent_nodes)) {
       for (const HingeLine& line : rim)
         faults.push_back(line.where +
                          ": its edge has nodes in common with two others of joints or links; expected one such node at "
                          "most, or edges: rigid or mean");
       continue;
     }
-    const std::set<PetscInt> leaders = leaders_of(rim, rims, followers);
-    const PetscInt leader = leaders.empty() ? own_leader(rim, preferred) : *leaders.begin();
+    const std::set<PetscInt> independent_nodes = independent_nodes_of(rim, rims, dependent_nodes);
+    const PetscInt independent_node =
+        independent_nodes.empty() ? own_independent_node(rim, preferred) : *independent_nodes.begin();
     for (const HingeLine& line : rim)
       for (PetscInt node : line.nodes)
-        if (node != leader && leader_of(followers, node) == node)
-          all.emplace(node, lines_through(rim, node) > 1 ? Follower{node, leader} : Follower{node, leader, line.axis});
+        if (node != independent_node && independent_node_of(dependent_nodes, node) == node)
+          all.emplace(node, lines_through(rim, node) > 1 ? DependentNode{node, independent_node}
+                                                         : DependentNode{node, independent_node, line.axis});
   }
   if (!faults.empty()) throw InputError(faults);
-  std::vector<Follower> ascending;
-  for (const auto& [node, follower] : all) ascending.push_back(follower);
+  std::vector<DependentNode> ascending;
+  for (const auto& [node, dependent_node] : all) ascending.push_back(dependent_node);
   return ascending;
 }
 

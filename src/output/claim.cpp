@@ -111,7 +111,7 @@ bool gone(const ordered_json& who) {
 }
 
 /// Takes the place of a lock whose holder is gone. @return  whether it is ours now; else it has changed
-bool take_over(const fs::path& lock, const fs::path& mine) {
+bool commit_step(const fs::path& lock, const fs::path& mine) {
   const int file = open(lock.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return false;
   struct stat opened {
@@ -179,7 +179,7 @@ Claim claim_at(const fs::path& lock, const std::string& what) {
       who = holder(lock);
       if (who && of_this_machine(*who) && (*who)["pid"] == me["pid"] && (*who)["began"] == me["began"]) return {};
       if (who && !gone(*who)) refuse(lock, what, who);
-      taken = who && take_over(lock, mine);
+      taken = who && commit_step(lock, mine);
     }
     if (taken) {
       Claim claim;

@@ -187,9 +187,10 @@ Eigen::Matrix3Xd displacements(const MovingBody& body, const MotionRow& row) {
     const double* dofs = row.U.data() + body.columns[i];
     const Eigen::Vector3d arm = body.arms.col(i);
     if (body.width == 6 && body.dofs_in_world) {
-      const Eigen::Vector3d turn(dofs[3], dofs[4], dofs[5]), arm_there = body.axes * arm;
-      const Eigen::Matrix3d Q = turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
-                                                : Eigen::Matrix3d::Identity();
+      const Eigen::Vector3d rotation(dofs[3], dofs[4], dofs[5]), arm_there = body.axes * arm;
+      const Eigen::Matrix3d Q = rotation.norm() > 0
+                                    ? Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix()
+                                    : Eigen::Matrix3d::Identity();
       u.col(i) =
           Eigen::Vector3d(dofs[0], dofs[1], dofs[2]) + Q * arm_there - body.place - body.axes * body.positions.col(i);
     } else if (body.width == 6)

@@ -30,12 +30,12 @@ reduction::Attachment unit_load(const PlannedBody& body, const Anchor& place, in
   const int n = body.structure.dofs_per_node;
   reduction::Attachment attachment{where + "." + component_name(n, component, true), fem::field(body.structure), {}};
   petsc::Values values(attachment.load);
-  for (const Lever& lever : place.moved_by()) {
-    const PetscInt dof = n * lever.node;
+  for (const AveragingWeight& weight : place.moved_by()) {
+    const PetscInt dof = n * weight.node;
     if (dof < values.first || dof >= values.end) continue;
-    if (n < 6 || component < 3) values[dof + component] = lever.share;
+    if (n < 6 || component < 3) values[dof + component] = weight.share;
     if (n < 6) continue;
-    const Eigen::Vector3d moment = component < 3 ? lever.arm.row(component) : lever.turn.row(component - 3);
+    const Eigen::Vector3d moment = component < 3 ? weight.arm.row(component) : weight.rotation.row(component - 3);
     for (int i = 0; i < 3; ++i) values[dof + 3 + i] = moment[i];
   }
   return attachment;
@@ -49,17 +49,17 @@ reduction::Attachment unit_displacement(const PlannedBody& body, PetscInt dof, c
   return attachment;
 }
 
-/// The nodes of a place as one rigid piece, moved along or turned about an axis of the frame through their mean.
+/// The nodes of a place as one rigid piece, moved along or rotated about an axis of the frame through their mean.
 reduction::Attachment rigid_displacement(const PlannedBody& body, const Anchor& place, int component,
                                          const std::string& where) {
   const int n = body.structure.dofs_per_node, d = body.structure.dimension();
   reduction::Attachment attachment{where + "." + component_name(n, component, false), {}, fem::field(body.structure)};
   petsc::Values values(attachment.moved);
-  for (const Lever& lever : place.moved_by()) {
-    const PetscInt node = lever.node;
+  for (const AveragingWeight& weight : place.moved_by()) {
+    const PetscInt node = weight.node;
     if (n * node < values.first || n * node >= values.end) continue;
     if (const Eigen::Vector3d* line = fem::spin_axis(
-            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own turn alone
+            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own rotation alone
       if (component >= d) values[n * node + 3 + fem::spin_slot(*line)] = (*line)[component - 3];
       continue;
     }
@@ -74,7 +74,7 @@ reduction::Attachment rigid_displacement(const PlannedBody& body, const Anchor& 
   return attachment;
 }
 
-/// Whether the scene turns the body by a moment at a place of one of its joints: a hinge that is driven.
+/// Whether the scene rotates the body by a moment at a place of one of its joints: a hinge that is driven.
 bool at_a_joint(const Plan& plan, const Anchor& load) {
   for (const auto& places : plan.joints)
     for (const Anchor& place : places)
@@ -86,18 +86,19 @@ bool contains(const fem::Conditions& dofs, PetscInt dof) {
   return std::find(dofs.begin(), dofs.end(), dof) != dofs.end();
 }
 
-int rigid_motions_left(const PlannedBody& body, fem::Conditions held) {
-  std::sort(held.begin(), held.end());
-  return static_cast<int>(fem::holding(body.structure, body.frame, std::move(held)).left.cols());
+int rigid_motions_left(const PlannedBody& body, fem::Conditions constrained) {
+  std::sort(constrained.begin(), constrained.end());
+  return static_cast<int>(fem::holding(body.structure, body.frame, std::move(constrained)).left.cols());
 }
 
-/// Held displacements that the frame's own conditions and held rotations determine already, if the frame turns.
+/// Constrained displacements that the frame's own conditions and constrained rotations determine already, if the frame
+/// rotates.
 fem::Conditions repeated_displacements(const PlannedBody& body) {
-  const fem::Conditions& held = body.held;
+  const fem::Conditions& constrained = body.constrained;
   const PetscInt a = body.frame_places[0].node, b = body.frame_places[1].node;
-  if (body.spec.frame.kind != FrameSpec::Kind::pinned || held.size() < 3) return {};
-  if (contains(held, 3 * a + 1) && contains(held, 3 * b + 1)) return {};
-  fem::Conditions ordered = held;
+  if (body.spec.frame.kind != FrameSpec::Kind::pinned || constrained.size() < 3) return {};
+  if (contains(constrained, 3 * a + 1) && contains(constrained, 3 * b + 1)) return {};
+  fem::Conditions ordered = constrained;
   const auto rank = [&](PetscInt dof) { return contains(body.frame.conditions, dof) ? 0 : dof % 3 == 2 ? 1 : 2; };
   std::stable_sort(ordered.begin(), ordered.end(), [&](PetscInt i, PetscInt j) { return rank(i) < rank(j); });
   fem::Conditions kept, repeated;
@@ -114,9 +115,9 @@ fem::Conditions repeated_displacements(const PlannedBody& body) {
 
 /// Whether the rest holds the body as well as all.
 bool rest_holds(const PlannedBody& body, PetscInt dof) {
-  fem::Conditions rest = body.held;
+  fem::Conditions rest = body.constrained;
   rest.erase(std::remove(rest.begin(), rest.end(), dof), rest.end());
-  return rigid_motions_left(body, rest) == rigid_motions_left(body, body.held);
+  return rigid_motions_left(body, rest) == rigid_motions_left(body, body.constrained);
 }
 
 void add_constraint_modes(const Plan& plan, int index, Attachments& all) {
@@ -139,7 +140,7 @@ void add_constraint_modes(const Plan& plan, int index, Attachments& all) {
 struct Support {
   int joint;
   const Anchor* place;
-  std::vector<int> components;  // of its nodes that are held
+  std::vector<int> components;  // of its nodes that are constrained
   bool at_frame;                // the frame is clamped there
 };
 
@@ -154,10 +155,10 @@ std::vector<Support> supports_of(const Plan& plan, int index) {
     if (place.body != index || place.nodes.empty()) continue;
     Support support{static_cast<int>(j), &place, {}, false};
     for (int c = 0; c < 6; ++c)
-      if (std::binary_search(body.held.begin(), body.held.end(),
+      if (std::binary_search(body.constrained.begin(), body.constrained.end(),
                              6 * (place.line ? place.node : place.nodes.front()) + c))
         support.components.push_back(c);
-    // nodes whose displacements are held also hold the turns of their piece: about a line all but one
+    // nodes whose displacements are constrained also hold the rotations of their piece: about a line all but one
     if (place.nodes.size() > 1 && !place.line && support.components == std::vector<int>{0, 1, 2})
       support.components = {0, 1, 2, 3, 4};
     support.at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
@@ -167,12 +168,13 @@ std::vector<Support> supports_of(const Plan& plan, int index) {
   return all;
 }
 
-/// Without what is not held: constraint modes displace held dofs alone.
-/// @param small  displacements of no more are none: a line's nodes, turned about it
-void keep_held(const PlannedBody& body, Vec moved, double small) {
+/// Without what is not constrained: constraint modes displace constrained dofs alone.
+/// @param small  displacements of no more are none: a line's nodes, rotated about it
+void keep_constrained(const PlannedBody& body, Vec moved, double small) {
   petsc::Values values(moved);
   for (PetscInt dof = values.first; dof < values.end; ++dof)
-    if (!std::binary_search(body.held.begin(), body.held.end(), dof) || (dof % 6 < 3 && std::abs(values[dof]) <= small))
+    if (!std::binary_search(body.constrained.begin(), body.constrained.end(), dof) ||
+        (dof % 6 < 3 && std::abs(values[dof]) <= small))
       values[dof] = 0;
 }
 
@@ -180,19 +182,19 @@ void add_spatial_constraint_modes(const Plan& plan, int index, Attachments& all)
   const PlannedBody& body = plan.bodies[index];
   const bool still = has_fixed_frame(plan, index);
   const std::vector<Support> supports = supports_of(plan, index);
-  std::size_t held = 0;
-  for (const Support& support : supports) held += support.components.size();
-  const int holds = 6 - rigid_motions_left(body, body.held);
+  std::size_t constrained = 0;
+  for (const Support& support : supports) constrained += support.components.size();
+  const int holds = 6 - rigid_motions_left(body, body.constrained);
   for (const Support& support : supports) {
     const Joint& joint = plan.scene.joints[support.joint];
     const bool driven = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
-    if (support.at_frame || (still ? !driven : static_cast<int>(held) <= holds)) continue;
-    const bool turns = support.place->nodes.size() > 1;
+    if (support.at_frame || (still ? !driven : static_cast<int>(constrained) <= holds)) continue;
+    const bool rotations = support.place->nodes.size() > 1;
     for (int c = 0; c < 6; ++c) {
       const bool holds_it = std::count(support.components.begin(), support.components.end(), c) > 0;
-      if (!holds_it && !(turns && c >= 3)) continue;
+      if (!holds_it && !(rotations && c >= 3)) continue;
       all.push_back(rigid_displacement(body, *support.place, c, joint.name));
-      keep_held(body, all.back().moved, c < 3 ? 0 : 1e-12 * plan.extent);
+      keep_constrained(body, all.back().moved, c < 3 ? 0 : 1e-12 * plan.extent);
     }
   }
 }
@@ -228,9 +230,10 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
   const PlannedBody& body = plan.bodies[index];
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Joint& joint = plan.scene.joints[j];
-    const Anchor* held_there = held_place(plan, j);
-    const bool held = body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : plan.joint_held[j] != 0;
-    if (held_there && held_there->body == index && held && !of_frame(body)) continue;
+    const Anchor* constrained_there = constrained_place(plan, j);
+    const bool constrained =
+        body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : plan.joint_constrained[j] != 0;
+    if (constrained_there && constrained_there->body == index && constrained && !of_frame(body)) continue;
     const bool moment = carries_moment(joint, body.structure.dimension());
     for (const int side : {0, 1})
       if (!plan.interfaces.empty() && plan.joints[j][side].body == index)

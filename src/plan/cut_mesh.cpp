@@ -97,14 +97,15 @@ std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
     for (int i = 0; i < mesh::corner_count(cell.kind); ++i) mean += s[cell.nodes[i]] / mesh::corner_count(cell.kind);
     slice[c] = static_cast<int>(std::upper_bound(cuts.begin(), cuts.end(), mean) - cuts.begin());
   }
-  std::vector<int> leader(mesh.positions.size());  // a rigid region is one node
-  std::iota(leader.begin(), leader.end(), 0);
-  for (const mesh::Follower& link : whole.links) leader[link.node] = static_cast<int>(link.leader);
+  std::vector<int> independent_node(mesh.positions.size());  // a rigid region is one node
+  std::iota(independent_node.begin(), independent_node.end(), 0);
+  for (const mesh::DependentNode& link : whole.links)
+    independent_node[link.node] = static_cast<int>(link.independent_node);
   Sets sets(mesh.cells.size());
   std::map<std::pair<int, int>, int> first;  // of a slice and a node
   for (std::size_t c = 0; c < slice.size(); ++c)
     for (int i = 0; slice[c] >= 0 && i < mesh::node_count(mesh.cells[c].kind); ++i) {
-      const int node = leader[mesh.cells[c].nodes[i]];
+      const int node = independent_node[mesh.cells[c].nodes[i]];
       const auto [at, fresh] = first.emplace(std::pair(slice[c], node), static_cast<int>(c));
       if (!fresh) sets.join(at->second, static_cast<int>(c));
     }
@@ -137,25 +138,26 @@ std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
   return both;
 }
 
-/// Each rigid region belongs to the first piece that has all of it, with a leader that has no elements.
+/// Each rigid region belongs to the first piece that has all of it, with an independent node that has no elements.
 /// @return  of each link its piece
 std::vector<int> pieces_of_links(const Body& body, const WholeMesh& whole, std::vector<std::vector<int>>& of_nodes) {
-  std::map<PetscInt, std::vector<int>> shared;  // by leader
-  for (const mesh::Follower& link : whole.links) {
-    const auto [at, fresh] = shared.emplace(link.leader, of_nodes[link.node]);
-    if (fresh && !of_nodes[link.leader].empty()) at->second = common(at->second, of_nodes[link.leader]);
+  std::map<PetscInt, std::vector<int>> shared;  // by independent node
+  for (const mesh::DependentNode& link : whole.links) {
+    const auto [at, fresh] = shared.emplace(link.independent_node, of_nodes[link.node]);
+    if (fresh && !of_nodes[link.independent_node].empty())
+      at->second = common(at->second, of_nodes[link.independent_node]);
     if (!fresh) at->second = common(at->second, of_nodes[link.node]);
   }
-  for (auto& [leader, pieces] : shared) {
+  for (auto& [independent_node, pieces] : shared) {
     if (pieces.empty())
       throw InputError(
           fmt::format("{}: the rigid link of node {} of body {} lies in several of its {} frames; expected "
                       "fewer frames, which do not cut it",
-                      frames_of(body), whole.mesh.node_labels[leader], body.name, body.frames));
-    if (of_nodes[leader].empty()) of_nodes[leader] = {pieces.front()};
+                      frames_of(body), whole.mesh.node_labels[independent_node], body.name, body.frames));
+    if (of_nodes[independent_node].empty()) of_nodes[independent_node] = {pieces.front()};
   }
   std::vector<int> all;
-  for (const mesh::Follower& link : whole.links) all.push_back(shared.at(link.leader).front());
+  for (const mesh::DependentNode& link : whole.links) all.push_back(shared.at(link.independent_node).front());
   return all;
 }
 
@@ -217,7 +219,7 @@ CutMesh cut_mesh(const Body& body, MPI_Comm comm) {
   found.of_nodes = pieces_of_nodes(mesh, of_elements);
   const std::vector<std::vector<int>> by_elements = found.of_nodes;
   const std::vector<int> of_links = pieces_of_links(body, found.whole, found.of_nodes);
-  for (std::size_t c = 0; c < of_elements.size(); ++c)  // point masses, of links' leaders too
+  for (std::size_t c = 0; c < of_elements.size(); ++c)  // point masses, of links' independent nodes too
     if (of_elements[c] < 0) of_elements[c] = found.of_nodes[mesh.cells[c].nodes[0]].front();
   std::vector<MeshPiece> pieces(static_cast<std::size_t>(count));
   for (std::size_t node = 0; node < by_elements.size(); ++node)

@@ -12,7 +12,7 @@ using namespace scene;
 /// A mesh as the scene gives it, all of it on every rank (first_node = first_cell = 0), with its rigid links.
 struct WholeMesh {
   mesh::RawMesh mesh;
-  std::vector<mesh::Follower> links;
+  std::vector<mesh::DependentNode> links;
 };
 /// @throws InputError  Collective.
 WholeMesh whole_mesh(const Body& body, MPI_Comm comm);
@@ -22,7 +22,7 @@ mesh::RawMesh on_every_rank(const mesh::RawMesh& mesh);
 
 /// This rank's share of a piece; nodes keep their order. Its cuts become places.
 /// @param links  of the whole mesh; receives those of the piece
-mesh::RawMesh piece_of(const mesh::RawMesh& whole, const MeshPiece& piece, std::vector<mesh::Follower>& links);
+mesh::RawMesh piece_of(const mesh::RawMesh& whole, const MeshPiece& piece, std::vector<mesh::DependentNode>& links);
 
 /// A mesh cut into pieces by planes across its longest extent: along the longer edge of a plate, else along the mesh
 /// axis along which it is longest. Planes lie at the nodes nearest to equal divisions; elements go where their corners'

@@ -50,7 +50,7 @@ fem::ShellMaterial shell_material(const mesh::Material& m) {
   }
 }
 
-/// Local x of an orientation, turned.
+/// Local x of an orientation, rotated.
 Eigen::Vector3d axis_of(const mesh::Orientation& o) {
   Eigen::Matrix3d axes;
   axes.col(0) = o.a.normalized();

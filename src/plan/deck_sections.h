@@ -24,7 +24,8 @@ struct DeckSections {
 /// Sections of a deck's parts, as floe's elements take them. Section axes: y is the deck's 1-direction, z its
 /// 2-direction.
 ///
-/// Shells: OFFSET moves the middle the other way; plies from below; all plies of a section are turned against one axis.
+/// Shells: OFFSET moves the middle the other way; plies from below; all plies of a section are rotated against one
+/// axis.
 /// @throws InputError  one line a fault: material missing or without elasticity, unsymmetric box and I profiles, plies
 ///                     of different orientations
 DeckSections deck_sections(const mesh::DeckFile& file);

@@ -19,9 +19,9 @@ bool at_rest(const PlannedBody& body, const body::PlaceMap& map) {
 }
 
 /// Whether a probe measures what holds the body: then its frame moves, and all of this has constraint equations.
-bool is_held_by_measured(const Plan& plan, int b) {
+bool is_constrained_by_measured(const Plan& plan, int b) {
   for (std::size_t j = 0; j < plan.joints.size(); ++j)
-    if (const Anchor* place = held_place(plan, j);
+    if (const Anchor* place = constrained_place(plan, j);
         place && place->body == b && is_measured(plan.scene, plan.scene.joints[j].name))
       return true;
   return false;
@@ -31,7 +31,7 @@ bool is_held_by_measured(const Plan& plan, int b) {
 
 int clamp_of(const Plan& plan, int b) {
   const PlannedBody& body = plan.bodies[b];
-  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || is_held_by_measured(plan, b)) return -1;
+  if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || is_constrained_by_measured(plan, b)) return -1;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const auto& [first, second] = plan.joints[j];
     const Joint& joint = plan.scene.joints[j];
@@ -50,19 +50,19 @@ bool has_fixed_frame(const Plan& plan, int b) {
   const PlannedBody& body = plan.bodies[b];
   const fem::Conditions& conditions = body.frame.conditions;
   if (body.frame.kind != fem::ReferenceFrame::Kind::clamped || body.spec.rigid || body.spec.reduced) return false;
-  if (is_held_by_measured(plan, b)) return false;
+  if (is_constrained_by_measured(plan, b)) return false;
   bool firm = false;
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
     const Joint& joint = plan.scene.joints[j];
-    const Anchor* place = held_place(plan, j);
-    if (!place || place->body != b || !plan.joint_held[j]) continue;
+    const Anchor* place = constrained_place(plan, j);
+    if (!place || place->body != b || !plan.joint_constrained[j]) continue;
     if (std::none_of(conditions.begin(), conditions.end(), [&](PetscInt dof) { return place->moved_by(dof / 6); }))
       continue;
     const bool drives = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;
     if (drives || is_switched(plan.scene, joint.name)) return false;
     firm = true;
   }
-  return firm && std::includes(body.held.begin(), body.held.end(), conditions.begin(), conditions.end());
+  return firm && std::includes(body.constrained.begin(), body.constrained.end(), conditions.begin(), conditions.end());
 }
 
 }  // namespace floe::plan

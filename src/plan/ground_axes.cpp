@@ -86,9 +86,9 @@ std::vector<Vector3d> ground_axes(const Scene& scene, const Body& body, const Sp
     const bool in_part = joint.kind == Kind::revolute || joint.kind == Kind::cylindrical ||
                          joint.kind == Kind::prismatic || joint.kind == Kind::planar;
     if (!in_part || joint.first.ground() == joint.second.ground()) continue;
-    const Place& held = joint.first.ground() ? joint.second : joint.first;
-    if (held.body != body.name) continue;
-    const Anchor place = spatial_place(body, mesh.structure, mesh.places, held);
+    const Place& constrained = joint.first.ground() ? joint.second : joint.first;
+    if (constrained.body != body.name) continue;
+    const Anchor place = spatial_place(body, mesh.structure, mesh.places, constrained);
     const std::optional<Vector3d> line = line_of(mesh.structure.mesh, place);
     if (!joint.axis_given && !line) continue;
     const Vector3d axis = joint.axis_given ? to_mesh * vector(joint.axis).normalized() : *line;

@@ -102,8 +102,8 @@ void report_left_out(const Scene& scene, const std::vector<std::string>& left_ou
   if (!faults.empty()) throw InputError(faults);
 }
 
-std::vector<PetscInt> held_elsewhere(const Scene& scene, const Body& body,
-                                     const std::map<std::string, std::vector<PetscInt>>& places) {
+std::vector<PetscInt> constrained_elsewhere(const Scene& scene, const Body& body,
+                                            const std::map<std::string, std::vector<PetscInt>>& places) {
   using Kind = Joint::Kind;
   std::vector<PetscInt> nodes;
   const auto add = [&](const Place& place) {

@@ -6,13 +6,15 @@
 
 namespace floe::plan {
 
-std::vector<Lever> Anchor::moved_by() const {
-  return levers.empty() ? std::vector<Lever>{{node, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}} : levers;
+std::vector<AveragingWeight> Anchor::moved_by() const {
+  return averaging_weights.empty()
+             ? std::vector<AveragingWeight>{{node, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}}
+             : averaging_weights;
 }
 
 bool Anchor::moved_by(PetscInt other) const {
-  const std::vector<Lever> all = moved_by();
-  return std::any_of(all.begin(), all.end(), [&](const Lever& lever) { return lever.node == other; });
+  const std::vector<AveragingWeight> all = moved_by();
+  return std::any_of(all.begin(), all.end(), [&](const AveragingWeight& weight) { return weight.node == other; });
 }
 
 std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load) {
@@ -21,8 +23,9 @@ std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load) {
 }
 
 bool share_a_node(const Anchor& one, const Anchor& other) {
-  const std::vector<Lever> levers = one.moved_by();
-  return std::any_of(levers.begin(), levers.end(), [&](const Lever& lever) { return other.moved_by(lever.node); });
+  const std::vector<AveragingWeight> averaging_weights = one.moved_by();
+  return std::any_of(averaging_weights.begin(), averaging_weights.end(),
+                     [&](const AveragingWeight& weight) { return other.moved_by(weight.node); });
 }
 
 namespace {
@@ -30,24 +33,24 @@ namespace {
 /// The joint to the ground that holds a node of the place; empty if none does.
 std::string joint_that_holds(const Plan& plan, int index, const Anchor& place) {
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {
-    const Anchor* held = held_place(plan, j);
-    if (!held || plan.scene.joints[j].kind == Joint::Kind::spring) continue;
-    if (held->body == index && share_a_node(*held, place)) return plan.scene.joints[j].name;
+    const Anchor* constrained = constrained_place(plan, j);
+    if (!constrained || plan.scene.joints[j].kind == Joint::Kind::spring) continue;
+    if (constrained->body == index && share_a_node(*constrained, place)) return plan.scene.joints[j].name;
   }
   return "";
 }
 
 }  // namespace
 
-fem::Conditions held_by_modes(const PlannedBody& body) {
-  fem::Conditions held = body.held;
+fem::Conditions constrained_by_modes(const PlannedBody& body) {
+  fem::Conditions constrained = body.constrained;
   const int n = body.structure.dofs_per_node;
   for (const Anchor& place : body.interface)
-    for (const Lever& lever : place.moved_by())
-      for (int d = 0; d < n; ++d) held.push_back(n * lever.node + d);
-  std::sort(held.begin(), held.end());
-  held.erase(std::unique(held.begin(), held.end()), held.end());
-  return held;
+    for (const AveragingWeight& weight : place.moved_by())
+      for (int d = 0; d < n; ++d) constrained.push_back(n * weight.node + d);
+  std::sort(constrained.begin(), constrained.end());
+  constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
+  return constrained;
 }
 
 void check_interface(const Plan& plan, int index) {

@@ -59,25 +59,25 @@ MatrixXd factors(const std::vector<std::array<Anchor, 2>>& pairs, const VectorXd
 
 Anchor Interface::sum(int side, Index vector) const {
   Anchor sum = pairs.front()[side];
-  sum.nodes.clear(), sum.levers.clear(), sum.x.setZero(), sum.line = false;
+  sum.nodes.clear(), sum.averaging_weights.clear(), sum.x.setZero(), sum.line = false;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const double factor = factors(static_cast<Index>(i), vector);
     const Anchor& node = pairs[i][side];
     sum.nodes.push_back(node.nodes.front());
     sum.factors.push_back(factor);
     sum.x += factor * node.x;
-    for (const Lever& own : node.levers) {
-      auto at = std::find_if(sum.levers.begin(), sum.levers.end(),
-                             [&](const Lever& lever) { return lever.node == own.node; });
-      if (at == sum.levers.end()) {
-        sum.levers.push_back({own.node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
-        at = sum.levers.end() - 1;
+    for (const AveragingWeight& own : node.averaging_weights) {
+      auto at = std::find_if(sum.averaging_weights.begin(), sum.averaging_weights.end(),
+                             [&](const AveragingWeight& weight) { return weight.node == own.node; });
+      if (at == sum.averaging_weights.end()) {
+        sum.averaging_weights.push_back({own.node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
+        at = sum.averaging_weights.end() - 1;
       }
       at->share += factor * own.share, at->arm += factor * own.arm;
-      at->turn += factor * own.turn, at->lead += factor * own.lead;
+      at->rotation += factor * own.rotation, at->lead += factor * own.lead;
     }
   }
-  sum.node = sum.levers.front().node;
+  sum.node = sum.averaging_weights.front().node;
   return sum;
 }
 

@@ -37,7 +37,7 @@ Eigen::Isometry3d frame_in_mesh(const PlannedBody& body) {
   if (body.structure.dimension() == 3) {
     frame.linear() = body.axes, frame.translation() = body.origin;
   } else {
-    frame.linear().topLeftCorner<2, 2>() = turn(body.frame_angle);
+    frame.linear().topLeftCorner<2, 2>() = rotation_matrix(body.frame_angle);
     frame.translation().head<2>() = body.frame_origin;
   }
   return frame;

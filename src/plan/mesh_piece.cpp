@@ -46,14 +46,14 @@ RawMesh on_every_rank(const RawMesh& mesh) {
   return whole;
 }
 
-RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh::Follower>& links) {
+RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh::DependentNode>& links) {
   const std::vector<int>& of_elements = *piece.of_elements;
   if (of_elements.size() != whole.cells.size()) throw InputError(whole.source + ": has changed while it was read");
-  std::vector<mesh::Follower> own;
+  std::vector<mesh::DependentNode> own;
   for (int link : piece.links) own.push_back(links[link]);
   std::vector<PetscInt> number(whole.positions.size(), 0), nodes, cells;  // in the piece; in the whole mesh
   const auto use = [&](PetscInt node) { number[node] = 1; };
-  for (const mesh::Follower& link : own) use(link.node), use(link.leader);
+  for (const mesh::DependentNode& link : own) use(link.node), use(link.independent_node);
   for (std::size_t c = 0; c < of_elements.size(); ++c) {
     if (of_elements[c] != piece.number) continue;
     cells.push_back(static_cast<PetscInt>(c));
@@ -92,7 +92,8 @@ RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh:
   };
   for (std::size_t p = 0; p < whole.places.size(); ++p) add_place(whole.places[p], whole.place_nodes[p]);
   for (const auto& [name, of_whole] : piece.cuts) add_place(name, of_whole);
-  for (mesh::Follower& link : own) link.node = number[link.node], link.leader = number[link.leader];
+  for (mesh::DependentNode& link : own)
+    link.node = number[link.node], link.independent_node = number[link.independent_node];
   links = std::move(own);
   return mesh;
 }

@@ -24,7 +24,7 @@ struct Samples {
 
 Samples undeformed(const PlannedBody& body) {
   const fem::Mesh& mesh = body.structure.mesh;
-  const Eigen::Matrix2d A = turn(body.frame_angle);
+  const Eigen::Matrix2d A = rotation_matrix(body.frame_angle);
   Samples axis;
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i)
     axis.values.push_back(body.frame_origin + A * mesh.positions[i].head<2>());
@@ -63,7 +63,8 @@ Samples sampled(const PlannedBody& body, const Samples& axis, const Formulas& fo
         CellEnds& slopes = field.slopes.emplace_back();
         const double h = 1e-4 * (mesh.positions[nodes[1]] - mesh.positions[nodes[0]]).norm();
         for (int i = 0; i < 2; ++i) {
-          const Eigen::Vector2d X = body.frame_origin + turn(body.frame_angle) * mesh.positions[nodes[i]].head<2>();
+          const Eigen::Vector2d X =
+              body.frame_origin + rotation_matrix(body.frame_angle) * mesh.positions[nodes[i]].head<2>();
           const double inward = i == 0 ? 1 : -1;
           slopes[i] = inward * slope_at(X, inward * axis.slopes[c][i], h, value);
         }
@@ -110,23 +111,25 @@ struct DeformedBody {
       for (int i = 0; i < 2; ++i) axis.slopes[c][i] += undeformed.slopes[c][i];
   }
   Eigen::Vector2d rest(PetscInt node) const { return body.structure.mesh.positions[node].head<2>(); }
-  Eigen::Vector2d along(std::size_t cell) const { return turn(-body.frame_angle) * undeformed.slopes[cell][0]; }
+  Eigen::Vector2d along(std::size_t cell) const {
+    return rotation_matrix(-body.frame_angle) * undeformed.slopes[cell][0];
+  }
 
   petsc::VecHandle displacement(const Eigen::Vector3d& pose) const {
-    const Eigen::Matrix2d At = turn(-pose[2]);
+    const Eigen::Matrix2d At = rotation_matrix(-pose[2]);
     return nodal(
         body.structure, [&](PetscInt i) { return Eigen::Vector2d(At * (axis.values[i] - pose.head<2>()) - rest(i)); },
         [&](std::size_t c, int i) { return cross(along(c), At * axis.slopes[c][i]); });
   }
-  /// J (x + u'): the body turns about the frame's origin at 1 rad/s.
+  /// J (x + u'): the body rotates about the frame's origin at 1 rad/s.
   petsc::VecHandle rotation(const Eigen::Vector3d& pose) const {
-    const Eigen::Matrix2d At = turn(-pose[2]);
+    const Eigen::Matrix2d At = rotation_matrix(-pose[2]);
     return nodal(
         body.structure, [&](PetscInt i) { return across(Eigen::Vector2d(At * (axis.values[i] - pose.head<2>()))); },
         [&](std::size_t c, int i) { return along(c).dot(At * axis.slopes[c][i]); });
   }
   petsc::VecHandle rate(const Eigen::Vector3d& pose, const Samples& w) const {
-    const Eigen::Matrix2d At = turn(-pose[2]);
+    const Eigen::Matrix2d At = rotation_matrix(-pose[2]);
     return nodal(
         body.structure, [&](PetscInt i) { return Eigen::Vector2d(At * w.values[i]); },
         [&](std::size_t c, int i) { return cross(along(c), At * w.slopes[c][i]); });
@@ -152,7 +155,7 @@ RigidPart rigid_part(const fem::ReferenceFrame& frame, Vec rotation, Vec field) 
 
 /// Where the deformed body lies on the whole: the rotation that takes the undeformed nodes nearest to the deformed
 /// ones.
-double mean_turn(const DeformedBody& deformed) {
+double mean_rotation(const DeformedBody& deformed) {
   Eigen::Matrix<double, 7, 1> sums = Eigen::Matrix<double, 7, 1>::Zero();
   for (std::size_t i = 0; i < deformed.axis.values.size(); ++i) {
     const Eigen::Vector2d &X = deformed.undeformed.values[i], &Y = deformed.axis.values[i];
@@ -170,11 +173,11 @@ Eigen::Vector3d frame_pose(const DeformedBody& deformed) {
   for (const Point& p : body.spec.mesh.points)
     for (const Point& q : body.spec.mesh.points) size = std::max(size, std::hypot(p[0] - q[0], p[1] - q[1]));
   Eigen::Vector3d pose;
-  pose << body.frame_origin, body.frame_angle + mean_turn(deformed);
+  pose << body.frame_origin, body.frame_angle + mean_rotation(deformed);
   for (int iteration = 0; iteration < 30; ++iteration) {
     const auto [motion, regularity] = rigid_part(body.frame, deformed.rotation(pose), deformed.displacement(pose));
     if (!motion.allFinite()) break;
-    pose.head<2>() += turn(pose[2]) * motion.head<2>();
+    pose.head<2>() += rotation_matrix(pose[2]) * motion.head<2>();
     pose[2] += motion[2];
     if (motion.head<2>().norm() > 1e-10 * size || std::abs(motion[2]) > 1e-10) continue;
     if (regularity < 1e-3) break;
@@ -203,14 +206,14 @@ void start_body(PlannedBody& body) {
           deformed.rate(pose, sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate"));
       const petsc::VecHandle rotation = deformed.rotation(pose);
       const Eigen::Vector3d motion = rigid_part(body.frame, rotation, body.deformation_rate).motion;
-      rates << turn(pose[2]) * motion.head<2>(), motion[2];
+      rates << rotation_matrix(pose[2]) * motion.head<2>(), motion[2];
       check(VecAXPY(body.deformation_rate, -motion[0], body.frame.rigid[0]));
       check(VecAXPY(body.deformation_rate, -motion[1], body.frame.rigid[1]));
       check(VecAXPY(body.deformation_rate, -motion[2], rotation));
       fem::to_frame(body.frame, body.deformation_rate);
     }
   }
-  const Eigen::Matrix2d A = turn(start.angle);
+  const Eigen::Matrix2d A = rotation_matrix(start.angle);
   const Eigen::Vector2d arm = A * pose.head<2>();
   body.pose << Eigen::Vector2d(start.position[0], start.position[1]) + arm, start.angle + pose[2];
   body.velocity << Eigen::Vector2d(start.velocity[0], start.velocity[1]) + start.angular_velocity[2] * across(arm) +
@@ -224,8 +227,8 @@ Eigen::MatrixX2d section_angles(const PlannedBody& body) {
   if (!start.deformation && !start.deformation_rate) return angles;
   const DeformedBody deformed(body);
   const Samples w = sampled(body, deformed.undeformed, start.deformation_rate, "deformation_rate");
-  const Eigen::Matrix2d At = turn(start.angle - body.pose[2]);
-  const double turned = body.velocity[2] - start.angular_velocity[2];  // of the frame in mesh axes
+  const Eigen::Matrix2d At = rotation_matrix(start.angle - body.pose[2]);
+  const double rotated = body.velocity[2] - start.angular_velocity[2];  // of the frame in mesh axes
   auto none = [](PetscInt) { return Eigen::Vector2d(Eigen::Vector2d::Zero()); };
   const petsc::VecHandle fields[2] = {nodal(body.structure, none,
                                             [&](std::size_t c, int i) {
@@ -235,7 +238,7 @@ Eigen::MatrixX2d section_angles(const PlannedBody& body) {
                                             }),
                                       nodal(body.structure, none, [&](std::size_t c, int i) {
                                         const Eigen::Vector2d& t = deformed.axis.slopes[c][i];
-                                        return cross(t, w.slopes[c][i]) / t.squaredNorm() - turned;
+                                        return cross(t, w.slopes[c][i]) / t.squaredNorm() - rotated;
                                       })};
   for (int k = 0; k < 2; ++k) {
     petsc::Values owned(fields[k]);

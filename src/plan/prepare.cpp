@@ -14,11 +14,11 @@
 
 namespace floe::plan {
 
-const Anchor* held_place(const Plan& plan, std::size_t joint) {
+const Anchor* constrained_place(const Plan& plan, std::size_t joint) {
   const auto& [first, second] = plan.joints[joint];
   if (first.ground() != second.ground()) return first.ground() ? &second : &first;
   for (const Anchor* place : {&first, &second})
-    if (place->body >= 0 && plan.bodies[place->body].host_joint == static_cast<int>(joint)) return place;
+    if (place->body >= 0 && plan.bodies[place->body].parent_joint == static_cast<int>(joint)) return place;
   return nullptr;
 }
 
@@ -44,7 +44,7 @@ bool last_rank(MPI_Comm comm) {
   return rank == size - 1;
 }
 
-Eigen::Matrix2d turn(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
+Eigen::Matrix2d rotation_matrix(double angle) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
 
 namespace {
 
@@ -94,20 +94,20 @@ fem::ReferenceFrame::Kind kind_of(FrameSpec::Kind kind) {
 }
 
 /// Dofs that a joint to the ground holds at a node, in the axes of the frame.
-void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& held) {
+void hold_by_joint(const Joint& joint, PetscInt node, double frame_angle, fem::Conditions& constrained) {
   switch (joint.kind) {
     case Joint::Kind::fixed:
     case Joint::Kind::driven:
-      held.insert(held.end(), {3 * node, 3 * node + 1, 3 * node + 2});
+      constrained.insert(constrained.end(), {3 * node, 3 * node + 1, 3 * node + 2});
       break;
     case Joint::Kind::revolute:
-      held.insert(held.end(), {3 * node, 3 * node + 1});
+      constrained.insert(constrained.end(), {3 * node, 3 * node + 1});
       break;
     case Joint::Kind::prismatic: {
-      held.push_back(3 * node + 2);
-      const Eigen::Vector2d axis = turn(-frame_angle) * planar(joint.axis).normalized();
-      if (std::abs(axis.y()) < 1e-9) held.push_back(3 * node + 1);
-      if (std::abs(axis.x()) < 1e-9) held.push_back(3 * node);
+      constrained.push_back(3 * node + 2);
+      const Eigen::Vector2d axis = rotation_matrix(-frame_angle) * planar(joint.axis).normalized();
+      if (std::abs(axis.y()) < 1e-9) constrained.push_back(3 * node + 1);
+      if (std::abs(axis.x()) < 1e-9) constrained.push_back(3 * node);
       break;
     }
     default:  // springs hold nothing; the other kinds are of space
@@ -119,7 +119,7 @@ PlannedBody prepare_body(const Body& spec, MPI_Comm comm) {
   fem::Mesh mesh = fem::mesh_of(comm, segments_of(spec.mesh));
   const FrameNodes nodes = frame_nodes(spec, mesh);
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  rotation.topLeftCorner<2, 2>() = turn(nodes.angle);
+  rotation.topLeftCorner<2, 2>() = rotation_matrix(nodes.angle);
   fem::express_in_frame(mesh, Eigen::Vector3d(nodes.origin.x(), nodes.origin.y(), 0), rotation);
   fem::BeamSection section{spec.section.EA, spec.section.EI, spec.section.rhoA,
                            spec.rotary_inertia ? spec.section.rhoI : 0};
@@ -140,7 +140,7 @@ PlannedBody prepare_body(const Body& spec, MPI_Comm comm) {
   if (spec.section.fibre > 0) points.fibres = {{spec.section.fibre, 0}, {-spec.section.fibre, 0}};
   body.points.assign(spec.mesh.segments.size(), points);
   for (const Place& place : spec.reduction.interface) {
-    const Eigen::Vector2d x = turn(-nodes.angle) * (planar(place_point(spec.mesh, place)) - nodes.origin);
+    const Eigen::Vector2d x = rotation_matrix(-nodes.angle) * (planar(place_point(spec.mesh, place)) - nodes.origin);
     const fem::NearestNode nearest = fem::nearest_node(body.structure.mesh, {x.x(), x.y(), 0});
     body.interface.push_back({-1, nearest.node, nearest.position, {nearest.node}});
   }
@@ -166,7 +166,7 @@ Anchor find(const std::vector<PlannedBody>& bodies, const Place& place) {
       return found;
     }
     const Point p = place_point(bodies[b].spec, place);
-    const Eigen::Vector2d x = turn(-bodies[b].frame_angle) * (planar(p) - bodies[b].frame_origin);
+    const Eigen::Vector2d x = rotation_matrix(-bodies[b].frame_angle) * (planar(p) - bodies[b].frame_origin);
     const fem::NearestNode nearest = fem::nearest_node(bodies[b].structure.mesh, {x.x(), x.y(), 0});
     if (bodies[b].spec.rigid) return {static_cast<int>(b), nearest.node, {x.x(), x.y(), 0}};
     return {static_cast<int>(b), nearest.node, nearest.position};
@@ -182,10 +182,10 @@ int body_index(const Scene& scene, const std::string& name) {
 
 }  // namespace
 
-void hold_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place, fem::Conditions& held) {
+void hold_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place, fem::Conditions& constrained) {
   const PlannedBody& body = plan.bodies[place.body];
-  if (body.structure.dimension() == 3) return hold_spatial_place_by_joint(plan, joint, place, held);
-  hold_by_joint(plan.scene.joints[joint], place.node, body.spec.initial.angle + body.frame_angle, held);
+  if (body.structure.dimension() == 3) return hold_spatial_place_by_joint(plan, joint, place, constrained);
+  hold_by_joint(plan.scene.joints[joint], place.node, body.spec.initial.angle + body.frame_angle, constrained);
 }
 
 Plan prepare(const Scene& scene, MPI_Comm comm) {
@@ -204,11 +204,11 @@ Plan prepare(const Scene& scene, MPI_Comm comm) {
     const Anchor& place = first.ground() ? second : first;
     if (place.map || place.body < 0) continue;
     PlannedBody& body = plan.bodies[place.body];
-    hold_by_joint(joint, place.node, body.spec.initial.angle + body.frame_angle, body.held);  // undeformed
+    hold_by_joint(joint, place.node, body.spec.initial.angle + body.frame_angle, body.constrained);  // undeformed
   }
   for (PlannedBody& body : plan.bodies) {
-    std::sort(body.held.begin(), body.held.end());
-    body.held.erase(std::unique(body.held.begin(), body.held.end()), body.held.end());
+    std::sort(body.constrained.begin(), body.constrained.end());
+    body.constrained.erase(std::unique(body.constrained.begin(), body.constrained.end()), body.constrained.end());
   }
   for (const Load& load : scene.loads) {
     Anchor place;

@@ -62,9 +62,9 @@ Eigen::Matrix3d chord_axes(const Eigen::Vector3d& chord) {
 }
 
 /// The first that the ground holds, else the first that a body holds.
-std::optional<PetscInt> leader_of_rim(const std::map<PetscInt, Rim>& rims) {
-  for (const auto& [leader, rim] : rims)
-    if (rim.holder == "ground") return leader;
+std::optional<PetscInt> independent_node_of_rim(const std::map<PetscInt, Rim>& rims) {
+  for (const auto& [independent_node, rim] : rims)
+    if (rim.holder == "ground") return independent_node;
   if (rims.empty()) return {};
   return rims.begin()->first;
 }
@@ -79,7 +79,7 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
   if (!body.frame.given) {
     if (const Place* clamp = clamp_of(scene, body)) {
       if (clamped_by_default(body)) clamped(*clamp);
-    } else if (const auto rim = leader_of_rim(fixed_rims(scene, body, mesh.structure, mesh.places))) {
+    } else if (const auto rim = independent_node_of_rim(fixed_rims(scene, body, mesh.structure, mesh.places))) {
       choice = {fem::ReferenceFrame::Kind::clamped, *rim, *rim, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
     }
   } else if (body.frame.kind == FrameSpec::Kind::clamped) {
@@ -117,29 +117,30 @@ bool has_mass(const fem::Section& section) {
   return true;
 }
 
-/// The frame of a guest: clamped at its joint's place, with the origin and the axes of the host's.
-FrameChoice frame_of_host(const Scene& scene, const Body& body, const SpatialMesh& mesh, const SharedFrame& shared,
-                          const PlannedBody& host) {
+/// The frame of a welded body: clamped at its joint's place, with the origin and the axes of the parent's.
+FrameChoice frame_of_parent(const Scene& scene, const Body& body, const SpatialMesh& mesh, const SharedFrame& shared,
+                            const PlannedBody& parent) {
   const Joint& joint = scene.joints[shared.joint];
   const Place& at = joint.first.body == body.name ? joint.first : joint.second;
   const auto vector = [](const Point& p) { return Eigen::Vector3d(p[0], p[1], p[2]); };
-  const Eigen::Matrix3d turned = math::rotation(vector(body.initial.rotation)).transpose();
+  const Eigen::Matrix3d rotated = math::rotation(vector(body.initial.rotation)).transpose();
   const PetscInt node = body.rigid ? 0 : spatial_place(body, mesh.structure, mesh.places, at).node;
-  return {fem::ReferenceFrame::Kind::clamped, node, node, turned * (host.place - vector(body.initial.position)),
-          turned * host.attitude};
+  return {fem::ReferenceFrame::Kind::clamped, node, node, rotated * (parent.place - vector(body.initial.position)),
+          rotated * parent.attitude};
 }
 
-/// @param host  of a guest
+/// @param parent body  of a welded body
 PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
-                         const PlannedBody* host) {
+                         const PlannedBody* parent) {
   SpatialMesh mesh = spatial_mesh(scene, spec, comm);
   if (const auto& sections = mesh.structure.sections;
       !spec.rigid && std::none_of(sections.begin(), sections.end(), has_mass))
     throw InputError(
         fmt::format("{}: no part of body {} has mass; expected a material with rho > 0", spec.where.text(), spec.name));
-  const FrameChoice choice = host ? frame_of_host(scene, spec, mesh, shared, *host) : choose_frame(scene, spec, mesh);
+  const FrameChoice choice =
+      parent ? frame_of_parent(scene, spec, mesh, shared, *parent) : choose_frame(scene, spec, mesh);
   fem::express_in_frame(mesh.structure.mesh, choice.origin, choice.axes);
-  for (fem::Section& section : mesh.structure.sections) section = fem::turned(section, choice.axes);
+  for (fem::Section& section : mesh.structure.sections) section = fem::rotated(section, choice.axes);
   fem::ReferenceFrame frame;
   try {
     frame = fem::reference_frame(mesh.structure, choice.kind, choice.a, choice.b);
@@ -154,7 +155,7 @@ PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, co
   body.points = std::move(mesh.points);
   body.origin = choice.origin;
   body.axes = choice.axes;
-  if (host) body.host = shared.host, body.host_joint = shared.joint;
+  if (parent) body.parent = shared.parent, body.parent_joint = shared.joint;
   for (const Place& place : spec.reduction.interface)
     body.interface.push_back(spatial_place(spec, body.structure, body.places, place, {choice.origin, choice.axes}));
   return body;
@@ -185,16 +186,17 @@ Anchor find(const Scene& scene, const std::vector<PlannedBody>& bodies, const Pl
   return found;
 }
 
-/// Hosts first, for their guests' meshes are expressed in their frames.
+/// Parents first, for their welded bodies' meshes are expressed in their frames.
 std::vector<PlannedBody> prepare_bodies(const Scene& scene, MPI_Comm comm) {
   const std::vector<SharedFrame> shared = shared_frames(scene);
   std::vector<std::optional<PlannedBody>> found(scene.bodies.size());
-  for (const bool guests : {false, true})
+  for (const bool welded_bodies : {false, true})
     for (std::size_t b = 0; b < found.size(); ++b) {
       const Body& spec = scene.bodies[b];
-      if (shared[b].shared() != guests) continue;
-      found[b] = spec.reduced ? prepare_reduced(spec, comm)
-                              : prepare_body(scene, spec, comm, shared[b], guests ? &*found[shared[b].host] : nullptr);
+      if (shared[b].shared() != welded_bodies) continue;
+      found[b] = spec.reduced
+                     ? prepare_reduced(spec, comm)
+                     : prepare_body(scene, spec, comm, shared[b], welded_bodies ? &*found[shared[b].parent] : nullptr);
       start_spatial_body(*found[b]);
     }
   std::vector<PlannedBody> bodies;
@@ -217,10 +219,10 @@ Plan prepare_spatial(const Scene& scene, MPI_Comm comm) {
   check_pairs(plan);
   for (PlannedBody& body : plan.bodies) {
     if (body.spec.reduced) continue;
-    const fem::Conditions followers = fem::follower_dofs(body.structure.mesh, body.structure.dofs_per_node);
+    const fem::Conditions dependent_nodes = fem::dependent_dofs(body.structure.mesh, body.structure.dofs_per_node);
     body.clamp.insert(body.clamp.end(), body.frame.conditions.begin(), body.frame.conditions.end());
-    for (fem::Conditions* dofs : {&body.held, &body.clamp}) {
-      dofs->insert(dofs->end(), followers.begin(), followers.end());
+    for (fem::Conditions* dofs : {&body.constrained, &body.clamp}) {
+      dofs->insert(dofs->end(), dependent_nodes.begin(), dependent_nodes.end());
       std::sort(dofs->begin(), dofs->end());
       dofs->erase(std::unique(dofs->begin(), dofs->end()), dofs->end());
     }

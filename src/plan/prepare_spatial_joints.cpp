@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "floe/error.h"
-#include "floe/fem/held_frame.h"
+#include "floe/fem/constrained_frame.h"
 #include "floe/math/rotation.h"
 #include "floe/plan/ground_axes.h"
 #include "floe/plan/hold_by_joint.h"
@@ -32,7 +32,7 @@ double extent_of_mesh(const fem::Mesh& mesh) {
 
 namespace {
 
-/// The axis that the joint turns about or slides along, in world axes at the start. @throws InputError  a hinge
+/// The axis that the joint rotates about or slides along, in world axes at the start. @throws InputError  a hinge
 /// without.
 Eigen::Vector3d axis_of(const Plan& plan, const Joint& joint, const std::array<Anchor, 2>& places) {
   using Kind = Joint::Kind;
@@ -77,12 +77,13 @@ Eigen::Vector3d axis_within(const Eigen::Matrix3d& W, const PlannedBody& body,
 }
 
 /// Of a support: each node by itself. @throws InputError  nodes that follow others; a frame oblique to the mesh
-void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& place, fem::Conditions& held) {
+void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& place, fem::Conditions& constrained) {
   if (body.spec.rigid)
     throw InputError(fmt::format("{}: body {} is rigid; expected a flexible body, or another type of joint",
                                  joint.where.text(), body.spec.name));
-  for (const Lever& lever : place.levers)
-    if (std::count(place.nodes.begin(), place.nodes.end(), lever.node) == 0 || place.levers.size() < place.nodes.size())
+  for (const AveragingWeight& weight : place.averaging_weights)
+    if (std::count(place.nodes.begin(), place.nodes.end(), weight.node) == 0 ||
+        place.averaging_weights.size() < place.nodes.size())
       throw InputError(joint.where.text() +
                        ": its place has nodes of a rigid region or line hinge of a link or another joint; expected a "
                        "place without them");
@@ -95,37 +96,38 @@ void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& 
                       "key frame, or a mesh along its own axes",
                       joint.where.text(), body.spec.name));
     for (const PetscInt node : place.nodes)
-      held.push_back(6 * node + 3 * (component / 3) + static_cast<PetscInt>(along));
+      constrained.push_back(6 * node + 3 * (component / 3) + static_cast<PetscInt>(along));
   }
 }
 
 /// Dofs that a joint to the ground holds at its nodes, in frame axes, and whether they are all that it does. A clamp
 /// holds all dofs of all nodes, a hinge that is no hinge line (edges: mean) the displacements of its edge's nodes; at
-/// one node, and at the leader of a hinge line, what lies along the axes of the frame. Collective.
+/// one node, and at the independent node of a hinge line, what lies along the axes of the frame. Collective.
 bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBody& body, const Anchor& place,
-                   fem::Conditions& held) {
+                   fem::Conditions& constrained) {
   using Kind = Joint::Kind;
   const bool pinned = place.line && (joint.kind == Kind::revolute || joint.kind == Kind::cylindrical);
   const auto hold = [&](std::initializer_list<int> dofs) {
-    for (const Lever& lever : place.levers)
+    for (const AveragingWeight& weight : place.averaging_weights)
       for (int dof : dofs)
-        if (!pinned || lever.node == place.node) held.push_back(6 * lever.node + dof);
+        if (!pinned || weight.node == place.node) constrained.push_back(6 * weight.node + dof);
   };
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
-  if (joint.kind == Kind::support) return hold_components(joint, body, place, held), true;
+  if (joint.kind == Kind::support) return hold_components(joint, body, place, constrained), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const auto line = line_of(body.structure.mesh, place);
   const Eigen::Vector3d axis = axis_within(W, body, line);
-  const Eigen::Matrix3d& arm = place.levers.front().arm;
-  const auto follows = [&](const Lever& lever) {  // the arms of an edge's own nodes are those of its mean
-    return place.nodes.size() == 1 ? !lever.arm.isZero(0)
-                                   : std::count(place.nodes.begin(), place.nodes.end(), lever.node) == 0;
+  const Eigen::Matrix3d& arm = place.averaging_weights.front().arm;
+  const auto follows = [&](const AveragingWeight& weight) {  // the arms of an edge's own nodes are those of its mean
+    return place.nodes.size() == 1 ? !weight.arm.isZero(0)
+                                   : std::count(place.nodes.begin(), place.nodes.end(), weight.node) == 0;
   };
-  const bool carried = pinned ? (arm * axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
-                              : place.line || place.levers.size() < place.nodes.size() ||
-                                    std::any_of(place.levers.begin(), place.levers.end(), follows);
+  const bool carried = pinned
+                           ? (arm * axis).norm() > 1e-9 * extent_of_mesh(body.structure.mesh)
+                           : place.line || place.averaging_weights.size() < place.nodes.size() ||
+                                 std::any_of(place.averaging_weights.begin(), place.averaging_weights.end(), follows);
   if (place.nodes.size() > 1 && !pinned) {
-    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.levers.size() == 1)
+    if (joint.kind != Kind::revolute || !line || line->cross(axis).norm() > 1e-9 || place.averaging_weights.size() == 1)
       return false;
     if (carried)
       throw InputError(joint.where.text() +
@@ -155,15 +157,15 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBo
 
 /// Rims of the bodies that the ground fixes: of each joint the node that leads its rim; -1: none. Collective.
 std::vector<PetscInt> ground_rims(const Plan& plan) {
-  std::vector<PetscInt> leaders(plan.scene.joints.size(), -1);
+  std::vector<PetscInt> independent_nodes(plan.scene.joints.size(), -1);
   for (const PlannedBody& body : plan.bodies) {
     if (body.spec.rigid || body.spec.reduced) continue;
-    for (const auto& [leader, rim] :
+    for (const auto& [independent_node, rim] :
          fixed_rims(plan.scene, body.spec, body.structure, body.places, {body.origin, body.axes}))
       for (int joint : rim.joints)
-        if (rim.holder == "ground") leaders[joint] = leader;
+        if (rim.holder == "ground") independent_nodes[joint] = independent_node;
   }
-  return leaders;
+  return independent_nodes;
 }
 
 }  // namespace
@@ -174,19 +176,19 @@ void prepare_joints(Plan& plan, const std::function<Anchor(const Place&)>& place
     const PetscInt rim = rims[plan.joints.size()];
     plan.joints.push_back({place(joint.first), place(joint.second)});
     plan.joint_axes.push_back(joint_axes(plan, joint, plan.joints.back()));
-    plan.joint_held.push_back(0);
-    const Anchor* held = held_place(plan, plan.joints.size() - 1);
-    if (!held || held->map || held->body < 0) continue;
-    const Anchor& at = *held;
+    plan.joint_constrained.push_back(0);
+    const Anchor* constrained = constrained_place(plan, plan.joints.size() - 1);
+    if (!constrained || constrained->map || constrained->body < 0) continue;
+    const Anchor& at = *constrained;
     PlannedBody& body = plan.bodies[at.body];
-    const std::size_t before = body.held.size();
+    const std::size_t before = body.constrained.size();
     if (rim >= 0) {
-      for (int dof = 0; dof < 6; ++dof) body.held.push_back(6 * rim + dof);
-      plan.joint_held.back() = 1;
+      for (int dof = 0; dof < 6; ++dof) body.constrained.push_back(6 * rim + dof);
+      plan.joint_constrained.back() = 1;
     } else {
-      plan.joint_held.back() = hold_by_joint(joint, plan.joint_axes.back(), body, at, body.held);
+      plan.joint_constrained.back() = hold_by_joint(joint, plan.joint_axes.back(), body, at, body.constrained);
     }
-    if (at.line && !plan.joint_held.back() && (joint.first.ground() || joint.second.ground()))
+    if (at.line && !plan.joint_constrained.back() && (joint.first.ground() || joint.second.ground()))
       body.notices.push_back(
           fmt::format("joint {}: its edge is oblique to the other joints of body {}, whose modes are computed with the "
                       "position of the edge fixed but its direction free; attachment modes at the joint (attachment: "
@@ -195,7 +197,7 @@ void prepare_joints(Plan& plan, const std::function<Anchor(const Place&)>& place
     const bool here =
         body.frame.kind == fem::ReferenceFrame::Kind::clamped && at.moved_by(body.frame.conditions.front() / 6);
     if ((clamps(joint) || rim >= 0) && here && !is_unlocked(plan.scene, joint.name))
-      body.clamp.insert(body.clamp.end(), body.held.begin() + static_cast<long>(before), body.held.end());
+      body.clamp.insert(body.clamp.end(), body.constrained.begin() + static_cast<long>(before), body.constrained.end());
   }
 }
 
@@ -217,36 +219,38 @@ double spread_of(const fem::Mesh& mesh, const std::vector<PetscInt>& nodes) {
 void fix_frames(Plan& plan) {
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     PlannedBody& body = plan.bodies[b];
-    if (body.spec.rigid || body.spec.reduced || body.spec.frame.given || body.host >= 0 ||
+    if (body.spec.rigid || body.spec.reduced || body.spec.frame.given || body.parent >= 0 ||
         body.frame.kind != fem::ReferenceFrame::Kind::mean_axis)
       continue;
-    fem::Conditions firm = body.held;
+    fem::Conditions firm = body.constrained;
     std::sort(firm.begin(), firm.end());
     std::vector<PetscInt> nodes;
     bool by_nodes = false, moved = false;
     for (std::size_t j = 0; j < plan.joints.size(); ++j) {
       const Joint& joint = plan.scene.joints[j];
-      const Anchor* place = held_place(plan, j);
+      const Anchor* place = constrained_place(plan, j);
       if (!place || place->body != static_cast<int>(b)) continue;
       moved = moved || clamps(joint) || is_switched(plan.scene, joint.name);
-      if (!plan.joint_held[j]) {
+      if (!plan.joint_constrained[j]) {
         const auto here = [&](PetscInt dof) { return place->moved_by(dof / 6); };
         firm.erase(std::remove_if(firm.begin(), firm.end(), here), firm.end());
         continue;
       }
-      by_nodes = by_nodes || joint.kind == Joint::Kind::support || (!place->line && place->levers.size() > 1);
+      by_nodes =
+          by_nodes || joint.kind == Joint::Kind::support || (!place->line && place->averaging_weights.size() > 1);
       nodes.insert(nodes.end(), place->nodes.begin(), place->nodes.end());
     }
     if (moved || !(by_nodes || spread_of(body.structure.mesh, nodes) > 0.5 * fem::extent(body.structure))) continue;
     if (!fem::determine_rigid_motions(body.structure, firm)) continue;
-    body.frame = fem::held_frame(body.structure, firm);
+    body.frame = fem::constrained_frame(body.structure, firm);
     start_spatial_body(body);
   }
 }
 
-void hold_spatial_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place, fem::Conditions& held) {
+void hold_spatial_place_by_joint(const Plan& plan, std::size_t joint, const Anchor& place,
+                                 fem::Conditions& constrained) {
   try {
-    hold_by_joint(plan.scene.joints[joint], plan.joint_axes[joint], plan.bodies[place.body], place, held);
+    hold_by_joint(plan.scene.joints[joint], plan.joint_axes[joint], plan.bodies[place.body], place, constrained);
   } catch (const InputError&) {  // a hinge that dofs cannot hold
   }
 }

@@ -8,7 +8,7 @@ namespace floe::plan {
 namespace {
 
 bool same_place(const Anchor& one, const Anchor& other) {
-  if (one.ground() || other.ground()) return one.ground() && other.ground();  // one body, wherever it is held
+  if (one.ground() || other.ground()) return one.ground() && other.ground();  // one body, wherever it is constrained
   return one.body == other.body && one.node == other.node && one.nodes == other.nodes && one.x == other.x;
 }
 

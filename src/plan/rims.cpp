@@ -54,35 +54,36 @@ std::map<PetscInt, Rim> fixed_rims(const Scene& scene, const Body& body, const f
     MatrixXd J = MatrixXd(0, 6);
   };
   std::map<std::pair<PetscInt, std::string>, Rows> found;
-  const Point& turned = body.initial.rotation;
-  const Matrix3d to_axes = mesh.axes.transpose() * math::rotation({turned[0], turned[1], turned[2]}).transpose();
+  const Point& rotated = body.initial.rotation;
+  const Matrix3d to_axes = mesh.axes.transpose() * math::rotation({rotated[0], rotated[1], rotated[2]}).transpose();
   const double extent = fem::extent(structure);
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const Joint& joint = scene.joints[j];
-    const Held held = held_by(joint.kind);
-    if (held.displacements.empty() || joint.first.body == joint.second.body || is_switched(scene, joint.name)) continue;
+    const Held constrained = held_by(joint.kind);
+    if (constrained.displacements.empty() || joint.first.body == joint.second.body || is_switched(scene, joint.name))
+      continue;
     for (const Place* at : {&joint.first, &joint.second}) {
       if (body.rigid || body.reduced || at->body != body.name) continue;
       const Anchor place = spatial_place(body, structure, places, *at, mesh);
-      const auto leads = [](const Lever& lever) { return lever.share > 0; };
-      const auto leader = std::find_if(place.levers.begin(), place.levers.end(), leads);
-      if (std::count_if(place.levers.begin(), place.levers.end(), leads) != 1) continue;
+      const auto leads = [](const AveragingWeight& weight) { return weight.share > 0; };
+      const auto independent_node = std::find_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads);
+      if (std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads) != 1) continue;
       const std::optional<Vector3d> line = line_of(structure.mesh, place);
       if (!joint.axis_given && !line && joint.kind != Kind::spherical) continue;
       const Point& axis = joint.axis;
       const Vector3d along = joint.axis_given ? to_axes * Vector3d(axis[0], axis[1], axis[2]).normalized()
                                               : line.value_or(Vector3d::UnitZ());
-      const Matrix3d W = axes_about(along), arm = leader->arm / extent;
+      const Matrix3d W = axes_about(along), arm = independent_node->arm / extent;
       const Place& other = at == &joint.first ? joint.second : joint.first;
-      Rows& rows = found[{leader->node, other.body}];
+      Rows& rows = found[{independent_node->node, other.body}];
       rows.joints.push_back(static_cast<int>(j));
       const auto add = [&](const Eigen::Matrix<double, 1, 6>& row) {
         rows.J.conservativeResize(rows.J.rows() + 1, 6);
         rows.J.bottomRows<1>() = row;
       };
-      for (int i : held.displacements)
+      for (int i : constrained.displacements)
         add((Eigen::Matrix<double, 1, 6>() << W.col(i).transpose(), W.col(i).transpose() * arm).finished());
-      for (int i : held.rotations)
+      for (int i : constrained.rotations)
         add((Eigen::Matrix<double, 1, 6>() << Vector3d::Zero().transpose(), W.col(i).transpose()).finished());
     }
   }

@@ -50,11 +50,11 @@ struct HeldConditions {
 
 /// Collective.
 HeldConditions conditions_of(const PlannedBody& body) {
-  const fem::Holding statics = fem::holding(body.structure, body.frame, held_by_modes(body)),
+  const fem::Holding statics = fem::holding(body.structure, body.frame, constrained_by_modes(body)),
                      modes = body.spec.reduction.modes.of == ModesSpec::Of::frame
                                  ? fem::holding(body.structure, body.frame, body.frame.conditions)
                                  : statics;
-  return {modes.held, statics.statics, modes.left.cols()};
+  return {modes.constrained, statics.statics, modes.left.cols()};
 }
 
 bool same_conditions(const PlannedBody& a, const PlannedBody& b, bool rotates) {

@@ -27,21 +27,22 @@ bool joined_to_ground(const Scene& scene, const Body& body) {
 }
 
 /// Whether both start with the velocities of one rigid body.
-bool moves_with(const InitialSpec& guest, const InitialSpec& host) {
-  const Eigen::Vector3d spin = vector(host.angular_velocity), rate = vector(guest.velocity),
-                        carried = vector(host.velocity) + spin.cross(vector(guest.position) - vector(host.position));
+bool moves_with(const InitialSpec& welded, const InitialSpec& parent) {
+  const Eigen::Vector3d spin = vector(parent.angular_velocity), rate = vector(welded.velocity),
+                        carried =
+                            vector(parent.velocity) + spin.cross(vector(welded.position) - vector(parent.position));
   const auto equal = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return (a - b).norm() <= 1e-9 * std::max(a.norm(), b.norm());
   };
-  return equal(vector(guest.angular_velocity), spin) && equal(rate, carried);
+  return equal(vector(welded.angular_velocity), spin) && equal(rate, carried);
 }
 
-bool may_be_guest(const Scene& scene, const Body& guest, const Place& at, const Body& host) {
-  if (guest.reduced || host.reduced || !host.rigid || joined_to_ground(scene, guest)) return false;
-  if (!moves_with(guest.initial, host.initial)) return false;
-  if (guest.initial.spatial_deformation || guest.initial.spatial_deformation_rate) return false;
-  return guest.rigid || (!guest.frame.given && clamped_by_default(guest)) ||
-         (guest.frame.given && guest.frame.kind == FrameSpec::Kind::clamped && same(guest.frame.at, at));
+bool may_be_welded(const Scene& scene, const Body& welded, const Place& at, const Body& parent) {
+  if (welded.reduced || parent.reduced || !parent.rigid || joined_to_ground(scene, welded)) return false;
+  if (!moves_with(welded.initial, parent.initial)) return false;
+  if (welded.initial.spatial_deformation || welded.initial.spatial_deformation_rate) return false;
+  return welded.rigid || (!welded.frame.given && clamped_by_default(welded)) ||
+         (welded.frame.given && welded.frame.kind == FrameSpec::Kind::clamped && same(welded.frame.at, at));
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ bool clamped_by_default(const Body& body) { return body.rigid || body.mesh.plate
 std::vector<SharedFrame> shared_frames(const Scene& scene) {
   std::vector<SharedFrame> shared(scene.bodies.size());
   if (scene.dimension != 3 || !scene.share_frames) return shared;
-  std::vector<int> next(scene.bodies.size(), -1);  // the body that each is a guest of
+  std::vector<int> next(scene.bodies.size(), -1);  // the body that each is a welded body of
   const auto first_of = [&](int b) {
     while (next[b] >= 0) b = next[b];
     return b;
@@ -62,11 +63,11 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
     if (is_unlocked(scene, joint.name) || is_measured(scene, joint.name)) continue;
     int a = index_of(scene, joint.first), b = index_of(scene, joint.second);
     if (a < 0 || b < 0 || a == b) continue;
-    const auto attempt = [&](int guest, const Place& at, int host) {
-      if (next[guest] >= 0 || first_of(host) == guest) return false;
-      if (!may_be_guest(scene, scene.bodies[guest], at, scene.bodies[host])) return false;
-      next[guest] = host;
-      shared[guest].joint = static_cast<int>(j);
+    const auto attempt = [&](int welded, const Place& at, int parent) {
+      if (next[welded] >= 0 || first_of(parent) == welded) return false;
+      if (!may_be_welded(scene, scene.bodies[welded], at, scene.bodies[parent])) return false;
+      next[welded] = parent;
+      shared[welded].joint = static_cast<int>(j);
       return true;
     };
     if (a < b)
@@ -75,7 +76,7 @@ std::vector<SharedFrame> shared_frames(const Scene& scene) {
       attempt(a, joint.first, b) || attempt(b, joint.second, a);
   }
   for (std::size_t b = 0; b < shared.size(); ++b)
-    if (next[b] >= 0) shared[b].host = first_of(static_cast<int>(b));
+    if (next[b] >= 0) shared[b].parent = first_of(static_cast<int>(b));
   return shared;
 }
 

@@ -31,7 +31,7 @@ struct Source {
   mesh::RawMesh mesh;
   std::map<int, fem::Section> parts;  ///< a deck's own, by the number of RawMesh::parts
   std::vector<std::string> notices;
-  std::vector<mesh::Follower> followers = {};
+  std::vector<mesh::DependentNode> dependent_nodes = {};
   std::map<int, fem::StressPoints> points = {};  ///< of the deck's own sections
 };
 
@@ -83,8 +83,8 @@ Source read_file(const Body& body, MPI_Comm comm) {
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
     add_masses(read, deck.parts);
-    std::vector<mesh::Follower> followers = mesh::followers(read.mesh, read.deck.links);
-    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(followers),
+    std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck.links);
+    source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(dependent_nodes),
               std::move(deck.points)};
   } else {
     throw InputError(fmt::format("{}.file.path: is \"{}\"; expected a file that ends in .msh, .inp, .bdf, .nas or .dat",
@@ -124,7 +124,7 @@ Source whole_source(const Body& body, MPI_Comm comm) {
 Source raw_mesh(const Body& body, MPI_Comm comm) {
   Source source = whole_source(body, comm);
   if (!body.mesh.piece) return source;
-  source.mesh = piece_of(on_every_rank(source.mesh), *body.mesh.piece, source.followers);
+  source.mesh = piece_of(on_every_rank(source.mesh), *body.mesh.piece, source.dependent_nodes);
   if (body.mesh.piece->number > 0) source.notices.clear();  // those of the whole file
   return source;
 }
@@ -254,7 +254,7 @@ void add_middle(const Body& body, SpatialMesh& found) {
 
 WholeMesh whole_mesh(const Body& body, MPI_Comm comm) {
   Source source = whole_source(body, comm);
-  return {on_every_rank(source.mesh), std::move(source.followers)};
+  return {on_every_rank(source.mesh), std::move(source.dependent_nodes)};
 }
 
 SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
@@ -266,13 +266,14 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
     places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
   add_masses(body, places, source.mesh, source.parts);
   std::vector<std::string> left_out;
-  source.followers = mesh::with_lines(mesh::with_pieces(source.followers, rigid_pieces(scene, body, places)),
-                                      hinge_lines(scene, body, source.mesh, places, source.notices),
-                                      held_elsewhere(scene, body, places), &left_out);
+  source.dependent_nodes =
+      mesh::with_lines(mesh::with_pieces(source.dependent_nodes, rigid_pieces(scene, body, places)),
+                       hinge_lines(scene, body, source.mesh, places, source.notices),
+                       constrained_elsewhere(scene, body, places), &left_out);
   report_left_out(scene, left_out, source.notices);
   std::vector<std::array<PetscInt, 2>> linked;
-  for (const mesh::Follower& f : source.followers)
-    if (rank == 0) linked.push_back({f.node, f.leader});
+  for (const mesh::DependentNode& f : source.dependent_nodes)
+    if (rank == 0) linked.push_back({f.node, f.independent_node});
   const mesh::Inspection inspection = mesh::inspect(source.mesh, linked);
   refuse_faults(body, inspection);
   auto [sections, points] = sections_of(body, source);
@@ -280,7 +281,7 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   MPI_Comm_size(comm, &size);
   const std::vector<int> ranks =
       size > 1 ? mesh::partition(source.mesh) : std::vector<int>(source.mesh.positions.size(), 0);
-  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.followers);
+  fem::Mesh mesh = fem::mesh_of(source.mesh, ranks, source.dependent_nodes);
   for (auto& [name, nodes] : places) nodes = fem::global_nodes(mesh, nodes);
   const std::string strains = take_strains(body, mesh, sections);
   const auto strain = body.strain == Strain::averaged ? fem::MembraneStrain::averaged : fem::MembraneStrain::pointwise;

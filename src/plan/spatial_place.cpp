@@ -14,21 +14,22 @@ namespace floe::plan {
 namespace {
 
 /// What moves the weighted mean of the nodes. Collective.
-std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::WeightedNode>& nodes) {
+std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
+                                               const std::vector<reduction::WeightedNode>& nodes) {
   std::vector<PetscInt> sorted;
   for (const reduction::WeightedNode& at : nodes) sorted.push_back(at.node);
   std::sort(sorted.begin(), sorted.end());
   struct Carried {
-    PetscInt node, leader;
+    PetscInt node, independent_node;
     double arm[3], axis[3];
   };
   std::vector<Carried> mine, copies;
-  for (const fem::Mesh::Follower& f : mesh.followers)
+  for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes)
     if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
-      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader], *line = spin_axis(mesh, f.node),
-                            axis = line ? *line : Eigen::Vector3d::Zero().eval();
+      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node],
+                            *line = spin_axis(mesh, f.node), axis = line ? *line : Eigen::Vector3d::Zero().eval();
       mine.push_back({mesh.global_node(f.node),
-                      mesh.global_node(f.leader),
+                      mesh.global_node(f.independent_node),
                       {arm.x(), arm.y(), arm.z()},
                       {axis.x(), axis.y(), axis.z()}});
     }
@@ -39,38 +40,38 @@ std::vector<Lever> levers(const fem::Mesh& mesh, const std::vector<reduction::We
   for (const Carried& c :
        mesh::exchange(mesh.comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values)
     carried.emplace(c.node, c);
-  std::vector<Lever> all;
+  std::vector<AveragingWeight> all;
   std::map<PetscInt, std::size_t> place;
-  const auto lever = [&](PetscInt node) -> Lever& {
+  const auto weight = [&](PetscInt node) -> AveragingWeight& {
     const auto [at, fresh] = place.emplace(node, all.size());
     if (fresh) all.push_back({node, 0, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()});
     return all[at->second];
   };
   for (const auto& [node, share, arm] : nodes) {
     const auto c = carried.find(node);
-    Lever& moves = lever(c == carried.end() ? node : c->second.leader);
+    AveragingWeight& moves = weight(c == carried.end() ? node : c->second.independent_node);
     moves.share += share;
     if (c == carried.end()) {
       moves.arm += arm;
-      moves.turn += share * Eigen::Matrix3d::Identity();
+      moves.rotation += share * Eigen::Matrix3d::Identity();
       continue;
     }
     const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
     const Eigen::Matrix3d led =
-        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the leader
+        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the independent node
     const Eigen::Map<const Eigen::Vector3d> lead(c->second.arm);
     moves.arm += arm * led - share * math::skew(lead);
     moves.lead += share * lead;
-    moves.turn += share * led;
+    moves.rotation += share * led;
     if (axis.isZero(0)) continue;
-    Lever& own = lever(node);
+    AveragingWeight& own = weight(node);
     own.arm += arm * fem::spin(axis);
-    own.turn += share * fem::spin(axis);
+    own.rotation += share * fem::spin(axis);
   }
   return all;
 }
 
-/// Whether the nodes are those of a hinge line: led by one, and turning about it by themselves. Collective.
+/// Whether the nodes are those of a hinge line: led by one, and rotating about it by themselves. Collective.
 bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
   int mine = 0;
   for (const fem::Mesh::Spin& spin : mesh.spins)
@@ -78,8 +79,9 @@ bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
         std::count(place.nodes.begin(), place.nodes.end(), mesh.global_node(spin.node)) > 0)
       ++mine;
   MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_INT, MPI_SUM, mesh.comm);
-  const auto leads = [](const Lever& lever) { return lever.share > 0; };
-  return place.nodes.size() > 1 && mine > 0 && std::count_if(place.levers.begin(), place.levers.end(), leads) == 1;
+  const auto leads = [](const AveragingWeight& weight) { return weight.share > 0; };
+  return place.nodes.size() > 1 && mine > 0 &&
+         std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads) == 1;
 }
 
 /// Positions of the nodes in the structure's axes, on every rank. Collective.
@@ -141,8 +143,8 @@ std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& struct
       part.at.x += own.back().weight * x[i];
     }
     part.at.body = place.body;
-    part.at.levers = levers(structure.mesh, own);
-    part.at.node = part.at.levers.front().node;
+    part.at.averaging_weights = averaging_weights(structure.mesh, own);
+    part.at.node = part.at.averaging_weights.front().node;
     part.at.weights = std::make_shared<const std::vector<reduction::WeightedNode>>(std::move(own));
     parts.push_back(std::move(part));
   }
@@ -165,7 +167,7 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
     const Point& x = named_centre ? body.mass->centre : *place.point;
     found.x = axes.axes.transpose() * (Eigen::Vector3d::Map(x.data()) - axes.origin);
     found.nodes = {0};  // of no account
-    found.levers = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
+    found.averaging_weights = {{0, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
     return found;
   }
   if (place.point) {
@@ -202,8 +204,8 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
   }
   const fem::Mesh& m = structure.mesh;
   const std::vector<reduction::WeightedNode> weights = place_weights(m, found.nodes);
-  found.levers = levers(m, weights);
-  found.node = found.levers.front().node;
+  found.averaging_weights = averaging_weights(m, weights);
+  found.node = found.averaging_weights.front().node;
   found.line = on_hinge_line(m, found);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const reduction::WeightedNode& at : weights)

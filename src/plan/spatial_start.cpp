@@ -112,14 +112,15 @@ struct Shape {
   }
 };
 
-/// The turn of a corner from moved directions t, all in one frame's axes.
-Vector3d turn_of_shell(const Matrix3d& cell, const Vector3d& ta, const Vector3d& tb) {
+/// The rotation of a corner from moved directions t, all in one frame's axes.
+Vector3d rotation_of_shell(const Matrix3d& cell, const Vector3d& ta, const Vector3d& tb) {
   const Vector3d a = cell.col(0), b = cell.col(1), n = cell.col(2);
   return n.dot(ta) * a.cross(n) + n.dot(tb) * b.cross(n) + 0.5 * (b.dot(ta) - a.dot(tb)) * n;
 }
 Vector3d axial(const Matrix3d& M) { return 0.5 * Vector3d(M(2, 1) - M(1, 2), M(0, 2) - M(2, 0), M(1, 0) - M(0, 1)); }
 
-/// Nodal values: displacements as given, rotations the mean of the corners'. Followers move with their leaders.
+/// Nodal values: displacements as given, rotations the mean of the corners'. Dependent nodes move with their
+/// independent nodes.
 template <class Displacement, class Rotation>
 petsc::VecHandle nodal(const Shape& shape, Displacement displacement, Rotation rotation) {
   const fem::Structure& structure = shape.body.structure;
@@ -137,7 +138,7 @@ petsc::VecHandle nodal(const Shape& shape, Displacement displacement, Rotation r
     if (q[0] > 0) q.tail<3>() /= q[0];
     q.head<3>() = displacement(static_cast<int>(i));
   }
-  for (const fem::Mesh::Follower& f : mesh.followers) {
+  for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes) {
     Eigen::Map<Eigen::Matrix<double, 6, 1>> q(owned.begin() + static_cast<std::ptrdiff_t>(6) * f.node);
     const Eigen::Vector3d* axis = fem::spin_axis(mesh, f.node);
     const double own = axis ? axis->dot(q.tail<3>()) : 0;
@@ -153,7 +154,7 @@ struct Pose {
   Matrix3d axes;
 };
 
-/// How the section of a beam is turned in the frame.
+/// How the section of a beam is rotated in the frame.
 Matrix3d section(const Corner& c, const Pose& pose, const Matrix3d& undeformed) {
   const Vector3d t = c.deformed.directions.col(0).normalized();
   return pose.axes.transpose() * Eigen::Quaterniond::FromTwoVectors(c.cell.col(0), t).toRotationMatrix() * undeformed;
@@ -168,33 +169,33 @@ petsc::VecHandle displacement(const Shape& shape, const Pose& pose) {
       },
       [&](const Corner& c) -> Vector3d {
         const Matrix3d cell = A.transpose() * c.cell, t = to_frame * c.deformed.directions;
-        if (c.shell) return turn_of_shell(cell, t.col(0), t.col(1));
+        if (c.shell) return rotation_of_shell(cell, t.col(0), t.col(1));
         const Vector3d e = cell.col(0);
         return e.cross(t.col(0)) + e * e.dot(axial(section(c, pose, A)));
       });
 }
 
 /// A field of rates: of places, and of the directions of cells; spins of lines' sections. All in the frame's axes.
-template <class Rate, class Turned>
-petsc::VecHandle rates(const Shape& shape, const Pose& pose, Rate rate, Turned turned) {
+template <class Rate, class Rotated>
+petsc::VecHandle rates(const Shape& shape, const Pose& pose, Rate rate, Rotated rotated) {
   const Matrix3d& A = shape.body.axes;
   return nodal(shape, rate, [&](const Corner& c) -> Vector3d {
     const Matrix3d cell = A.transpose() * c.cell;
-    const auto [directions, spin] = turned(c);
-    if (c.shell) return turn_of_shell(cell, directions.col(0), directions.col(1));
+    const auto [directions, spin] = rotated(c);
+    if (c.shell) return rotation_of_shell(cell, directions.col(0), directions.col(1));
     const Vector3d e = cell.col(0);
     return e.cross(directions.col(0)) + e * e.dot(axial(math::skew(spin) * section(c, pose, A)));
   });
 }
 
-using Turning = std::pair<Matrix3d, Vector3d>;
+using Rotating = std::pair<Matrix3d, Vector3d>;
 
-/// The deformed body turns about the frame's origin at 1 rad/s.
+/// The deformed body rotates about the frame's origin at 1 rad/s.
 petsc::VecHandle rotation(const Shape& shape, const Pose& pose, int about) {
-  const Matrix3d turn = math::skew(Vector3d::Unit(about)) * pose.axes.transpose();
+  const Matrix3d rotation = math::skew(Vector3d::Unit(about)) * pose.axes.transpose();
   return rates(
-      shape, pose, [&](int i) { return Vector3d(turn * (shape.node[i].at - pose.place)); },
-      [&](const Corner& c) { return Turning(turn * c.deformed.directions, Vector3d::Unit(about)); });
+      shape, pose, [&](int i) { return Vector3d(rotation * (shape.node[i].at - pose.place)); },
+      [&](const Corner& c) { return Rotating(rotation * c.deformed.directions, Vector3d::Unit(about)); });
 }
 
 petsc::VecHandle given_rates(const Shape& shape, const Pose& pose) {
@@ -203,7 +204,7 @@ petsc::VecHandle given_rates(const Shape& shape, const Pose& pose) {
       shape, pose, [&](int i) { return Vector3d(to_frame * shape.node_rate[i].at); },
       [&](const Corner& c) {
         const Vector3d t = c.deformed.directions.col(0), change = c.rate.directions.col(0);
-        return Turning(to_frame * c.rate.directions, to_frame * t.cross(change) / t.squaredNorm());
+        return Rotating(to_frame * c.rate.directions, to_frame * t.cross(change) / t.squaredNorm());
       });
 }
 
@@ -231,12 +232,12 @@ Pose frame_pose(const Shape& shape, double size) {
 /// How the frame moves in its own axes; the body's rates lose it.
 Eigen::Matrix<double, 6, 1> frame_rates(const Shape& shape, const Pose& pose, Vec field) {
   const fem::ReferenceFrame& frame = shape.body.frame;
-  std::vector<petsc::VecHandle> turns;
+  std::vector<petsc::VecHandle> rotations;
   std::array<Vec, 6> motions{};
   Eigen::Matrix<double, 6, 6> G;
-  for (int j = 0; j < 3; ++j) turns.push_back(rotation(shape, pose, j));
+  for (int j = 0; j < 3; ++j) rotations.push_back(rotation(shape, pose, j));
   for (int j = 0; j < 6; ++j) {
-    motions[j] = j < 3 ? frame.rigid[j].get() : turns[j - 3].get();
+    motions[j] = j < 3 ? frame.rigid[j].get() : rotations[j - 3].get();
     G.col(j) = conditions(frame, motions[j]);
   }
   Eigen::Matrix<double, 6, 1> motion = G.fullPivLu().solve(conditions(frame, field));

@@ -85,7 +85,7 @@ Columns full_derivatives(const fem::Structure& structure, const fem::ReferenceFr
   Columns all;
   for (const auto& [i, others] : partners) {
     const double lambda = modes.omega[i] * modes.omega[i];
-    fem::Conditions conditions = holding.held;
+    fem::Conditions conditions = holding.constrained;
     conditions.push_back(greatest_dof(modes.raw[i]));
     std::sort(conditions.begin(), conditions.end());
     const petsc::KspHandle ksp = shifted_solver(structure, statics, lambda, conditions);

@@ -7,9 +7,10 @@ namespace floe::reduction {
 
 using petsc::check;
 
-std::optional<PetscInt> eigenvalues_below(const fem::Structure& structure, const fem::Conditions& held, double bound) {
+std::optional<PetscInt> eigenvalues_below(const fem::Structure& structure, const fem::Conditions& constrained,
+                                          double bound) {
   const petsc::Stage stage("eigenvalue count");
-  const petsc::MatHandle A = fem::assemble(structure, held, 1, 1, -bound);
+  const petsc::MatHandle A = fem::assemble(structure, constrained, 1, 1, -bound);
   petsc::MatHandle factor;
   MatFactorInfo info;
   PetscInt negative = 0, zero = 0, fault = 0;

@@ -45,12 +45,12 @@ void MassForms::add(const fem::PieceRows& piece, const std::vector<fem::MassRows
 
 void MassForms::add(const fem::PieceRows& piece, const std::vector<fem::RotaryRows>& masses) {
   for (const fem::RotaryRows& mass : masses) {
-    if (turns_.columns == 0) turns_ = RowStack(static_cast<int>(fields_.cols()), together);
+    if (rotations_.columns == 0) rotations_ = RowStack(static_cast<int>(fields_.cols()), together);
     if (fields_.cols() == 0) return inertia_.allocate_rotary();
-    turns_.range.include(fem::multiply(structure_, piece, mass.turn, fields_, ranges_, turns_.next()));
-    turns_.count += 3;
+    rotations_.range.include(fem::multiply(structure_, piece, mass.rotation, fields_, ranges_, rotations_.next()));
+    rotations_.count += 3;
     forms_.push_back(mass);
-    if (turns_.count + 3 > together) flush_rotary();
+    if (rotations_.count + 3 > together) flush_rotary();
   }
 }
 
@@ -58,11 +58,11 @@ void MassForms::flush_rotary() {
   if (forms_.empty()) return;
   inertia_.allocate_rotary();
   const int d = structure_.dimension();
-  if (!turns_.range.empty()) {
-    const Eigen::Index begin = turns_.range.begin, count = turns_.range.end - turns_.range.begin;
-    const Eigen::Map<const Eigen::MatrixXd> all(turns_.rows.data(), turns_.columns, turns_.count);
+  if (!rotations_.range.empty()) {
+    const Eigen::Index begin = rotations_.range.begin, count = rotations_.range.end - rotations_.range.begin;
+    const Eigen::Map<const Eigen::MatrixXd> all(rotations_.rows.data(), rotations_.columns, rotations_.count);
     const auto rows = all.middleRows(begin, count);
-    Eigen::MatrixXd weighted(count, turns_.count);
+    Eigen::MatrixXd weighted(count, rotations_.count);
     const auto add_forms = [&](auto&& form, Eigen::MatrixXd& to) {
       for (std::size_t i = 0; i < forms_.size(); ++i) {
         const auto at = 3 * static_cast<Eigen::Index>(i);
@@ -77,7 +77,7 @@ void MassForms::flush_rotary() {
       for (int b = 0; b < d; ++b) add_forms([&](const auto& forms) { return forms.moments[a][b]; }, inertia_.W[a][b]);
     }
   }
-  turns_.clear();
+  rotations_.clear();
   forms_.clear();
 }
 
@@ -100,7 +100,7 @@ void MassForms::flush(Samples& samples, bool first_moments) {
 namespace {
 
 /// The constants in body axes from those in the axes R (columns).
-body::Inertia turned(const body::Inertia& of, const Eigen::Matrix3d& R) {
+body::Inertia rotated(const body::Inertia& of, const Eigen::Matrix3d& R) {
   body::Inertia to(3, of.coordinates());
   to.m = of.m, to.s0 = R * of.s0, to.C0 = R * of.C0 * R.transpose(), to.S = R * of.S;
   if (!of.Q.empty()) {
@@ -132,7 +132,7 @@ body::Inertia MassForms::sums() {
     for (int b = 0; b < a; ++b) inertia_.M[a][b] = inertia_.M[b][a].transpose();
   }
   const fem::FlatBody* flat = fem::flat_body(structure_);
-  return flat && !flat->axes.isIdentity(0) ? turned(inertia_, flat->axes) : inertia_;
+  return flat && !flat->axes.isIdentity(0) ? rotated(inertia_, flat->axes) : inertia_;
 }
 
 Eigen::MatrixXd mass_gram(const fem::Structure& structure, const fem::FieldRows& fields) {

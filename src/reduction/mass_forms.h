@@ -33,7 +33,7 @@ class MassForms {
   const bool cross_;
   body::Inertia inertia_;
   Samples single_, pairs_;
-  RowStack turns_;  ///< three rows of each rotating mass
+  RowStack rotations_;  ///< three rows of each rotating mass
   std::vector<body::RotatingForms> forms_;
 };
 

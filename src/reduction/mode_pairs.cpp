@@ -103,7 +103,8 @@ Found pairs(const PairSearch& search, std::vector<Vec> deflated, int seed, int c
   const EPS eps = search.eps;
   check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
   Columns first;
-  for (int i = 0; i < block_size(eps); ++i) first.push_back(rough_field(search.structure, search.held, seed + i));
+  for (int i = 0; i < block_size(eps); ++i)
+    first.push_back(rough_field(search.structure, search.constrained, seed + i));
   std::vector<Vec> initial(first.begin(), first.end());
   check(EPSSetInitialSpace(eps, static_cast<PetscInt>(initial.size()), initial.data()));
   solve_pairs(eps, search.statics);
@@ -116,7 +117,7 @@ Found pairs(const PairSearch& search, std::vector<Vec> deflated, int seed, int c
     double lambda = 0, error = 0;
     check(EPSGetEigenpair(eps, i, &lambda, nullptr, x, nullptr));
     if (search.errors) check(EPSComputeError(eps, i, EPS_ERROR_RELATIVE, &error));
-    fem::hold(x, search.held);
+    fem::hold(x, search.constrained);
     found.add(lambda, std::move(x), error);
   }
   return found;
@@ -201,7 +202,7 @@ int most_equal(int count) { return 4 * count + 256; }
 
 /// Looks for what lies below the bound and is not found.
 /// @param missing  how many; nothing: until none is found
-/// @param most     pairs in all: where more turn out to be there, the search ends
+/// @param most     pairs in all: where more are found, the search ends
 /// @return         how many of them are still not found
 PetscInt find_missing(const PairSearch& search, double bound, std::optional<PetscInt> missing, std::size_t most,
                       Found& found) {
@@ -236,7 +237,7 @@ void complete(const PairSearch& search, int count, Found& found) {
   const bool open = last_cluster(found.lambda, count).second == std::ssize(found.lambda);
   const auto below = std::count_if(found.lambda.begin(), found.lambda.end(), [&](double l) { return l < bound; });
   std::optional<PetscInt> missing;
-  if (factored) missing = eigenvalues_below(search.structure, search.held, bound);
+  if (factored) missing = eigenvalues_below(search.structure, search.constrained, bound);
   if (missing) *missing -= static_cast<PetscInt>(below) + static_cast<PetscInt>(search.rigid.size());
   const std::size_t most = count + most_equal(count), before = found.raw.size();
   const PetscInt left = find_missing(search, bound, missing, most, found);

@@ -15,7 +15,7 @@ petsc::VecHandle rough_field(const fem::Structure& structure, const fem::Conditi
 struct PairSearch {
   EPS eps = nullptr;  ///< set up but for what changes from one solve to the next: dimensions, initial space, deflation
   const fem::Structure& structure;
-  const fem::Conditions& held;
+  const fem::Conditions& constrained;
   const Columns& rigid;  ///< motions of a body that is free, which are deflated
   const Statics& statics;
   int available;        ///< how many pairs there are

@@ -15,19 +15,19 @@ using petsc::check;
 namespace {
 
 /// A phi of each, zero at the conditions.
-Columns multiplied(Mat A, const Columns& phi, const fem::Conditions& held) {
+Columns multiplied(Mat A, const Columns& phi, const fem::Conditions& constrained) {
   Columns products;
   for (const auto& field : phi) {
     products.push_back(copy(field));
     check(MatMult(A, field, products.back()));
-    fem::hold(products.back(), held);
+    fem::hold(products.back(), constrained);
   }
   return products;
 }
 
 }  // namespace
 
-Transformation::Transformation(EPS eps, const Statics& statics, const fem::Conditions& held) {
+Transformation::Transformation(EPS eps, const Statics& statics, const fem::Conditions& constrained) {
   ST st = nullptr;
   PetscBool inverts = PETSC_FALSE;
   check(EPSGetST(eps, &st));
@@ -35,13 +35,13 @@ Transformation::Transformation(EPS eps, const Statics& statics, const fem::Condi
   if (inverts) {
     check(STGetKSP(st, &ksp));
     check(STGetShift(st, &shift));
-  } else if (held == statics.conditions()) {
+  } else if (constrained == statics.conditions()) {
     ksp = statics.solver();
   }
 }
 
-std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Conditions& held, Found& found) {
-  const Columns products = multiplied(M, found.raw, held);
+std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Conditions& constrained, Found& found) {
+  const Columns products = multiplied(M, found.raw, constrained);
   Columns pure = block_solve(inverse.ksp, products);
   std::vector<double> errors;
   for (std::size_t i = 0; i < pure.size(); ++i) {
@@ -54,9 +54,9 @@ std::vector<double> purify(const Transformation& inverse, Mat M, const fem::Cond
   return errors;
 }
 
-std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, const fem::Conditions& held,
+std::vector<double> residuals(const Transformation& inverse, Mat exact, Mat M, const fem::Conditions& constrained,
                               const Columns& phi, const std::vector<double>& lambda) {
-  const Columns loads = multiplied(exact, phi, held), inertia = multiplied(M, phi, held);
+  const Columns loads = multiplied(exact, phi, constrained), inertia = multiplied(M, phi, constrained);
   for (std::size_t i = 0; i < phi.size(); ++i) check(VecAXPY(loads[i], -lambda[i], inertia[i]));
   const Columns errors = block_solve(inverse.ksp, loads);
   std::vector<double> found;

@@ -60,11 +60,12 @@ void share_factor(EPS eps, Mat M, const Statics& statics) {
 }
 
 /// Where the factor is spoilt by round-off: the exact K - shift M, preconditioned by the factor of the assembled one.
-void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& structure, const fem::Conditions& held) {
+void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& structure,
+            const fem::Conditions& constrained) {
   ST st = nullptr;
   KSP ksp = nullptr;
   if (!own_transformation(eps, shift)) return;
-  const petsc::MatHandle factored = fem::assemble(structure, held, 1, 1, -shift);
+  const petsc::MatHandle factored = fem::assemble(structure, constrained, 1, 1, -shift);
   check(MatSetOption(factored, MAT_SPD, PETSC_TRUE));
   check(EPSSetOperators(eps, exact, M));
   check(EPSGetST(eps, &st));
@@ -76,12 +77,12 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
 
 /// Where the user's options iterate: the assembled K - shift M as multigrid takes it, for the preconditioner.
 void precondition(EPS eps, double shift, const fem::Structure& structure, const fem::ReferenceFrame& frame,
-                  const fem::Conditions& held) {
+                  const fem::Conditions& constrained) {
   ST st = nullptr;
-  const petsc::MatHandle shifted = fem::assemble(structure, held, 1, 1, -shift);
+  const petsc::MatHandle shifted = fem::assemble(structure, constrained, 1, 1, -shift);
   check(EPSGetST(eps, &st));
   check(STSetMatMode(st, ST_MATMODE_SHELL));
-  check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, held)));
+  check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, constrained)));
 }
 
 petsc::EpsHandle solver(Mat K, Mat M, double shift, double tolerance) {
@@ -158,7 +159,7 @@ Columns rigid_motions(const fem::Structure& structure, const fem::ReferenceFrame
     rigid.push_back(fem::field(structure));
     for (Eigen::Index i = 0; i < holding.left.rows(); ++i)
       check(VecAXPY(rigid.back(), holding.left(i, r), frame.rigid[i]));
-    fem::hold(rigid.back(), holding.held);
+    fem::hold(rigid.back(), holding.constrained);
   }
   return rigid;
 }
@@ -183,9 +184,9 @@ ModeSolver::~ModeSolver() {
 }
 
 void ModeSolver::create(int count) {
-  const bool moves = holding_.left.cols() > 0, shares = !moves && holding_.held == statics_.conditions();
-  M_ = fem::mass(structure_, holding_.held);
-  if (!shares) K_ = fem::stiffness(structure_, holding_.held);
+  const bool moves = holding_.left.cols() > 0, shares = !moves && holding_.constrained == statics_.conditions();
+  M_ = fem::mass(structure_, holding_.constrained);
+  if (!shares) K_ = fem::stiffness(structure_, holding_.constrained);
   const double shift = moves ? -low_frequency(structure_, statics_, M_) : 0;
   // Pairs of K's factor need not be much better than that is of K.
   const double tolerance = shares ? std::clamp(1e-2 * statics_.factor_error(), 1e-10, 1e-8) : 1e-10;
@@ -194,13 +195,13 @@ void ModeSolver::create(int count) {
   check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
   petsc::check_options(EPSSetFromOptions(eps_), "modes_");
   refuse_other_operators(eps_);
-  exact_ = fem::stiffness_operator(statics_.elements(), holding_.held);
+  exact_ = fem::stiffness_operator(statics_.elements(), holding_.constrained);
   if (!factors(solver_of(eps_)))
-    precondition(eps_, shift, structure_, frame_, holding_.held);
+    precondition(eps_, shift, structure_, frame_, holding_.constrained);
   else if (shares)
     share_factor(eps_, M_, statics_);
   else if (statics_.refines())
-    refine(eps_, exact_, M_, shift, structure_, holding_.held);
+    refine(eps_, exact_, M_, shift, structure_, holding_.constrained);
   prefer_blocks(eps_, count, available());
   if (!petsc::user_sets("modes_eps_n") && !petsc::user_sets("modes_eps_mpd"))
     check(EPSSetDimensions(eps_, count, subspace_of(eps_, count, available()), PETSC_DEFAULT));
@@ -210,7 +211,7 @@ PetscInt ModeSolver::available() const {
   if (available_ >= 0) return available_;
   const petsc::VecHandle masses = fem::field(structure_);
   check(MatGetDiagonal(fem::mass(structure_, {}), masses));
-  fem::hold(masses, holding_.held);
+  fem::hold(masses, holding_.constrained);
   petsc::Values own(masses);
   PetscInt moving = std::count_if(own.begin(), own.begin() + structure_.owned_dofs(), [](double m) { return m > 0; });
   MPI_Allreduce(MPI_IN_PLACE, &moving, 1, MPIU_INT, MPI_SUM, structure_.mesh.comm);
@@ -225,12 +226,12 @@ Modes ModeSolver::solve(int count) {
         fmt::format("{} modes requested of a body that has {} elastic dofs under its conditions", count, available()));
   if (!eps_) create(std::min<int>(count + 1, static_cast<int>(available())));
   const petsc::Stage stage("modes");
-  const Transformation inverse(eps_, statics_, holding_.held);
+  const Transformation inverse(eps_, statics_, holding_.constrained);
   const bool shares = statics_.owns(inverse.ksp);
   const Columns rigid = rigid_motions(structure_, frame_, holding_);
   const PairSearch search{eps_,
                           structure_,
-                          holding_.held,
+                          holding_.constrained,
                           rigid,
                           statics_,
                           static_cast<int>(available()),
@@ -238,7 +239,7 @@ Modes ModeSolver::solve(int count) {
                           !inverse.ksp};
   Found found = lowest_pairs(search, M_, count);
   std::vector<double> errors;
-  if (inverse.ksp) errors = purify(inverse, M_, holding_.held, found);
+  if (inverse.ksp) errors = purify(inverse, M_, holding_.constrained, found);
   modes.raw = std::move(found.raw);
   for (const auto& mode : modes.raw) fem::separate(structure_, mode, 1e-7);
   std::vector<double> lambda =
@@ -255,12 +256,12 @@ Modes ModeSolver::solve(int count) {
     fix_sign(structure_, modes.raw[i]);
     modes.omega.push_back(std::sqrt(lambda[i]));
     modes.shapes.push_back(copy(modes.raw[i]));
-    if (!holds_frame(frame_, holding_.held)) fem::to_frame(frame_, modes.shapes.back());
+    if (!holds_frame(frame_, holding_.constrained)) fem::to_frame(frame_, modes.shapes.back());
   }
   if (shares && !statics_.iterates())  // of K's factor, and what that misses
     for (double error : errors) modes.residual.push_back(error + statics_.factor_error());
   else if (inverse.ksp)
-    modes.residual = residuals(inverse, exact_, M_, holding_.held, modes.raw, lambda);
+    modes.residual = residuals(inverse, exact_, M_, holding_.constrained, modes.raw, lambda);
   else
     modes.residual.assign(found.error.begin(), found.error.begin() + count);
   for (int i = 0; i < count; ++i) {

@@ -19,12 +19,12 @@ bool factors(KSP ksp) {
 
 namespace {
 
-/// The rigid motions with what is held taken out, orthonormal; those that nothing is left of are left out.
-Columns orthonormal_rigid(const fem::ReferenceFrame& frame, const fem::Conditions& held) {
+/// The rigid motions with what is constrained taken out, orthonormal; those that nothing is left of are left out.
+Columns orthonormal_rigid(const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
   Columns rigid;
   for (const petsc::VecHandle& motion : frame.rigid) {
     petsc::VecHandle x = copy(motion);
-    fem::hold(x, held);
+    fem::hold(x, constrained);
     double before = 0, after = 0;
     check(VecNorm(x, NORM_2, &before));
     for (int twice = 0; twice < 2; ++twice)
@@ -41,11 +41,11 @@ Columns orthonormal_rigid(const fem::ReferenceFrame& frame, const fem::Condition
 
 }  // namespace
 
-petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& held) {
+petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
   petsc::MatHandle rows;
   check(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, rows.out()));
   check(MatSetOption(rows, MAT_SPD, PETSC_TRUE));
-  const Columns rigid = orthonormal_rigid(frame, held);
+  const Columns rigid = orthonormal_rigid(frame, constrained);
   const std::vector<Vec> vectors(rigid.begin(), rigid.end());
   MatNullSpace near = nullptr;
   check(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), PETSC_FALSE,

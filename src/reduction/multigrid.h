@@ -8,11 +8,11 @@ namespace floe::reduction {
 bool factors(KSP ksp);
 
 /// A (MATSBAIJ, blocks of a node) as algebraic multigrid takes it: MATAIJ with the same blocks, and the rigid motions,
-/// zero at the held dofs, as its near null space. With rotations among the dofs
+/// zero at the constrained dofs, as its near null space. With rotations among the dofs
 ///
 ///   u = e_i,  rotations 0        u = e_i x (x - x_0),  rotations e_i
 ///
 /// which MatNullSpaceCreateRigidBody does not know: it is for translations alone. Collective.
-petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& held);
+petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& constrained);
 
 }  // namespace floe::reduction

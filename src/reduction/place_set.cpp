@@ -14,9 +14,9 @@ namespace {
 /// A node of this rank in the mean, and the node that it follows at an arm.
 struct Moved {
   WeightedNode at;  ///< local number
-  int leader = -1;
+  int independent_node = -1;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd turn = {};  ///< rotations of the leader
+  Eigen::Matrix3Xd rotation = {};  ///< rotations of the independent node
 };
 
 std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedNode>& nodes, int columns) {
@@ -25,10 +25,11 @@ std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedN
     const PetscInt local = at.node - mesh.first_node;
     if (local < 0 || local >= mesh.owned_nodes) continue;
     mine.push_back({{local, at.weight, at.arm}});
-    for (const fem::Mesh::Follower& f : mesh.followers) {
+    for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes) {
       if (f.node != local || mesh.dimension != 3) continue;
-      mine.back().leader = f.leader, mine.back().arm = mesh.positions[f.node] - mesh.positions[f.leader];
-      mine.back().turn.setZero(3, columns);
+      mine.back().independent_node = f.independent_node,
+      mine.back().arm = mesh.positions[f.node] - mesh.positions[f.independent_node];
+      mine.back().rotation.setZero(3, columns);
     }
   }
   return mine;
@@ -37,14 +38,15 @@ std::vector<Moved> moved_here(const fem::Mesh& mesh, const std::vector<WeightedN
 /// Sum of weight/2 theta x (theta x arm) on the columns: Q. Collective.
 std::vector<Eigen::MatrixXd> second_order(const fem::Mesh& mesh, const std::vector<Moved>& moved,
                                           Eigen::Index columns) {
-  int any = std::any_of(moved.begin(), moved.end(), [](const Moved& each) { return each.leader >= 0; });
+  int any = std::any_of(moved.begin(), moved.end(), [](const Moved& each) { return each.independent_node >= 0; });
   MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, mesh.comm);
   if (!any) return {};
   std::vector<Eigen::MatrixXd> Q(3, Eigen::MatrixXd::Zero(columns, columns));
   for (int a = 0; a < 3; ++a) {
     for (const Moved& each : moved)
-      if (each.leader >= 0)
-        Q[a] += each.at.weight * each.turn.transpose() * math::arm_form(Eigen::Vector3d::Unit(a), each.arm) * each.turn;
+      if (each.independent_node >= 0)
+        Q[a] += each.at.weight * each.rotation.transpose() * math::arm_form(Eigen::Vector3d::Unit(a), each.arm) *
+                each.rotation;
     MPI_Allreduce(MPI_IN_PLACE, Q[a].data(), static_cast<int>(Q[a].size()), MPI_DOUBLE, MPI_SUM, mesh.comm);
   }
   return Q;
@@ -67,7 +69,8 @@ body::PlaceMap place_map(const fem::Structure& structure, const Basis& basis, co
         const Eigen::VectorXd motion = fem::nodal_motion(structure, values.begin(), static_cast<int>(each.at.node));
         sum.col(j) += each.at.weight * motion;
         if (d == 3) sum.col(j).head<3>() += each.at.arm * motion.tail<3>();
-        if (each.leader >= 0) each.turn.col(j) = fem::nodal_motion(structure, values.begin(), each.leader).tail<3>();
+        if (each.independent_node >= 0)
+          each.rotation.col(j) = fem::nodal_motion(structure, values.begin(), each.independent_node).tail<3>();
       }
     }
     check(BVRestoreColumn(basis.V, j, &column));

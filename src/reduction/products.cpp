@@ -154,11 +154,11 @@ MatrixXd fewer_squares(const body::Elasticity& e, const std::vector<Sample>& sam
   for (const Sample& sample : samples) squares += (monomials(e, sample.q) / sample.q.norm()).cwiseAbs2();
   const MatrixXd others = F.bottomRightCorner(F.rows() - rank, count);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> main(others * squares.asDiagonal() * others.transpose());
-  const MatrixXd turned = main.eigenvectors().transpose() * others;
-  const std::vector<char> stays = kept(of_squares(turned, e, samples), share);
+  const MatrixXd rotated = main.eigenvectors().transpose() * others;
+  const std::vector<char> stays = kept(of_squares(rotated, e, samples), share);
   Index rows = rank;
-  for (Index i = 0; i < turned.rows(); ++i)
-    if (stays[i]) F.row(rows++).tail(count) = turned.row(i);
+  for (Index i = 0; i < rotated.rows(); ++i)
+    if (stays[i]) F.row(rows++).tail(count) = rotated.row(i);
   return F.topRows(rows);
 }
 

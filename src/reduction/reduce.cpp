@@ -73,8 +73,8 @@ Eigen::VectorXd mean_squares(const fem::Structure& structure, const fem::FieldRo
   return sums / static_cast<double>(structure.mesh.node_count);
 }
 
-/// Whether each field turns the body's line or surface anywhere, by root mean squares. Fields that do not (axial modes
-/// of a straight body) have no derivatives among themselves; what a solver leaves there is round-off. Collective.
+/// Whether each field rotates the body's line or surface anywhere, by root mean squares. Fields that do not (axial
+/// modes of a straight body) have no derivatives among themselves; what a solver leaves there is round-off. Collective.
 std::vector<bool> with_slope(const fem::Structure& structure, const Columns& fields) {
   const fem::FieldRows rows = fem::gather(structure, fields);
   const fem::Slopes slopes = fem::slopes(structure, rows);

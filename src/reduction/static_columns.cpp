@@ -187,7 +187,7 @@ std::vector<Load*> take_off(const fem::Structure& structure, const std::vector<A
   return again;
 }
 
-/// Loads without a response are dropped: those where the body is held.
+/// Loads without a response are dropped: those where the body is constrained.
 void drop_silent(const fem::Structure& structure, std::vector<Load>& loads) {
   const petsc::MatHandle M = fem::mass(structure, {});
   double greatest = 0;

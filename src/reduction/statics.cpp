@@ -16,9 +16,9 @@ namespace floe::reduction {
 
 using petsc::check;
 
-bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& held) {
+bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
   return !frame.conditions.empty() &&
-         std::includes(held.begin(), held.end(), frame.conditions.begin(), frame.conditions.end());
+         std::includes(constrained.begin(), constrained.end(), frame.conditions.begin(), frame.conditions.end());
 }
 
 Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding)
@@ -118,7 +118,8 @@ double Statics::missing(Mat loads, Mat solutions) const {
 namespace {
 
 /// residual = loads - K_exact u, in blocks. Collective.
-void exact_residual(const fem::ElementStiffness& K, const fem::Conditions& held, Mat loads, Mat u, Mat residual) {
+void exact_residual(const fem::ElementStiffness& K, const fem::Conditions& constrained, Mat loads, Mat u,
+                    Mat residual) {
   const fem::Structure& structure = K.structure();
   PetscInt count = 0;
   check(MatGetSize(u, nullptr, &count));
@@ -136,7 +137,7 @@ void exact_residual(const fem::ElementStiffness& K, const fem::Conditions& held,
   for (PetscInt j = 0; j < count; ++j) {
     Vec column = nullptr;
     check(MatDenseGetColumnVec(residual, j, &column));
-    fem::hold(column, held);
+    fem::hold(column, constrained);
     check(MatDenseRestoreColumnVec(residual, j, &column));
   }
 }
@@ -243,7 +244,7 @@ struct FrameTerms {
 
 FrameTerms frame_terms(const fem::Structure& structure, const fem::ReferenceFrame& frame, Mat K) {
   const auto r = static_cast<Eigen::Index>(frame.rigid.size());
-  const double length = fem::extent(structure);  // turns as displacements
+  const double length = fem::extent(structure);  // rotations as displacements
   const auto unit = [&](Eigen::Index i) { return i < structure.dimension() ? 1 : 1 / length; };
   FrameTerms terms;
   for (Eigen::Index j = 0; j < r; ++j) {

@@ -17,8 +17,8 @@ Six on_nodes(const Eigen::Vector2d& c) { return {-c[0], -c[1], 0, c[0], c[1], 0}
 template <int rows>
 Eigen::Matrix<double, rows, 6> times_P(double length, const Eigen::Matrix<double, rows, 7>& A) {
   Eigen::Matrix<double, rows, 6> AP;
-  const Eigen::Matrix<double, rows, 1> turning = (A.col(6) - A.col(4) - A.col(5)) / length;  // A p g, g = n'/l
-  AP << A.col(0), A.col(1) - turning, A.col(4), A.col(2), A.col(3) + turning, A.col(5);
+  const Eigen::Matrix<double, rows, 1> rotating = (A.col(6) - A.col(4) - A.col(5)) / length;  // A p g, g = n'/l
+  AP << A.col(0), A.col(1) - rotating, A.col(4), A.col(2), A.col(3) + rotating, A.col(5);
   return AP;
 }
 
@@ -39,9 +39,9 @@ Chord chord_at(const Eigen::Vector2d& undeformed, const Six& q) {
   // of the displacements alone: beside the undeformed chord, small ones would come in stairs of its round-off
   const double elongation = s.dot(undeformed + d) / (length + undeformed.norm());
   const Eigen::Vector2d e = d / length, n(-e[1], e[0]);
-  const double turn = std::atan2(undeformed[0] * s[1] - undeformed[1] * s[0], undeformed.dot(d));
+  const double rotation = std::atan2(undeformed[0] * s[1] - undeformed[1] * s[0], undeformed.dot(d));
   constexpr double whole = 2 * std::numbers::pi;
-  const double beta = turn + whole * std::round((mean - turn) / whole);
+  const double beta = rotation + whole * std::round((mean - rotation) / whole);
   return {length, elongation, e, n, {q[2] - beta, q[5] - beta}};
 }
 
@@ -65,8 +65,8 @@ SixSquare on_world(const Chord& chord, const SixSquare& matrix) {
 
 Rates extended_rates(const Chord& chord, const Six& v, const Six& a) {
   const auto extended = [&](const Six& x) {
-    const double turning = stretch(x)[1] / chord.length;
-    return Seven{x[0], x[1], x[3], x[4], x[2] - turning, x[5] - turning, turning};
+    const double rotating = stretch(x)[1] / chord.length;
+    return Seven{x[0], x[1], x[3], x[4], x[2] - rotating, x[5] - rotating, rotating};
   };
   Rates rates{extended(v), extended(a)};
   const double drift = stretch(v).dot(second(chord.length, stretch(v)));

@@ -28,7 +28,7 @@ SevenSquare elastic_stiffness(const Moments& m, double length, const Chord& chor
   SevenSquare K = SevenSquare::Zero();
   K(0, 0) = K(2, 2) = m.axial;
   K(0, 2) = K(2, 0) = -m.axial;
-  K(1, 1) = K(3, 3) = N / chord.length;  // N e turns with the chord
+  K(1, 1) = K(3, 3) = N / chord.length;  // N e rotates with the chord
   K(1, 3) = K(3, 1) = -N / chord.length;
   K.block<2, 1>(4, 0) = -coupling;
   K.block<2, 1>(4, 2) = coupling;
@@ -65,7 +65,7 @@ void add_viscous_tangent(const Moments& m, double length, const Chord& chord, co
                          ForceTangent& by) {
   const double N = weight * force_rate(m, length, chord, velocity);
   const Seven unit = weight * of_axial_force(m, length, chord, 1);
-  Seven of_z = Seven::Zero();  // d(EA eps.): e turns with the chord
+  Seven of_z = Seven::Zero();  // d(EA eps.): e rotates with the chord
   of_z[3] = m.axial * (velocity[3] - velocity[1]) / chord.length, of_z[1] = -of_z[3];
   of_z.segment<2>(4) = m.axial * length * (m.slope * velocity.segment<2>(4));
   by.K += unit * of_z.transpose();

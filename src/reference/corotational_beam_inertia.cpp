@@ -1,9 +1,9 @@
 #include "corotational_beam_forces.h"
 
-// r = (1 - xi) r1 + xi r2 + n w, w = phi.a, gives with the turning rate b = dbeta/dt
+// r = (1 - xi) r1 + xi r2 + n w, w = phi.a, gives with the rotating rate b = dbeta/dt
 //     r.. = (1 - xi) r1.. + xi r2.. + n phi.A - e phi.B,    A = a.. - b^2 a,    B = 2 b a. + b. a
-// and dr = (1 - xi) dr1 + xi dr2 + n phi.da - e w dbeta. The section turns by psi = beta + phi'.a, where int phi_i' dx
-// = 0.
+// and dr = (1 - xi) dr1 + xi dr2 + n phi.da - e w dbeta. The section rotates by psi = beta + phi'.a, where int phi_i'
+// dx = 0.
 namespace floe::reference::corotational {
 
 double kinetic_energy(const Moments& m, const Chord& chord, const Seven& v) {
@@ -31,7 +31,7 @@ Seven inertia_force(const Moments& m, const Chord& chord, const Rates& rates) {
 
 namespace {
 
-/// df/dz: through a (A and B), and through beta, with which e and n turn.
+/// df/dz: through a (A and B), and through beta, with which e and n rotate.
 SevenSquare by_place(const Moments& m, const Chord& chord, const Rates& rates) {
   const auto a1 = rates.acceleration.head<2>(), a2 = rates.acceleration.segment<2>(2);
   const auto& a = chord.local;

@@ -67,7 +67,8 @@ Matrix3d axes_about(const Vector3d& z) {
 }
 
 bool follows(const fem::Mesh& mesh, int local) {
-  return std::any_of(mesh.followers.begin(), mesh.followers.end(), [&](const auto& f) { return f.node == local; }) &&
+  return std::any_of(mesh.dependent_nodes.begin(), mesh.dependent_nodes.end(),
+                     [&](const auto& f) { return f.node == local; }) &&
          !fem::spin_axis(mesh, local);
 }
 
@@ -80,7 +81,8 @@ CorotationalBody::CorotationalBody(dynamics::Coordinates& coordinates, const fem
   const fem::Mesh& mesh = structure.mesh;
   find_links(pieces);
   int rows = 0;
-  for (const Link& link : links_) visited.insert(visited.end(), {link.node, link.leader}), rows += link.rows();
+  for (const Link& link : links_)
+    visited.insert(visited.end(), {link.node, link.independent_node}), rows += link.rows();
   nodes_ = std::make_unique<NodeCoordinates>(coordinates, mesh, visited, 6);
   link_multipliers_ = coordinates.add_shared(rows, true);
   std::set<PetscInt> moving;
@@ -98,11 +100,11 @@ void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& piec
   const fem::Mesh& mesh = structure_.mesh;
   const auto integer = [](double number) { return static_cast<PetscInt>(std::lround(number)); };
   std::vector<double> mine;
-  for (const fem::Mesh::Follower& f : mesh.followers)
+  for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes)
     if (const Vector3d* axis = fem::spin_axis(mesh, f.node)) {
-      const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.leader];
-      mine.insert(mine.end(), {double(mesh.global_node(f.node)), double(mesh.global_node(f.leader)), arm.x(), arm.y(),
-                               arm.z(), axis->x(), axis->y(), axis->z()});
+      const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node];
+      mine.insert(mine.end(), {double(mesh.global_node(f.node)), double(mesh.global_node(f.independent_node)), arm.x(),
+                               arm.y(), arm.z(), axis->x(), axis->y(), axis->z()});
     }
   const std::vector<double> hinges = of_all_ranks(mesh.comm, mine);
   for (std::size_t i = 0; i < hinges.size(); i += 8)
@@ -120,19 +122,20 @@ void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& piec
   for (std::size_t i = 0; i < places.size(); i += 4)
     X[integer(places[i])] = {places[i + 1], places[i + 2], places[i + 3]};
   for (const auto& piece : pieces) {
-    const PetscInt leader = piece.front();
+    const PetscInt independent_node = piece.front();
     for (PetscInt node : piece) {
-      piece_[node] = static_cast<int>(leader_.size());
-      if (node != leader) links_.push_back({node, leader, X.at(node) - X.at(leader), Vector3d::Zero()});
+      piece_[node] = static_cast<int>(independent_node_.size());
+      if (node != independent_node)
+        links_.push_back({node, independent_node, X.at(node) - X.at(independent_node), Vector3d::Zero()});
     }
-    leader_.emplace_back(leader, X.at(leader));
+    independent_node_.emplace_back(independent_node, X.at(independent_node));
   }
 }
 
 void CorotationalBody::start(const CorotationalStart& at) {
   const fem::Mesh& mesh = structure_.mesh;
   const Eigen::VectorXd shape = whole(at.deformation), rates = whole(at.deformation_rate);
-  const auto turned = [&](const Vector3d& theta) {
+  const auto rotated = [&](const Vector3d& theta) {
     return (Eigen::Quaterniond(at.attitude) * math::quaternion(theta)).normalized();
   };
   const auto moving = [&](const Vector3d& x, const Vector3d& xd, const Vector3d& theta, const Vector3d& thetad) {
@@ -140,21 +143,21 @@ void CorotationalBody::start(const CorotationalStart& at) {
     return Moving{at.place + at.attitude * x, at.rate + at.attitude * (at.spin.cross(x) + xd), spin};
   };
   for (auto& [node, attitude] : attitude_) {
-    attitude->base = turned(of_node(shape, node).tail<3>());
+    attitude->base = rotated(of_node(shape, node).tail<3>());
     const PetscInt local = node - mesh.first_node;
     if (local < 0 || local >= mesh.owned_nodes) continue;
     const auto u = of_node(shape, node), ud = of_node(rates, node);
     start_[node] = moving(mesh.positions[local] + u.head<3>(), ud.head<3>(), u.tail<3>(), ud.tail<3>());
   }
-  for (const Link& hinge : links_) {  // fields have of nodes of hinge lines their own turn only
+  for (const Link& hinge : links_) {  // fields have of nodes of hinge lines their own rotation only
     const auto found = attitude_.find(hinge.node);
     if (found == attitude_.end() || hinge.axis.isZero(0)) continue;
-    const auto u = of_node(shape, hinge.leader), ud = of_node(rates, hinge.leader);
+    const auto u = of_node(shape, hinge.independent_node), ud = of_node(rates, hinge.independent_node);
     const int slot = 3 + fem::spin_slot(hinge.axis);
     const Vector3d theta = u.tail<3>(), e = hinge.axis, own = e * (of_node(shape, hinge.node)[slot] - e.dot(theta)),
                    ownd = e * (of_node(rates, hinge.node)[slot] - e.dot(ud.tail<3>())),
                    arm = math::rotation(theta) * hinge.arm;
-    found->second->base = (turned(theta) * math::quaternion(own)).normalized();
+    found->second->base = (rotated(theta) * math::quaternion(own)).normalized();
     if (!start_.contains(hinge.node)) continue;
     const PetscInt local = hinge.node - mesh.first_node;
     const Vector3d X = mesh.positions[local] - hinge.arm;
@@ -171,8 +174,8 @@ int CorotationalBody::piece_of(PetscInt node) const {
 }
 
 SpatialMarker CorotationalBody::place_on_piece(int piece, const Vector3d& x) const {
-  const auto& [leader, X] = leader_[piece];
-  SpatialMarker at = place(leader);
+  const auto& [independent_node, X] = independent_node_[piece];
+  SpatialMarker at = place(independent_node);
   at.x0 = x - X;
   return at;
 }
@@ -280,11 +283,11 @@ void CorotationalBody::add_links(std::vector<std::unique_ptr<dynamics::Term>>& t
   int multiplier = link_multipliers_;
   for (const Link& link : links_) {
     const bool hinge = !link.axis.isZero(0);
-    SpatialMarker leader = place(link.leader), node = place(link.node);
-    leader.x0 += link.arm;
-    if (hinge) leader.D0 = node.D0 = axes_about(link.axis);
+    SpatialMarker independent_node = place(link.independent_node), node = place(link.node);
+    independent_node.x0 += link.arm;
+    if (hinge) independent_node.D0 = node.D0 = axes_about(link.axis);
     terms.push_back(std::make_unique<dynamics::SpatialJoint>(
-        std::move(leader), std::move(node),
+        std::move(independent_node), std::move(node),
         hinge ? dynamics::SpatialConstraint::revolute() : dynamics::SpatialConstraint::fixed(), multiplier));
     multiplier += link.rows();
   }
@@ -302,8 +305,8 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   for (PetscInt i = 0; i < mesh.owned_nodes; ++i) {
     if (start_.contains(mesh.first_node + i)) continue;
     for (int d = 0; d < 6; ++d)
-      terms.push_back(
-          std::make_unique<HeldDof>(nodes_->of_local_node(static_cast<int>(i)) + d, stiffest > 0 ? stiffest : 1));
+      terms.push_back(std::make_unique<ConstrainedDof>(nodes_->of_local_node(static_cast<int>(i)) + d,
+                                                       stiffest > 0 ? stiffest : 1));
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace floe::reference {
 
-using dynamics::Extent;
+using dynamics::EvaluationLevel;
 using dynamics::Motion;
 using Eigen::Index;
 using Eigen::Matrix3d;
@@ -72,7 +72,7 @@ CorotationalElement::CorotationalElement(fem::CellKind kind, std::vector<dynamic
       r_(3, X_.cols()),
       n_(3, X_.cols()),
       velocity_(3, X_.cols()),
-      turning_(3, X_.cols()) {
+      rotating_(3, X_.cols()) {
   d_.setZero(size()), rate_.setZero(size()), f_.setZero(size()), wrenches_.setZero(size());
   W_.setZero(size(), 3);
 }
@@ -101,34 +101,34 @@ bool CorotationalElement::measure(const Matrix3d& Q) const {
     W_.middleRows<3>(6 * i) = skew(r_.col(i));
     W_.middleRows<3>(6 * i + 3) = -H_[i];
   }
-  const Matrix3d by_turn = conditions_ * W_;
-  R_ = by_turn.inverse() * conditions_;
+  const Matrix3d by_rotation = conditions_ * W_;
+  R_ = by_rotation.inverse() * conditions_;
   return d_.allFinite() && R_.allFinite();
 }
 
-void CorotationalElement::see(const Motion& motion, Extent extent) const {
+void CorotationalElement::see(const Motion& motion, EvaluationLevel extent) const {
   places_.see(motion, extent);
   Eigen::Quaterniond Q = guess().normalized();
   double last = INFINITY;
   for (int iteration = 0; iteration < 40; ++iteration) {
     Q_ = Q.toRotationMatrix();
     if (!measure(Q_)) break;
-    const Vector3d turn = -(R_ * d_);
-    const double size = turn.norm();
+    const Vector3d rotation = -(R_ * d_);
+    const double size = rotation.norm();
     if (size < 1e-15 || (size < 1e-12 && size >= last)) return;
     last = size;
-    Q = (Q * math::quaternion(turn)).normalized();
+    Q = (Q * math::quaternion(rotation)).normalized();
   }
   if (!(last < 1e-9)) d_.setConstant(std::nan(""));
 }
 
-/// Rates of d and of Q, after see(Extent::motion).
+/// Rates of d and of Q, after see(EvaluationLevel::velocity).
 void CorotationalElement::see_rates() const {
   for (Index i = 0; i < X_.cols(); ++i)
-    velocity_.col(i) = Q_.transpose() * places_[i].velocity, turning_.col(i) = Q_.transpose() * places_[i].spin;
+    velocity_.col(i) = Q_.transpose() * places_[i].velocity, rotating_.col(i) = Q_.transpose() * places_[i].spin;
   for (Index i = 0; i < X_.cols(); ++i) {
     rate_.segment<3>(6 * i) = velocity_.col(i) - velocity_.col(0);
-    rate_.segment<3>(6 * i + 3) = H_[i] * turning_.col(i);
+    rate_.segment<3>(6 * i + 3) = H_[i] * rotating_.col(i);
   }
   spin_ = -(R_ * rate_);
   rate_ += W_ * spin_;
@@ -156,7 +156,7 @@ CorotationalElement::Square CorotationalElement::of_places() const {
 }
 
 void CorotationalElement::residual(const Motion& motion, VectorXd& r) const {
-  see(motion, viscosity_ != 0 ? Extent::motion : Extent::place);
+  see(motion, viscosity_ != 0 ? EvaluationLevel::velocity : EvaluationLevel::position);
   f_.setZero();
   body::add_force(elasticity_, d_, work_, f_);
   if (viscosity_ != 0) {
@@ -171,31 +171,31 @@ void CorotationalElement::residual(const Motion& motion, VectorXd& r) const {
 CorotationalElement::Square CorotationalElement::by_places(const Square& K, const Square& C) const {
   const Index n = size();
   const Square Z = of_places();
-  const Matrix3x S = -(R_ * Z);  // turn of Q
+  const Matrix3x S = -(R_ * Z);  // rotation of Q
   const Square P = Z + W_ * S;
   Square df = K * P;
   if (viscosity_ != 0) {
     Square rates = Square::Zero(n, n);
     for (Index i = 0; i < X_.cols(); ++i) {
-      const Vector3d theta = d_.segment<3>(6 * i + 3), turning = rate_.segment<3>(6 * i + 3);
+      const Vector3d theta = d_.segment<3>(6 * i + 3), rotating = rate_.segment<3>(6 * i + 3);
       if (i > 0)
         rates.middleRows<3>(6 * i) =
             skew(velocity_.col(i) - velocity_.col(0)) * S - skew(spin_) * P.middleRows<3>(6 * i);
       rates.middleRows<3>(6 * i + 3) =
           H_[i] *
-          (skew(turning_.col(i)) * S + rotation_tangent_derivative(-theta, turning) * P.middleRows<3>(6 * i + 3));
+          (skew(rotating_.col(i)) * S + rotation_tangent_derivative(-theta, rotating) * P.middleRows<3>(6 * i + 3));
     }
     rates -= (W_ * (R_ * rates)).eval();
     df += C * rates;
   }
   std::array<Matrix3d, mesh::most_nodes> bent;  // d(T n)/dtheta
-  Matrix3x turned = W_.transpose() * df;
+  Matrix3x rotated = W_.transpose() * df;
   for (Index i = 0; i < X_.cols(); ++i) {
     bent[i] = rotation_tangent_derivative(d_.segment<3>(6 * i + 3), n_.col(i));
-    turned += skew(f_.segment<3>(6 * i)) * P.middleRows<3>(6 * i);
-    turned += H_[i].transpose() * bent[i] * P.middleRows<3>(6 * i + 3);
+    rotated += skew(f_.segment<3>(6 * i)) * P.middleRows<3>(6 * i);
+    rotated += H_[i].transpose() * bent[i] * P.middleRows<3>(6 * i + 3);
   }
-  df -= R_.transpose() * turned;
+  df -= R_.transpose() * rotated;
   Square Y = Square::Zero(n, n);
   for (Index i = 0; i < X_.cols(); ++i) {
     if (i > 0) {
@@ -211,7 +211,7 @@ CorotationalElement::Square CorotationalElement::by_places(const Square& K, cons
 void CorotationalElement::tangent(const Motion& motion, dynamics::Weights weights, MatrixXd& J) const {
   const bool damped = viscosity_ != 0;
   if (weights.q == 0 && !(damped && weights.v != 0)) return;
-  see(motion, damped ? Extent::motion : Extent::directions);
+  see(motion, damped ? EvaluationLevel::velocity : EvaluationLevel::jacobian);
   K_.setZero(size(), size()), C_.setZero(size(), size()), f_.setZero();
   body::add_force(elasticity_, d_, work_, f_);
   body::add_tangent(elasticity_, d_, 1, work_, K_);
@@ -222,9 +222,9 @@ void CorotationalElement::tangent(const Motion& motion, dynamics::Weights weight
     body::add_viscous_tangent(elasticity_, d_, rate_, 0, viscosity_, viscous_work_, C_);
   }
   balance();
-  Square turn = Square::Zero(size(), size());
-  for (Index i = 0; i < size() / 3; ++i) turn.block<3, 3>(3 * i, 3 * i) = Q_;
-  Y_ = turn * by_places(K_, C_) * turn.transpose();
+  Square rotation = Square::Zero(size(), size());
+  for (Index i = 0; i < size() / 3; ++i) rotation.block<3, 3>(3 * i, 3 * i) = Q_;
+  Y_ = rotation * by_places(K_, C_) * rotation.transpose();
   if (damped) {
     const Square Z = of_places(), P = Z - W_ * (R_ * Z);
     Square df = C_ * P;
@@ -233,13 +233,13 @@ void CorotationalElement::tangent(const Motion& motion, dynamics::Weights weight
     for (Index i = 1; i < X_.cols(); ++i) df.topRows<3>() -= df.middleRows<3>(6 * i).eval();
     for (Index i = 0; i < X_.cols(); ++i)
       df.middleRows<3>(6 * i + 3) = (H_[i].transpose() * df.middleRows<3>(6 * i + 3)).eval();
-    Yd_ = turn * df * turn.transpose();
+    Yd_ = rotation * df * rotation.transpose();
   }
   places_.add_tangent(wrenches_, Y_, damped ? &Yd_ : nullptr, weights, J);
 }
 
 dynamics::Energy CorotationalElement::energy(const Motion& motion) const {
-  see(motion, Extent::place);
+  see(motion, EvaluationLevel::position);
   return {0, body::energy(elasticity_, d_), 0};
 }
 

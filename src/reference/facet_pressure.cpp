@@ -4,7 +4,7 @@
 
 namespace floe::reference {
 
-using dynamics::Extent;
+using dynamics::EvaluationLevel;
 using Eigen::Index;
 using Eigen::Vector3d;
 using math::skew;
@@ -23,13 +23,13 @@ void FacetPressure::push(const dynamics::Motion& motion) const {
 }
 
 void FacetPressure::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
-  places_.see(motion, Extent::place);
+  places_.see(motion, EvaluationLevel::position);
   push(motion);
   places_.add(wrenches_, r);
 }
 
 void FacetPressure::tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const {
-  places_.see(motion, Extent::directions);
+  places_.see(motion, EvaluationLevel::jacobian);
   push(motion);
   if (follower_) {
     const Vector3d one = places_[1].p - places_[0].p, two = places_[2].p - places_[0].p;

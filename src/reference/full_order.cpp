@@ -11,7 +11,7 @@ namespace {
 
 constexpr int dofs = 3;  // of a node in the plane
 
-bool is_held(const fem::Conditions& conditions, PetscInt dof) {
+bool is_constrained(const fem::Conditions& conditions, PetscInt dof) {
   return std::binary_search(conditions.begin(), conditions.end(), dof);
 }
 
@@ -20,7 +20,7 @@ Eigen::MatrixXd free_columns(const fem::Structure& structure, const fem::Conditi
                              const std::vector<int>& cell, std::vector<int>& kept) {
   kept.clear();
   for (std::size_t i = 0; i < cell.size(); ++i)
-    if (!is_held(conditions, structure.global_dof(cell[i]))) kept.push_back(static_cast<int>(i));
+    if (!is_constrained(conditions, structure.global_dof(cell[i]))) kept.push_back(static_cast<int>(i));
   Eigen::MatrixXd V =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(cell.size()), static_cast<Eigen::Index>(kept.size()));
   for (std::size_t j = 0; j < kept.size(); ++j) V(kept[j], j) = 1;
@@ -96,19 +96,21 @@ std::vector<std::unique_ptr<dynamics::Term>> full_order_terms(const fem::Structu
   for (PetscInt dof : reference.conditions) {
     const PetscInt local = dof - dofs * structure.mesh.first_node;
     if (local < 0 || local >= dofs * structure.mesh.owned_nodes) continue;
-    terms.push_back(std::make_unique<HeldDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
+    terms.push_back(
+        std::make_unique<ConstrainedDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
   }
   return terms;
 }
 
-std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure, const fem::Conditions& held,
+std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure,
+                                                           const fem::Conditions& constrained,
                                                            const NodeCoordinates& nodes, int frame, CellsOfPart part) {
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   std::vector<int> kept;
   for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
     if (!counts(part, c)) continue;
     const std::vector<int> all = structure.cell_dofs(structure.mesh.cells[c]);
-    const Eigen::MatrixXd V = free_columns(structure, held, all, kept);
+    const Eigen::MatrixXd V = free_columns(structure, constrained, all, kept);
     std::vector<int> free;
     for (int i : kept) free.push_back(all[i]);
     const Eigen::Index k = V.cols();
@@ -119,7 +121,7 @@ std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure&
   return terms;
 }
 
-std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
+std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& constrained,
                                               const NodeCoordinates& nodes, int frame, Density density,
                                               CellsOfPart part) {
   std::vector<dynamics::Marker> markers;
@@ -138,7 +140,7 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
     marker.x = in.s0;
     marker.S = in.S, marker.Q = in.Q;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!is_held(held, structure.global_dof(all[i]))) continue;
+      if (!is_constrained(constrained, structure.global_dof(all[i]))) continue;
       const auto at = static_cast<Eigen::Index>(i);
       marker.S.col(at).setZero();
       for (Eigen::MatrixXd& Q : marker.Q) Q.row(at).setZero(), Q.col(at).setZero();
@@ -149,7 +151,7 @@ std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, c
   return markers;
 }
 
-dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
+dynamics::Marker node_marker(const fem::Conditions& constrained, const NodeCoordinates& nodes, int frame, PetscInt node,
                              const Eigen::Vector3d& x) {
   dynamics::Marker marker;
   const int first = nodes.of_node(node);
@@ -159,7 +161,7 @@ dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates&
   marker.S = Eigen::Matrix<double, 2, 3>::Identity();
   marker.psi = Eigen::RowVector3d(0, 0, 1);
   for (int d = 0; d < dofs; ++d)
-    if (is_held(held, dofs * node + d)) marker.S.col(d).setZero(), marker.psi[d] = 0;
+    if (is_constrained(constrained, dofs * node + d)) marker.S.col(d).setZero(), marker.psi[d] = 0;
   return marker;
 }
 
@@ -188,10 +190,10 @@ LinearConstraint::LinearConstraint(std::vector<int> coordinates, Eigen::MatrixXd
 void LinearConstraint::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
   const Eigen::Index n = C_.cols();
   r.head(n).noalias() += C_.transpose() * motion.q.tail(C_.rows());
-  const Eigen::VectorXd& held = motion.level == dynamics::ConstraintLevel::position   ? motion.q
-                                : motion.level == dynamics::ConstraintLevel::velocity ? motion.v
-                                                                                      : motion.a;
-  r.tail(C_.rows()).noalias() += C_ * held.head(n);
+  const Eigen::VectorXd& constrained = motion.level == dynamics::ConstraintLevel::position   ? motion.q
+                                       : motion.level == dynamics::ConstraintLevel::velocity ? motion.v
+                                                                                             : motion.a;
+  r.tail(C_.rows()).noalias() += C_ * constrained.head(n);
 }
 
 void LinearConstraint::tangent(const dynamics::Motion&, dynamics::Weights, Eigen::MatrixXd& J) const {
@@ -200,8 +202,12 @@ void LinearConstraint::tangent(const dynamics::Motion&, dynamics::Weights, Eigen
   J.topRightCorner(n, m) += C_.transpose();
 }
 
-void HeldDof::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const { r[0] += scale_ * motion.q[0]; }
+void ConstrainedDof::residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const {
+  r[0] += scale_ * motion.q[0];
+}
 
-void HeldDof::tangent(const dynamics::Motion&, dynamics::Weights, Eigen::MatrixXd& J) const { J(0, 0) += scale_; }
+void ConstrainedDof::tangent(const dynamics::Motion&, dynamics::Weights, Eigen::MatrixXd& J) const {
+  J(0, 0) += scale_;
+}
 
 }  // namespace floe::reference

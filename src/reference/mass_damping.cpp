@@ -10,7 +10,9 @@ namespace {
 
 using petsc::check;
 
-bool is_held(const fem::Conditions& held, PetscInt dof) { return std::binary_search(held.begin(), held.end(), dof); }
+bool is_constrained(const fem::Conditions& constrained, PetscInt dof) {
+  return std::binary_search(constrained.begin(), constrained.end(), dof);
+}
 
 bool last_rank(MPI_Comm comm) {
   int rank = 0, size = 1;
@@ -35,7 +37,7 @@ void add_elements(const fem::Structure& structure, const MassDamping& damping, c
     std::vector<int> coordinates;
     std::vector<Eigen::Index> free;
     for (std::size_t i = 0; i < dofs.size(); ++i) {
-      if (is_held(damping.held, structure.global_dof(dofs[i]))) continue;
+      if (is_constrained(damping.constrained, structure.global_dof(dofs[i]))) continue;
       free.push_back(static_cast<Eigen::Index>(i));
       coordinates.push_back(nodes.of_local_node(dofs[i] / n) + dofs[i] % n);
     }
@@ -63,7 +65,7 @@ void add_constraints(const fem::Structure& structure, const MassDamping& damping
     std::vector<int> coordinates;
     std::vector<Eigen::Index> columns;
     for (int d = 0; d < n; ++d) {
-      if (is_held(damping.held, n * (first + node) + d) || f.col(n * node + d).isZero(0)) continue;
+      if (is_constrained(damping.constrained, n * (first + node) + d) || f.col(n * node + d).isZero(0)) continue;
       coordinates.push_back(nodes.of_local_node(static_cast<int>(node)) + d);
       columns.push_back(n * node + d);
     }
@@ -78,7 +80,8 @@ void add_constraints(const fem::Structure& structure, const MassDamping& damping
 
 }  // namespace
 
-bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& joints, const fem::Conditions& held) {
+bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& joints,
+                   const fem::Conditions& constrained) {
   const int n = structure.dofs_per_node;
   int moves = 0;
   for (const petsc::VecHandle& f : joints.functionals) {
@@ -86,7 +89,7 @@ bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& j
     double greatest = 0, free = 0;
     check(VecNorm(f, NORM_INFINITY, &greatest));
     for (PetscInt dof = own.first; dof < own.first + n * structure.mesh.owned_nodes; ++dof)
-      if (!is_held(held, dof)) free = std::max(free, std::abs(own[dof]));
+      if (!is_constrained(constrained, dof)) free = std::max(free, std::abs(own[dof]));
     if (free > 1e-12 * greatest) moves = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, &moves, 1, MPI_INT, MPI_MAX, structure.mesh.comm);

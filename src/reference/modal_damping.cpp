@@ -28,7 +28,9 @@ std::vector<std::unique_ptr<dynamics::Term>> modal_damping_terms(const fem::Stru
     std::vector<Eigen::Index> columns;
     for (int d = 0; d < n; ++d) {
       const PetscInt dof = n * (mesh.first_node + node) + d;
-      if (std::binary_search(damping.held.begin(), damping.held.end(), dof) || f.col(n * node + d).isZero(0)) continue;
+      if (std::binary_search(damping.constrained.begin(), damping.constrained.end(), dof) ||
+          f.col(n * node + d).isZero(0))
+        continue;
       coordinates.push_back(nodes.of_local_node(static_cast<int>(node)) + d);
       columns.push_back(n * node + d);
     }

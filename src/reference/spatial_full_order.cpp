@@ -9,7 +9,9 @@ namespace {
 
 constexpr int dofs = 6;  // of a node
 
-bool is_held(const fem::Conditions& held, PetscInt dof) { return std::binary_search(held.begin(), held.end(), dof); }
+bool is_constrained(const fem::Conditions& constrained, PetscInt dof) {
+  return std::binary_search(constrained.begin(), constrained.end(), dof);
+}
 
 std::vector<int> coordinates_of(const fem::Mesh::Cell& cell, const NodeCoordinates& nodes) {
   std::vector<int> all;
@@ -27,13 +29,13 @@ std::vector<int> behind_frame(const SpatialFrame& frame, const std::vector<int>&
 
 }  // namespace
 
-FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& held, const fem::Mesh::Cell& cell,
+FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& constrained, const fem::Mesh::Cell& cell,
                    const NodeCoordinates& nodes) {
   const std::vector<int> all = structure.cell_dofs(cell), where = coordinates_of(cell, nodes);
   FreeDofs free;
   std::vector<Eigen::Index> kept;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (is_held(held, structure.global_dof(all[i]))) continue;
+    if (is_constrained(constrained, structure.global_dof(all[i]))) continue;
     kept.push_back(static_cast<Eigen::Index>(i));
     free.coordinates.push_back(where[i]);
   }
@@ -81,7 +83,7 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem
 }
 
 std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
-    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
+    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& constrained,
     const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity) {
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   const bool mean_axis = reference.kind == fem::ReferenceFrame::Kind::mean_axis;
@@ -91,7 +93,7 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
   for (const auto& cell : structure.mesh.cells) {
     const fem::ElementMaps maps = structure.maps(cell);
     stiffest = std::max(stiffest, reference::stiffest(maps));
-    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    const FreeDofs free = free_dofs(structure, constrained, cell, nodes);
     body::Elasticity elasticity = fem::elasticity(maps, free.V);
     if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);
     const body::Inertia inertia = inertia_of(structure, cell, maps, free.V);
@@ -110,23 +112,24 @@ std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
                                                             body::spatial(inertia), std::move(elasticity)));
   }
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  for (PetscInt dof : held) {
+  for (PetscInt dof : constrained) {
     const PetscInt local = dof - dofs * structure.mesh.first_node;
     if (local >= 0 && local < structure.owned_dofs())
-      terms.push_back(std::make_unique<HeldDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
+      terms.push_back(
+          std::make_unique<ConstrainedDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
   }
   return terms;
 }
 
 std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,
-                                                                   const fem::Conditions& held,
+                                                                   const fem::Conditions& constrained,
                                                                    const NodeCoordinates& nodes,
                                                                    const SpatialFrame& frame, CellsOfPart part) {
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
     if (!counts(part, c)) continue;
     const fem::Mesh::Cell& cell = structure.mesh.cells[c];
-    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    const FreeDofs free = free_dofs(structure, constrained, cell, nodes);
     const Eigen::Index k = free.V.cols();
     terms.push_back(std::make_unique<dynamics::SpatialBody>(
         behind_frame(frame, free.coordinates), frame.attitude,
@@ -144,14 +147,14 @@ body::Inertia density_inertia(const fem::Structure& structure, const fem::Mesh::
 }
 
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
-                                                             const fem::Conditions& held, const NodeCoordinates& nodes,
-                                                             const SpatialFrame& frame, Density density,
-                                                             CellsOfPart part) {
+                                                             const fem::Conditions& constrained,
+                                                             const NodeCoordinates& nodes, const SpatialFrame& frame,
+                                                             Density density, CellsOfPart part) {
   std::vector<dynamics::SpatialMarker> markers;
   for (std::size_t c = 0; c < structure.mesh.cells.size(); ++c) {
     if (!counts(part, c)) continue;
     const fem::Mesh::Cell& cell = structure.mesh.cells[c];
-    const FreeDofs free = free_dofs(structure, held, cell, nodes);
+    const FreeDofs free = free_dofs(structure, constrained, cell, nodes);
     const body::Inertia in = density_inertia(structure, cell, density, free.V);
     if (in.m == 0) continue;
     dynamics::SpatialMarker marker;

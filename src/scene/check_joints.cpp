@@ -18,16 +18,17 @@ struct Spot {
   Point node{};
   std::optional<Point> world;  // at the start; nothing: ground that follows the other place
   bool operator==(const Spot& other) const {
-    return body == other.body && (!body || node == other.node);  // the ground is one body, wherever it is held
+    return body == other.body && (!body || node == other.node);  // the ground is one body, wherever it is constrained
   }
 };
 
 std::optional<Point> world_point(const Body& body, const Point& node, int dimension) {
   const InitialSpec& initial = body.initial;
   if (dimension == 3) {
-    const Point &x = initial.position, &turn = initial.rotation;
-    const Eigen::Vector3d p = Eigen::Vector3d(x[0], x[1], x[2]) +
-                              math::rotation({turn[0], turn[1], turn[2]}) * Eigen::Vector3d(node[0], node[1], node[2]);
+    const Point &x = initial.position, &rotation = initial.rotation;
+    const Eigen::Vector3d p =
+        Eigen::Vector3d(x[0], x[1], x[2]) +
+        math::rotation({rotation[0], rotation[1], rotation[2]}) * Eigen::Vector3d(node[0], node[1], node[2]);
     return Point{p.x(), p.y(), p.z()};
   }
   Point p = node;
@@ -93,7 +94,7 @@ void check_joints(Document& document, const Scene& scene) {
     const Joint* joint;
     Spot first, second;
   };
-  std::vector<Held> held;
+  std::vector<Held> constrained;
   for (const Joint& joint : scene.joints) {
     const auto spots = std::pair(find_spot(scene, joint.first), find_spot(scene, joint.second));
     if (!spots.first || !spots.second) continue;
@@ -109,7 +110,7 @@ void check_joints(Document& document, const Scene& scene) {
     }
     check_distance(document, joint, first, second);
     if (joint.kind == Joint::Kind::spring || joint.kind == Joint::Kind::bushing) continue;  // beside a hinge
-    for (const Held& other : held) {
+    for (const Held& other : constrained) {
       const bool same =
           (first == other.first && second == other.second) || (first == other.second && second == other.first);
       if (!same) continue;
@@ -119,7 +120,7 @@ void check_joints(Document& document, const Scene& scene) {
           "one joint for a pair of places (besides springs)");
       break;
     }
-    held.push_back({&joint, first, second});
+    constrained.push_back({&joint, first, second});
   }
 }
 

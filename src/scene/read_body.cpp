@@ -100,7 +100,7 @@ InitialSpec read_initial(Document& document, Reading& body) {
   initial.angle = reading.number("angle");
   if (reading.given("rotation")) initial.rotation = reading.point("rotation");
   if (reading.given("velocity")) initial.velocity = reading.point("velocity");
-  initial.angular_velocity = reading.turning("angular_velocity");
+  initial.angular_velocity = reading.rotating("angular_velocity");
   if (document.dimension == 3) {
     initial.spatial_deformation = reading.formulas<3>("deformation", {"x", "y", "z"});
     initial.spatial_deformation_rate = reading.formulas<3>("deformation_rate", {"x", "y", "z"});

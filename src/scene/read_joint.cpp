@@ -148,19 +148,19 @@ void read_properties(Document& document, Reading& reading, Joint& joint) {
   if (joint.kind == Kind::driven_slide) read_drive(document, reading, "position", joint.position, joint.speed);
   if (joint.kind == Kind::support) return read_hold(document, reading, joint);
   joint.limits = read_limits(document, reading, "limits");
-  if (document.dimension == 3) joint.turn_limits = read_limits(document, reading, "turn_limits");
+  if (document.dimension == 3) joint.rotation_limits = read_limits(document, reading, "turn_limits");
   joint.friction = read_friction(document, reading, "friction");
-  if (document.dimension == 3) joint.turn_friction = read_friction(document, reading, "turn_friction");
+  if (document.dimension == 3) joint.rotation_friction = read_friction(document, reading, "turn_friction");
   using Edges = Joint::Edges;
   const bool holds_rotations = joint.kind == Kind::fixed || joint.kind == Kind::prismatic ||
                                joint.kind == Kind::driven || joint.kind == Kind::driven_slide;
-  const bool turns = joint.kind == Kind::revolute || joint.kind == Kind::cylindrical;
-  joint.edges = holds_rotations ? Edges::rigid : turns ? Edges::line : Edges::mean;
+  const bool rotations = joint.kind == Kind::revolute || joint.kind == Kind::cylindrical;
+  joint.edges = holds_rotations ? Edges::rigid : rotations ? Edges::line : Edges::mean;
   joint.edges_given = reading.given("edges");
   if (joint.edges_given)
     joint.edges =
         reading.choice<Edges>("edges", {{"rigid", Edges::rigid}, {"mean", Edges::mean}, {"line", Edges::line}});
-  if (joint.edges == Edges::line && !turns)
+  if (joint.edges == Edges::line && !rotations)
     document.fault(reading.where("edges"), fmt::format("is line at a joint of type {}", reading.text("type")),
                    "rigid or mean; line with type revolute or cylindrical");
   joint.stiffness = reading.number("stiffness");

@@ -6,7 +6,8 @@
 
 namespace floe::scene {
 
-// Each reads one value of the file into its part of the scene and checks what can be told from this part alone.
+// Each reads one value of the file into its part of the scene and checks what can be distinguished from this part
+// alone.
 
 MeshSpec read_mesh(Document& document, const Value& value);
 Body read_body(Document& document, const std::string& name, const Value& value);

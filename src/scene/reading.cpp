@@ -121,7 +121,7 @@ std::array<math::Formula, 3> Reading::moment(const std::string& name) {
   return {0.0, 0.0, formula(name)};
 }
 
-Point Reading::turning(const std::string& name) {
+Point Reading::rotating(const std::string& name) {
   if (document_.dimension == 3) return given(name) ? point(name) : Point{};
   return {0, 0, number(name)};
 }

@@ -48,7 +48,7 @@ class Reading {
   /// About x, y, z: in the plane one formula, that about z.
   std::array<math::Formula, 3> moment(const std::string& key);
   /// Likewise of numbers.
-  Point turning(const std::string& key);
+  Point rotating(const std::string& key);
   /// Exactly three numbers.
   std::array<double, 3> three(const std::string& key);
   /// As many formulas as variables.

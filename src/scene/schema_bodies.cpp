@@ -283,7 +283,7 @@ const SchemaSection initial_section{
         in_plane({"angle", Type::number, "rad", "0", "rotation angle of the mesh axes, counterclockwise"}),
         in_space({"rotation", Type::point, "rad", "", "rotation vector of the mesh axes, world axes; absent: zero"}),
         {"velocity", Type::point, "m/s", "", "velocity of the mesh origin, world axes; absent: zero"},
-        {"angular_velocity", Type::turning, "rad/s", "0",
+        {"angular_velocity", Type::rotating, "rad/s", "0",
          "angular velocity of the mesh axes; in spatial scenes a vector in world axes"},
         {"deformation", Type::formula_of_place, "m", "",
          "initial displacement of the mesh in mesh axes, from which the position of the floating frame follows; beams "

@@ -80,7 +80,7 @@ std::string describe(const Key& key, int dimension) {
       return fmt::format("true or false, or a mapping with the keys of `{}`", key.section);
     case Type::inertia:
       return space ? "three or six numbers [Jxx, Jyy, Jzz, Jxy, Jxz, Jyz]" : "a number or a formula of the parameters";
-    case Type::turning:
+    case Type::rotating:
       return space ? "three numbers [x, y, z]" : "a number or a formula of the parameters";
     case Type::formula_of_place:
       return space ? "three formulas of x, y and z [u, v, w]" : "two formulas of x and y [u, v]";
@@ -132,7 +132,7 @@ std::string described(const SchemaSection& section, const Key& key) {
 
 std::string default_text(const Key& key) {
   if (key.fallback == Key::required) return "";
-  return key.type == Type::turning && key.fallback == "0" ? "0; in spatial scenes [0, 0, 0]" : key.fallback;
+  return key.type == Type::rotating && key.fallback == "0" ? "0; in spatial scenes [0, 0, 0]" : key.fallback;
 }
 
 std::string schema_reference() {

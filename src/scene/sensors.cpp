@@ -27,15 +27,15 @@ std::vector<JointCoordinate> coordinates_of(const Joint& joint, int dimension) {
   switch (joint.kind) {
     case Kind::revolute:
     case Kind::driven:
-      return {JointCoordinate::turn};
+      return {JointCoordinate::rotation};
     case Kind::prismatic:
     case Kind::driven_slide:
       return {JointCoordinate::travel};
     case Kind::cylindrical:
-      return {JointCoordinate::travel, JointCoordinate::turn};
+      return {JointCoordinate::travel, JointCoordinate::rotation};
     case Kind::spring:
       if (dimension == 3 && !joint.axis_given) return {JointCoordinate::length};
-      return {JointCoordinate::length, JointCoordinate::turn};
+      return {JointCoordinate::length, JointCoordinate::rotation};
     default:
       return {};
   }
@@ -47,7 +47,7 @@ JointCoordinate loaded_coordinate(const Load& load, const Joint& joint, int dime
     throw InputError(fmt::format("{}.joint: the motion of joint {} is prescribed; expected a joint that is free",
                                  load.where.text(), joint.name));
   for (const JointCoordinate of : coordinates_of(joint, dimension))
-    if ((of == JointCoordinate::turn) == moment) return of;
+    if ((of == JointCoordinate::rotation) == moment) return of;
   throw InputError(fmt::format("{}.joint: joint {} has no {}; expected {}", load.where.text(), joint.name,
                                moment ? "angle" : "travel or length",
                                moment ? "a revolute or cylindrical joint, or a spring (in space with axis)"
@@ -107,7 +107,7 @@ bool is_sensed(Probe::Quantity quantity) {
 
 const char* name_of(JointCoordinate of, bool rate) {
   switch (of) {
-    case JointCoordinate::turn:
+    case JointCoordinate::rotation:
       return rate ? "rate" : "angle";
     case JointCoordinate::travel:
       return rate ? "speed" : "travel";

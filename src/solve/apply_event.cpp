@@ -6,10 +6,10 @@ namespace floe::solve {
 
 EventReport apply_event(const System& system, const Event& event, double t, Vec U, Vec V) {
   EventReport report{event.name, event.what, t};
-  if (!event.latch) return report;
+  if (!event.constraint_switch) return report;
   const double before = system.energy(t, U, V).kinetic;
-  event.latch->closed = event.closes;
-  system.settle(U);
+  event.constraint_switch->closed = event.closes;
+  system.commit_step(U);
   const petsc::VecHandle impulses = system.create_vector();
   try {
     consistent_velocities(system, t, U, V, impulses);

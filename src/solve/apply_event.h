@@ -5,8 +5,8 @@
 namespace floe::solve {
 using namespace dynamics;
 
-/// Applies an event at the state (t, U, V): its latch changes, and velocities go to the nearest ones that fit. The
-/// next step must start anew (TSRestartStep).
+/// Applies an event at the state (t, U, V): its constraint switch changes, and velocities go to the nearest ones that
+/// fit. The next step must start anew (TSRestartStep).
 /// @throws RunError  the rows that close contradict or repeat others. Collective.
 EventReport apply_event(const System& system, const Event& event, double t, Vec U, Vec V);
 

@@ -120,7 +120,7 @@ class Follower {
     check(VecCopy(U_, change));
     check(VecAXPY(change, -1, before));
     const double size = size_of(change, weights);
-    check(VecAXPBY(a, 0.5, -0.5, b));  // (a + b)/2 of the doc comment: a's sign is turned
+    check(VecAXPBY(a, 0.5, -0.5, b));  // (a + b)/2 of the doc comment: a's sign is changed
     const double predicted = size_of(a, weights);
     check(VecAXPY(a, -1, change));
     if (!(size > 1e-9 * size_of(U_, weights)) || size_of(a, weights) <= most_departure * size) return {};

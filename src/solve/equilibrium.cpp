@@ -10,8 +10,8 @@
 #include "floe/solve/start.h"
 #include "relaxation.h"
 #include "resolution.h"
+#include "rotations.h"
 #include "round_off.h"
-#include "turns.h"
 #include "undetermined.h"
 
 namespace floe::solve {
@@ -33,7 +33,7 @@ std::string none_at(double t, const std::string& why) {
   return fmt::format("no equilibrium at t = {:.6g}; {}", t, why);
 }
 
-NothingHolds unheld(double t, const std::string& bodies) {
+NothingHolds unconstrained(double t, const std::string& bodies) {
   return NothingHolds(
       none_at(t, fmt::format("singular tangent stiffness{}: an unconstrained rigid-body motion, or ill-conditioning; "
                              "constrain it, or start from another configuration (`initial`)",
@@ -65,14 +65,14 @@ PetscInt prepare_search(const System& system, double t, Vec U, Vec V) {
     throw RunError(
         none_at(t, fmt::format("redundant constraints{}: remove one of these joints, or let it constrain fewer motions",
                                open.joints)));
-  if (is_at_rest(system, t, U, V)) throw unheld(t, open.bodies);  // round-off must not set it going
+  if (is_at_rest(system, t, U, V)) throw unconstrained(t, open.bodies);  // round-off must not set it going
   const petsc::VecHandle before = system.create_vector();
   check(VecCopy(U, before));
   const Relaxation relaxed = relax(system, t, U, V);
   if (!relaxed.runs_away && !open_directions(system, t, U, V).any()) return relaxed.steps;
   check(VecCopy(before, U));
   if (relaxed.runs_away) throw driven_away(t, open.bodies);
-  throw unheld(t, open.bodies);
+  throw unconstrained(t, open.bodies);
 }
 
 constexpr double open_limit = 1e-6;
@@ -115,7 +115,7 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
     const petsc::MatHandle copy = copy_of_dense(J);
     const Mat kept = copy ? copy.get() : J;
     const petsc::KspHandle ksp = tangent_solver(J, "static_");
-    if (!correct(ksp, F, step)) throw unheld(t, null_vectors(system, kept).bodies);
+    if (!correct(ksp, F, step)) throw unconstrained(t, null_vectors(system, kept).bodies);
     open = plain_size(system, frames, ksp, kept, step, U, before);
     check(VecAXPY(U, -1, step));
     if (open > open_limit && done + 1 < most_corrections) continue;
@@ -124,7 +124,7 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
     gain = gain_of_errors(system, ksp, kept, next);
     if (open <= open_limit && gain < 0.5) return done;
   }
-  if (!(gain < 0.5)) throw unheld(t, names_of_movers(system, step));
+  if (!(gain < 0.5)) throw unconstrained(t, names_of_movers(system, step));
   if (open > 1e-2)  // round-off leaves no more than that where the gain is small: smaller steps of the loads may help
     throw RunError(
         fmt::format("no equilibrium at t = {:.6g}: Newton's method does not converge (its last update is {:.2g} of the "
@@ -136,14 +136,14 @@ PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat
       t, open, open_limit));
 }
 
-/// @throws RunError  joints are met otherwise than they are meant to be, or a body turned too far. Collective.
+/// @throws RunError  joints are met otherwise than they are meant to be, or a body rotated too far. Collective.
 void check_place(const System& system, double t, Vec before, Vec U) {
-  const System::Astray astray = system.astray(t, U);
-  if (!astray.joint.empty()) throw RunError(none_at(t, astray.text()));
-  if (const double turn = greatest_turn(system, before, U); turn > farthest_turn)
+  const System::FailedConstraint failed_constraint = system.failed_constraint(t, U);
+  if (!failed_constraint.joint.empty()) throw RunError(none_at(t, failed_constraint.text()));
+  if (const double rotation = max_rotation(system, before, U); rotation > rotation_limit)
     throw RunError(fmt::format(
         "no equilibrium at t = {:.6g} within a rotation of 180 deg: Newton's method rotates a body by {:.3g} rad", t,
-        turn));
+        rotation));
 }
 
 /// Whether forces act at U and its tangent is indefinite.
@@ -155,7 +155,7 @@ bool goes_uphill(const System& system, double t, Vec U, Vec V) {
 NewtonSearch search_from(const System& system, double t, Vec U, Vec V, Vec before) {
   const petsc::MatHandle J = system.create_tangent();
   NewtonSearch search = newton(system, t, U, V, before, J);
-  if (search.singular && search.iterations == 0) throw unheld(t, "");
+  if (search.singular && search.iterations == 0) throw unconstrained(t, "");
   if (!search.fault.empty()) throw RunError(none_at(t, search.fault));
   check_place(system, t, before, U);  // where joints are met otherwise, no more steps are of use
   search.iterations += make_sure(system, t, U, V, before, J);
@@ -192,7 +192,7 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend)
   } catch (const RunError&) {
     fault = std::current_exception();
   }
-  // Steps that turn far may end at any equilibrium: the one below the start is meant.
+  // Steps that rotate far may end at any equilibrium: the one below the start is meant.
   const petsc::VecHandle there = system.create_vector();
   check(VecCopy(U, there));
   try {

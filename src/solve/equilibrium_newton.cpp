@@ -11,8 +11,8 @@
 #include "floe/petsc/values.h"
 #include "floe/solve/start.h"
 #include "resolution.h"
+#include "rotations.h"
 #include "round_off.h"
-#include "turns.h"
 
 namespace floe::solve {
 
@@ -73,8 +73,8 @@ void look_at_step(Context& c, SNES snes) {
   Vec U = nullptr, step = nullptr;
   check(SNESGetSolution(snes, &U));
   check(SNESGetSolutionUpdate(snes, &step));
-  c.far = c.far || turn_by(c.system, step) > M_PI / 2;
-  c.too_far = greatest_turn(c.system, c.before, U) > farthest_turn;
+  c.far = c.far || max_rotation_of_step(c.system, step) > M_PI / 2;
+  c.too_far = max_rotation(c.system, c.before, U) > rotation_limit;
 }
 
 PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal size, PetscReal step, PetscReal norm,

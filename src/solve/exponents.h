@@ -33,7 +33,7 @@ Refined refined(const Quadratic& problem, std::complex<double> start);
 /// A linearisation's round-off makes fast vibrations grow or decay, and at times real exponents of nothing. What grows
 /// or decays is refined: where that leads away (by a per cent; of real ones that round-off may make, by 1e-6) there is
 /// no exponent, and growth that round-off may make is none.
-/// @param nothing  exponents that are not told from zero, |s| <= nothing: frames that turn or drift freely
+/// @param nothing  exponents that are not distinguished from zero, |s| <= nothing: frames that rotate or drift freely
 /// @param small    growth that is none; in addition to 1e-7 |s|
 std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Exponents& found, double nothing,
                                           double small, int count);

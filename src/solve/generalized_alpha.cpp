@@ -18,12 +18,21 @@ namespace {
 
 using Data = GeneralizedAlpha;
 
-constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,     &Data::A0,        &Data::a0,        &Data::U1,
-                                  &Data::V1,        &Data::A1,     &Data::a1,        &Data::jerk,      &Data::normal,
-                                  &Data::a_used,    &Data::base_q, &Data::base_v,    &Data::base_A,    &Data::dynamic,
-                                  &Data::stiffness, &Data::mass,   &Data::row,       &Data::scale,     &Data::weight,
-                                  &Data::origin,    &Data::turns,  &Data::tangent_U, &Data::tangent_V, &Data::tangent_A,
-                                  &Data::work_U,    &Data::work_V, &Data::work_A,    &Data::work_F,    &Data::column};
+constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,
+                                  &Data::A0,        &Data::a0,
+                                  &Data::U1,        &Data::V1,
+                                  &Data::A1,        &Data::a1,
+                                  &Data::jerk,      &Data::normal,
+                                  &Data::a_used,    &Data::base_q,
+                                  &Data::base_v,    &Data::base_A,
+                                  &Data::dynamic,   &Data::stiffness,
+                                  &Data::mass,      &Data::row,
+                                  &Data::scale,     &Data::weight,
+                                  &Data::origin,    &Data::attitude_rows,
+                                  &Data::tangent_U, &Data::tangent_V,
+                                  &Data::tangent_A, &Data::work_U,
+                                  &Data::work_V,    &Data::work_A,
+                                  &Data::work_F,    &Data::column};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -66,7 +75,7 @@ PetscErrorCode set_up(TS ts) {
   }
   PetscCall(mark_dynamic_rows(data));
   PetscCall(mark_attitudes(ts));
-  PetscCall(set_turn(ts->snes, data->rotations.turn ? turn_kept : nullptr, ts));
+  PetscCall(set_rotation(ts->snes, data->rotations.rotate ? rotation_kept : nullptr, ts));
   // With a fixed step TS ends at the first failed Newton solve; with an adaptive one it cuts the step, max_reject
   // times.
   PetscCall(TSGetAdapt(ts, &ts->adapt));

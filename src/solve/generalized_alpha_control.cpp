@@ -23,13 +23,13 @@ PetscErrorCode measure(GeneralizedAlpha* data, SNES snes, Norms* norms) {
   PetscCall(SNESGetSolutionUpdate(snes, &update_vec));
   PetscCall(SNESGetLineSearch(snes, &line_search));
   PetscCall(SNESLineSearchGetLambda(line_search, &lambda));
-  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight), turns(data->turns),
-      dynamic(data->dynamic), scale(data->scale);
+  const Entries U(U_vec), U0(data->U0), V0(data->V0), update(update_vec), weight(data->weight),
+      attitude_rows(data->attitude_rows), dynamic(data->dynamic), scale(data->scale);
   for (PetscInt i = 0, n = local_size(U_vec); i < n; ++i) {
     sums[0] += weight[i] * PetscSqr(update[i]);
     sums[1] += weight[i] * PetscSqr(U[i] - U0[i]);
     sums[2] += weight[i] * PetscSqr(U[i] - U0[i] - data->h * V0[i]);
-    sums[3] += weight[i] * (PetscSqr(U[i]) + turns[i]);
+    sums[3] += weight[i] * (PetscSqr(U[i]) + attitude_rows[i]);
     if (dynamic[i] == 0) sums[4] += PetscSqr(update[i] / scale[i]);
   }
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)snes), &ranks));

@@ -31,7 +31,7 @@ struct GeneralizedAlpha {
 
   // Of each row: 1 for dynamic and 0 for constraint; |dF/dU|_ii, |dF/dA|_ii; 1 / norm of a constraint row.
   Vec dynamic = nullptr, stiffness = nullptr, mass = nullptr, row = nullptr;
-  Vec turns = nullptr;                    // of each row: 1 for an attitude, else 0
+  Vec attitude_rows = nullptr;            // of each row: 1 for an attitude, else 0
   Vec scale = nullptr, weight = nullptr;  // row scaling and |J_ii| (0 for multipliers), for the step size h_scale
   PetscReal h_scale = 0;
   Vec column = nullptr;  // column scaling of the Jacobian that was formed last: 1 where `two_sided` is not set
@@ -106,7 +106,7 @@ PetscErrorCode start_consistently(TS ts);
 PetscErrorCode smooth_rates(TS ts);
 
 // generalized_alpha_rotations.cpp
-/// Fills `turns`. Collective.
+/// Fills `attitude_rows`. Collective.
 PetscErrorCode mark_attitudes(TS ts);
 /// ts->vec_sol takes its own rotations for bases; `origin` moves with it. Collective.
 PetscErrorCode rebase(TS ts);
@@ -114,7 +114,7 @@ PetscErrorCode rebase(TS ts);
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 
 /// A Turn (simplified_newton.h) in scaled rows; context: the TS.
-PetscErrorCode turn_kept(SNES snes, Vec U, PetscBool back, Vec y, void* context);
+PetscErrorCode rotation_kept(SNES snes, Vec U, PetscBool back, Vec y, void* context);
 
 // generalized_alpha_scaling.cpp
 /// Constants of scaling: Jacobians at the state (U0, V0, A0) with shift_a; leaves J(shift_v = 0, shift_a), unscaled.

@@ -1,6 +1,6 @@
 #include "generalized_alpha_data.h"
 
-// Rotations A = base exp(x) with angular velocities w in turned axes: A' = A ~w and T(x) x' = w, T(x) = I - ~x/2 + ...
+// Rotations A = base exp(x) with angular velocities w in rotated axes: A' = A ~w and T(x) x' = w, T(x) = I - ~x/2 + ...
 // . With x = 0 at the beginning of a step the plain sums of the scheme are those of the Lie algebra, and order 2 stays.
 // Where the scheme is corrected to order 3, x is not the integral of w:
 //   x(h) = h w + h^2/2 w' + h^3/6 w'' + h^3/12 [w, w'] + ...,   x' = w + [x, w]/2 + ...,   [a, b] = a x b
@@ -28,20 +28,21 @@ PetscErrorCode mark_attitudes(TS ts) {
   PetscInt first;
 
   PetscFunctionBegin;
-  PetscCall(VecSet(data->turns, 0));
+  PetscCall(VecSet(data->attitude_rows, 0));
   if (!data->rotations.bracket) PetscFunctionReturn(0);
-  PetscCall(VecGetOwnershipRange(data->turns, &first, nullptr));
+  PetscCall(VecGetOwnershipRange(data->attitude_rows, &first, nullptr));
   {
     Changed a(data->work_U), b(data->work_V);
-    for (PetscInt i = 0, n = local_size(data->turns); i < n; ++i) {
+    for (PetscInt i = 0, n = local_size(data->attitude_rows); i < n; ++i) {
       a[i] = PetscSinReal(1 + 1.3 * (PetscReal)(first + i));
       b[i] = PetscSinReal(2 + 1.9 * (PetscReal)(first + i));
     }
   }
-  PetscCall((*data->rotations.bracket)(ts, data->work_U, data->work_V, data->turns, data->rotations.context));
+  PetscCall((*data->rotations.bracket)(ts, data->work_U, data->work_V, data->attitude_rows, data->rotations.context));
   {
-    Changed turns(data->turns);
-    for (PetscInt i = 0, n = local_size(data->turns); i < n; ++i) turns[i] = turns[i] != 0 ? 1 : 0;
+    Changed attitude_rows(data->attitude_rows);
+    for (PetscInt i = 0, n = local_size(data->attitude_rows); i < n; ++i)
+      attitude_rows[i] = attitude_rows[i] != 0 ? 1 : 0;
   }
   PetscCall(VecSet(data->work_U, 0));
   PetscCall(VecSet(data->work_V, 0));
@@ -59,14 +60,14 @@ void scale_rows(GeneralizedAlpha* data, Vec y_vec, bool into) {
 }  // namespace
 
 // A Jacobian just formed is one of U.
-PetscErrorCode turn_kept(SNES, Vec U, PetscBool back, Vec y, void* context) {
+PetscErrorCode rotation_kept(SNES, Vec U, PetscBool back, Vec y, void* context) {
   TS ts = static_cast<TS>(context);
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
   if (data->new_jacobian) PetscFunctionReturn(0);
   if (back) scale_rows(data, y, false);
-  PetscCall((*data->rotations.turn)(ts, U, back, y, data->rotations.context));
+  PetscCall((*data->rotations.rotate)(ts, U, back, y, data->rotations.context));
   if (back) scale_rows(data, y, true);
   PetscFunctionReturn(0);
 }

@@ -145,8 +145,8 @@ PetscErrorCode split_normal(TS ts) {
 }
 
 // jerk <- J^-1 (M shift_a jerk), with the constraint rows C_q jerk. h M jerk is F(.., A + h jerk) - F(.., A), for F is
-// linear in A. The operator acts on motions, not on coordinates: a frame that turns and elastic coordinates that turn
-// it back are one motion, whatever the stiffness of either coordinate by itself.
+// linear in A. The operator acts on motions, not on coordinates: a frame that rotates and elastic coordinates that
+// rotate it back are one motion, whatever the stiffness of either coordinate by itself.
 PetscErrorCode leave_out_stiff(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;

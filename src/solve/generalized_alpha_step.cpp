@@ -88,12 +88,12 @@ PetscErrorCode worth_adding(TS ts, PetscReal factor, PetscBool* yes) {
   double sums[4] = {0, 0, 0, 0};
 
   PetscFunctionBegin;
-  const Entries A(data->A0), a(data->a_used), U(data->U0), weight(data->weight), turns(data->turns);
+  const Entries A(data->A0), a(data->a_used), U(data->U0), weight(data->weight), attitude_rows(data->attitude_rows);
   for (PetscInt i = 0, n = local_size(data->a_used); i < n; ++i) {
     sums[0] += weight[i] * PetscSqr(factor * (A[i] - a[i]));
     sums[1] += weight[i] * PetscSqr(a[i]);
     sums[2] += weight[i] * PetscSqr(A[i]);
-    sums[3] += weight[i] * (PetscSqr(U[i]) + turns[i]);
+    sums[3] += weight[i] * (PetscSqr(U[i]) + attitude_rows[i]);
   }
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)ts), &ranks));
   if (ranks > 1)

@@ -49,23 +49,27 @@ PetscErrorCode bracket(TS, Vec a, Vec b, Vec W, void* context) {
   return c.guard.run([&] { c.system.bracket(a, b, W); });
 }
 
-PetscErrorCode turn_rates(TS, Vec U, PetscBool back, Vec y, void* context) {
+PetscErrorCode rotate_rates(TS, Vec U, PetscBool back, Vec y, void* context) {
   auto& c = *static_cast<MotionContext*>(context);
-  return c.guard.run([&] { c.system.turn(c.axes_of_tangent, U, back == PETSC_TRUE, y); });
+  return c.guard.run([&] { c.system.rotate(c.axes_of_tangent, U, back == PETSC_TRUE, y); });
 }
 
-/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that turn too far are tried
+/// A step that ends where a joint is not met as it is meant to be is none. Adaptive ones that rotate too far are tried
 /// again, smaller.
-PetscErrorCode well_met(TS ts, PetscReal t, Vec U, PetscBool* accept) {
+PetscErrorCode check_constraints(TS ts, PetscReal t, Vec U, PetscBool* accept) {
   MotionContext* c = nullptr;
   const PetscErrorCode code = TSGetApplicationContext(ts, &c);
   if (code) return code;
   return c->guard.run([&] {
-    const System::Astray astray = c->system.astray(t, U);
-    *accept = astray.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
-    if (astray.joint.empty() || (c->adaptive && astray.standing == Standing::half_turn)) return;
-    throw RunError(fmt::format("at t = {:.6g} {}{}", t, astray.text(),
-                               astray.standing == Standing::half_turn ? "; expected a smaller motion.step" : ""));
+    const System::FailedConstraint failed_constraint = c->system.failed_constraint(t, U);
+    *accept = failed_constraint.joint.empty() ? PETSC_TRUE : PETSC_FALSE;
+    if (failed_constraint.joint.empty() ||
+        (c->adaptive && failed_constraint.constraint_status == ConstraintStatus::flipped_branch))
+      return;
+    throw RunError(fmt::format("at t = {:.6g} {}{}", t, failed_constraint.text(),
+                               failed_constraint.constraint_status == ConstraintStatus::flipped_branch
+                                   ? "; expected a smaller motion.step"
+                                   : ""));
   });
 }
 
@@ -186,10 +190,10 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
   check(TSGeneralizedAlphaSetStart(ts, start, &context));
   const bool attitudes = system.has_attitudes();
   const TSGeneralizedAlphaRotations rotations{attitudes ? rebase_rotations : nullptr, attitudes ? bracket : nullptr,
-                                              &context, turn_rates};
+                                              &context, rotate_rates};
   check(TSGeneralizedAlphaSetRotations(ts, &rotations));
   check(TSSetApplicationContext(ts, &context));
-  check(TSSetFunctionDomainError(ts, well_met));
+  check(TSSetFunctionDomainError(ts, check_constraints));
   check(TSSetTimeStep(ts, how.step));
   check(TSSetMaxTime(ts, how.end));
   check(TSSetMaxSteps(ts, PETSC_MAX_INT));

@@ -10,7 +10,7 @@ AllowedMotions::AllowedMotions(const System& system, const RotatingTangent& at, 
   const std::vector<char> is_multiplier = multiplier_flags(system);
   std::vector<Index> rows;
   for (Index i = 0; i < at.G.rows(); ++i)
-    if (!is_multiplier[i] && at.G(i, i) == 0) free_.push_back(i);  // held dofs have an equation of their own
+    if (!is_multiplier[i] && at.G(i, i) == 0) free_.push_back(i);  // constrained dofs have an equation of their own
   scale_ = root_mass(free_).unaryExpr([](double root) { return root > 0 ? 1 / root : 1.0; });
   for (Index i = 0; i < at.G.rows(); ++i)
     if (is_multiplier[i] && !at.G(i, free_).isZero(0)) rows.push_back(i);  // others belong to rows that are left out

@@ -3,7 +3,7 @@
 
 namespace floe::solve {
 
-/// Motions that constraints and held dofs allow: u = D Q y over the free coordinates, D of unit mass each.
+/// Motions that constraints and constrained dofs allow: u = D Q y over the free coordinates, D of unit mass each.
 ///
 /// Q is the end of an orthogonal matrix of few reflections, kept as those.
 class AllowedMotions {

@@ -6,8 +6,8 @@
 
 #include "floe/petsc/values.h"
 #include "floe/solve/start.h"
+#include "rotations.h"
 #include "round_off.h"
-#include "turns.h"
 #include "undetermined.h"
 
 namespace floe::solve {
@@ -73,16 +73,16 @@ double curvature(Mat J, Vec motion) {
 
 /// Sizes of the last steps: whether they grow, and how.
 struct Growth {
-  double last = 0, before = 0, greatest = 0, turned = 0;
+  double last = 0, before = 0, greatest = 0, rotated = 0;
   int fourfold = 0;  ///< how many of the last steps were four times the one before
   int alike = 0;     ///< how many of the last steps were as long as the one before
-  void add(double size, double turn) {
-    before = last, last = size, greatest = std::max(greatest, size), turned += turn;
+  void add(double size, double rotation) {
+    before = last, last = size, greatest = std::max(greatest, size), rotated += rotation;
     fourfold = std::abs(last / before - 4) < 0.5 ? fourfold + 1 : 0;  // a first one divides by nothing: none
     alike = std::abs(last / before - 1) < 0.05 ? alike + 1 : 0;
   }
   bool grows() const { return last > 2 * before && before > 0 && last == greatest; }
-  bool goes_round() const { return turned > 3 * M_PI; }
+  bool goes_round() const { return rotated > 3 * M_PI; }
 };
 
 constexpr double far = 1, near = 0.25;  // rad
@@ -96,8 +96,8 @@ Relaxation relax(const System& system, double t, Vec U, Vec V) {
   const double highest = first_shift(system, t, U, V), least = 1e-14 * highest;
   Relaxation done;
   Growth growth;
-  double s = highest, turn = 0;
-  const auto ended = [&] { return s <= least && (s <= 1e-10 * least || (turn < 0.01 && !growth.grows())); };
+  double s = highest, rotation = 0;
+  const auto ended = [&] { return s <= least && (s <= 1e-10 * least || (rotation < 0.01 && !growth.grows())); };
   for (int tries = 0; tries < most_tries && !ended(); ++tries) {
     system.residual(t, U, V, A, ConstraintLevel::position, F);
     system.tangent(t, U, V, A, {1, 0, s}, J);
@@ -106,18 +106,18 @@ Relaxation relax(const System& system, double t, Vec U, Vec V) {
     const petsc::VecHandle motion = motion_of(system, step);
     double size = 0;
     check(VecNorm(motion, NORM_INFINITY, &size));
-    turn = turn_by(system, step);
+    rotation = max_rotation_of_step(system, step);
     // The first follows the drives.
-    if (done.steps > 0 && s < highest && (turn > far || !(curvature(copy ? copy.get() : J.get(), motion) >= 0))) {
-      s *= 4, turn = far;
+    if (done.steps > 0 && s < highest && (rotation > far || !(curvature(copy ? copy.get() : J.get(), motion) >= 0))) {
+      s *= 4, rotation = far;
       continue;
     }
-    growth.add(size, done.steps > 0 ? turn : 0);
+    growth.add(size, done.steps > 0 ? rotation : 0);
     if (growth.grows() || growth.goes_round()) done.bodies = names_of_movers(system, step);
     check(VecAXPY(U, -1, step));
     ++done.steps;
     if (growth.goes_round()) break;
-    if (turn <= near) s /= 4;
+    if (rotation <= near) s /= 4;
   }
   done.freely = growth.goes_round() ? growth.alike >= 8 : growth.fourfold >= 3 && growth.grows();
   done.runs_away = growth.goes_round() || growth.grows();

@@ -17,9 +17,9 @@ struct Relaxation {
 };
 
 /// U <- U - (K + s M)^-1 F, s = s_0, s_0/4, ... until it is nothing (pseudo-transient continuation; Kelley and Keyes
-/// 1998): down to an equilibrium near the way that a damped motion would go. A step that turns by more than a radian,
-/// or along which K + s M is not positive, is not taken but s made greater; while steps turn by more than a quarter of
-/// one, s stays. Stops where the first step fails, or after one and a half turns.
+/// 1998): down to an equilibrium near the way that a damped motion would go. A step that rotates by more than a radian,
+/// or along which K + s M is not positive, is not taken but s made greater; while steps rotate by more than a quarter
+/// of one, s stays. Stops where the first step fails, or after one and a half turns.
 ///
 /// With K n = 0 along the way and F'n constant, steps along n are F'n / (s n'Mn): each four times the one before.
 /// Collective.

@@ -7,7 +7,7 @@
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 #include "round_off.h"
-#include "turns.h"
+#include "rotations.h"
 
 namespace floe::solve {
 namespace {
@@ -33,21 +33,22 @@ MatrixXd block(const System& system, Mat J, int first, int count) {
   return values;
 }
 
-FrameInertia inertia_of(const System& system, Mat M, int first, int dimension, int turns) {
-  const MatrixXd all = block(system, M, first, dimension + turns);
-  FrameInertia frame{first, first + dimension, 0, MatrixXd::Zero(dimension, turns)};
+FrameInertia inertia_of(const System& system, Mat M, int first, int dimension, int rotations) {
+  const MatrixXd all = block(system, M, first, dimension + rotations);
+  FrameInertia frame{first, first + dimension, 0, MatrixXd::Zero(dimension, rotations)};
   const double mass = all(0, 0);
   if (!(mass > 0)) return frame;
-  frame.lever = all.topRightCorner(dimension, turns) / mass;
-  const MatrixXd about_centre = all.bottomRightCorner(turns, turns) / mass - frame.lever.transpose() * frame.lever;
+  frame.centre_shift = all.topRightCorner(dimension, rotations) / mass;
+  const MatrixXd about_centre =
+      all.bottomRightCorner(rotations, rotations) / mass - frame.centre_shift.transpose() * frame.centre_shift;
   frame.radius = std::sqrt(std::max(0.0, about_centre.trace()));
   return frame;
 }
 
-/// What the frame turns by, about axes that M's rows have.
-VectorXd turn_of(const FrameInertia& frame, const VectorXd& d, const VectorXd& u) {
-  if (frame.lever.cols() == 1) return d.segment(frame.turns, 1);
-  return math::rotation_tangent(u.segment<3>(frame.turns)) * d.segment<3>(frame.turns);
+/// What the frame rotates by, about axes that M's rows have.
+VectorXd rotation_of(const FrameInertia& frame, const VectorXd& d, const VectorXd& u) {
+  if (frame.centre_shift.cols() == 1) return d.segment(frame.rotations, 1);
+  return math::rotation_tangent(u.segment<3>(frame.rotations)) * d.segment<3>(frame.rotations);
 }
 
 double greatest_shift(const System& system, const std::vector<FrameInertia>& frames, Vec step, Vec U, Vec before) {
@@ -56,10 +57,10 @@ double greatest_shift(const System& system, const std::vector<FrameInertia>& fra
   double size = 0, greatest = 0;
   for (const FrameInertia& frame : frames) size = std::max(size, frame.radius);
   for (const FrameInertia& frame : frames) {
-    const Index dimension = frame.lever.rows();
+    const Index dimension = frame.centre_shift.rows();
     const double moved = (u - start).segment(frame.first, dimension).norm();
     const double beside = std::max(frame.radius > 0 ? frame.radius : size, moved);
-    const VectorXd by = d.segment(frame.first, dimension) + frame.lever * turn_of(frame, d, u);
+    const VectorXd by = d.segment(frame.first, dimension) + frame.centre_shift * rotation_of(frame, d, u);
     if (beside > 0) greatest = std::max(greatest, by.norm() / beside);
   }
   MPI_Allreduce(MPI_IN_PLACE, &greatest, 1, MPI_DOUBLE, MPI_MAX, system.comm());
@@ -110,8 +111,8 @@ petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameIn
   check(VecAbs(all));
   petsc::Values own(all);
   for (const FrameInertia& frame : frames) {
-    const int first = frame.first, dimension = static_cast<int>(frame.lever.rows());
-    for (int local = first; local < frame.turns + frame.lever.cols(); ++local) {
+    const int first = frame.first, dimension = static_cast<int>(frame.centre_shift.rows());
+    for (int local = first; local < frame.rotations + frame.centre_shift.cols(); ++local) {
       double& size = own[system.coordinates().global()[local]];
       size = std::max(size, local < first + dimension ? frame.radius : 1.0);
     }
@@ -121,11 +122,11 @@ petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameIn
 
 double plain_size(const System& system, const std::vector<FrameInertia>& frames, KSP solver, Mat J, Vec d, Vec U,
                   Vec before) {
-  const double turn = turn_by(system, d), shift = greatest_shift(system, frames, d, U, before);
+  const double rotation = max_rotation_of_step(system, d), shift = greatest_shift(system, frames, d, U, before);
   double share = share_of(J, d, U);
-  if (!std::isfinite(turn + shift)) return INFINITY;
+  if (!std::isfinite(rotation + shift)) return INFINITY;
   if (share > 1e-9 && is_of_places(system, frames, solver, J, d)) share = 0;
-  return std::isfinite(share) ? std::max({turn, shift, share}) : INFINITY;
+  return std::isfinite(share) ? std::max({rotation, shift, share}) : INFINITY;
 }
 
 double gain_of_errors(const System& system, KSP solver, Mat J, Mat next) {

@@ -8,20 +8,21 @@ using namespace dynamics;
 
 /// A frame as a rigid body with the mass that moves with it.
 struct FrameInertia {
-  int first = 0, turns = 0;  ///< local index of the origin's coordinates, and of the angles or the attitude after them
-  double radius = 0;         ///< of gyration about the mass centre [m]
-  Eigen::MatrixXd lever;     ///< what the mass centre moves by as the frame turns about its origin [m/rad]
+  int first = 0,
+      rotations = 0;  ///< local index of the origin's coordinates, and of the angles or the attitude after them
+  double radius = 0;  ///< of gyration about the mass centre [m]
+  Eigen::MatrixXd centre_shift;  ///< what the mass centre moves by as the frame rotates about its origin [m/rad]
 };
 
 /// Of the frames that this rank owns, from M, which is assembled into J. Collective.
 std::vector<FrameInertia> frame_inertias(const System& system, double t, Vec U, Vec V, Mat J);
 
-/// |U|, and where frames could be: turned by 1 rad and moved by their radii. Where joints meet and springs end is known
-/// to eps of that. Collective.
+/// |U|, and where frames could be: rotated by 1 rad and moved by their radii. Where joints meet and springs end is
+/// known to eps of that. Collective.
 petsc::VecHandle sizes_of_places(const System& system, const std::vector<FrameInertia>& frames, Vec U);
 
 /// How far a step d of a configuration U goes, in plain units, the greatest of
-///  - turns of frames, attitudes and nodes in world axes [rad],
+///  - rotations of frames, attitudes and nodes in world axes [rad],
 ///  - moves of the mass centres of frames over their radii of gyration, or over what the search moved them by, and
 ///  - |d| / |U| in the norm of |J_ii| (share_of), which deformations enter; nothing where d is no more than what 64 eps
 ///    of the places of frames make of it, as in a configuration without load.

@@ -34,11 +34,11 @@ void add_planar(const RotatingSystem& rotating, double speed, const VectorXd& U,
 }
 
 void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
-  const Vector3d turning = speed * rotating.axis.direction;
-  const Matrix3d W = math::skew(turning);
+  const Vector3d spin = speed * rotating.axis.direction;
+  const Matrix3d W = math::skew(spin);
   for (const auto& [first, attitude] : rotating.system.attitudes()) {
     const Index x = global(rotating, first), R = global(rotating, first - 3);
-    const Vector3d omega = attitude->base.conjugate() * turning, arm = U.segment<3>(R) - rotating.axis.point;
+    const Vector3d omega = attitude->base.conjugate() * spin, arm = U.segment<3>(R) - rotating.axis.point;
     const Matrix3d w = math::skew(omega);
     out.V.segment<3>(R) = W * arm, out.V.segment<3>(x) = omega;
     out.A.segment<3>(R) = W * W * arm;
@@ -99,10 +99,11 @@ std::vector<char> multiplier_flags(const System& system) {
 
 MassScale mass_scale(const RotatingSystem& rotating, const MatrixXd& M) {
   MassScale scale{M.diagonal().cwiseMax(0).cwiseSqrt(), 0};
-  for (int frame : rotating.planar_frames) scale.turn = std::max(scale.turn, scale.root[global(rotating, frame) + 2]);
+  for (int frame : rotating.planar_frames)
+    scale.rotation = std::max(scale.rotation, scale.root[global(rotating, frame) + 2]);
   for (const auto& [first, attitude] : rotating.system.attitudes())
-    scale.turn = std::max(scale.turn, scale.root.segment<3>(global(rotating, first)).maxCoeff());
-  if (scale.turn == 0) scale.turn = 1;
+    scale.rotation = std::max(scale.rotation, scale.root.segment<3>(global(rotating, first)).maxCoeff());
+  if (scale.rotation == 0) scale.rotation = 1;
   return scale;
 }
 
@@ -126,7 +127,7 @@ VectorXd KeptState::change_to(Vec U) const {
   return change;
 }
 
-void turn(const RotatingSystem& rotating, double angle, Vec U) {
+void rotate(const RotatingSystem& rotating, double angle, Vec U) {
   const System& system = rotating.system;
   system.rebase(U);
   VectorXd u = gather_to_all(system, U);
@@ -145,7 +146,7 @@ void turn(const RotatingSystem& rotating, double angle, Vec U) {
   set(U, u);
 }
 
-void turn_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<MatrixXd> rows) {
+void rotation_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<MatrixXd> rows) {
   const Matrix3d E = Eigen::AngleAxisd(angle, rotating.axis.direction).toRotationMatrix();
   for (const auto& [first, attitude] : rotating.system.attitudes()) {
     const Index R = global(rotating, first - 3);

@@ -26,7 +26,8 @@ void add_product(const Eigen::MatrixXd& Y, const RotatingMotion::Blocks& B, Eige
 struct RotatingTangent {
   Eigen::VectorXd F;        ///< residual
   Eigen::MatrixXd M, C, K;  ///< without what does not depend on time scales:
-  Eigen::MatrixXd G;        ///< gradients of constraints in the multipliers' rows, their transposes, dofs that are held
+  Eigen::MatrixXd
+      G;  ///< gradients of constraints in the multipliers' rows, their transposes, dofs that are constrained
 };
 /// Bases take over the rotations of U first. Collective.
 RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, Vec U);
@@ -34,10 +35,10 @@ RotatingTangent rotating_tangent(const RotatingSystem& rotating, double speed, V
 /// Of each unknown, by global index: whether it is a multiplier. The same on every rank.
 std::vector<char> multiplier_flags(const System& system);
 
-/// sqrt(M_ii) of coordinates that have mass, else 0; and the greatest of a frame's turn by one radian (1 if none).
+/// sqrt(M_ii) of coordinates that have mass, else 0; and the greatest of a frame's rotation by one radian (1 if none).
 struct MassScale {
   Eigen::VectorXd root;
-  double turn = 1;
+  double rotation = 1;
 };
 MassScale mass_scale(const RotatingSystem& rotating, const Eigen::MatrixXd& M);
 
@@ -55,9 +56,9 @@ class KeptState {
   std::vector<Eigen::Quaterniond> bases_;
 };
 
-/// The whole scene turned about the axis; bases take over the rotations of U. Collective.
-void turn(const RotatingSystem& rotating, double angle, Vec U);
-/// Rows of a vector (or of the columns of a matrix) that are in world axes, those of R, turned likewise.
-void turn_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<Eigen::MatrixXd> rows);
+/// The whole scene rotated about the axis; bases take over the rotations of U. Collective.
+void rotate(const RotatingSystem& rotating, double angle, Vec U);
+/// Rows of a vector (or of the columns of a matrix) that are in world axes, those of R, rotated likewise.
+void rotation_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<Eigen::MatrixXd> rows);
 
 }  // namespace floe::solve

@@ -10,9 +10,9 @@ namespace {
 struct Data {
   PetscBool quiet = PETSC_FALSE;       // no option asks for a view or a test in each solve
   PetscBool applies_pc = PETSC_FALSE;  // the KSP does nothing but apply its PC
-  Turn turn = nullptr;
-  void* turn_context = nullptr;
-  Vec turned = nullptr;
+  Rotate rotate = nullptr;
+  void* rotation_context = nullptr;
+  Vec rotated = nullptr;
 };
 
 Data* data_of(SNES snes) { return static_cast<Data*>(snes->data); }
@@ -62,14 +62,14 @@ PetscErrorCode renew(SNES snes) {
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode turn_back(SNES snes, Vec* F) {
+PetscErrorCode rotate_back(SNES snes, Vec* F) {
   Data* data = data_of(snes);
 
   PetscFunctionBegin;
-  if (!data->turned) PetscCall(VecDuplicate(*F, &data->turned));
-  PetscCall(VecCopy(*F, data->turned));
-  PetscCall((*data->turn)(snes, snes->vec_sol, PETSC_TRUE, data->turned, data->turn_context));
-  *F = data->turned;
+  if (!data->rotated) PetscCall(VecDuplicate(*F, &data->rotated));
+  PetscCall(VecCopy(*F, data->rotated));
+  PetscCall((*data->rotate)(snes, snes->vec_sol, PETSC_TRUE, data->rotated, data->rotation_context));
+  *F = data->rotated;
   PetscFunctionReturn(0);
 }
 
@@ -81,7 +81,7 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
 
   PetscFunctionBegin;
   *failed = PETSC_FALSE;
-  if (data_of(snes)->turn) PetscCall(turn_back(snes, &F));
+  if (data_of(snes)->rotate) PetscCall(rotate_back(snes, &F));
   PetscCall(KSPSetOperators(snes->ksp, snes->jacobian, snes->jacobian_pre));
   if (data_of(snes)->applies_pc) {
     PC pc;
@@ -99,8 +99,8 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
   }
   PetscCall(PetscObjectQuery((PetscObject)snes, column_scales, (PetscObject*)&columns));
   if (columns) PetscCall(VecPointwiseMult(Y, Y, columns));
-  if (data_of(snes)->turn)
-    PetscCall((*data_of(snes)->turn)(snes, snes->vec_sol, PETSC_FALSE, Y, data_of(snes)->turn_context));
+  if (data_of(snes)->rotate)
+    PetscCall((*data_of(snes)->rotate)(snes, snes->vec_sol, PETSC_FALSE, Y, data_of(snes)->rotation_context));
   snes->linear_its += iterations;
   PetscFunctionReturn(0);
 }
@@ -150,7 +150,7 @@ PetscErrorCode solve(SNES snes) {
 
 PetscErrorCode reset(SNES snes) {
   PetscFunctionBegin;
-  PetscCall(VecDestroy(&data_of(snes)->turned));
+  PetscCall(VecDestroy(&data_of(snes)->rotated));
   PetscFunctionReturn(0);
 }
 
@@ -180,11 +180,11 @@ PetscErrorCode create(SNES snes) {
 
 void register_simplified_newton() { petsc::check(SNESRegister(simplified_newton, create)); }
 
-PetscErrorCode set_turn(SNES snes, Turn turn, void* context) {
+PetscErrorCode set_rotation(SNES snes, Rotate rotate, void* context) {
   PetscFunctionBegin;
   if (snes->ops->solve != solve) PetscFunctionReturn(0);
-  data_of(snes)->turn = turn;
-  data_of(snes)->turn_context = context;
+  data_of(snes)->rotate = rotate;
+  data_of(snes)->rotation_context = context;
   PetscFunctionReturn(0);
 }
 

@@ -24,12 +24,12 @@ inline constexpr char column_scales[] = "floe_column_scales";
 /// Ordinary Differential Equations II, IV.8.
 void register_simplified_newton();
 
-/// Makes of a J that is kept one for U: the linear solve becomes d = turn(J^-1 turn_back(F)). Also called where J was
-/// formed at U itself.
-using Turn = PetscErrorCode (*)(SNES snes, Vec U, PetscBool back, Vec y, void* context);
+/// Makes of a J that is kept one for U: the linear solve becomes d = rotate(J^-1 rotate_back(F)). Also called where J
+/// was formed at U itself.
+using Rotate = PetscErrorCode (*)(SNES snes, Vec U, PetscBool back, Vec y, void* context);
 
 /// Sets it; NULL: none. Nothing happens to a SNES of another type.
-PetscErrorCode set_turn(SNES snes, Turn turn, void* context);
+PetscErrorCode set_rotation(SNES snes, Rotate rotate, void* context);
 
 /// SNESSolve(snes, nullptr, U) for a SNES of any type; one of type simplified-newton that has solved for the same U
 /// before, and of which no option wants a view, skips what SNESSolve does around. Collective.

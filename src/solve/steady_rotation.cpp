@@ -33,10 +33,10 @@ VectorXd solve(MatrixXd J, VectorXd b) {
   return columns.cwiseProduct(x);
 }
 
-/// Whether nothing holds the scene's turn about the axis, at a configuration that meets the constraints.
-bool turns_freely(const RotatingTangent& at, const VectorXd& turn) {
-  const VectorXd held = at.G * turn, size = at.G.cwiseAbs() * turn.cwiseAbs();
-  return (held.cwiseAbs().array() <= 1e-7 * size.array()).all();
+/// Whether nothing holds the scene's rotation about the axis, at a configuration that meets the constraints.
+bool rotates_freely(const RotatingTangent& at, const VectorXd& rotation) {
+  const VectorXd constrained = at.G * rotation, size = at.G.cwiseAbs() * rotation.cwiseAbs();
+  return (constrained.cwiseAbs().array() <= 1e-7 * size.array()).all();
 }
 
 struct Step {
@@ -44,14 +44,14 @@ struct Step {
   double spin_up = 0;  ///< angular acceleration about the axis that is left over [rad/s2]
 };
 
-/// Newton's step; where the scene is free to turn, it does not, and may spin up instead: [J M b; (M b)' 0].
+/// Newton's step; where the scene is free to rotate, it does not, and may spin up instead: [J M b; (M b)' 0].
 ///
-/// @param turn  change of the coordinates as the scene turns by one radian; zero where a drive holds it
-Step newton_step(const RotatingTangent& at, const VectorXd& turn) {
-  const VectorXd weighted = at.M * turn;
-  const double inertia = turn.dot(weighted);
+/// @param rotation  change of the coordinates as the scene rotates by one radian; zero where a drive holds it
+Step newton_step(const RotatingTangent& at, const VectorXd& rotation) {
+  const VectorXd weighted = at.M * rotation;
+  const double inertia = rotation.dot(weighted);
   if (!(inertia > 0)) return {solve(at.K + at.G, -at.F)};
-  const Index n = turn.size();
+  const Index n = rotation.size();
   MatrixXd J = MatrixXd::Zero(n + 1, n + 1);
   J.topLeftCorner(n, n) = at.K + at.G;
   J.topRightCorner(n, 1) = weighted / inertia;
@@ -82,14 +82,14 @@ void check_balance(const RotatingSystem& rotating, double speed, double spin_up,
                     std::abs(spin_up)));
   double greatest = 0;
   for (Index i = 0; i < at.F.size(); ++i)
-    if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.turn));
+    if (mass.root[i] > 0) greatest = std::max(greatest, std::abs(at.F[i]) / (mass.root[i] * mass.rotation));
   if (!(greatest <= small))
     throw RunError(fmt::format("the forces are not in equilibrium (residual load: {:.3g} rad/s2)", greatest));
 }
 
-/// In units of a frame's turn by one radian.
+/// In units of a frame's rotation by one radian.
 double size_of(const VectorXd& change, const MassScale& mass) {
-  return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.turn;
+  return change.cwiseProduct(mass.root).cwiseAbs().maxCoeff() / mass.rotation;
 }
 
 PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
@@ -98,10 +98,10 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
   for (PetscInt iteration = 1; iteration <= 50; ++iteration) {
     const RotatingTangent at = rotating_tangent(rotating, speed, U);
     const VectorXd u = gather_to_all(rotating.system, U);
-    VectorXd turn = rotating_motion(rotating, 1, u).V;
-    if (iteration == 1) free = turns_freely(at, turn);
-    if (!free) turn.setZero();
-    Step step = newton_step(at, turn);
+    VectorXd rotation = rotating_motion(rotating, 1, u).V;
+    if (iteration == 1) free = rotates_freely(at, rotation);
+    if (!free) rotation.setZero();
+    Step step = newton_step(at, rotation);
     MPI_Bcast(step.change.data(), static_cast<int>(step.change.size()), MPI_DOUBLE, 0, rotating.system.comm());
     const double size = size_of(step.change, mass_scale(rotating, at.M));
     if (!step.change.allFinite()) break;
@@ -120,10 +120,10 @@ PetscInt newton(const RotatingSystem& rotating, double speed, Vec U) {
 VectorXd step_towards(const RotatingSystem& rotating, double speed, double other, Vec U) {
   const VectorXd F = rotating_tangent(rotating, other, U).F;
   RotatingTangent at = rotating_tangent(rotating, speed, U);
-  VectorXd turn = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
-  if (!turns_freely(at, turn)) turn.setZero();
+  VectorXd rotation = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V;
+  if (!rotates_freely(at, rotation)) rotation.setZero();
   at.F = F;
-  return newton_step(at, turn).change;
+  return newton_step(at, rotation).change;
 }
 
 /// From one steady rotation to another.

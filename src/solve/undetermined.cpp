@@ -56,7 +56,7 @@ std::string names_of(const System& system, const Eigen::MatrixXd& N, const std::
   return names_of(system, std::move(share));
 }
 
-/// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is held,
+/// How many of the last vectors J, of greatest entries one, maps to round-off of the terms of J v: what is constrained,
 /// however softly, is more.
 Eigen::Index true_null_vectors(const Eigen::MatrixXd& J, const Eigen::MatrixXd& vectors) {
   constexpr double several = 128 * PETSC_MACHINE_EPSILON;

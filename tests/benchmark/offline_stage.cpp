@@ -188,10 +188,10 @@ void run() {
   const std::vector<int> ranks = report.time("partition", [&] { return mesh::partition(raw); });
   fem::Structure structure = report.time(
       "structure", [&] { return fem::Structure(fem::mesh_of(raw, ranks), {section}, fem::MembraneStrain::averaged); });
-  const fem::Conditions held = left_edge(raw, structure);
-  const PetscInt clamp = held[0] / 6;
+  const fem::Conditions constrained = left_edge(raw, structure);
+  const PetscInt clamp = constrained[0] / 6;
   const fem::ReferenceFrame frame = fem::reference_frame(structure, fem::ReferenceFrame::Kind::clamped, clamp, clamp);
-  const fem::Holding holding = fem::holding(structure, frame, held);
+  const fem::Holding holding = fem::holding(structure, frame, constrained);
   auto statics =
       report.time("assembly", [&] { return std::make_unique<reduction::Statics>(structure, frame, holding); });
   report.time("factorisation", [&] { statics->factor(); });

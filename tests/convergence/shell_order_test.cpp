@@ -135,7 +135,7 @@ TEST_CASE("order: large deflections of a strip without locking at any thickness"
 TEST_CASE("order: large deflections of a clamped plate") {
   const double h = 0.01, E = 1;
   const std::pair<double, double> expected[] = {{25, 0.326962}, {100, 0.937420}, {200, 1.364028}};
-  Plate p = testing::plate(0.5, 0.5, 10, 10, Cells::crossed);  // a quarter: held at 0, symmetric at 1/2
+  Plate p = testing::plate(0.5, 0.5, 10, 10, Cells::crossed);  // a quarter: constrained at 0, symmetric at 1/2
   for (int d = 0; d < 2; ++d) {
     p.hold([=](const Vector3d& x) { return at(x[d], 0); }, {0, 1, 2, 3, 4, 5});
     p.hold([=](const Vector3d& x) { return at(x[d], 0.5); }, {d, 4 - d, 5});

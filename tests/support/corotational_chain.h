@@ -6,16 +6,17 @@
 
 #include "floe/reference/corotational_beam.h"
 
-/// A straight beam of corotational elements along x from the origin, held at its first node; dense, without PETSc.
+/// A straight beam of corotational elements along x from the origin, constrained at its first node; dense, without
+/// PETSc.
 ///
-/// Unknowns: three a node, in the order of the nodes, without the first `held` ones (3: clamped, 2: hinged).
+/// Unknowns: three a node, in the order of the nodes, without the first `constrained` ones (3: clamped, 2: hinged).
 class CorotationalChain {
  public:
   using Beam = floe::reference::CorotationalBeam;
 
-  CorotationalChain(int count, double length, Beam::Properties properties, int held = 3,
+  CorotationalChain(int count, double length, Beam::Properties properties, int constrained = 3,
                     Eigen::Vector2d gravity = Eigen::Vector2d::Zero())
-      : held_(held), size_(3 * (count + 1) - held) {
+      : held_(constrained), size_(3 * (count + 1) - constrained) {
     for (int i = 0; i < count; ++i) {
       std::vector<int> coordinates(6);
       std::iota(coordinates.begin(), coordinates.end(), 3 * i);
@@ -71,12 +72,12 @@ class CorotationalChain {
  private:
   template <class Sink>
   void each(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Sink sink) const {
-    const auto with_held = [&](const Eigen::VectorXd& x) {
+    const auto with_constrained = [&](const Eigen::VectorXd& x) {
       Eigen::VectorXd all = Eigen::VectorXd::Zero(size_ + held_);
       all.tail(size_) = x;
       return all;
     };
-    const Eigen::VectorXd q_all = with_held(q), v_all = with_held(v), a_all = with_held(a);
+    const Eigen::VectorXd q_all = with_constrained(q), v_all = with_constrained(v), a_all = with_constrained(a);
     Eigen::VectorXd qe(6), ve(6), ae(6);
     for (size_t i = 0; i < elements_.size(); ++i) {
       const int first = 3 * static_cast<int>(i);

@@ -36,10 +36,10 @@ inline std::vector<std::complex<double>> characteristic_exponents(const dynamics
   const std::vector<PetscInt> constrained = multipliers(system);
   std::vector<Eigen::Index> free, multipliers;
   for (Eigen::Index i = 0; i < K.rows(); ++i) {
-    const bool held = K.row(i) == C.row(i) && K.row(i) == M.row(i);
+    const bool unused = K.row(i) == C.row(i) && K.row(i) == M.row(i);
     if (std::binary_search(constrained.begin(), constrained.end(), static_cast<PetscInt>(i)))
       multipliers.push_back(i);
-    else if (!held)
+    else if (!unused)
       free.push_back(i);
   }
   const Eigen::MatrixXd G = K(multipliers, free);

@@ -18,13 +18,13 @@ enum class Cells { triangles, crossed, quadrilaterals };  ///< one diagonal, dia
 struct Plate {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<std::vector<int>> cells;  ///< three or four nodes, or six or eight of second order
-  std::vector<bool> held;               ///< per dof
+  std::vector<bool> constrained;        ///< per dof
 
   int dofs() const { return 6 * static_cast<int>(nodes.size()); }
   void hold(const std::function<bool(const Eigen::Vector3d&)>& where, std::initializer_list<int> which) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (where(nodes[i]))
-        for (int d : which) held[6 * i + d] = true;
+        for (int d : which) constrained[6 * i + d] = true;
   }
   int nearest(const Eigen::Vector3d& place) const {
     int best = 0;
@@ -57,7 +57,7 @@ inline Plate plate(double a, double b, int nx, int ny, Cells cells, double disto
         p.cells.push_back({n, up + 1, up});
       }
     }
-  p.held.assign(p.dofs(), false);
+  p.constrained.assign(p.dofs(), false);
   return p;
 }
 
@@ -82,7 +82,7 @@ inline Plate curved_plate(int n, int m, bool triangles, const std::function<Eige
       p.cells.push_back({c[0], c[1], c[2], e[0], e[1], middle});
       p.cells.push_back({c[0], c[2], c[3], middle, e[2], e[3]});
     }
-  p.held.assign(p.dofs(), false);
+  p.constrained.assign(p.dofs(), false);
   return p;
 }
 
@@ -115,7 +115,7 @@ inline std::vector<fem::SurfacePoint> surface_of(const Plate& p, const std::vect
   return fem::shell_quadrilateral_surface({p.nodes[c[0]], p.nodes[c[1]], p.nodes[c[2]], p.nodes[c[3]]});
 }
 
-/// Sum of dense element matrices of(cell); held dofs have a diagonal of `kept` and nothing else.
+/// Sum of dense element matrices of(cell); constrained dofs have a diagonal of `kept` and nothing else.
 inline SparseMatrix assembled(const Plate& p, double kept,
                               const std::function<Eigen::MatrixXd(const std::vector<int>&)>& of) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -124,11 +124,11 @@ inline SparseMatrix assembled(const Plate& p, double kept,
     for (Eigen::Index i = 0; i < E.rows(); ++i)
       for (Eigen::Index j = 0; j < E.cols(); ++j) {
         const int row = 6 * c[i / 6] + static_cast<int>(i % 6), col = 6 * c[j / 6] + static_cast<int>(j % 6);
-        if (!p.held[row] && !p.held[col]) entries.emplace_back(row, col, E(i, j));
+        if (!p.constrained[row] && !p.constrained[col]) entries.emplace_back(row, col, E(i, j));
       }
   }
   for (int d = 0; d < p.dofs(); ++d)
-    if (p.held[d]) entries.emplace_back(d, d, kept);
+    if (p.constrained[d]) entries.emplace_back(d, d, kept);
   SparseMatrix sum(p.dofs(), p.dofs());
   sum.setFromTriplets(entries.begin(), entries.end());
   return sum;
@@ -148,7 +148,7 @@ inline Eigen::VectorXd gathered(const std::vector<int>& c, const Eigen::VectorXd
   return part;
 }
 
-/// Load of a uniform force per area; zero at held dofs.
+/// Load of a uniform force per area; zero at constrained dofs.
 inline Eigen::VectorXd uniform_load(const Plate& p, const Eigen::Vector3d& force) {
   Eigen::VectorXd f = Eigen::VectorXd::Zero(p.dofs());
   for (const auto& c : p.cells)
@@ -157,7 +157,7 @@ inline Eigen::VectorXd uniform_load(const Plate& p, const Eigen::Vector3d& force
       for (std::size_t i = 0; i < c.size(); ++i) f.segment<6>(6 * c[i]) += part.segment<6>(6 * i);
     }
   for (int d = 0; d < p.dofs(); ++d)
-    if (p.held[d]) f[d] = 0;
+    if (p.constrained[d]) f[d] = 0;
   return f;
 }
 
@@ -165,7 +165,7 @@ inline Eigen::VectorXd solved(const SparseMatrix& K, const Eigen::VectorXd& f) {
   return Eigen::SimplicialLDLT<SparseMatrix>(K).solve(f);
 }
 
-/// Forces and tangent of the whole von Karman energy at q, by its definition; held dofs have zero and one.
+/// Forces and tangent of the whole von Karman energy at q, by its definition; constrained dofs have zero and one.
 inline void add_tension(const fem::ElementMaps& maps, const Eigen::VectorXd& q, Eigen::VectorXd& f,
                         Eigen::MatrixXd& K) {
   f = maps.bending * q;
@@ -200,7 +200,7 @@ inline Eigen::VectorXd equilibrium(const Plate& p, const std::vector<fem::Elemen
         Eigen::MatrixXd tangent;
         add_tension(maps[cell++], gathered(c, q), f, tangent);
         for (Eigen::Index i = 0; i < f.size(); ++i)
-          if (const int d = 6 * c[i / 6] + static_cast<int>(i % 6); !p.held[d]) rest[d] -= f[i];
+          if (const int d = 6 * c[i / 6] + static_cast<int>(i % 6); !p.constrained[d]) rest[d] -= f[i];
         return tangent;
       });
       const Eigen::VectorXd step = solved(K, rest);

@@ -135,7 +135,7 @@ inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread, fem::Strains
 }
 
 /// Nodes of the mixed mesh that follow others rigidly: two of the shells', and the one where the mast stands.
-inline std::vector<mesh::Follower> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
+inline std::vector<mesh::DependentNode> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
 
 inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman,
                                        Order order = Order::first) {
@@ -146,7 +146,7 @@ inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strain
 
 /// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the
 /// floor; with links, each has a node in common with a piece.
-inline std::vector<mesh::Follower> mixed_lines(bool links, Order order = Order::first) {
+inline std::vector<mesh::DependentNode> mixed_lines(bool links, Order order = Order::first) {
   const mesh::RawMesh raw = mixed_mesh(PETSC_COMM_SELF, order);
   const auto on = [&](auto&& where) {
     std::vector<PetscInt> nodes;
@@ -155,7 +155,7 @@ inline std::vector<mesh::Follower> mixed_lines(bool links, Order order = Order::
     return nodes;
   };
   const double length = std::hypot(2, 3);
-  return mesh::with_lines(links ? mixed_links() : std::vector<mesh::Follower>{},
+  return mesh::with_lines(links ? mixed_links() : std::vector<mesh::DependentNode>{},
                           {{on([](const auto& x) { return std::hypot(x[0] - 1.8, x[2] - 0.6) < 1e-9; }), {0, 1, 0}},
                            {on([](const auto& x) { return std::hypot(x[0] + x[1] / 1.5 - 1, x[2]) < 1e-9; }),
                             {-2 / length, 3 / length, 0}}});

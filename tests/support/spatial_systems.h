@@ -29,9 +29,9 @@ struct HeavyOnPoint final : dynamics::Term {
   const std::vector<int>& coordinates() const override { return indices; }
   void residual(const dynamics::Motion& m, Eigen::VectorXd& r) const override {
     const Eigen::Matrix3d A = attitude->axes(m.q.segment<3>(3));
-    const Eigen::Vector3d w = m.v.segment<3>(3), wd = m.a.segment<3>(3), held = m.q.tail<3>();
-    r.head<3>() += held + weight * Eigen::Vector3d::UnitZ();
-    r.segment<3>(3) += p.cross(A.transpose() * held);
+    const Eigen::Vector3d w = m.v.segment<3>(3), wd = m.a.segment<3>(3), constrained = m.q.tail<3>();
+    r.head<3>() += constrained + weight * Eigen::Vector3d::UnitZ();
+    r.segment<3>(3) += p.cross(A.transpose() * constrained);
     if (m.level == dynamics::ConstraintLevel::position) r.tail<3>() += m.q.head<3>() + A * p;
     if (m.level == dynamics::ConstraintLevel::velocity) r.tail<3>() += m.v.head<3>() + A * w.cross(p);
     if (m.level == dynamics::ConstraintLevel::acceleration)
@@ -39,24 +39,24 @@ struct HeavyOnPoint final : dynamics::Term {
   }
   void tangent(const dynamics::Motion& m, dynamics::Weights weights, Eigen::MatrixXd& J) const override {
     using math::skew;
-    const Eigen::Vector3d x = m.q.segment<3>(3), held = m.q.tail<3>();
+    const Eigen::Vector3d x = m.q.segment<3>(3), constrained = m.q.tail<3>();
     const Eigen::Matrix3d A = attitude->axes(x), T = math::rotation_tangent(x), I = Eigen::Matrix3d::Identity();
     J.block<3, 3>(0, 6) += I;
     J.block<3, 3>(3, 6) += skew(p) * A.transpose();
-    J.block<3, 3>(3, 3) += weights.q * skew(p) * skew(A.transpose() * held) * T;
+    J.block<3, 3>(3, 3) += weights.q * skew(p) * skew(A.transpose() * constrained) * T;
     J.block<3, 3>(6, 0) += I;
     J.block<3, 3>(6, 3) -= A * skew(p) * T;
   }
 };
 
-/// Potential c tr(I - B'A): a spring that turns the frame (its unknowns from 3) towards the attitude B.
-struct TurningSpring final : dynamics::Term {
+/// Potential c tr(I - B'A): a spring that rotates the frame (its unknowns from 3) towards the attitude B.
+struct TorsionalSpring final : dynamics::Term {
   std::vector<int> indices{3, 4, 5};
   std::shared_ptr<const dynamics::Attitude> attitude;
   Eigen::Matrix3d B;
   double c;
 
-  TurningSpring(std::shared_ptr<const dynamics::Attitude> of, const Eigen::Matrix3d& towards, double stiffness)
+  TorsionalSpring(std::shared_ptr<const dynamics::Attitude> of, const Eigen::Matrix3d& towards, double stiffness)
       : attitude(std::move(of)), B(towards), c(stiffness) {}
   const std::vector<int>& coordinates() const override { return indices; }
   void residual(const dynamics::Motion& m, Eigen::VectorXd& r) const override {
@@ -71,7 +71,7 @@ struct TurningSpring final : dynamics::Term {
 
 /// A rigid body about a point that stands still, by Runge-Kutta of order 4 for a quaternion and omega: 1e-12 and less
 /// for the motions here. moments about that point; `gravity_arm` is the mass centre from it times weight, body axes.
-struct Turning {
+struct Rotating {
   Eigen::Vector3d moments, gravity_arm = Eigen::Vector3d::Zero();
   Eigen::Quaterniond attitude;
   Eigen::Vector3d w;
@@ -80,7 +80,7 @@ struct Turning {
     const Eigen::Vector3d down = q.inverse() * Eigen::Vector3d(0, 0, -1), momentum = moments.asDiagonal() * spin;
     return (gravity_arm.cross(down) - spin.cross(momentum)).cwiseQuotient(moments);
   }
-  Turning after(double t, int steps = 20000) const {
+  Rotating after(double t, int steps = 20000) const {
     using State = Eigen::Matrix<double, 7, 1>;
     const auto rate = [this](const State& s) {
       const Eigen::Quaterniond q(s[0], s[1], s[2], s[3]), spin(0, s[4], s[5], s[6]);
@@ -95,7 +95,7 @@ struct Turning {
       const State k1 = rate(s), k2 = rate(s + h / 2 * k1), k3 = rate(s + h / 2 * k2), k4 = rate(s + h * k3);
       s += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
-    Turning end = *this;
+    Rotating end = *this;
     end.attitude = Eigen::Quaterniond(s[0], s[1], s[2], s[3]).normalized();
     end.w = s.tail<3>();
     return end;

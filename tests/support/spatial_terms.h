@@ -4,7 +4,7 @@
 
 namespace floe::testing {
 
-/// A matrix of two or three elastic coordinates of a place, moderate turns.
+/// A matrix of two or three elastic coordinates of a place, moderate rotations.
 inline void add_elastic(Random& random, int k, dynamics::SpatialMarker& marker, int first) {
   for (int i = 0; i < k; ++i) marker.coordinates.push_back(first + i);
   marker.S = random.matrix(3, k);

@@ -41,7 +41,7 @@ app::RunPlan quiet() {
 }
 
 /// Full order in steps of a quarter.
-app::Series truth(scene::Scene scene) {
+app::Series reference_motion(scene::Scene scene) {
   scene.motion.step /= 4, scene.motion.every *= 4;
   return app::run(scene, Formulation::nlffr, PETSC_COMM_WORLD, std::nullopt, quiet()).series;
 }
@@ -51,7 +51,7 @@ app::Series truth(scene::Scene scene) {
 TEST_CASE("accuracy: the selected model satisfies the required error, and reports it") {
   for (const std::string& text : {pendulum, plate}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");
-    const app::Series full = truth(scene);
+    const app::Series full = reference_motion(scene);
     std::size_t columns = 0;
     double motion = 0;
     for (const double accuracy : {0.05, 0.01, 0.002}) {
@@ -100,7 +100,7 @@ TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
   for (const auto& [text, accuracy] : {std::pair{pendulum, 0.01}, std::pair{plate, 0.05}}) {
     const scene::Scene scene = scene::parse_scene(text, "scene");
     app::Chosen chosen = app::choose(scene, {accuracy, false}, PETSC_COMM_WORLD);
-    REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
+    REQUIRE_FALSE(chosen.candidates->has_responses(chosen.selection));
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
     CHECK(written.motion.step == chosen.scene.motion.step);
@@ -116,15 +116,15 @@ TEST_CASE("accuracy: correction vectors are written as residual responses of the
   const scene::Scene scene = scene::parse_scene(plate, "scene");
   app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
   REQUIRE(chosen.selection.responses >= 1);
-  REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
+  REQUIRE_FALSE(chosen.candidates->has_responses(chosen.selection));
   const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
-  const double error = app::worst_error(result.series, truth(scene));
+  const double error = app::worst_error(result.series, reference_motion(scene));
   INFO("supported " << chosen.supported << ", true " << error);
   CHECK(chosen.within());
   CHECK(error <= 0.01);
   const Scratch folder;
   const std::string path = (folder / "chosen.yaml").string();
-  const std::vector<std::string> files = chosen.pool->write(chosen.selection, chosen.scene.motion, path, false);
+  const std::vector<std::string> files = chosen.candidates->write(chosen.selection, chosen.scene.motion, path, false);
   CHECK(files == std::vector{path});
   const scene::Scene written = scene::read_scene(path);
   CHECK(written.bodies[0].reduction.responses > 0);
@@ -138,15 +138,15 @@ TEST_CASE("accuracy: correction vectors themselves are written to the file of a 
   app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
   assess::Selection selection = chosen.selection;
   selection.responses = 0;
-  REQUIRE(chosen.pool->has_responses(selection));
-  assembly::Model model = chosen.pool->model(selection);
+  REQUIRE(chosen.candidates->has_responses(selection));
+  assembly::Model model = chosen.candidates->model(selection);
   const app::RunResult result = app::move(chosen.scene, model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
   const Scratch folder;
   const std::string path = (folder / "chosen.yaml").string();
-  const std::vector<std::string> files = chosen.pool->write(selection, chosen.scene.motion, path, false);
+  const std::vector<std::string> files = chosen.candidates->write(selection, chosen.scene.motion, path, false);
   REQUIRE(files.size() == 2);
   CHECK(files[1] == (folder / "chosen-plate.h5").string());
-  CHECK_THROWS_WITH(chosen.pool->write(selection, chosen.scene.motion, path, false), Catch::Contains("exists"));
+  CHECK_THROWS_WITH(chosen.candidates->write(selection, chosen.scene.motion, path, false), Catch::Contains("exists"));
   const app::RunResult again =
       app::run(scene::read_scene(path), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
   CHECK(again.coordinates == result.coordinates);
@@ -189,7 +189,7 @@ probes: {tip: {at: beam.end}}
     const scene::Scene scene = scene::parse_scene(fill(text, words), "scene");
     app::Chosen chosen = app::choose(scene, {0.002, false}, PETSC_COMM_WORLD);
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
-    const double error = app::worst_error(result.series, truth(scene));
+    const double error = app::worst_error(result.series, reference_motion(scene));
     INFO(words[0].second << " frames: supported " << chosen.supported << ", true " << error);
     CHECK(chosen.within());
     CHECK(error <= 0.002);
@@ -225,7 +225,7 @@ probes: {tip: {at: rod.end}}
 )yaml";
   for (const auto& [text, accuracy] : {std::pair{arm, 0.01}, std::pair{rod, 0.02}}) {
     app::Chosen chosen = app::choose(scene::parse_scene(text, "scene"), {accuracy, false}, PETSC_COMM_WORLD);
-    REQUIRE_FALSE(chosen.pool->has_responses(chosen.selection));
+    REQUIRE_FALSE(chosen.candidates->has_responses(chosen.selection));
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     const scene::Scene written = scene::parse_scene(chosen.scene.text, "written");
     const app::RunResult again = app::run(written, Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet());
@@ -274,7 +274,7 @@ probes: {tip: {at: rod.end}}
     app::Chosen chosen = app::choose(scene, {0.02, false}, PETSC_COMM_WORLD);
     const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
     CHECK(chosen.within());
-    CHECK(app::worst_error(result.series, truth(scene)) <= 0.02);
+    CHECK(app::worst_error(result.series, reference_motion(scene)) <= 0.02);
   }
 }
 

@@ -56,7 +56,7 @@ probes: {tip: {at: beam.end, quantity: deflection}}
 }
 const std::string driven = "type: driven, angle: \"2*t\"";
 
-/// The same in space along x, as stiff in both directions, turning about z.
+/// The same in space along x, as stiff in both directions, rotating about z.
 std::string spatial(const std::string& elements, const std::string& joint) {
   return fill(R"yaml(
 bodies:
@@ -148,7 +148,7 @@ TEST_CASE("campbell: flap and lag frequencies of a driven beam in space") {
 }
 
 // A rod that is hinged at the distance e: flap^2 = gamma^2 (1 + 3e/2), lag^2 = gamma^2 3e/2 (moments about the hinge);
-// e = 0: flap omega_1 = gamma exactly, for elastic beams too. Blades fold outwards as the hub begins to turn.
+// e = 0: flap omega_1 = gamma exactly, for elastic beams too. Blades fold outwards as the hub begins to rotate.
 TEST_CASE("campbell: frequencies of hinged rods are proportional to the speed") {
   for (const double e : {0., 0.1}) {
     for (const bool flap : {true, false}) {
@@ -177,7 +177,7 @@ TEST_CASE("campbell: an elastic beam that is hinged at the axis flaps at the spe
   }
 }
 
-// Hinged at the axis the first flap is gamma (above), so the first lag is neutral: the beam turns on.
+// Hinged at the axis the first flap is gamma (above), so the first lag is neutral: the beam rotates on.
 TEST_CASE("campbell: a beam on a free hub has a zero mode, and rotates as one that is driven") {
   for (const bool space : {false, true}) {
     const auto found =
@@ -252,7 +252,7 @@ joints: {root: {type: driven, between: [ground, shaft.start], axis: [1, 0, 0], a
 }
 
 // The propeller moment, (rho Iz - rho Iy) Omega^2 phi: omega^2 = omega_t^2 +- Omega^2 (Iz - Iy)/(Iz + Iy), + for the
-// chord in the plane of rotation. omega_t = pi/2 sqrt(GJ/rho (Iy + Iz)) = 10 for a root that is held.
+// chord in the plane of rotation. omega_t = pi/2 sqrt(GJ/rho (Iy + Iz)) = 10 for a root that is constrained.
 TEST_CASE("campbell: the propeller moment in the torsion of a flat blade") {
   const auto blade = [](const std::string& chord) {
     return fill(R"yaml(
@@ -284,7 +284,7 @@ joints: {root: {type: driven, between: [ground, blade.start], axis: [0, 0, 1], a
   }
 }
 
-// Rayleigh's shaft, clamped and free, r = rhoI/(rhoA L^2) = 0.01: seen from axes that turn with it whirl has
+// Rayleigh's shaft, clamped and free, r = rhoI/(rhoA L^2) = 0.01: seen from axes that rotate with it whirl has
 //   omega^2 (A + r S) + 2 Omega omega A + Omega^2 (A - r S) - K = 0,   A = int w^2, S = int w'^2, K = int w''^2,
 // both directions of whirl by the sign of omega; Galerkin's method with w = x^k, k = 2..8. Gyroscopic moments and the
 // moment of inertia about the axis, which falls as sections tilt, are in it.

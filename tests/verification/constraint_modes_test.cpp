@@ -6,8 +6,8 @@ using namespace floe;
 using namespace floe::test;
 
 // A body that joints drive, or hold more than rigidly, deforms in what its fixed-interface modes cannot follow: the
-// basis needs the static shape of every held dof that the motion moves (Craig and Bampton, AIAA J. 6, 1968). Both
-// scenes are measured against the full model of the same mesh.
+// basis needs the static shape of every constrained dof that the motion moves (Craig and Bampton, AIAA J. 6, 1968).
+// Both scenes are measured against the full model of the same mesh.
 namespace {
 
 std::string guided(const std::string& start, const std::string& rest) {
@@ -43,7 +43,7 @@ TEST_CASE("constraint modes: hinged at one end, guided at the other, under its w
   check_agreement(guided("type: revolute", "gravity: [0, -1]"), 2e-4);
 }
 
-// The end clamped, the start turned by the drive: all six dofs of the ends are told, the shape between is the body's.
+// The end clamped, the start rotated by the drive: all six dofs of the ends are told, the shape between is the body's.
 TEST_CASE("constraint modes: driven at one end, clamped at the other") {
   const std::string reduction = GENERATE("{modes: 5}", "{modes: {count: 5, of: frame}}");
   INFO(reduction);

@@ -74,8 +74,8 @@ probes: {tip: {at: plate.p2}, other: {at: plate.p3}}
 // Closed form: the curvature is M/EI everywhere. Elements that bend alike stand on the circle.
 TEST_CASE("cfr in space: an end moment rolls a beam to circles, in any direction") {
   const auto [along, across] = directions(GENERATE(0, 1, 2, 3));
-  const auto rolled = [&](double turns) {
-    return tip(follow(beam(along, load("moment", 2 * M_PI * turns * along.cross(across)), 10), 4));
+  const auto rolled = [&](double rotations) {
+    return tip(follow(beam(along, load("moment", 2 * M_PI * rotations * along.cross(across)), 10), 4));
   };
   CHECK((rolled(0.25) - 2 / M_PI * (along + across)).norm() < 5e-5);
   CHECK((rolled(0.5) - 2 / M_PI * across).norm() < 5e-5);
@@ -173,10 +173,11 @@ probes: {tip: {at: beam.end, quantity: position}}
 TEST_CASE("cfr in space: an end moment rolls a strip of shells to circles") {
   const std::string cells = GENERATE("quadrilaterals", "triangles");
   const double M = 2 * M_PI * 1.2e6 * 1e-3 / 12 / 12;  // 2 pi EI/L
-  const auto rolled = [&](double turns) {
-    return follow(strip(12, 16, cells,
-                        fmt::format("{{type: moment, at: plate.right, moment: [0, \"{:.17g}*t\", 0]}}", -turns * M)),
-                  turns > 0.5 ? 4 : 2);
+  const auto rolled = [&](double rotations) {
+    return follow(
+        strip(12, 16, cells,
+              fmt::format("{{type: moment, at: plate.right, moment: [0, \"{:.17g}*t\", 0]}}", -rotations * M)),
+        rotations > 0.5 ? 4 : 2);
   };
   const History half = rolled(0.5), whole = rolled(1);
   CHECK(half["tip.x"].back() == Approx(-12).margin(2e-3));

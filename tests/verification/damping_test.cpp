@@ -110,10 +110,11 @@ std::vector<Held> ways_to_hold(int dimension) {
 }
 
 /// Some ten half periods of the first mode, with alpha = 0.1 omega or modal ratios. @param rest  more of the body
-History vibrating(int dimension, const Held& held, const std::string& frame, Formulation formulation,
+History vibrating(int dimension, const Held& constrained, const std::string& frame, Formulation formulation,
                   const std::string& rest = "", const std::string& ratios = "") {
   const std::string z = dimension == 3 ? ", 0" : "";
-  return move(unit_beam(dimension, fill(R"yaml(
+  return move(unit_beam(dimension,
+                        fill(R"yaml(
     frame: $frame
     $rest
     damping: {$damping}
@@ -123,15 +124,15 @@ $joints
 motion: {end: $end, step: $step, spectral_radius: 0.99}
 probes: {tip: {at: beam.end, quantity: position}}
 )yaml",
-                                        {{"frame", frame},
-                                         {"rest", rest},
-                                         {"damping", ratios.empty() ? "mass: " + number(0.1 * held.omega) : ratios},
-                                         {"modes", dimension == 3 ? "6" : "3"},
-                                         {"shape", held.shape},
-                                         {"z", z},
-                                         {"joints", held.joint.empty() ? "" : "joints: {root: " + held.joint + "}"},
-                                         {"end", number(33 / held.omega)},
-                                         {"step", number(0.02 / held.omega)}})),
+                             {{"frame", frame},
+                              {"rest", rest},
+                              {"damping", ratios.empty() ? "mass: " + number(0.1 * constrained.omega) : ratios},
+                              {"modes", dimension == 3 ? "6" : "3"},
+                              {"shape", constrained.shape},
+                              {"z", z},
+                              {"joints", constrained.joint.empty() ? "" : "joints: {root: " + constrained.joint + "}"},
+                              {"end", number(33 / constrained.omega)},
+                              {"step", number(0.02 / constrained.omega)}})),
               formulation);
 }
 
@@ -186,11 +187,11 @@ TEST_CASE("damping: a mode's ratio is the same in every frame") {
 // In space two modes have the same frequency: both are damped.
 TEST_CASE("damping: modal, in full-order models as in reduced ones") {
   const int dimension = GENERATE(2, 3);
-  for (const Held& held : ways_to_hold(dimension))
+  for (const Held& constrained : ways_to_hold(dimension))
     for (const std::string frame : {"pinned", "{type: clamped, at: start}", "mean-axis"})
       for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
-        INFO(dimension << " " << held.name << " " << frame << " " << name_of(formulation));
-        const History at = vibrating(dimension, held, frame, formulation, "", "modal: [0.05, 0.05]");
+        INFO(dimension << " " << constrained.name << " " << frame << " " << name_of(formulation));
+        const History at = vibrating(dimension, constrained, frame, formulation, "", "modal: [0.05, 0.05]");
         CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.005));
       }
 }
@@ -198,12 +199,12 @@ TEST_CASE("damping: modal, in full-order models as in reduced ones") {
 // z = alpha / (2 w) of the modes of the body as its joints hold it, whatever frame measures the deformation.
 TEST_CASE("damping: mass-proportional, the same in every frame and formulation") {
   const int dimension = GENERATE(2, 3);
-  for (const Held& held : ways_to_hold(dimension))
+  for (const Held& constrained : ways_to_hold(dimension))
     for (const std::string frame : {"pinned", "{type: clamped, at: start}", "mean-axis"})
       for (const Formulation formulation :
            {Formulation::vm_md, Formulation::vm, Formulation::nlffr, Formulation::lffr}) {
-        INFO(dimension << " " << held.name << " " << frame << " " << name_of(formulation));
-        const History at = vibrating(dimension, held, frame, formulation);
+        INFO(dimension << " " << constrained.name << " " << frame << " " << name_of(formulation));
+        const History at = vibrating(dimension, constrained, frame, formulation);
         CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.004));
       }
 }
@@ -211,9 +212,9 @@ TEST_CASE("damping: mass-proportional, the same in every frame and formulation")
 // Without a frame, and in several, it is the motion of the whole body less its rigid part that is damped.
 TEST_CASE("damping: mass-proportional, in corotational elements") {
   const int dimension = GENERATE(2, 3);
-  for (const Held& held : ways_to_hold(dimension)) {
-    INFO(dimension << " " << held.name);
-    const History at = vibrating(dimension, held, "pinned", Formulation::cfr);
+  for (const Held& constrained : ways_to_hold(dimension)) {
+    INFO(dimension << " " << constrained.name);
+    const History at = vibrating(dimension, constrained, "pinned", Formulation::cfr);
     // in space nodes carry their mass rigidly: frequencies are low by the square of the element's length, 0.6 % here
     CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(dimension == 3 ? 0.008 : 0.001));
   }
@@ -222,17 +223,17 @@ TEST_CASE("damping: mass-proportional, in corotational elements") {
 TEST_CASE("damping: mass-proportional, the same in any number of frames") {
   const int dimension = GENERATE(2, 3);
   const std::string frames = GENERATE("2", "4", "10");
-  for (const Held& held : ways_to_hold(dimension))
+  for (const Held& constrained : ways_to_hold(dimension))
     for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
-      INFO(dimension << " " << held.name << " " << frames << " frames, " << name_of(formulation));
-      const History at = vibrating(dimension, held, "pinned", formulation, "frames: " + frames);
+      INFO(dimension << " " << constrained.name << " " << frames << " frames, " << name_of(formulation));
+      const History at = vibrating(dimension, constrained, "pinned", formulation, "frames: " + frames);
       CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.005));
     }
 }
 
 // The hub weighs a million times the beam: as if it were the ground.
 TEST_CASE("damping: mass-proportional, of a beam on a moving body") {
-  const Held held = ways_to_hold(2).front();
+  const Held constrained = ways_to_hold(2).front();
   const Formulation formulation = GENERATE(Formulation::vm_md, Formulation::nlffr, Formulation::cfr);
   const std::string frame = GENERATE("pinned", "mean-axis", "pinned\n    frames: 2");
   const History at = move(unit_beam(2, fill(R"yaml(
@@ -249,9 +250,9 @@ joints: {root: {type: fixed, between: [hub.end, beam.start]}}
 motion: {end: 9, step: 5e-3, spectral_radius: 0.99}
 probes: {tip: {at: beam.end, quantity: position}}
 )yaml",
-                                            {{"frame", frame}, {"shape", held.shape}})),
+                                            {{"frame", frame}, {"shape", constrained.shape}})),
                           formulation);
-  CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.35 / (2 * held.omega)).epsilon(0.01));
+  CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.35 / (2 * constrained.omega)).epsilon(0.01));
   CHECK(at["tip.x"].back() == Approx(1 + 3 * 9).epsilon(1e-6));  // the flight is not damped
 }
 

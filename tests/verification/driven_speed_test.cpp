@@ -45,7 +45,7 @@ TEST_CASE("driven by speed: the same motion as by the angle, at order 2") {
 }
 
 TEST_CASE("driven by speed in space: hinge and slide") {
-  const Turned turn;
+  const Rotated rotation;
   const auto cube = [&](const std::string& joint) {
     return move(fill(R"yaml(
 bodies:
@@ -59,15 +59,15 @@ joints: {drive: {$joint, between: [ground, cube.middle], axis: $axis}}
 motion: {end: 1, step: 5e-3}
 probes: {middle: {at: cube.middle}, end: {at: cube.end, quantity: position}}
 )yaml",
-                     {{"turn", turn.rotation()}, {"joint", joint}, {"axis", turn(0, 0, 1)}}),
+                     {{"turn", rotation.text()}, {"joint", joint}, {"axis", rotation(0, 0, 1)}}),
                 Formulation::vm_md);
   };
   const History slide = cube("type: driven_slide, speed: \"0.6*sin(7*t)\""),
                 hinge = cube("type: driven, speed: \"9 + 2*cos(5*t)\"");
   for (std::size_t i = 0; i < slide.t.size(); ++i) {
     const double t = slide.t[i], z = 0.6 / 7 * (1 - std::cos(7 * t)), phi = 9 * t + 0.4 * std::sin(5 * t);
-    CHECK((turn.Q.transpose() * vector_at(slide, "middle", i) - Eigen::Vector3d(0, 0, z)).norm() < 1e-11);
-    CHECK((turn.Q.transpose() * vector_at(hinge, "end", i) - 0.1 * Eigen::Vector3d(std::cos(phi), std::sin(phi), 0))
+    CHECK((rotation.Q.transpose() * vector_at(slide, "middle", i) - Eigen::Vector3d(0, 0, z)).norm() < 1e-11);
+    CHECK((rotation.Q.transpose() * vector_at(hinge, "end", i) - 0.1 * Eigen::Vector3d(std::cos(phi), std::sin(phi), 0))
               .norm() < 1e-10);
   }
 }

@@ -65,7 +65,7 @@ TEST_CASE("frames: their difference falls with the square of the amplitude") {
   CHECK(large / small == Approx(100).epsilon(0.05));
 }
 
-// A free beam that turns and is shaken: no joint, so that the frames alone hold it.
+// A free beam that rotates and is shaken: no joint, so that the frames alone hold it.
 TEST_CASE("frames: pinned, clamped and mean-axis agree for a free body") {
   const History pinned = thrown("pinned", 1e-2), clamped = thrown("clamped", 1e-2), mean = thrown("mean-axis", 1e-2);
   for (const std::string column : {"tip.x", "tip.y"}) {

@@ -23,7 +23,7 @@ probes: {m: {at: b.middle, quantity: position}, e: {at: b.end, quantity: positio
               {{"frame", frame}});
 }
 
-// v = (1, 2 + 3 x + w), w = sin(pi x) - 2/pi, which has no part in rigid motions; slopes turn at 3 + pi cos(pi x).
+// v = (1, 2 + 3 x + w), w = sin(pi x) - 2/pi, which has no part in rigid motions; slopes rotate at 3 + pi cos(pi x).
 const double energy = 0.5 * (1 + 13 + (0.5 - 4 / (M_PI * M_PI))) + 0.5 * 1e-4 * (9 + M_PI * M_PI / 2);
 
 }  // namespace

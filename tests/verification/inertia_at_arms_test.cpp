@@ -28,7 +28,7 @@ std::string deck(Carried by, const Eigen::Vector3d& root, const Eigen::Vector3d&
   return text + grid(4, end + to_mass) + fmt::format("RBE2,8,3,123456,4\nCONM2,9,4,,{:.1f}\n", mass);
 }
 
-double turned(const Scratch& scratch, Carried by, double z, const std::string& more, Formulation formulation) {
+double rotated(const Scratch& scratch, Carried by, double z, const std::string& more, Formulation formulation) {
   write_text((scratch.path / "shaft.bdf").string(), deck(by, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, z}));
   const assembly::Model model = assembly::build(
       scene::parse_scene(
@@ -58,7 +58,7 @@ TEST_CASE(
       for (const double side : {-1, 1}) {
         INFO(scene::name_of(formulation) << (by == Carried::link ? ", link" : ", offset") << ", side " << side);
         const double expected = 0.01 / (stiffness - side * mass * gravity * arm);
-        CHECK(turned(scratch, by, side * arm, "", formulation) == Approx(expected).epsilon(1e-4));
+        CHECK(rotated(scratch, by, side * arm, "", formulation) == Approx(expected).epsilon(1e-4));
       }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("a force at the end of a rigid link stiffens the shaft that carries it
       INFO(scene::name_of(formulation) << ", side " << side);
       const std::string load =
           fmt::format("tip: {{type: force, at: {{body: shaft, node: [1, 0, {}]}}, force: [0, 0, -15]}}", side * arm);
-      CHECK(turned(scratch, Carried::link, side * arm, load, formulation) ==
+      CHECK(rotated(scratch, Carried::link, side * arm, load, formulation) ==
             Approx(0.01 / (stiffness - side * 15 * arm)).epsilon(1e-4));
     }
 }

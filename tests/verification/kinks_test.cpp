@@ -11,7 +11,7 @@ using namespace floe::test;
 
 namespace {
 
-/// A bar of mass 3 and length 1 that turns about its end, inertia 1; a second one hinged to its tip.
+/// A bar of mass 3 and length 1 that rotates about its end, inertia 1; a second one hinged to its tip.
 std::string bars(const std::string& drive, const std::string& motion, bool two = false) {
   return fill(R"yaml(
 bodies:
@@ -48,9 +48,9 @@ TEST_CASE("a ramp of the angle: the speed is that of the ramp, with fixed and ad
     INFO(motion);
     const History at = move(bars("angle: \"ramp(t, .1, .3)\"", motion), Formulation::vm_md);
     for (std::size_t i = 0; i < at.t.size(); ++i) {
-      const bool turns = at.t[i] > 0.1 + 1e-9 && at.t[i] < 0.3 + 1e-9;
-      CHECK(speed(at, i) == Approx(turns ? 5 : 0).margin(1e-7));
-      CHECK(at.energy[i].kinetic == Approx(turns ? 12.5 : 0).margin(1e-6));
+      const bool rotations = at.t[i] > 0.1 + 1e-9 && at.t[i] < 0.3 + 1e-9;
+      CHECK(speed(at, i) == Approx(rotations ? 5 : 0).margin(1e-7));
+      CHECK(at.energy[i].kinetic == Approx(rotations ? 12.5 : 0).margin(1e-6));
     }
     REQUIRE(at.events.size() == 2);
     CHECK(at.events[0].t == Approx(0.1).epsilon(1e-14));
@@ -63,7 +63,7 @@ TEST_CASE("a ramp of the angle: the speed is that of the ramp, with fixed and ad
 }
 
 // The rod is free but for the force J at its end: v_end = J (1/m + (l/2)^2/(m l^2/12)) = 4 J/m, so that J = m v/4 and
-// the energy is J v/2 = m v^2/8; it turns against the bar by 3 v/(2 l).
+// the energy is J v/2 = m v^2/8; it rotates against the bar by 3 v/(2 l).
 TEST_CASE("a drive that starts suddenly: impulse, energy and motion as of a free rod") {
   const double step = 0.002;
   const History at = move(bars("angle: \"ramp(t, .1, 10.1)*40\"", fmt::format("{{end: .2, step: {}}}", step), true),
@@ -87,7 +87,7 @@ TEST_CASE("kinks of abs, of a speed that jumps and of a slide in space") {
   CHECK(jump["root.angle"].back() == Approx(0.246 + 3 * 0.377 + (0.25 - 0.123 * 0.123) / 2));
   CHECK(speed(jump, jump.t.size() - 1) == Approx(3.5).epsilon(1e-6));
 
-  const Turned turn;
+  const Rotated rotation;
   const History slide = move(fill(R"yaml(
 bodies:
   cube:
@@ -100,7 +100,7 @@ joints: {drive: {type: driven_slide, between: [ground, cube.middle], axis: $axis
 motion: {end: .3, step: .01}
 probes: {middle: {at: cube.middle, quantity: velocity}}
 )yaml",
-                                  {{"turn", turn.rotation()}, {"axis", turn(0, 0, 1)}}),
+                                  {{"turn", rotation.text()}, {"axis", rotation(0, 0, 1)}}),
                              Formulation::vm_md);
   REQUIRE(slide.events.size() == 1);
   CHECK(slide.events[0].what == "speed of the drive jumps from 0 to 2 m/s");

@@ -114,10 +114,10 @@ TEST_CASE("a plate supported by a hub on rigid links has the frequencies of one 
   text.erase(text.find("*RIGID BODY, NSET=right"));
   text.replace(text.find("9002, 2.2, 0.5, 0.05\n"), 21, "");
   write_text(folder + "/plate.inp", text);
-  const auto held = omega_of(on_hub("node: [-0.3, 0.4, 0.1]", ""), folder + "/scene.yaml");
+  const auto constrained = omega_of(on_hub("node: [-0.3, 0.4, 0.1]", ""), folder + "/scene.yaml");
   write_text(folder + "/plate.inp", deck(plate(false, 1)));
   const auto expected = frequencies("file: {path: plate.inp}", "frame: mean-axis", folder);
-  for (int i = 0; i < 6; ++i) CHECK(held[i] == Approx(expected[i]).epsilon(1e-9));
+  for (int i = 0; i < 6; ++i) CHECK(constrained[i] == Approx(expected[i]).epsilon(1e-9));
 }
 
 // Where the first node of the file only follows, supports that make K regular have to be looked for elsewhere.
@@ -191,9 +191,9 @@ TEST_CASE("a load on a rigid tip block: full-order, reduced, and at dependent no
     solve::equilibrium(*model.system, 1, model.U, model.V);
     const std::vector<double> found = assembly::probe_values(model, 1, model.U, model.V);
     const Eigen::Vector3d u(found[0], found[1], found[2]), edge(found[3], found[4], found[5]),
-        turn(found[6], found[7], found[8]), arm(2 - 2.2, 0, -0.05);
-    CHECK((edge - u - turn.cross(arm) - turn.cross(turn.cross(arm)) / 2).norm() < 1e-9);
-    CHECK(turn.norm() > 1e-3);
+        rotation(found[6], found[7], found[8]), arm(2 - 2.2, 0, -0.05);
+    CHECK((edge - u - rotation.cross(arm) - rotation.cross(rotation.cross(arm)) / 2).norm() < 1e-9);
+    CHECK(rotation.norm() > 1e-3);
   }
   // The hub of the deck may be named by a node of the edge that it moves.
   const assembly::Model by_edge = built(on_hub("node: [0, 0, 0]", loaded(block)), Formulation::vm_md);

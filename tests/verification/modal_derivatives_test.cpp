@@ -21,9 +21,9 @@ Derivatives derivatives(bool fixed_ends) {
       fem::planar_structure(fem::mesh_of(PETSC_COMM_WORLD, {{{0, 0, 0}, {L, 0, 0}}, {{0, 1}}, {elements}}),
                             {{1e5, 1, 1, 0}}, fem::MembraneStrain::averaged);
   const fem::ReferenceFrame frame = fem::reference_frame(structure, fem::ReferenceFrame::Kind::pinned, 0, elements);
-  fem::Conditions held = {0, 1, 3 * elements + 1};
-  if (fixed_ends) held.insert(held.begin() + 2, 3 * elements);
-  const fem::Holding holding = fem::holding(structure, frame, held);
+  fem::Conditions constrained = {0, 1, 3 * elements + 1};
+  if (fixed_ends) constrained.insert(constrained.begin() + 2, 3 * elements);
+  const fem::Holding holding = fem::holding(structure, frame, constrained);
   const reduction::Statics statics(structure, frame, holding);
   reduction::Modes modes = reduction::vibration_modes(structure, frame, holding, statics, 3);
   for (int n = 1; n <= 3; ++n) {  // greatest value 1, at x = L/2n

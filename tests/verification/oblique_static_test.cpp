@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-Matrix3d turned_by(int orientation) {
+Matrix3d rotated_by(int orientation) {
   const Vector3d axes[] = {{0, 0, 1}, {0.3, -0.7, 1.1}, {1, 1, 0.2}, {-0.4, 0.9, 0.6}};
   const double angles[] = {0, 1.3, 0.7, 2.4};
   return Eigen::AngleAxisd(angles[orientation], axes[orientation].normalized()).toRotationMatrix();
@@ -69,7 +69,7 @@ probes: {p: {at: f.p2}, end: {at: f.end}}
 // of an oblique body all bend it.
 TEST_CASE("an oblique frame of slender beams is pulled along a member: reduced as full-order") {
   const int orientation = GENERATE(0, 1, 2, 3);
-  const Matrix3d R = turned_by(orientation);
+  const Matrix3d R = rotated_by(orientation);
   for (const double radius : {1e-3, 1e-4}) {
     INFO("orientation " << orientation << ", radius " << radius);
     const double EA = 7e10 * M_PI * radius * radius, EI = EA * radius * radius / 4;
@@ -86,7 +86,7 @@ TEST_CASE("an oblique load that no basis vector represents is reported, although
       return warning.find("of the work of load pull on its static response") != std::string::npos;
     });
   };
-  const std::string with = members(turned_by(1), 1e-3, {1, 0, 0});
+  const std::string with = members(rotated_by(1), 1e-3, {1, 0, 0});
   std::string without = with;
   without.replace(without.find("attachment: loads"), 17, "attachment: none, derivatives: none");
   CHECK(notes(with) == 0);
@@ -96,13 +96,13 @@ TEST_CASE("an oblique load that no basis vector represents is reported, although
 // K's factor misses 1e-4 of a static response there, and even the forces of its elements round it to 1e-5.
 TEST_CASE("an oblique frame at the limit of double precision, r/L = 4e-6") {
   const double r = 1e-5, EA = 7e10 * M_PI * r * r;
-  CHECK(error(members(turned_by(1), r, {1e-6 * EA, 0, 0}), 1) < 1e-3);
+  CHECK(error(members(rotated_by(1), r, {1e-6 * EA, 0, 0}), 1) < 1e-3);
 }
 
 // The same at the corner of a fold, along the edge of the plate that is clamped.
 TEST_CASE("an oblique folded plate is pulled in the plane of a panel: reduced as full-order") {
   const int orientation = GENERATE(0, 1, 3);
-  const Matrix3d R = turned_by(orientation);
+  const Matrix3d R = rotated_by(orientation);
   const Scratch scratch;
   generate::Plate floor{{0, 0, 0}, R * Vector3d(1, 0, 0), R * Vector3d(0, 1, 0), 6, 6},
       wall{R * Vector3d(1, 0, 0), R * Vector3d(0, 0, 1), R * Vector3d(0, 1, 0), 6, 6};
@@ -138,8 +138,8 @@ TEST_CASE("an oblique planar frame is pulled along a member: reduced as full-ord
   const double angle = GENERATE(0., 0.4, 2.1), radius = 1e-4, EA = 7e10 * M_PI * radius * radius;
   const Eigen::Rotation2Dd R(angle);
   const auto text = [&](double x, double y) {
-    const Eigen::Vector2d turned = R * Eigen::Vector2d(x, y);
-    return fmt::format("[{}, {}]", number(turned[0]), number(turned[1]));
+    const Eigen::Vector2d rotated = R * Eigen::Vector2d(x, y);
+    return fmt::format("[{}, {}]", number(rotated[0]), number(rotated[1]));
   };
   const Eigen::Vector2d force = R * Eigen::Vector2d(1e-6 * EA, 0);
   CHECK(error(fill(R"yaml(

@@ -15,7 +15,7 @@ constexpr double nu = 0.3, pi = 3.14159265358979323846;
 const std::array<std::string, 4> sides{"left", "right", "bottom", "top"};
 
 struct Plate {
-  std::string edges;  ///< a letter for each of `sides`; M: hinged, its nodes held one by one on the ground
+  std::string edges;  ///< a letter for each of `sides`; M: hinged, its nodes constrained one by one on the ground
   int elements = 8, modes = 6;
   bool on_body = false;
   double pressure = 1e-4;
@@ -115,7 +115,7 @@ TEST_CASE("edges of plates: Levy's and Navier's deflections and Leissa's frequen
     const std::vector<double> coarse = omega_of(scene_of({at.edges, 4})), fine = omega_of(scene_of({at.edges, 8}));
     for (std::size_t i = 0; i < 2; ++i) CHECK((4 * fine[i] - coarse[i]) / 3 == Approx(at.omega[i]).epsilon(1e-2));
   }
-  // nodes held one by one, without the slope along the edge: another way to the same limit
+  // nodes constrained one by one, without the slope along the edge: another way to the same limit
   CHECK(centre({"MMMM"}, Formulation::nlffr) == Approx(levy('S', 'S')).epsilon(3e-2));
   CHECK(rest(scene_of({"MMMM"}), Formulation::vm_md)["l.z"][0] == 0);
 }
@@ -189,7 +189,8 @@ std::string roof_deck(int n) {
 
 }  // namespace
 
-// Its diaphragm and its plane of symmetry are held node by node; linear bodies deflect in proportion to their load.
+// Its diaphragm and its plane of symmetry are constrained node by node; linear bodies deflect in proportion to their
+// load.
 TEST_CASE("edges of plates: a linear shell supported by the ground is linear") {
   const Scratch folder;
   constexpr int n = 8;

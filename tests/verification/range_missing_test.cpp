@@ -34,8 +34,8 @@ AtRest at_rest(const std::string& text, int steps, Formulation formulation = For
 }
 
 /// The warning of a campbell diagram that has these words; empty: none.
-std::string turned(const std::string& text, Formulation formulation, const std::string& speeds,
-                   const std::string& words) {
+std::string rotated(const std::string& text, Formulation formulation, const std::string& speeds,
+                    const std::string& words) {
   app::CampbellRequest request;
   request.speeds = speeds;
   std::exception_ptr fault;
@@ -163,11 +163,11 @@ TEST_CASE("validity: rotation does not stiffen shells against bending in their p
   const double expected = (std::pow(4.1373196, 2) - 4) / (std::pow(3.5160153, 2) - 4) - 1;
   const std::string speeds = "0," + number(gamma * std::sqrt(EI_rhoA));
   for (const auto formulation : {Formulation::vm_md, Formulation::nlffr}) {
-    const std::string said = turned(strip, formulation, speeds, "in the plane of its shells");
+    const std::string said = rotated(strip, formulation, speeds, "in the plane of its shells");
     CHECK(number_in(said) == Approx(expected).epsilon(0.05));
     CHECK(said.find("too soft") != std::string::npos);
   }
-  CHECK(turned(strip, Formulation::vm_md, "0," + number(0.4 * std::sqrt(EI_rhoA)), "in the plane") == "");
+  CHECK(rotated(strip, Formulation::vm_md, "0," + number(0.4 * std::sqrt(EI_rhoA)), "in the plane") == "");
 }
 
 // Without coupling the beam stays straight in its plane at any load. With it the lateral stiffness is 1 - (P/P_cr)^2 of
@@ -184,7 +184,7 @@ TEST_CASE("validity: lateral buckling of spatial beams, absent in one frame") {
 
 // CalculiX has 26.34 Hz where one frame gives 32.50: (26.34/32.50)^2 - 1 = -34 %, and -37 % in the next mode.
 TEST_CASE("validity: a swept tip couples bending with torsion under rotation") {
-  const std::string said = turned(
+  const std::string said = rotated(
       driven("{polyline: {points: [[0, 0, 0], [0.8687, 0, 0], [0.9769, 0.1082, 0]], elements: [16, 4]}}",
              std::string("section: {shape: rectangle, width: 0.0254, height: 1.6e-3, orientation: [0, 1, 0]}\n") +
                  "    material: {E: 7.1e10, nu: 0.33, rho: 2700}\n    " + clamped,

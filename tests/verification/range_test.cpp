@@ -29,8 +29,8 @@ std::map<std::string, double> said(const std::vector<assess::OutOfRange>& lines)
   return all;
 }
 
-/// A beam on a hub that turns at constant speed; its first frequency is 3.516 rad/s.
-std::string turning(const std::string& speed, const std::string& reduction) {
+/// A beam on a hub that rotates at constant speed; its first frequency is 3.516 rad/s.
+std::string rotating(const std::string& speed, const std::string& reduction) {
   return fill(R"yaml(
 bodies:
   beam:
@@ -66,12 +66,12 @@ probes: {tip: {at: beam.end}}
 }  // namespace
 
 TEST_CASE("validity: spin relative to the first frequency, without centrifugal stiffening") {
-  const auto vm = said(judged(turning("1.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm));
+  const auto vm = said(judged(rotating("1.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm));
   REQUIRE(vm.count("spin"));
   CHECK(vm.at("spin") == Approx(1.5 / 3.516).epsilon(1e-2));
-  CHECK(said(judged(turning("1.5", "{modes: 2}"), Formulation::lffr)).count("spin"));
-  CHECK_FALSE(said(judged(turning("1.5", "{modes: 2}"), Formulation::vm_md)).count("spin"));
-  CHECK_FALSE(said(judged(turning("0.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm)).count("spin"));
+  CHECK(said(judged(rotating("1.5", "{modes: 2}"), Formulation::lffr)).count("spin"));
+  CHECK_FALSE(said(judged(rotating("1.5", "{modes: 2}"), Formulation::vm_md)).count("spin"));
+  CHECK_FALSE(said(judged(rotating("0.5", "{modes: {count: 2, alone: 2}}"), Formulation::vm)).count("spin"));
 }
 
 TEST_CASE("validity: slopes relative to their frame") {
@@ -204,7 +204,7 @@ TEST_CASE("elements wider than their plate is long: warnings in simulations, equ
   for (const double width : {1, 20}) {
     const scene::Scene scene = scene::parse_scene(wide(width), "scene");
     const auto reports = assembly::body_modes(scene, PETSC_COMM_WORLD);
-    CHECK((reports[0].sag[0] > assembly::greatest_sag_of_modes) == (width > 1));
+    CHECK((reports[0].intra_deflection[0] > assembly::max_intra_deflection_of_modes) == (width > 1));
     const assembly::Model model = assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD);
     const bool told = std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& line) {
       return line.find("mode 1") != std::string::npos && line.find("intra-element deflection") != std::string::npos;

@@ -9,7 +9,7 @@ using namespace floe::test;
 
 namespace {
 
-/// L = EI = rhoA = 1, L/r = 1e4 (the axis hardly stretches), turning at gamma about its root.
+/// L = EI = rhoA = 1, L/r = 1e4 (the axis hardly stretches), rotating at gamma about its root.
 std::string scene_of(double gamma, const std::string& frame, const std::string& root, const std::string& elements,
                      const std::string& EA = "1e8") {
   return fill(R"yaml(
@@ -94,7 +94,7 @@ TEST_CASE("rotating beam: lag frequencies of the clamped beam") {
     }
 }
 
-// Hinged at the hub's centre: flap omega_1 = gamma exactly, so the first lag motion is neutral (the beam turns on).
+// Hinged at the hub's centre: flap omega_1 = gamma exactly, so the first lag motion is neutral (the beam rotates on).
 TEST_CASE("rotating beam: lag frequencies of the hinged beam") {
   for (const double gamma : {2., 6.}) {
     INFO("gamma = " << gamma);
@@ -152,8 +152,8 @@ TEST_CASE("rotating beam: lag frequencies with rotary inertia") {
     }
 }
 
-// Linear elastic forces in the clamped frame: lag^2 = beta_1^4 - gamma^2 turns negative at gamma = beta_1^2 = 3.516015,
-// and beyond it the motion grows at sqrt(gamma^2 - beta_1^4). The von Karman strain carries the tension.
+// Linear elastic forces in the clamped frame: lag^2 = beta_1^4 - gamma^2 becomes negative at gamma = beta_1^2
+// = 3.516015, and beyond it the motion grows at sqrt(gamma^2 - beta_1^4). The von Karman strain carries the tension.
 TEST_CASE("rotating beam: linear elastic forces buckle at gamma = 3.516, von Karman does not") {
   CHECK(growth(3.49, Formulation::lffr) < 1e-4);
   for (const double gamma : {3.54, 4., 6.})

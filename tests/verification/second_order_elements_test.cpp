@@ -174,8 +174,8 @@ TEST_CASE("beams of second order: an end moment rolls them to circles, in any di
                  across = (i ? Vector3d(2, 1, 2) : Vector3d(0, 0, 1)).normalized();
   const Deck deck(beams(
       10, [&](double s) -> Vector3d { return s * along; }, unit_section(along.unitOrthogonal(), 1e6)));
-  const auto rolled = [&](double turns) {
-    return tip_at_rest(clamped_beam(deck, load("moment", 2 * M_PI * turns * along.cross(across))), 8);
+  const auto rolled = [&](double rotations) {
+    return tip_at_rest(clamped_beam(deck, load("moment", 2 * M_PI * rotations * along.cross(across))), 8);
   };
   CHECK((rolled(0.25) - 2 / M_PI * (along + across)).norm() < 2e-3);
   CHECK((rolled(0.5) - 2 / M_PI * across).norm() < 4e-3);
@@ -216,19 +216,19 @@ TEST_CASE("shells of second order: an end moment rolls a strip to a circle") {
   CAPTURE(triangles, h);
   const Deck deck(shells(triangles, 10, 1, h, "*ELASTIC\n1.2e6, 0\n*DENSITY\n1.\n",
                          [&](double u, double v) { return Vector3d(L * u, v, 0); }));
-  const auto rolled = [&](double turns) {
+  const auto rolled = [&](double rotations) {
     return tip_at_rest(fill(R"yaml(
 bodies: {p: {mesh: {file: {path: $path}}}}
 joints: {clamp: {type: fixed, between: [ground, p.left]}}
 loads: {load: {type: moment, at: p.right, moment: [0, "$M*t", 0]}}
 probes: {tip: {at: {body: p, node: [$L, 0.5, 0]}, quantity: position}}
 )yaml",
-                            {{"path", deck.path()}, {"L", number(L)}, {"M", number(-2 * M_PI * turns * EI / L)}}),
+                            {{"path", deck.path()}, {"L", number(L)}, {"M", number(-2 * M_PI * rotations * EI / L)}}),
                        8);
   };
-  for (const double turns : {0.25, 0.5}) {
-    const double angle = 2 * M_PI * turns, r = L / angle;
-    CHECK((rolled(turns) - Vector3d(r * std::sin(angle), 0.5, r * (1 - std::cos(angle)))).norm() < 5e-3 * L);
+  for (const double rotations : {0.25, 0.5}) {
+    const double angle = 2 * M_PI * rotations, r = L / angle;
+    CHECK((rolled(rotations) - Vector3d(r * std::sin(angle), 0.5, r * (1 - std::cos(angle)))).norm() < 5e-3 * L);
   }
 }
 

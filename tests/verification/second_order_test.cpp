@@ -111,8 +111,8 @@ joints: {root: {type: driven, axis: [0, 0, 1], angle: "2*t", between: [ground, b
 }
 
 // Rotations about two axes at once, which an edge that a joint holds hands on to the shell: the normal of its nodes is
-// turned by exp(theta). With slopes instead deflections scatter by 10 % from mesh to mesh. The rest of the deviation is
-// of third order and of the curvature that bending in the plane gives (the square of thickness over width).
+// rotated by exp(theta). With slopes instead deflections scatter by 10 % from mesh to mesh. The rest of the deviation
+// is of third order and of the curvature that bending in the plane gives (the square of thickness over width).
 TEST_CASE("second order: a strip of shells with a rigid end, bent in both directions") {
   const std::string text = R"yaml(
 bodies:

@@ -18,7 +18,7 @@ Eigen::Vector3d force(const History& history, const std::string& probe) {
 Eigen::Vector3d moment(const History& history, const std::string& probe) {
   return {history[probe + ".T"].back(), history[probe + ".My"].back(), history[probe + ".Mz"].back()};
 }
-Eigen::Vector3d turn(const History& history, const std::string& probe) {
+Eigen::Vector3d rotation(const History& history, const std::string& probe) {
   return {history[probe + ".rx"].back(), history[probe + ".ry"].back(), history[probe + ".rz"].back()};
 }
 Eigen::Vector3d vector(const History& history, const std::string& probe) {
@@ -62,7 +62,7 @@ probes:
       const Eigen::Vector3d F(3, 2, 5), end = vector(at, "tip"), middle = vector(at, "middle");
       const auto beyond = [&](double length) { return Eigen::Vector3d(F - Eigen::Vector3d(0, 0, length * weight)); };
       CHECK((force(at, "f0") - beyond(2)).norm() < 1e-7);
-      const Eigen::Matrix3d D1 = math::rotation(turn(at, "turn1")), D2 = math::rotation(turn(at, "turn2"));
+      const Eigen::Matrix3d D1 = math::rotation(rotation(at, "turn1")), D2 = math::rotation(rotation(at, "turn2"));
       CHECK((force(at, "f1") - D1.transpose() * beyond(1)).norm() < 1e-7);
       CHECK((force(at, "f2") - D2.transpose() * F).norm() < 1e-7);
       CHECK(moment(at, "m2").norm() < 1e-7);

@@ -32,7 +32,7 @@ $rest
 )yaml",
               {{"rho", density}, {"joints", joints}, {"rest", rest}, {"bodies", bodies}});
 }
-const std::string held = "post: {type: driven, between: [ground, hub.end], axis: [0, 0, 1], angle: \"t\"}, ",
+const std::string constrained = "post: {type: driven, between: [ground, hub.end], axis: [0, 0, 1], angle: \"t\"}, ",
                   clamp = "root: {type: fixed, between: [hub.end, plate.left]}";
 
 /// Frequencies at rest; those of rigid motions are zero but for round-off.
@@ -65,13 +65,14 @@ double off(const std::vector<double>& found, const std::vector<double>& expected
 TEST_CASE("edges in space: a shell clamped to a hub by its edge vibrates as one clamped to the ground") {
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
     const std::string ground = "root: {type: driven, between: [ground, plate.left], axis: [0, 0, 1], angle: \"t\"}";
-    const std::vector<double> clamped = frequencies(on_hub(held + ground), formulation);
+    const std::vector<double> clamped = frequencies(on_hub(constrained + ground), formulation);
     const double tolerance = formulation == Formulation::nlffr ? 1e-6 : 5e-3;
-    CHECK(off(frequencies(on_hub(held + clamp), formulation), clamped) < tolerance);
+    CHECK(off(frequencies(on_hub(constrained + clamp), formulation), clamped) < tolerance);
     const std::string driven = "root: {type: driven, between: [hub.end, plate.left], axis: [1, 2, 3], angle: \"t\"}";
-    CHECK(off(frequencies(on_hub(held + driven), formulation), clamped) < tolerance);
+    CHECK(off(frequencies(on_hub(constrained + driven), formulation), clamped) < tolerance);
     const std::string mean = "root: {type: fixed, between: [hub.end, plate.left], edges: mean}";
-    CHECK(off(frequencies(on_hub(held + mean), formulation), clamped) > 0.02);  // what the mean alone would leave
+    CHECK(off(frequencies(on_hub(constrained + mean), formulation), clamped) >
+          0.02);  // what the mean alone would leave
   }
 }
 
@@ -118,10 +119,11 @@ probes: {corner: {at: plate.p1}, edge: {at: plate.left}, far: {at: plate.p2}, ti
                 reduced = moved(at_corner, Formulation::vm_md);
   for (const std::string probe : {"corner", "edge", "far", "tip"}) {
     INFO(probe);
-    CHECK(apart(full, bar, probe) < 1e-3);  // one point of one rigid piece, to second order in its turn in the frame
+    CHECK(apart(full, bar, probe) <
+          1e-3);  // one point of one rigid piece, to second order in its rotation in the frame
     CHECK(apart(reduced, full, probe) < 1e-2);
   }
-  // the piece keeps its lengths, to second order in its turn
+  // the piece keeps its lengths, to second order in its rotation
   const std::size_t end = full.t.size() - 1;
   const Eigen::Vector3d p1 = vector_at(full, "corner", end), p2 = vector_at(full, "far", end);
   CHECK(p2.norm() > 1e-3);
@@ -196,7 +198,7 @@ TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies
     CHECK((4 * fine[i] - coarse[i]) / 3 == Approx(levy[i]).epsilon(1e-3));
     CHECK(fine[i] == Approx(levy[i]).epsilon(1e-2));
   }
-  // every node's displacements held, each node by itself: another way to the same limit
+  // every node's displacements constrained, each node by itself: another way to the same limit
   const auto apart = omega_of(
       square(8,
              "l: {type: revolute, between: [ground, plate.left], edges: mean}, r: {type: revolute, between: [ground, "
@@ -223,12 +225,12 @@ TEST_CASE("edges in space: a plate hinged along two edges has Levy's frequencies
   CHECK(off(with(""), first) < 1e-6);
   CHECK(off(with(", edges: line"), first) < 1e-6);
   CHECK(off(with(", edges: mean"), first) > 0.05);
-  CHECK(off(with(", edges: rigid"), first) > 0.05);  // each edge clamped to a shaft that turns freely
+  CHECK(off(with(", edges: rigid"), first) > 0.05);  // each edge clamped to a shaft that rotates freely
 }
 
-// Two panels that a free hinge joins along an oblique edge, in a turned body, one of them on a hinge to a free hub.
+// Two panels that a free hinge joins along an oblique edge, in a rotated body, one of them on a hinge to a free hub.
 TEST_CASE("edges in space: panels on free hinges, reduced as full-order, energy conserved") {
-  const Turned turn;
+  const Rotated rotation;
   const std::string text = fill(R"yaml(
 bodies:
   hub:
@@ -262,7 +264,7 @@ probes:
   other: {at: inner.right, quantity: position}
   bent: {at: outer.p3, quantity: deflection}
 )yaml",
-                                {{"turn", turn.rotation()}, {"there", turn(0.8, 0)}});
+                                {{"turn", rotation.text()}, {"there", rotation(0.8, 0)}});
   const History full = move(text, Formulation::nlffr), reduced = move(text, Formulation::vm_md);
   CHECK(apart(reduced, full, "tip") < 1e-3);
   CHECK(apart(reduced, full, "bent") < 5e-2);
@@ -278,11 +280,11 @@ probes:
 
 namespace {
 
-/// A plate whose mesh is turned, anyhow in space or not at all, hinged to the ground.
-std::string turned_plate(const std::string& joints, bool turned, const std::string& rest = "") {
-  const Turned turn;
+/// A plate whose mesh is rotated, anyhow in space or not at all, hinged to the ground.
+std::string rotated_plate(const std::string& joints, bool rotated, const std::string& rest = "") {
+  const Rotated rotation;
   const auto at = [&](double x, double y, double z = 0) {
-    return turned ? turn(x, y, z) : fmt::format("[{}, {}, {}]", x, y, z);
+    return rotated ? rotation(x, y, z) : fmt::format("[{}, {}, {}]", x, y, z);
   };
   return fill(R"yaml(
 bodies:
@@ -319,19 +321,19 @@ const std::vector<std::string> holding_in_part{
 
 // What the ground holds along oblique axes it holds as along the mesh's own: the frame has the joints' axes.
 TEST_CASE("edges in space: a plate hinged to the ground, for any orientation of its mesh") {
-  const Turned turn;
+  const Rotated rotation;
   for (const std::string& joints : holding_in_part) {
     INFO(joints);
-    const std::string straight = turned_plate(joints, false), oblique = turned_plate(joints, true);
+    const std::string straight = rotated_plate(joints, false), oblique = rotated_plate(joints, true);
     CHECK(off(omega_of(oblique), omega_of(straight)) < 1e-9);
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
       INFO(name_of(formulation));
-      const History as_is = move(straight, formulation), turned = move(oblique, formulation);
+      const History as_is = move(straight, formulation), rotated = move(oblique, formulation);
       double worst = 0, size = 0;
       for (const std::string probe : {"corner", "bent", "inner"})
         for (std::size_t i = 0; i < as_is.t.size(); ++i) {
           const Eigen::Vector3d x = vector_at(as_is, probe, i);
-          worst = std::max(worst, (turn.Q.transpose() * vector_at(turned, probe, i) - x).norm());
+          worst = std::max(worst, (rotation.Q.transpose() * vector_at(rotated, probe, i) - x).norm());
           size = std::max(size, x.norm());
         }
       CHECK(size > 1e-3);
@@ -341,31 +343,31 @@ TEST_CASE("edges in space: a plate hinged to the ground, for any orientation of 
 }
 
 TEST_CASE("edges in space: equilibria and estimates of a plate on oblique hinges") {
-  const Turned turn;
-  const std::string straight = turned_plate(holding_in_part[1], false),
-                    oblique = turned_plate(holding_in_part[1], true);
+  const Rotated rotation;
+  const std::string straight = rotated_plate(holding_in_part[1], false),
+                    oblique = rotated_plate(holding_in_part[1], true);
   for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
-    const History as_is = rest(straight, formulation), turned = rest(oblique, formulation);
+    const History as_is = rest(straight, formulation), rotated = rest(oblique, formulation);
     const Eigen::Vector3d x = vector_at(as_is, "inner", 0);
     CHECK(x.norm() > 1e-4);
-    CHECK((turn.Q.transpose() * vector_at(turned, "inner", 0) - x).norm() < 1e-8 * x.norm());
+    CHECK((rotation.Q.transpose() * vector_at(rotated, "inner", 0) - x).norm() < 1e-8 * x.norm());
   }
   const Estimated as_is = move_and_estimate(straight, Formulation::vm_md),
-                  turned = move_and_estimate(oblique, Formulation::vm_md);
+                  rotated = move_and_estimate(oblique, Formulation::vm_md);
   REQUIRE(as_is.estimate.none == "");
-  REQUIRE(turned.estimate.none == "");
+  REQUIRE(rotated.estimate.none == "");
   REQUIRE(as_is.estimate.probes.size() == 3);
   for (std::size_t i = 0; i < 3; ++i)
-    CHECK(turned.estimate.probes[i] == Approx(as_is.estimate.probes[i]).epsilon(1e-3).margin(1e-8));  // 0: held
+    CHECK(rotated.estimate.probes[i] == Approx(as_is.estimate.probes[i]).epsilon(1e-3).margin(1e-8));  // 0: constrained
 }
 
 TEST_CASE("edges in space: edges supported by the ground that meet are one rim without constraints") {
-  for (const bool turned : {false, true})
+  for (const bool rotated : {false, true})
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
       const assembly::Model model =
-          history_of(turned_plate("l: {type: revolute, between: [ground, plate.left]}, "
-                                  "b: {type: revolute, between: [ground, plate.bottom], edges: line}",
-                                  turned),
+          history_of(rotated_plate("l: {type: revolute, between: [ground, plate.left]}, "
+                                   "b: {type: revolute, between: [ground, plate.bottom], edges: line}",
+                                   rotated),
                      formulation)
               .model;
       CHECK(model.warnings.empty());
@@ -398,9 +400,9 @@ std::string trapezoid(const Eigen::Matrix3d& Q) {
 
 }  // namespace
 
-// No frame has the axes of both hinges along its own: one of them is held by the joint's rows.
+// No frame has the axes of both hinges along its own: one of them is constrained by the joint's rows.
 TEST_CASE("edges in space: two hinges at an angle with one another") {
-  const Turned turn;
+  const Rotated rotation;
   const Scratch folder;
   const auto scene = [&](const std::string& deck) {
     return fill(R"yaml(
@@ -413,15 +415,15 @@ probes: {inner: {at: plate.inner}}
                 {{"deck", (folder.path / deck).string()}});
   };
   write_text((folder.path / "straight.inp").string(), trapezoid(Eigen::Matrix3d::Identity()));
-  write_text((folder.path / "turned.inp").string(), trapezoid(turn.Q));
+  write_text((folder.path / "turned.inp").string(), trapezoid(rotation.Q));
   const History full = move(scene("straight.inp"), Formulation::nlffr),
                 reduced = move(scene("straight.inp"), Formulation::vm_md),
-                turned = move(scene("turned.inp"), Formulation::nlffr);
+                rotated = move(scene("turned.inp"), Formulation::nlffr);
   CHECK(apart(reduced, full, "inner") < 1e-2);
   double worst = 0, size = 0;
   for (std::size_t i = 0; i < full.t.size(); ++i) {
     const Eigen::Vector3d x = vector_at(full, "inner", i);
-    worst = std::max(worst, (turn.Q.transpose() * vector_at(turned, "inner", i) - x).norm());
+    worst = std::max(worst, (rotation.Q.transpose() * vector_at(rotated, "inner", i) - x).norm());
     size = std::max(size, x.norm());
   }
   CHECK(size > 1e-3);
@@ -430,7 +432,7 @@ probes: {inner: {at: plate.inner}}
   CHECK(omega_of(scene("turned.inp")).front() == Approx(first).epsilon(1e-9));
 }
 
-// A plate that slides along an edge, along the axes and turned anyhow: static columns of forces and their derivatives
+// A plate that slides along an edge, along the axes and rotated anyhow: static columns of forces and their derivatives
 // are of its plane or across it in both, so that none is left of round-off.
 TEST_CASE("a sliding plate moves the same for any orientation of its mesh") {
   const auto motion = [](const Eigen::Matrix3d& R) {
@@ -463,9 +465,9 @@ probes: {t: {at: p.p3}}
     return Eigen::MatrixXd(tip * R);
   };
   const Eigen::MatrixXd along = motion(Eigen::Matrix3d::Identity());
-  for (const Eigen::Vector3d& turn :
+  for (const Eigen::Vector3d& rotation :
        {Eigen::Vector3d(0.9, 1.2, -1.4), Eigen::Vector3d(0, 0, 0.3), Eigen::Vector3d(0.7, 0, 0)}) {
-    INFO("turned by " << turn.transpose());
-    CHECK((motion(math::rotation(turn)) - along).cwiseAbs().maxCoeff() < 1e-6 * along.cwiseAbs().maxCoeff());
+    INFO("turned by " << rotation.transpose());
+    CHECK((motion(math::rotation(rotation)) - along).cwiseAbs().maxCoeff() < 1e-6 * along.cwiseAbs().maxCoeff());
   }
 }

@@ -100,7 +100,7 @@ TEST_CASE("free in space: energy of a tumbling beam and plate to order 2, reduce
     }
 }
 
-// Orders 2; p of the mean axes' origin, which is the middle, does not see the turning at all.
+// Orders 2; p of the mean axes' origin, which is the middle, does not see the rotating at all.
 TEST_CASE("free in space: momenta of a tumbling beam and plate to order 2, reduced and full") {
   for (const auto& [text, formulation] : std::vector<std::pair<std::function<std::string(std::string)>, Formulation>>{
            {[](const std::string& step) { return beam(mean, "0.4", step); }, Formulation::vm_md},
@@ -132,7 +132,7 @@ TEST_CASE("free in space: pinned, clamped and mean axes give the same motion") {
   }
 }
 
-// A beam that turns about its axis of greatest moment, 100 times, without a force: its middle keeps its velocity.
+// A beam that rotates about its axis of greatest moment, 100 times, without a force: its middle keeps its velocity.
 TEST_CASE("free in space: a hundred revolutions without drift") {
   const History at = move(R"yaml(
 bodies:

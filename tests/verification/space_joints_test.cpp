@@ -5,23 +5,24 @@
 using namespace floe;
 using namespace floe::test;
 
-// One rigid body on one joint, springs or dampers, all of it turned; closed forms. A rod of side b, length 1, mass 1
+// One rigid body on one joint, springs or dampers, all of it rotated; closed forms. A rod of side b, length 1, mass 1
 // has moments m/12 (1 + b^2) across and m b^2/6 along; a cube of side a, mass 1, a^2/6.
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
-/// $z, $x, $y: turned axes, $turn: the rotation vector.
+/// $z, $x, $y: rotated axes, $turn: the rotation vector.
 History moved(const std::string& text, Words words = {}) {
-  for (const auto& [name, axis] : {std::pair("x", turn(1, 0, 0)), {"y", turn(0, 1, 0)}, {"z", turn(0, 0, 1)}})
+  for (const auto& [name, axis] :
+       {std::pair("x", rotation(1, 0, 0)), {"y", rotation(0, 1, 0)}, {"z", rotation(0, 0, 1)}})
     words.push_back({name, axis});
-  words.push_back({"turn", turn.rotation()});
+  words.push_back({"turn", rotation.text()});
   return move(fill(text, words), Formulation::vm_md);
 }
 
 Eigen::Vector3d back(const History& at, const std::string& probe, std::size_t i) {
-  return turn.Q.transpose() * vector_at(at, probe, i);
+  return rotation.Q.transpose() * vector_at(at, probe, i);
 }
 
 /// A cube of side 0.2 and mass 1 about its middle: I = 1/150.
@@ -38,8 +39,7 @@ const std::string cube = R"yaml(
 // x = 1 + 0.1 e^(-c t/2m) (cos w t + c/(2m w) sin w t), w^2 = k/m - (c/2m)^2; on a cylinder it spins steadily.
 TEST_CASE("joints in space: a mass on a spring along a rotating or fixed guide") {
   for (const std::string guide : {"prismatic", "cylindrical"}) {
-    const History at =
-        moved("bodies:" + cube + R"yaml(
+    const History at = moved("bodies:" + cube + R"yaml(
     initial: {position: $place, rotation: $turn, angular_velocity: $spin}
 joints:
   guide: {type: $guide, between: [ground, cube.middle], axis: $x}
@@ -47,18 +47,21 @@ joints:
 motion: {end: 2, step: 2e-3}
 probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, quantity: rotation}}
 )yaml",
-              {{"place", turn(1.1, 0)}, {"spin", guide == "prismatic" ? "[0, 0, 0]" : turn(0.7, 0)}, {"guide", guide}});
+                             {{"place", rotation(1.1, 0)},
+                              {"spin", guide == "prismatic" ? "[0, 0, 0]" : rotation(0.7, 0)},
+                              {"guide", guide}});
     const double decay = 0.3, w = std::sqrt(25 - decay * decay);
     for (std::size_t i = 0; i < at.t.size(); ++i) {
       const double t = at.t[i], x = 1 + 0.1 * std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
       CHECK((back(at, "cube", i) - Eigen::Vector3d(x, 0, 0)).norm() < 2e-5);
-      const Eigen::Vector3d turned(at["turn.rx"][i], at["turn.ry"][i], at["turn.rz"][i]);
-      CHECK((turn.Q.transpose() * turned - Eigen::Vector3d(guide == "prismatic" ? 0 : 0.7 * t, 0, 0)).norm() < 1e-9);
+      const Eigen::Vector3d rotated(at["turn.rx"][i], at["turn.ry"][i], at["turn.rz"][i]);
+      CHECK((rotation.Q.transpose() * rotated - Eigen::Vector3d(guide == "prismatic" ? 0 : 0.7 * t, 0, 0)).norm() <
+            1e-9);
     }
   }
 }
 
-// Slides as a free body in its plane, turns steadily about the normal; weight along the normal is carried.
+// Slides as a free body in its plane, rotates steadily about the normal; weight along the normal is carried.
 TEST_CASE("joints in space: a cube on a plane moves as a free one in the plane") {
   const History at = moved("gravity: $g\nbodies:" + cube + R"yaml(
     initial: {rotation: $turn, velocity: $v, angular_velocity: $w}
@@ -66,12 +69,12 @@ joints: {floor: {type: planar, between: [ground, cube.middle], axis: $z}}
 motion: {end: 1, step: 5e-3}
 probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, quantity: rotation}}
 )yaml",
-                           {{"g", turn(0, -2, -5)}, {"v", turn(0.4, 0.9)}, {"w", turn(0, 0, 2)}});
+                           {{"g", rotation(0, -2, -5)}, {"v", rotation(0.4, 0.9)}, {"w", rotation(0, 0, 2)}});
   for (std::size_t i = 0; i < at.t.size(); ++i) {
     const double t = at.t[i];
     CHECK((back(at, "cube", i) - Eigen::Vector3d(0.4 * t, 0.9 * t - t * t, 0)).norm() < 1e-9);
-    const Eigen::Vector3d turned(at["turn.rx"][i], at["turn.ry"][i], at["turn.rz"][i]);
-    CHECK((turn.Q.transpose() * turned - Eigen::Vector3d(0, 0, 2 * t)).norm() < 1e-9);
+    const Eigen::Vector3d rotated(at["turn.rx"][i], at["turn.ry"][i], at["turn.rz"][i]);
+    CHECK((rotation.Q.transpose() * rotated - Eigen::Vector3d(0, 0, 2 * t)).norm() < 1e-9);
   }
 }
 
@@ -79,13 +82,14 @@ probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, qu
 // W^2 = g / (l cos c).
 TEST_CASE("joints in space: a mass at a fixed distance moves as a conical pendulum") {
   const double c = 0.5, l = 0.8, g = 9.81, W = std::sqrt(g / (l * std::cos(c))), r = l * std::sin(c);
-  const History at = moved("gravity: $g\nbodies:" + cube + R"yaml(
+  const History at =
+      moved("gravity: $g\nbodies:" + cube + R"yaml(
     initial: {position: $place, velocity: $v}
 joints: {thread: {type: distance, between: [{body: ground, node: [0, 0, 0]}, cube.middle]}}
 motion: {end: 2, step: 2e-3}
 probes: {cube: {at: cube.middle, quantity: position}}
 )yaml",
-                           {{"g", turn(0, 0, -g)}, {"place", turn(r, 0, -l * std::cos(c))}, {"v", turn(0, r * W)}});
+            {{"g", rotation(0, 0, -g)}, {"place", rotation(r, 0, -l * std::cos(c))}, {"v", rotation(0, r * W)}});
   for (std::size_t i = 0; i < at.t.size(); ++i) {
     const Eigen::Vector3d p = back(at, "cube", i);
     CHECK(p.norm() == Approx(l).epsilon(1e-10));
@@ -121,7 +125,7 @@ probes: {cube: {at: cube.middle, quantity: position}, turn: {at: cube.middle, qu
     CHECK(at["cube.x"][i] == Approx(1e-3 * std::exp(-0.2 * t) * std::sin(w * t) / w).margin(1e-7));
     CHECK(at["cube.y"][i] == Approx(2e-3 * std::sin(3 * t) / 3).margin(1e-7));
     CHECK(at["cube.z"][i] == Approx(-1e-3 * std::sin(4 * t) / 4).margin(1e-7));
-    // turning is of second order in its amplitude
+    // rotating is of second order in its amplitude
     CHECK(at["turn.rx"][i] == Approx(0.01 * std::sin(2 * t) / 2).margin(1e-4));
     CHECK(at["turn.ry"][i] == Approx(-0.02 * std::sin(3 * t) / 3).margin(1e-4));
     CHECK(at["turn.rz"][i] == Approx(0.03 * std::sin(5 * t) / 5).margin(1e-4));
@@ -154,7 +158,7 @@ joints:
 motion: {end: 6, step: 2e-3}
 probes: {tip: {at: cube.end, quantity: position}}
 )yaml",
-                           {{"w", turn(0, 0, w0)}});
+                           {{"w", rotation(0, 0, w0)}});
   double greatest = 0;
   for (std::size_t i = 0; i < at.t.size(); ++i) {
     const double phi = w0 * std::sin(at.t[i]);

@@ -5,12 +5,12 @@
 using namespace floe;
 using namespace floe::test;
 
-// Planar mechanisms turned by an arbitrary rotation in space move as they do in the plane. A square section of side b:
+// Planar mechanisms rotated by an arbitrary rotation in space move as they do in the plane. A square section of side b:
 // A = b^2, I = b^4/12.
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
 History plane(const std::string& text, const Words& words, Formulation formulation) {
   return move(fill(text, words), formulation);
@@ -18,8 +18,8 @@ History plane(const std::string& text, const Words& words, Formulation formulati
 
 /// $z: the plane's normal, $turn: the rotation vector, as all else of `words`.
 History space(const std::string& text, Words words, Formulation formulation) {
-  words.push_back({"z", turn(0, 0, 1)});
-  words.push_back({"turn", turn.rotation()});
+  words.push_back({"z", rotation(0, 0, 1)});
+  words.push_back({"turn", rotation.text()});
   return move(fill(text, words), formulation);
 }
 
@@ -63,13 +63,13 @@ TEST_CASE("in space: a flexible pendulum, full-order") {
     INFO(frame);
     Words words{{"frame", frame}, {"elements", "10"}, {"modes", "1"}, {"end", "0.5"}, {"step", "2e-3"}};
     const History flat = plane(flat_pendulum, words, Formulation::nlffr);
-    words.push_back({"gravity", turn(0, -9.81)}), words.push_back({"section", square}),
+    words.push_back({"gravity", rotation(0, -9.81)}), words.push_back({"section", square}),
         words.push_back({"hinge", "revolute, axis: $z"});
     const History at = space(pendulum, words, Formulation::nlffr);
-    CHECK(apart(at, turn.Q, flat, "tip") < 1e-6);
+    CHECK(apart(at, rotation.Q, flat, "tip") < 1e-6);
     CHECK(apart(at, Eigen::Matrix3d::Identity(), flat, "bent") < 1e-6);
     if (frame == "clamped") continue;
-    const Eigen::Vector3d tip = turn.Q.transpose() * vector_at(at, "tip", at.t.size() - 1);
+    const Eigen::Vector3d tip = rotation.Q.transpose() * vector_at(at, "tip", at.t.size() - 1);
     CHECK((tip - Eigen::Vector3d(-.05760, -.99741, 0)).norm() < 1e-3);
   }
 }
@@ -79,10 +79,10 @@ TEST_CASE("in space: a flexible pendulum, reduced to the modes of its plane and 
     INFO(frame);
     Words words{{"frame", frame}, {"elements", "10"}, {"modes", "3"}, {"end", "0.5"}, {"step", "2e-3"}};
     const History flat = plane(flat_pendulum, words, Formulation::vm_md);
-    words.push_back({"gravity", turn(0, -9.81)}), words.push_back({"section", stiff}),
+    words.push_back({"gravity", rotation(0, -9.81)}), words.push_back({"section", stiff}),
         words.push_back({"hinge", "revolute, axis: $z"});
     const History at = space(pendulum, words, Formulation::vm_md);
-    CHECK(apart(at, turn.Q, flat, "tip") < 1e-6);
+    CHECK(apart(at, rotation.Q, flat, "tip") < 1e-6);
     CHECK(apart(at, Eigen::Matrix3d::Identity(), flat, "bent") < 1e-6);
   }
 }
@@ -93,15 +93,15 @@ TEST_CASE("in space: a flexible pendulum of square section on a spherical joint,
   Words words{{"frame", "pinned"}, {"elements", "10"}, {"modes", "3"}, {"end", "0.5"}, {"step", "2e-3"}};
   const History flat = plane(flat_pendulum, words, Formulation::vm_md);
   words[2].second = "6";
-  words.push_back({"gravity", turn(0, -9.81)}), words.push_back({"section", square}),
+  words.push_back({"gravity", rotation(0, -9.81)}), words.push_back({"section", square}),
       words.push_back({"hinge", "spherical"});
   const History at = space(pendulum, words, Formulation::vm_md);
-  CHECK(apart(at, turn.Q, flat, "tip") < 1e-6);
+  CHECK(apart(at, rotation.Q, flat, "tip") < 1e-6);
 }
 
 namespace {
 
-// The second link's mesh stands turned in its own axes, the first one is turned by `initial`.
+// The second link's mesh stands rotated in its own axes, the first one is rotated by `initial`.
 const std::string flat_arm = R"yaml(
 gravity: [0, -9.81]
 bodies:
@@ -146,14 +146,14 @@ void check_arm(const std::string& flat_joints, const std::string& joints, Formul
   const History flat = plane(flat_arm, {{"joints", flat_joints}}, formulation);
   const History at = space(arm,
                            {{"joints", joints},
-                            {"gravity", turn(0, -9.81)},
+                            {"gravity", rotation(0, -9.81)},
                             {"section", section},
-                            {"elbow", turn(1, 0)},
-                            {"tip", turn(1, 0.8)},
-                            {"x", turn(1, 0)}},
+                            {"elbow", rotation(1, 0)},
+                            {"tip", rotation(1, 0.8)},
+                            {"x", rotation(1, 0)}},
                            formulation);
-  CHECK(apart(at, turn.Q, flat, "elbow") < 1e-6);
-  CHECK(apart(at, turn.Q, flat, "tip") < 1e-6);
+  CHECK(apart(at, rotation.Q, flat, "elbow") < 1e-6);
+  CHECK(apart(at, rotation.Q, flat, "tip") < 1e-6);
 }
 
 }  // namespace
@@ -310,19 +310,19 @@ struct Pins {
   std::string crank_pin, slider_pin, guide;
 };
 
-History turned_crank(const Pins& pins, Formulation formulation, const std::string& section) {
+History rotated_crank(const Pins& pins, Formulation formulation, const std::string& section) {
   return space(crank,
-               {{"crank_spin", turn(0, 0, 150)},
-                {"pin_speed", turn(0, 150 * 0.15)},
-                {"rod_spin", turn(0, 0, -75)},
+               {{"crank_spin", rotation(0, 0, 150)},
+                {"pin_speed", rotation(0, 150 * 0.15)},
+                {"rod_spin", rotation(0, 0, -75)},
                 {"crank_pin", pins.crank_pin},
                 {"slider_pin", pins.slider_pin},
-                {"pin", turn(0.15, 0)},
-                {"slider", turn(0.45, 0)},
+                {"pin", rotation(0.15, 0)},
+                {"slider", rotation(0.45, 0)},
                 {"guide", pins.guide},
                 {"section", section},
-                {"x", turn(1, 0)},
-                {"y", turn(0, 1)}},
+                {"x", rotation(1, 0)},
+                {"y", rotation(0, 1)}},
                formulation);
 }
 
@@ -336,8 +336,8 @@ TEST_CASE("in space: slider-crank of revolute joints, as in the plane") {
     INFO(name_of(formulation));
     const History flat = plane(flat_crank, {}, formulation);
     const History at =
-        turned_crank(hinges, formulation, "A: pi*d^2/4, Iz: pi*d^4/64, Iy: pi*d^4/64*100, J: pi*d^4/64*100");
-    CHECK(apart(at, turn.Q, flat, "slider") < 1e-9);
+        rotated_crank(hinges, formulation, "A: pi*d^2/4, Iz: pi*d^4/64, Iy: pi*d^4/64*100, J: pi*d^4/64*100");
+    CHECK(apart(at, rotation.Q, flat, "slider") < 1e-9);
     CHECK(apart(at, Eigen::Matrix3d::Identity(), flat, "middle") < 1e-6);
     CHECK(at.at("middle.y", .005) / 0.3 == Approx(.015097).margin(3e-4));
     CHECK(at.at("middle.y", .01) / 0.3 == Approx(.005309).margin(3e-4));
@@ -350,8 +350,8 @@ TEST_CASE("in space: slider-crank with spherical, universal and cylindrical join
   for (const Pins& pins : {Pins{"type: spherical", "type: revolute, axis: $z", "cylindrical"},
                            Pins{"type: spherical", "type: universal, axis: $z, second_axis: $y", "prismatic"}}) {
     INFO(pins.slider_pin);
-    const History at = turned_crank(pins, Formulation::nlffr, "shape: circle, radius: d/2");
-    CHECK(apart(at, turn.Q, flat, "slider") < 1e-9);
+    const History at = rotated_crank(pins, Formulation::nlffr, "shape: circle, radius: d/2");
+    CHECK(apart(at, rotation.Q, flat, "slider") < 1e-9);
     CHECK(apart(at, Eigen::Matrix3d::Identity(), flat, "middle") < 1e-6);
   }
 }

@@ -11,7 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 const double knee_x = 0.0, knee_y = 0.5;  // the crank stands upright
 
 /// The coupler's far end: |p - knee| = 1.7, |p - (2, 0)| = 1.2, the upper of two.
@@ -55,7 +55,7 @@ std::string bars(Place&& place, bool space) {
 
 /// Axes of the four hinges.
 std::string scene_of(const std::array<std::string, 4>& axes) {
-  return bars([](double x, double y) { return turn(x, y); }, true) +
+  return bars([](double x, double y) { return rotation(x, y); }, true) +
          fill(R"yaml(
 gravity: $g
 joints:
@@ -64,7 +64,7 @@ joints:
   c: {type: revolute, between: [coupler.end, rocker.start], axis: $2}
   d: {type: revolute, between: [rocker.end, ground], axis: $3}
 )yaml",
-              {{"g", turn(0, -9.81)}, {"0", axes[0]}, {"1", axes[1]}, {"2", axes[2]}, {"3", axes[3]}});
+              {{"g", rotation(0, -9.81)}, {"0", axes[0]}, {"1", axes[1]}, {"2", axes[2]}, {"3", axes[3]}});
 }
 
 History plane() {
@@ -91,9 +91,9 @@ std::string fault_of(const std::string& text) {
 }  // namespace
 
 TEST_CASE("redundant in space: a four-bar of four hinges moves as in the plane, without three rows of a joint") {
-  const std::string z = turn(0, 0, 1);
+  const std::string z = rotation(0, 0, 1);
   const History flat = plane(), at = move(scene_of({z, z, z, z}), Formulation::vm_md);
-  CHECK(apart(at, turn.Q, flat, "middle") < 1e-9);
+  CHECK(apart(at, rotation.Q, flat, "middle") < 1e-9);
   REQUIRE(at.model.warnings.size() == 1);
   CHECK(at.model.warnings[0] == "joint d: 3 of its 5 constraints are redundant with other joints and eliminated");
 }
@@ -102,7 +102,7 @@ TEST_CASE("redundant in space: a four-bar of four hinges moves as in the plane, 
 // them. Rank 4 of 4 leaves no motion, and 20 rows for 18 freedoms leave 2 over: the mechanism stands, whatever its
 // weight.
 TEST_CASE("redundant in space: with one axis tilted the four-bar cannot move") {
-  const std::string z = turn(0, 0, 1), tilted = turn(std::sin(0.05), 0, std::cos(0.05));
+  const std::string z = rotation(0, 0, 1), tilted = rotation(std::sin(0.05), 0, std::cos(0.05));
   const std::string text = scene_of({z, z, tilted, z});
   const History at = move(text, Formulation::vm_md);
   double moved = 0;

@@ -10,14 +10,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
 double along(double b) { return b * b / 6; }
 double across(double b) { return (1 + b * b) / 12; }
 
 History top(double tilt, double precession, double spin, double b, const std::string& step) {
   const Vector3d axis(std::sin(tilt), 0, std::cos(tilt)), w = precession * Vector3d::UnitZ() + spin * axis;
-  const double half = tilt - M_PI / 2;  // mesh x is turned about y onto the axis
+  const double half = tilt - M_PI / 2;  // mesh x is rotated about y onto the axis
   return move(fill(R"yaml(
 gravity: [0, 0, -9.81]
 parameters: {b: $b}
@@ -67,7 +67,7 @@ TEST_CASE("rigid in space: a heavy top precesses steadily at the rate of the clo
 // Of two equal moments: the axis of the body goes round the momentum L at |L| / J while its inclination stays.
 TEST_CASE("rigid in space: a torque-free rod precesses at the rate of the closed form") {
   const double b = 0.4, J1 = along(b), J = across(b);
-  const Vector3d x = turn.Q * Vector3d::UnitX(), L = turn.Q * Vector3d(6 * J1, J, 0), pole = L.normalized();
+  const Vector3d x = rotation.Q * Vector3d::UnitX(), L = rotation.Q * Vector3d(6 * J1, J, 0), pole = L.normalized();
   const History at = move(fill(R"yaml(
 parameters: {b: 0.4}
 bodies:
@@ -80,22 +80,22 @@ bodies:
 motion: {end: 3, step: 2e-3}
 probes: {start: {at: rod.start, quantity: position}, end: {at: rod.end, quantity: position}}
 )yaml",
-                               {{"turn", turn.rotation()},
-                                {"w", turn(6, 1)},
-                                {"v", turn(0, 0, 0.5)}}),  // so that the middle rests: v = (1/2, 0, 0) x w
+                               {{"turn", rotation.text()},
+                                {"w", rotation(6, 1)},
+                                {"v", rotation(0, 0, 0.5)}}),  // so that the middle rests: v = (1/2, 0, 0) x w
                           Formulation::vm_md);
   double worst = 0;
   for (std::size_t i = 0; i < at.t.size(); ++i) {
     const Eigen::AngleAxisd round(L.norm() / J * at.t[i], pole);
     worst = std::max(worst, (vector_at(at, "end", i) - vector_at(at, "start", i) - round * x).norm());
     const Vector3d middle = (vector_at(at, "start", i) + vector_at(at, "end", i)) / 2;
-    CHECK((middle - turn.Q * Vector3d(0.5, 0, 0)).norm() < 2e-4);
+    CHECK((middle - rotation.Q * Vector3d(0.5, 0, 0)).norm() < 2e-4);
   }
   CHECK(worst < 5e-4);
   CHECK(drift(at) < 5e-5);
 }
 
-// Jacobi: a body of three moments that turns about the middle one is unstable; energy and momentum hold all the same.
+// Jacobi: a body of three moments that rotates about the middle one is unstable; energy and momentum hold all the same.
 TEST_CASE("rigid in space: energy of a body that tumbles about its intermediate axis") {
   const auto lost = [](const std::string& step) {
     return drift(move(fill(R"yaml(

@@ -7,7 +7,7 @@ using namespace floe::test;
 
 namespace {
 
-/// A panel, and a mast on the tip of it, on a hub that a moment turns; `words` into the scene.
+/// A panel, and a mast on the tip of it, on a hub that a moment rotates; `words` into the scene.
 std::string hub(const std::string& words) {
   return words + R"yaml(
 bodies:

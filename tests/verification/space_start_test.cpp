@@ -9,7 +9,7 @@ using namespace floe::test;
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
 /// A free beam, bent and moving.
 std::string flat_beam(const std::string& frame) {
@@ -44,10 +44,10 @@ motion: {end: 0.2, step: 1e-3}
 probes: {tip: {at: beam.end, quantity: position}, speed: {at: beam.start, quantity: velocity}, bent: {at: beam.middle, quantity: deflection}}
 )yaml",
               {{"frame", frame},
-               {"there", turn(0.3, -0.2)},
-               {"turn", turn.rotation()},
-               {"velocity", turn(1, 2)},
-               {"spin", turn(0, 0, 3)}});
+               {"there", rotation(0.3, -0.2)},
+               {"turn", rotation.text()},
+               {"velocity", rotation(1, 2)},
+               {"spin", rotation(0, 0, 3)}});
 }
 
 }  // namespace
@@ -57,8 +57,8 @@ TEST_CASE("a free beam in space with initial bending agrees with the planar beam
     for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
       INFO(frame << ", " << scene::name_of(formulation));
       const History flat = move(flat_beam(frame), formulation), at = move(beam_in_space(frame), formulation);
-      CHECK(apart(at, turn.Q, flat, "tip") < 1e-6);
-      CHECK(apart(at, turn.Q, flat, "speed") < 1e-5);
+      CHECK(apart(at, rotation.Q, flat, "tip") < 1e-6);
+      CHECK(apart(at, rotation.Q, flat, "speed") < 1e-5);
       if (frame != "pinned") CHECK(apart(at, Eigen::Matrix3d::Identity(), flat, "bent") < 1e-5);
     }
 }
@@ -113,17 +113,17 @@ loads: {tip: {type: force, at: beam.end, force: $force}}
 motion: {end: 0.6, step: 4e-3}
 probes: {tip: {at: beam.end}, inside: {at: {body: beam, node: [37.5, 0, 0]}}}
 )yaml";
-  const Eigen::Vector3d y = turn.Q.col(1);
+  const Eigen::Vector3d y = rotation.Q.col(1);
   const auto along = [&](int i) { return fmt::format("\"{:.17g}*2500*sin(9.5*t)\"", y[i]); };
   const std::string force = fmt::format("[{}, {}, {}]", along(0), along(1), along(2));
   for (const std::string n : {"2", "4"}) {
     INFO(n);
     const History plane = move(fill(flat, {{"n", n}}), Formulation::nlffr);
-    const Words words{{"n", n}, {"turn", turn.rotation()}, {"force", force}};
+    const Words words{{"n", n}, {"turn", rotation.text()}, {"force", force}};
     const History at = move(fill(space, words), Formulation::nlffr);
     CHECK(at.model.bodies.size() == std::stoul(n));
-    CHECK(apart(at, turn.Q, plane, "tip") < 1e-3);  // rotary inertia about the stiff axes apart
-    CHECK(apart(at, turn.Q, plane, "inside") < 1e-3);
-    CHECK(apart(move(fill(space, words), Formulation::vm_md), turn.Q, plane, "tip") < 3e-2);
+    CHECK(apart(at, rotation.Q, plane, "tip") < 1e-3);  // rotary inertia about the stiff axes apart
+    CHECK(apart(at, rotation.Q, plane, "inside") < 1e-3);
+    CHECK(apart(move(fill(space, words), Formulation::vm_md), rotation.Q, plane, "tip") < 3e-2);
   }
 }

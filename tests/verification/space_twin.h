@@ -6,27 +6,26 @@
 
 namespace floe::test {
 
-/// What turns a planar scene into one in space: everything by one rotation about an axis that is none of the world's.
-struct Turned {
+/// What converts a planar scene into one in space: everything by one rotation about an axis that is none of the
+/// world's.
+struct Rotated {
   Eigen::Vector3d vector{0.4, -0.9, 0.7};
   Eigen::Matrix3d Q = math::rotation(vector);
 
-  /// Turned, as a scene's text.
+  /// Rotated, as a scene's text.
   std::string operator()(double x, double y, double z = 0) const {
     const Eigen::Vector3d p = Q * Eigen::Vector3d(x, y, z);
     return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", p.x(), p.y(), p.z());
   }
   /// As `initial.rotation`.
-  std::string rotation() const {
-    return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", vector.x(), vector.y(), vector.z());
-  }
+  std::string text() const { return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", vector.x(), vector.y(), vector.z()); }
 };
 
 inline Eigen::Vector3d vector_at(const History& history, const std::string& probe, std::size_t i) {
   return {history[probe + ".x"][i], history[probe + ".y"][i], history[probe + ".z"][i]};
 }
 
-/// Greatest distance between a probe in space, turned back, and its planar twin, over the greatest size of the twin.
+/// Greatest distance between a probe in space, rotated back, and its planar twin, over the greatest size of the twin.
 inline double apart(const History& space, const Eigen::Matrix3d& Q, const History& plane, const std::string& probe) {
   REQUIRE(space.t.size() == plane.t.size());
   double worst = 0, size = 0;

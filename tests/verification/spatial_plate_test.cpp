@@ -101,17 +101,17 @@ TEST_CASE("simply supported cross-ply plate (Navier)") {
                     bending);
 }
 
-// Plies turned by 90 degrees and the axis turned back are the same plate.
+// Plies rotated by 90 degrees and the axis rotated back are the same plate.
 TEST_CASE("ply angles and the section axis rotate together") {
   const std::string material = "{E1: 100e9, E2: 10e9, nu12: 0.25, G12: 5e9, rho: 1600}",
                     root = on_edges("fixed", {"left"});
-  const auto turned = [&](const std::string& section) {
+  const auto rotated = [&](const std::string& section) {
     return frequencies({"triangles", section, material}, root, 6);
   };
-  const auto along = turned("{plies: [[0.001, 30], [0.001, -30]], axis: [1, 0, 0]}"),
-             across = turned("{plies: [[0.001, -60], [0.001, -120]], axis: [0, 1, 0]}"),
-             mirrored = turned("{plies: [[0.001, -30], [0.001, 30]], axis: [1, 0, 0]}");
+  const auto along = rotated("{plies: [[0.001, 30], [0.001, -30]], axis: [1, 0, 0]}"),
+             across = rotated("{plies: [[0.001, -60], [0.001, -120]], axis: [0, 1, 0]}"),
+             mirrored = rotated("{plies: [[0.001, -30], [0.001, 30]], axis: [1, 0, 0]}");
   for (int i = 0; i < 5; ++i) CHECK(along[i] == Approx(across[i]).epsilon(1e-9));
   CHECK(std::abs(along[0] / mirrored[0] - 1) < 0.05);
-  CHECK(std::abs(turned("{plies: [[0.002, 0]], axis: [0, 1, 0]}")[0] / along[0] - 1) > 0.2);
+  CHECK(std::abs(rotated("{plies: [[0.002, 0]], axis: [0, 1, 0]}")[0] / along[0] - 1) > 0.2);
 }

@@ -7,7 +7,7 @@ using namespace floe::test;
 
 namespace {
 
-/// The beam of Wu and Haug: L = 8, turned up to Om in 15 s. Deflections are measured from the hub.
+/// The beam of Wu and Haug: L = 8, rotated up to Om in 15 s. Deflections are measured from the hub.
 std::string scene_of(const std::string& Om, const std::string& end, const std::string& step) {
   return fill(R"yaml(
 parameters: {Om: $Om, Ts: 15}

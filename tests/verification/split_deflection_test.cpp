@@ -77,7 +77,7 @@ void check_frames(const std::string& text, const Eigen::VectorXd& clamped_at_sta
 
 }  // namespace
 
-// A free beam bent by an inextensible deformation, in the world's axes turned and moved.
+// A free beam bent by an inextensible deformation, in the world's axes rotated and moved.
 TEST_CASE("deflections of a body in several frames begin with the initial deformation, in every kind of frame") {
   check_frames(R"yaml(
 bodies:

@@ -16,9 +16,9 @@ double tip(const std::string& elements, double step) {
 
 }  // namespace
 
-// The frame of a pinned body turns with what acts on the last element's small mass, and the elastic coordinates turn it
-// back: the rate of the first acceleration counts for both or for none. Counted by each coordinate's own stiffness, the
-// error of the step has a part that grows with the number of elements.
+// The frame of a pinned body rotates with what acts on the last element's small mass, and the elastic coordinates
+// rotate it back: the rate of the first acceleration counts for both or for none. Counted by each coordinate's own
+// stiffness, the error of the step has a part that grows with the number of elements.
 TEST_CASE("a load that starts with a finite rate: order two in the step, the same on every mesh") {
   double leading[2];
   int mesh = 0;

@@ -11,7 +11,7 @@ using namespace floe::test;
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
 /// A beam between two hinges of the ground, as long as its deformation makes it; EA 2e7, EI 166.66, 0.78 kg.
 std::string between_hinges(const std::string& deformation, const std::string& reduction = "{modes: 6}") {
@@ -108,7 +108,7 @@ probes: {end: {at: bar.end, quantity: velocity}}
                 space = move(
                     bar("from: [0, 0, 0], to: [1, 0, 0]",
                         "{A: 1e-3, Iy: 1e-6, Iz: 1e-6, J: 2e-6, orientation: [0, 1, 0]}", "{E: 1e7, nu: .3, rho: 1000}",
-                        "rotation: " + turn.rotation() +
+                        "rotation: " + rotation.text() +
                             ", deformation: [\"1e-3*(x - .5)\", 0, 0], deformation_rate: [\"2*(x - .5)\", 0, 0]"),
                     Formulation::vm_md);
   for (const History* one : {&plane, &space}) {

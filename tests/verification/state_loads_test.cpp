@@ -9,9 +9,9 @@ using namespace floe::test;
 
 namespace {
 
-const Turned turn;
+const Rotated rotation;
 
-/// A rod of length 1 and mass 3 about its end: I = 1. In the plane, or turned somehow in space.
+/// A rod of length 1 and mass 3 about its end: I = 1. In the plane, or rotated somehow in space.
 std::string rod(bool space, const std::string& rest) {
   const std::string plane = R"yaml(
 bodies:
@@ -31,7 +31,7 @@ bodies:
     initial: {rotation: $r}
 joints: {hinge: {type: revolute, between: [ground, rod.start], axis: $z}}
 )yaml";
-  return fill(space ? spatial : plane, {{"r", turn.rotation()}, {"z", turn(0, 0, 1)}}) + rest;
+  return fill(space ? spatial : plane, {{"r", rotation.text()}, {"z", rotation(0, 0, 1)}}) + rest;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ probes: {rod: {at: rod.end, quantity: displacement}, motor: {joint: hinge, quant
     for (std::size_t i = 0; i < at.t.size(); ++i) {
       const double phi = exact(at.t[i]);
       const Eigen::Vector3d flat(std::cos(phi) - 1, std::sin(phi), 0);
-      const Eigen::Vector3d u = space ? Eigen::Vector3d(turn.Q.transpose() * vector_at(at, "rod", i))
+      const Eigen::Vector3d u = space ? Eigen::Vector3d(rotation.Q.transpose() * vector_at(at, "rod", i))
                                       : Eigen::Vector3d(at["rod.x"][i], at["rod.y"][i], 0);
       worst = std::max(worst, (u - flat).norm());
       const double now = space ? vector_at(at, "motor", i).dot(vector_at(at, "w", i)) : at["motor.z"][i] * at["w.z"][i];
@@ -180,7 +180,7 @@ probes: {v: {at: ball.middle, quantity: velocity}, w: {at: ball.middle, quantity
   CHECK(at["w.z"].back() == Approx(4 * std::exp(-0.5)).epsilon(1e-5));  // J = m/6 = 1
 }
 
-// A rod on a flap hinge at the axis of a hub that turns with W: flap omega^2 = W^2 + k/I, and with a damper d the
+// A rod on a flap hinge at the axis of a hub that rotates with W: flap omega^2 = W^2 + k/I, and with a damper d the
 // exponent -d/(2I) +- i sqrt(W^2 + k/I - (d/2I)^2).
 TEST_CASE("state loads: frequencies and damping at steady rotation contain the loads' derivatives") {
   const std::string scene = R"yaml(
@@ -254,8 +254,9 @@ probes: {angle: {at: rod.end, quantity: rotation}}
     std::vector<double> x, peaks;
     for (std::size_t i = 0; i < at.t.size(); ++i) {
       const double phi =
-          !space ? at["angle.angle"][i]
-                 : (turn.Q.transpose() * Eigen::Vector3d(at["angle.rx"][i], at["angle.ry"][i], at["angle.rz"][i])).z();
+          !space
+              ? at["angle.angle"][i]
+              : (rotation.Q.transpose() * Eigen::Vector3d(at["angle.rx"][i], at["angle.ry"][i], at["angle.rz"][i])).z();
       x.push_back(phi + 0.5);
     }
     for (std::size_t i = 1; i + 1 < x.size(); ++i)
@@ -275,19 +276,19 @@ events: {drop: {unlock: hinge, at: 0.1}}
 motion: {end: 0.5, step: 1e-3}
 probes: {w: {at: rod.end, quantity: angular_velocity}}
 )yaml");
-    const std::string plain = space ? fill("axis: $z}", {{"z", turn(0, 0, 1)}}) : "[ground, rod.start]}";
+    const std::string plain = space ? fill("axis: $z}", {{"z", rotation(0, 0, 1)}}) : "[ground, rod.start]}";
     const auto at = text.find(plain);
     REQUIRE(at != std::string::npos);
     text.insert(at + plain.size() - 1, ", friction: {level: 4, speed: 1e-3}, limits: {upper: 0.6, stiffness: 1e4}");
-    const std::string shape = space ? "rotation: " + turn.rotation() : "rhoI: 0}";
+    const std::string shape = space ? "rotation: " + rotation.text() : "rhoI: 0}";
     const auto body = text.find(shape);
     REQUIRE(body != std::string::npos);
-    text.insert(body + shape.size(), space ? fill(", angular_velocity: $w", {{"w", turn(0, 0, 4)}})
+    text.insert(body + shape.size(), space ? fill(", angular_velocity: $w", {{"w", rotation(0, 0, 4)}})
                                            : "\n    initial: {angular_velocity: 4}");
     const History history = move(text, Formulation::vm_md);
     double w = 0;
     if (space)
-      w = (turn.Q.transpose() * vector_at(history, "w", history.t.size() - 1)).z();
+      w = (rotation.Q.transpose() * vector_at(history, "w", history.t.size() - 1)).z();
     else
       w = history["w.z"].back();
     CHECK(w == Approx(4 - 5 * 0.1).epsilon(1e-6));  // 1.77 rad beyond the start: a stop would have thrown it back

@@ -78,7 +78,7 @@ TEST_CASE("static cantilever: von Karman in the pinned frame") {
   CHECK(two["tip.x"][0] == Approx(-.158279).epsilon(1e-5));
 }
 
-// v'' = m, v'(0) = -m/2 against the chord: chord 1 - m^2/24 at the angle m/2, tip turned by m.
+// v'' = m, v'(0) = -m/2 against the chord: chord 1 - m^2/24 at the angle m/2, tip rotated by m.
 TEST_CASE("static cantilever: end moment in the pinned frame") {
   for (const double m : {0.5, 1., 2.}) {
     INFO("M L/EI = " << m);

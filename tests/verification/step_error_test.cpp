@@ -33,13 +33,13 @@ Moved move_with_step_error(const std::string& text, double allowed) {
 /// Against an eighth of the step: a factor of three either way.
 void check_step(const std::string& text, const std::string& step, const std::string& fine, double allowed) {
   const Moved coarse = move_with_step_error(fill(text, {{"step", step}}), allowed);
-  const History truth = move(fill(text, {{"step", fine}}), Formulation::vm_md);
+  const History reference_motion = move(fill(text, {{"step", fine}}), Formulation::vm_md);
   REQUIRE(coarse.error.none == "");
   CHECK(coarse.error.halved == (allowed >= 2));
   REQUIRE(coarse.error.probes.size() == coarse.history.model.probes.size());
   for (std::size_t p = 0; p < coarse.error.probes.size(); ++p) {
     const std::string& probe = coarse.history.model.probes[p].name;
-    const double error = vector_error(coarse.history, truth, probe), estimate = coarse.error.probes[p];
+    const double error = vector_error(coarse.history, reference_motion, probe), estimate = coarse.error.probes[p];
     INFO(fmt::format("{} allowed {}: error {:.3g}, estimate {:.3g}", probe, allowed, error, estimate));
     CHECK(estimate > 0.3 * error);
     CHECK(estimate < 3 * error);
@@ -58,7 +58,7 @@ motion: {end: 1, step: $step}
 probes: {tip: {at: rod.end, quantity: position}, middle: {at: rod.middle, quantity: deflection}}
 )yaml";
 
-const char* const turning_arm = R"yaml(
+const char* const rotating_arm = R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
   arm:
@@ -77,7 +77,7 @@ probes: {tip: {at: arm.end, quantity: position}}
 TEST_CASE("error of the step: half and twice the step give it within a factor of three") {
   const double allowed = GENERATE(2., 1.);
   check_step(pendulum, "4e-3", "5e-4", allowed);
-  check_step(turning_arm, "4e-3", "5e-4", allowed);
+  check_step(rotating_arm, "4e-3", "5e-4", allowed);
 }
 
 TEST_CASE("error of the step: with a small time budget from the first part only, and none for adaptive steps") {

@@ -5,7 +5,7 @@
 using namespace floe;
 using namespace floe::test;
 
-// A rigid body of inertia 1 that turns or slides with speed v against a stop: a mass on a spring of stiffness k that
+// A rigid body of inertia 1 that rotates or slides with speed v against a stop: a mass on a spring of stiffness k that
 // sets in like a parabola over the width w. Undamped it leaves with -v, after
 //   2 int_0^w dd / sqrt(v^2 - k d^3 / (3 w)) + (pi/2 + asin(w/2 / a)) ... of the linear part about w/2,
 // where a^2 = (w/2)^2 + v_w^2 / k and v_w is the speed at d = w.
@@ -84,7 +84,7 @@ TEST_CASE("stops: damping dissipates the expected speed") {
 
 // In space, more than a turn away: turns are counted.
 TEST_CASE("stops in space: a hinge after more than one revolution, and a slide on both sides") {
-  const Turned turn;
+  const Rotated rotation;
   const std::string rod = R"yaml(
 bodies:
   rod:
@@ -97,11 +97,11 @@ joints: {guide: {type: $type, between: [ground, rod.start], axis: $axis, limits:
 motion: {end: $end, step: 1e-3}
 probes: {rod: {at: rod.end, quantity: $quantity}}
 )yaml";
-  const History hinge = move(fill(rod, {{"turn", turn.rotation()},
+  const History hinge = move(fill(rod, {{"turn", rotation.text()},
                                         {"u", "[0, 0, 0]"},
-                                        {"w", turn(0, 0, 10)},
+                                        {"w", rotation(0, 0, 10)},
                                         {"type", "revolute"},
-                                        {"axis", turn(0, 0, 1)},
+                                        {"axis", rotation(0, 0, 1)},
                                         {"limits", "upper: 7"},
                                         {"k", "400"},
                                         {"end", "1.2"},
@@ -116,18 +116,19 @@ probes: {rod: {at: rod.end, quantity: $quantity}}
   CHECK(longest == Approx(duration(10)).epsilon(0.05));
   CHECK(drift(hinge) < 2e-3);
 
-  const History slide = move(fill(rod, {{"turn", turn.rotation()},
-                                        {"u", turn(2, 0)},
+  const History slide = move(fill(rod, {{"turn", rotation.text()},
+                                        {"u", rotation(2, 0)},
                                         {"w", "[0, 0, 0]"},
                                         {"type", "prismatic"},
-                                        {"axis", turn(1, 0)},
+                                        {"axis", rotation(1, 0)},
                                         {"limits", "lower: -0.3, upper: 0.2"},
                                         {"k", "1200"},
                                         {"end", "0.75"},
                                         {"quantity", "displacement"}}),
                              Formulation::vm_md);
   std::vector<double> x;
-  for (std::size_t i = 0; i < slide.t.size(); ++i) x.push_back((turn.Q.transpose() * vector_at(slide, "rod", i)).x());
+  for (std::size_t i = 0; i < slide.t.size(); ++i)
+    x.push_back((rotation.Q.transpose() * vector_at(slide, "rod", i)).x());
   // 0.1 s there, contact, 0.25 s back, contact, and on with 2 m/s: k/m as above
   const double back = 0.1 + duration(2) + 0.25 + duration(2);
   CHECK(*std::max_element(x.begin(), x.end()) > 0.29);
@@ -170,7 +171,7 @@ TEST_CASE("stops: contacts and releases are reported once each, in order, with t
   check_landing(at, 1e-3);
 }
 
-// A body thrown up against a limit that is a millionth below where it would turn: soft as nothing, it is hit and left
+// A body thrown up against a limit that is a millionth below where it would rotate: soft as nothing, it is hit and left
 // within one step, which begins and ends on one side of it.
 TEST_CASE("stops: contact and release within one step") {
   const double dip = std::sqrt(2 * 1e-6 / 10);
@@ -199,7 +200,7 @@ probes: {ball: {at: ball.middle}}
 
 // Many hits: each rebound is told of, and the energy that damping takes makes the speeds fall.
 TEST_CASE("stops in space: a bouncing slide alternates contacts and releases") {
-  const Turned turn;
+  const Rotated rotation;
   const History at = move(fill(R"yaml(
 gravity: $g
 bodies:
@@ -215,7 +216,7 @@ joints: {guide: {type: cylindrical, between: [ground, ball.start], axis: $axis,
 motion: {end: 1.5, step: 2e-3, tolerance: 1e-6}
 probes: {ball: {at: ball.start}}
 )yaml",
-                               {{"g", turn(-10, 0)}, {"turn", turn.rotation()}, {"axis", turn(1, 0)}}),
+                               {{"g", rotation(-10, 0)}, {"turn", rotation.text()}, {"axis", rotation(1, 0)}}),
                           Formulation::vm_md);
   REQUIRE(at.events.size() >= 8);
   double fastest = INFINITY, last = 0;

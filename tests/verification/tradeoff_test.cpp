@@ -38,17 +38,17 @@ app::RunResult moved(const scene::Scene& scene, Formulation formulation) {
 }
 
 /// Members of the hierarchy by their names.
-std::map<std::string, app::Rung> measured(const scene::Scene& scene, const app::TradeoffRequest& request,
-                                          const app::TradeoffReference& reference, const app::RunResult& own,
-                                          const std::vector<std::string>& names) {
+std::map<std::string, app::ModelVariant> measured(const scene::Scene& scene, const app::TradeoffRequest& request,
+                                                  const app::TradeoffReference& reference, const app::RunResult& own,
+                                                  const std::vector<std::string>& names) {
   std::vector<app::Candidate> some;
-  for (const app::Candidate& member : app::ladder(scene))
+  for (const app::Candidate& member : app::hierarchy(scene))
     if (std::find(names.begin(), names.end(), member.name) != names.end()) some.push_back(member);
   REQUIRE(some.size() == names.size());
-  std::map<std::string, app::Rung> all;
-  for (const app::Rung& rung :
-       app::TradeoffRun(scene, request, reference, own, reference.why, PETSC_COMM_WORLD).climb_all(some))
-    all[rung.name] = rung;
+  std::map<std::string, app::ModelVariant> all;
+  for (const app::ModelVariant& variant :
+       app::TradeoffRun(scene, request, reference, own, reference.why, PETSC_COMM_WORLD).evaluate_all(some))
+    all[variant.name] = variant;
   return all;
 }
 
@@ -63,13 +63,13 @@ TEST_CASE("trade-off: totals are those against geometrically exact beams on a fi
   CHECK(reference.why.empty());
   CHECK(reference.error < 2e-3);
   CHECK(app::worst_error(reference.series, exact) < 2e-3);
-  const auto rungs = measured(scene, {}, reference, own,
-                              {"the scene's own model", "1 mode + all MDs", "4 frames", "step 4x", "nlffr",
-                               "nlffr, 4 frames", "cfr", "cfr, twice the elements", "selected for 1 %"});
-  for (const auto& [name, rung] : rungs) {
-    INFO(name << ": " << rung.stopped);
-    CHECK(rung.stopped.empty());
-    CHECK(rung.motion > 0);
+  const auto variants = measured(scene, {}, reference, own,
+                                 {"the scene's own model", "1 mode + all MDs", "4 frames", "step 4x", "nlffr",
+                                  "nlffr, 4 frames", "cfr", "cfr, twice the elements", "selected for 1 %"});
+  for (const auto& [name, variant] : variants) {
+    INFO(name << ": " << variant.stopped);
+    CHECK(variant.stopped.empty());
+    CHECK(variant.motion > 0);
   }
   // Total errors, by simulations of their own.
   app::Discretisation bodies = app::discretisation_of(scene);
@@ -83,32 +83,32 @@ TEST_CASE("trade-off: totals are those against geometrically exact beams on a fi
                                                    {"nlffr", app::worst_error(own.series, exact)},
                                                    {"nlffr, 4 frames", app::worst_error(nlffr_4, exact)}};
   for (const auto& [name, total] : totals) {
-    INFO(name << ": " << rungs.at(name).worst() << " against " << total);
-    CHECK(rungs.at(name).worst() == Approx(total).margin(2e-3));
+    INFO(name << ": " << variants.at(name).worst() << " against " << total);
+    CHECK(variants.at(name).worst() == Approx(total).margin(2e-3));
   }
-  CHECK(rungs.at("nlffr").worst() > 0.02);  // one frame
-  CHECK(rungs.at("nlffr, 4 frames").worst() < 0.3 * rungs.at("nlffr").worst());
-  CHECK(rungs.at("cfr").worst() < 0.05 * rungs.at("nlffr").worst());  // what is left are mesh and step
-  CHECK(rungs.at("cfr, twice the elements").worst() < 2e-3);
+  CHECK(variants.at("nlffr").worst() > 0.02);  // one frame
+  CHECK(variants.at("nlffr, 4 frames").worst() < 0.3 * variants.at("nlffr").worst());
+  CHECK(variants.at("cfr").worst() < 0.05 * variants.at("nlffr").worst());  // what is left are mesh and step
+  CHECK(variants.at("cfr, twice the elements").worst() < 2e-3);
   // The part due to the reduction, against the full-order model of the same frames.
-  CHECK(rungs.at("4 frames").reduction == app::vector_errors(reduced_4, nlffr_4));
-  CHECK(rungs.at("the scene's own model").reduction == app::vector_errors(reduced, own.series));
-  CHECK(rungs.at("1 mode + all MDs").reduction[0] > 5 * rungs.at("the scene's own model").reduction[0]);
-  CHECK(rungs.at("step 4x").reduction.size() == 2);
-  CHECK(rungs.at("nlffr").reduction.empty());
+  CHECK(variants.at("4 frames").reduction == app::vector_errors(reduced_4, nlffr_4));
+  CHECK(variants.at("the scene's own model").reduction == app::vector_errors(reduced, own.series));
+  CHECK(variants.at("1 mode + all MDs").reduction[0] > 5 * variants.at("the scene's own model").reduction[0]);
+  CHECK(variants.at("step 4x").reduction.size() == 2);
+  CHECK(variants.at("nlffr").reduction.empty());
   // Estimates without the reference.
   for (const char* name : {"the scene's own model", "4 frames", "step 4x", "selected for 1 %"}) {
-    const app::Rung& rung = rungs.at(name);
-    REQUIRE(rung.estimate.size() == 2);
-    CHECK(rung.lacks.empty());
-    const double estimate = *std::max_element(rung.estimate.begin(), rung.estimate.end());
-    INFO(name << ": estimate " << estimate << ", true " << rung.worst());
-    CHECK(estimate > 0.3 * rung.worst());
-    CHECK(estimate < 3 * rung.worst());
+    const app::ModelVariant& variant = variants.at(name);
+    REQUIRE(variant.estimate.size() == 2);
+    CHECK(variant.lacks.empty());
+    const double estimate = *std::max_element(variant.estimate.begin(), variant.estimate.end());
+    INFO(name << ": estimate " << estimate << ", true " << variant.worst());
+    CHECK(estimate > 0.3 * variant.worst());
+    CHECK(estimate < 3 * variant.worst());
   }
-  CHECK(rungs.at("selected for 1 %").worst() < 0.012);
-  CHECK(rungs.at("selected for 1 %").required == Approx(0.01));
-  CHECK(rungs.at("selected for 1 %").selected.find("frames") != std::string::npos);
+  CHECK(variants.at("selected for 1 %").worst() < 0.012);
+  CHECK(variants.at("selected for 1 %").required == Approx(0.01));
+  CHECK(variants.at("selected for 1 %").selected.find("frames") != std::string::npos);
 }
 
 TEST_CASE("trade-off: where cfr is not supported, the reference is full order on a finer mesh, and says why") {
@@ -122,9 +122,9 @@ TEST_CASE("trade-off: where cfr is not supported, the reference is full order on
   const app::Series finer = moved(scene_of("16", "1e-3", ", GA: 1e5"), Formulation::nlffr).series;
   CHECK(app::worst_error(reference.series, finer) < 1e-6);
   CHECK(reference.error == Approx(app::worst_error(own.series, finer) / 3).epsilon(1e-3));
-  const auto rungs = measured(scene, {}, reference, own, {"the scene's own model", "cfr"});
-  CHECK_THAT(rungs.at("cfr").stopped, Catch::StartsWith("not simulated: formulation cfr"));
-  CHECK(rungs.at("the scene's own model").lacks == "model");
+  const auto variants = measured(scene, {}, reference, own, {"the scene's own model", "cfr"});
+  CHECK_THAT(variants.at("cfr").stopped, Catch::StartsWith("not simulated: formulation cfr"));
+  CHECK(variants.at("the scene's own model").lacks == "model");
   CHECK_THROWS_WITH(app::tradeoff_reference(scene, {Formulation::cfr, 0.01, 60}, own.series, PETSC_COMM_WORLD),
                     Catch::Contains("--reference cfr: formulation cfr"));
 }
@@ -136,7 +136,7 @@ TEST_CASE("trade-off: the time budget decides between cfr and full order") {
   const app::TradeoffReference reference = app::tradeoff_reference(scene, request, own.series, PETSC_COMM_WORLD);
   CHECK(reference.formulation == Formulation::nlffr);
   CHECK_THAT(reference.why, Catch::Contains("would take about") && Catch::Contains("limit 1e-06 s"));
-  const auto rungs = measured(scene, request, reference, own, {"nlffr", "nlffr, twice the elements"});
-  CHECK(rungs.at("nlffr").stopped.empty());
-  CHECK_THAT(rungs.at("nlffr, twice the elements").stopped, Catch::StartsWith("not simulated: would take about"));
+  const auto variants = measured(scene, request, reference, own, {"nlffr", "nlffr, twice the elements"});
+  CHECK(variants.at("nlffr").stopped.empty());
+  CHECK_THAT(variants.at("nlffr, twice the elements").stopped, Catch::StartsWith("not simulated: would take about"));
 }

@@ -84,8 +84,8 @@ TEST_CASE("worked example, element: what follows from the maps is consistent") {
   const body::Inertia inertia = fem::inertia(maps, MatrixXd::Identity(6, 6));
   CHECK(inertia.m == Approx(3 * 5).epsilon(1e-14));
   CHECK((inertia.s0 / inertia.m - Eigen::Vector2d(2.5, 4)).norm() < 1e-14);
-  VectorXd turn(6);  // a rigid turn, to first order: no strain, and the moment of inertia about the origin
-  turn << -2, 1, 1, -6, 4, 1;
-  CHECK((maps.stiffness() * turn).norm() < 1e-9 * EA);
-  CHECK(turn.dot(maps.mass_matrix() * turn) == Approx(inertia.C0.trace()).epsilon(1e-12));
+  VectorXd rotation(6);  // a rigid rotation, to first order: no strain, and the moment of inertia about the origin
+  rotation << -2, 1, 1, -6, 4, 1;
+  CHECK((maps.stiffness() * rotation).norm() < 1e-9 * EA);
+  CHECK(rotation.dot(maps.mass_matrix() * rotation) == Approx(inertia.C0.trace()).epsilon(1e-12));
 }

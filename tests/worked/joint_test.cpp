@@ -15,7 +15,7 @@ using testing::State;
 namespace {
 
 // [slot]
-/// A ring on a rod: the second place stays on the z axis of the first, and turns as it likes. Two rows of the kinds
+/// A ring on a rod: the second place stays on the z axis of the first, and rotates as it likes. Two rows of the kinds
 /// that there are.
 dynamics::SpatialConstraint slot() { return {{dynamics::Along{0}, dynamics::Along{1}}}; }
 // [end]

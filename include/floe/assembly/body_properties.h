@@ -18,9 +18,9 @@ struct BodyProperties {
   struct Box {
     Eigen::Vector3d low, high;
   };
-  std::optional<Box> box;    ///< about the nodes [m]; none: of a body from a file
-  std::vector<double> free;  ///< [rad/s], of the body without supports; rigid motions are not counted
-  std::vector<double> held;  ///< [rad/s], under the conditions that its modes have; empty: these are free
+  std::optional<Box> box;           ///< about the nodes [m]; none: of a body from a file
+  std::vector<double> free;         ///< [rad/s], of the body without supports; rigid motions are not counted
+  std::vector<double> constrained;  ///< [rad/s], under the conditions that its modes have; empty: these are free
 };
 
 /// Of every body. Rigid regions at the places of joints are rigid here, too. Collective.

@@ -19,7 +19,7 @@ struct Stage {
 constexpr int as_the_body_has = -1;
 int count_of_modes(const PlannedBody& body);
 
-/// How the body is held when it vibrates in its modes. Collective.
+/// How the body is constrained when it vibrates in its modes. Collective.
 fem::Holding holding_of_modes(const PlannedBody& body);
 
 /// Factors, modes and attachment modes. @param modes  how many, or as_the_body_has. Collective.
@@ -54,8 +54,8 @@ void end_stage(const PlannedBody& body, const Stage& stage, reduction::Derivativ
 
 /// The body on a basis, with its modal damping; `reduced` gets all but statics and what the report knows of modes.
 /// Collective.
-void put_on(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
-            const reduction::Modes& modes, ReducedBody& reduced);
+void project_onto(const PlannedBody& body, std::shared_ptr<reduction::Basis> basis, const reduction::Statics& statics,
+                  const reduction::Modes& modes, ReducedBody& reduced);
 
 /// reduction.elastic_force, strains of third order (reduction::condensed) and reduction.products, of a body that was
 /// projected with all products. Collective.

@@ -11,12 +11,12 @@
 
 namespace floe::assembly {
 
-/// Dofs of a body by which its rigid motion is told from its vibration (fem::joint_frame): those that joints hold to
-/// the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away from
-/// these. Collective.
-fem::Conditions held_for_damping(const Plan& plan, int body);
+/// Dofs of a body by which its rigid motion is distinguished from its vibration (fem::joint_frame): those that joints
+/// hold to the ground, to rigid bodies where nothing is joined to the ground, or to bodies that are fewer joints away
+/// from these. Collective.
+fem::Conditions constrained_for_damping(const Plan& plan, int body);
 /// Likewise of a body of several, `whole`, as one: joints among these do not count.
-fem::Conditions held_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
+fem::Conditions constrained_for_damping(const Plan& plan, const std::vector<int>& whole, int body);
 
 /// What damping.mass acts on: the displacement in the frame less its rigid part as the body's joints see it.
 /// Collective.
@@ -32,8 +32,8 @@ std::vector<std::unique_ptr<dynamics::Term>> damping_terms(const Plan& plan, int
 
 /// Mass-proportional damping of a full-order body in one frame, with its unknowns added where it needs some; none: it
 /// has none.
-/// @param held  dofs that are zero with the full-order model. Collective.
-std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int body, const fem::Conditions& held,
+/// @param constrained  dofs that are zero with the full-order model. Collective.
+std::optional<reference::MassDamping> full_order_damping(const Plan& plan, int body, const fem::Conditions& constrained,
                                                          dynamics::Coordinates& coordinates);
 
 /// The unknowns of `damping` at the start. @param owner  whether this rank has the shared unknowns. Collective.

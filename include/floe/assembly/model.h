@@ -45,9 +45,9 @@ struct BodyReport {
   int columns = 0;
   int products = 0, omitted_products = 0;  ///< of coordinates in the elastic force
   std::vector<double> omega, residual;
-  int left_out = 0;              ///< reduction::Modes::left_out
-  int free_motions = 0;          ///< rigid motions that the conditions of the modes leave free
-  std::vector<double> sag = {};  ///< of each mode of a body in space: fem::sags
+  int left_out = 0;                           ///< reduction::Modes::left_out
+  int free_motions = 0;                       ///< rigid motions that the conditions of the modes leave free
+  std::vector<double> intra_deflection = {};  ///< of each mode of a body in space: fem::intra_deflections
   std::vector<reduction::ColumnOrigin> origins;
   double seconds_modes = 0, seconds_derivatives = 0, seconds_projection = 0;
   int first_coordinate = 0;                                 ///< local index of the frame's R_x; -1: it stands still
@@ -77,7 +77,7 @@ struct SpatialProbe {
 
 /// The free or driven coordinate of a joint, along which its drive acts.
 struct DrivenCoordinate {
-  bool turn = false;                                ///< about the axis, not along it
+  bool rotation = false;                            ///< about the axis, not along it
   bool length = false;                              ///< along the line of both places
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< at the start, world; rotates with the first place
 };
@@ -145,10 +145,10 @@ struct JointPlaces {
 struct Offline;
 
 /// What events change of a joint.
-struct JointLatches {
-  std::shared_ptr<dynamics::Latch> joint = {};  ///< its own rows; none: no event unlocks it
-  std::shared_ptr<dynamics::Latch> lock = {};   ///< the rows that it leaves free; none: no event locks it
-  int first_row = 0, rows = 0;                  ///< local indices of the multipliers of the lock
+struct JointSwitches {
+  std::shared_ptr<dynamics::ConstraintSwitch> joint = {};  ///< its own rows; none: no event unlocks it
+  std::shared_ptr<dynamics::ConstraintSwitch> lock = {};   ///< the rows that it leaves free; none: no event locks it
+  int first_row = 0, rows = 0;                             ///< local indices of the multipliers of the lock
 };
 
 /// A scene in one formulation, ready to move.
@@ -160,7 +160,7 @@ struct Model {
   std::vector<BodyReport> bodies;
   std::vector<ModelStop> stops;
   std::vector<std::string> warnings;
-  std::map<std::string, JointLatches> latches;  ///< of the joints that events name
+  std::map<std::string, JointSwitches> switches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
   double extent = 1;               ///< a length of the scene [m]
   double force = 0;                ///< a force of the scene [N]; 0: none is known
@@ -182,8 +182,8 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
 /// Where drives and loads are not smooth in time, until `end` (dynamics::Kink). @throws InputError  an angle or
 /// position that jumps
 std::vector<dynamics::Kink> kinks_of(const Scene& scene, double end);
-/// No latch, one, or two for each joint that events name.
-std::map<std::string, JointLatches> latches_of(const Scene& scene);
+/// No constraint switch, one, or two for each joint that events name.
+std::map<std::string, JointSwitches> switches_of(const Scene& scene);
 
 /// Dofs, nodes, elements and frames of the bodies as their meshes have them; nothing is assembled. Collective.
 std::vector<BodyReport> body_sizes(const Scene& scene, MPI_Comm comm);
@@ -198,8 +198,8 @@ std::vector<BodyReport> write_modes(const Scene& scene, MPI_Comm comm, const std
                                     bool overwrite);
 
 /// Stiffness and mass matrix of every flexible body with a mesh, full order, under the conditions that its modes have:
-/// NAME-K.mtx and NAME-M.mtx (output/matrix_market.h) without the rows that are held, NAME-rows.txt with what each row
-/// is.
+/// NAME-K.mtx and NAME-M.mtx (output/matrix_market.h) without the rows that are constrained, NAME-rows.txt with what
+/// each row is.
 /// @return  the bodies' names
 /// @throws InputError  as output::prepare_folder; no body with a mesh. Collective; rank 0 takes a whole matrix.
 std::vector<std::string> write_matrices(const Scene& scene, MPI_Comm comm, const std::filesystem::path& folder,

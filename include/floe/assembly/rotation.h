@@ -4,7 +4,7 @@
 
 namespace floe::assembly {
 
-/// The one driven or revolute joint to the ground, about which the scene turns; none: it has several, or none.
+/// The one driven or revolute joint to the ground, about which the scene rotates; none: it has several, or none.
 const Joint* hub_of(const Scene& scene);
 
 /// @throws InputError  a body clamped to the ground
@@ -12,7 +12,7 @@ solve::RotatingSystem rotating_system(const Scene& scene, const Model& model, co
 
 /// U, V of the model to the steady rotation about the hub, at the speed that its drive has at t = 0 or, where nothing
 /// drives it, the initial angular velocity of the body there.
-/// @throws InputError  no hub, no speed, or a scene that cannot turn; RunError  no steady rotation. Collective.
+/// @throws InputError  no hub, no speed, or a scene that cannot rotate; RunError  no steady rotation. Collective.
 void start_in_rotation(const Plan& plan, Model& model);
 
 }  // namespace floe::assembly

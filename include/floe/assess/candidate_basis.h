@@ -8,14 +8,14 @@
 namespace floe::assess {
 
 /// A basis vector that the bodies of a scene may have. The pieces of a split body (frames: N) have it together.
-struct PoolColumn {
+struct CandidateVector {
   std::string body, label;  ///< `beam`, `derivative 1,2`
   bool response = false;    ///< of the error estimate: no scene names this one
 };
 
-/// A model on some basis vectors of a pool. A body without any is rigid.
+/// A model on some basis vectors of a candidate basis. A body without any is rigid.
 struct Selection {
-  std::vector<char> taken;  ///< of each column of the pool
+  std::vector<char> taken;  ///< of each column of the candidate basis
   bool linear = false;      ///< elastic forces by the linear stiffness alone
   /// Above 0: in place of the correction vectors taken, so many times as many residual responses of the scene that
   /// text() writes (reduction.responses); no model of a candidate basis.
@@ -25,7 +25,7 @@ struct Selection {
 
 /// How much of a motion a column carries: the share of the elastic energy, summed over the instants, that it adds to
 /// those before it.
-struct Participation {
+struct EnergyContribution {
   std::size_t column;
   double share;
 };
@@ -35,21 +35,23 @@ struct Participation {
 /// Modes (as many as the scene says, or the default), attachment modes at all joints and loads, derivatives of the
 /// generators that take part most in the linear motion, and the responses that estimates add. Bodies from files and
 /// rigid ones are as the scene has them.
-class Pool {
+class CandidateBasis {
  public:
   /// @throws InputError, RunError  as build(). Collective; so is all that follows.
-  Pool(const Scene& scene, MPI_Comm comm);
-  ~Pool();
-  const std::vector<PoolColumn>& columns() const;
+  CandidateBasis(const Scene& scene, MPI_Comm comm);
+  ~CandidateBasis();
+  const std::vector<CandidateVector>& columns() const;
   Selection whole() const;
-  /// @param keep_offline  for an estimate of its error. The model does not outlive the pool.
+  /// @param keep_offline  for an estimate of its error. The model does not outlive the candidate basis.
   Model model(const Selection& selection, bool keep_offline = false) const;
-  /// The basis vectors W that an estimate of a model of this pool found, in all bodies. @return how many there are
+  /// The basis vectors W that an estimate of a model of this candidate basis found, in all bodies. @return how many
+  /// there are
   int add_responses(const Estimate& estimate);
   /// All columns that the motion of model(whole()) needs, the most important first: at each place the one that adds
   /// most to what the ones before it carry (orthogonal matching pursuit, in the norm of K). Columns within the span of
   /// those before are not among them.
-  std::vector<Participation> participation(const Model& whole, const std::vector<solve::State>& states) const;
+  std::vector<EnergyContribution> energy_contribution(const Model& whole,
+                                                      const std::vector<solve::State>& states) const;
   /// The scene with `columns` (and `rigid`, `elastic_force`) in its bodies and the steps of a motion, as text of a
   /// scene file; with responses among the basis vectors, without words for these.
   std::string text(const Selection& selection, const Motion& motion) const;
@@ -63,7 +65,7 @@ class Pool {
 
  private:
   /// Of all columns so far along the linear motion. @throws InputError  its start does not meet the joints
-  std::vector<Participation> linear_participation(const Scene& scene) const;
+  std::vector<EnergyContribution> linear_energy_contribution(const Scene& scene) const;
 
   struct Parts;
   std::unique_ptr<Parts> parts_;

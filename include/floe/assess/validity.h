@@ -23,8 +23,8 @@ struct OutOfRange {
 ///               body together (rotation_error in src/scene/moderate_rotations.h); of shells, at the maximum slope s,
 ///               about 0.1 s^3 in a tangent frame and 0.03 s^4 in another one: the middle of what moments (0.04, 0.008)
 ///               and forces (0.27, 0.14) of beams have
-///   mesh        how far shells bend within single elements, of how far they are bent (fem::sags) where the slope is
-///   maximum;
+///   mesh        how far shells bend within single elements, of how far they are bent (fem::intra_deflections
+///   element) where the slope is maximum;
 ///               limit 5 %, a wave of ten elements
 ///   shortening  s^2/2, which a linear elastic force neglects (lffr); limit 1 %
 ///   spin        of a body's frame against its first frequency, where no column can stretch with the bending (lffr, or

@@ -35,10 +35,10 @@ struct RotatingForms {
   bool empty() const;
 };
 
-/// Such mass, theta = turn q.
+/// Such mass, theta = rotation q.
 struct RotatingMass : RotatingForms {
-  Eigen::MatrixXd turn;  ///< 3 x k; in the plane the third row alone
-  RotatingMass(RotatingForms forms, Eigen::MatrixXd by) : RotatingForms(std::move(forms)), turn(std::move(by)) {}
+  Eigen::MatrixXd rotation;  ///< 3 x k; in the plane the third row alone
+  RotatingMass(RotatingForms forms, Eigen::MatrixXd by) : RotatingForms(std::move(forms)), rotation(std::move(by)) {}
 };
 
 /// The constants of a body's inertia in d = 2 or 3 dimensions, integrated once over its mass, with k elastic

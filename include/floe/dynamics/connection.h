@@ -7,8 +7,8 @@ namespace floe::dynamics {
 class Connection : public Term {
  public:
   /// Force [N] and moment [N m] that it exerts on its second place, about that place, in world axes; in the plane f_z,
-  /// m_x and m_y are zero. On the first place the opposite force acts, on the same line. Zero while a latch is open.
-  /// Of the motion t, q (with multipliers) and v count.
+  /// m_x and m_y are zero. On the first place the opposite force acts, on the same line. Zero while a constraint switch
+  /// is open. Of the motion t, q (with multipliers) and v count.
   virtual Wrench on_second(const Motion& motion) const = 0;
 };
 

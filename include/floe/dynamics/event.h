@@ -13,7 +13,7 @@ namespace floe::dynamics {
 /// Whether the rows of a joint hold; its term and the events that change it share it.
 ///
 /// Rows that do not hold keep their multipliers at zero: the unknowns of a system never change in number.
-struct Latch {
+struct ConstraintSwitch {
   bool closed = true;
 };
 
@@ -29,10 +29,10 @@ struct Event {
   /// becomes negative, `what_back` when it becomes positive again; nothing is changed there but that a step ends.
   std::function<std::array<double, 2>(double t, Vec U, Vec V)> gap = {};
   std::string what_back = {};
-  std::shared_ptr<Latch> latch = {};  ///< that it changes, if any
-  bool closes = false;                ///< the latch; else it opens it
-  int first_row = 0, rows = 0;        ///< local indices of the multipliers of the latch that closes
-  bool stops = false;                 ///< the motion ends here
+  std::shared_ptr<ConstraintSwitch> constraint_switch = {};  ///< that it changes, if any
+  bool closes = false;                                       ///< the constraint switch; else it opens it
+  int first_row = 0, rows = 0;  ///< local indices of the multipliers of the constraint switch that closes
+  bool stops = false;           ///< the motion ends here
 
   bool repeats() const { return static_cast<bool>(gap); }
   /// Whether the motion decides when it happens.

@@ -19,7 +19,7 @@ class JointForce : public Connection {
  public:
   using Law = std::function<ForceOnCoordinate(double x, double rate)>;
   /// @param active  if given, whether the joint's own constraints are; a joint that is released exerts no force
-  JointForce(std::unique_ptr<RelativeCoordinate> of, Law law, std::shared_ptr<const Latch> active = {})
+  JointForce(std::unique_ptr<RelativeCoordinate> of, Law law, std::shared_ptr<const ConstraintSwitch> active = {})
       : of_(std::move(of)), law_(std::move(law)), active_(std::move(active)) {}
   const std::vector<int>& coordinates() const override { return of_->coordinates(); }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
@@ -38,7 +38,7 @@ class JointForce : public Connection {
  private:
   std::unique_ptr<RelativeCoordinate> of_;
   Law law_;
-  std::shared_ptr<const Latch> active_;
+  std::shared_ptr<const ConstraintSwitch> active_;
 };
 
 /// Coulomb friction, regularised, and viscous friction of a joint:

@@ -35,10 +35,11 @@ class Joint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
-  /// @param latch        if given, whether the rows hold
-  /// @param captures     the constraint is that of the places as they are when the latch closes (angle(t) is not used)
-  Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> standing,
-        std::shared_ptr<Latch> latch = {}, bool captures = false);
+  /// @param constraint switch        if given, whether the rows hold
+  /// @param captures     the constraint is that of the places as they are when the constraint switch closes (angle(t)
+  /// is not used)
+  Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> independent,
+        std::shared_ptr<ConstraintSwitch> constraint_switch = {}, bool captures = false);
   /// All rows stand.
   Joint(Marker first, Marker second, const Constraint& constraint, int multipliers);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
@@ -53,12 +54,12 @@ class Joint final : public Connection {
 
  private:
   Eigen::Vector3d multipliers(const Motion& motion) const;
-  bool holds() const { return !latch_ || latch_->closed; }
+  bool holds() const { return !constraint_switch_ || constraint_switch_->closed; }
   mutable MarkerPair pair_;
   Constraint constraint_;
-  std::vector<int> standing_;
+  std::vector<int> independent_;
   int multiplier_;  // position among coordinates
-  std::shared_ptr<Latch> latch_;
+  std::shared_ptr<ConstraintSwitch> constraint_switch_;
   bool captures_, captured_ = false;
   mutable Eigen::VectorXd row_;
 };

@@ -8,7 +8,7 @@ namespace floe::dynamics {
 
 /// What of a pose is wanted: where a place is; its directions too (in the plane they always come along); its rates (and
 /// theirs) too.
-enum class Extent { place, directions, motion };
+enum class EvaluationLevel { position, jacobian, velocity };
 
 /// A place that joints and loads act on: its pose (x, y, angle) as a function of a body's coordinates.
 ///
@@ -44,7 +44,7 @@ struct Pose {
 /// @param q, v, a  the marker's coordinates and rates
 /// @param extent   place or directions: y, P and arm alone are filled
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
-          Extent extent = Extent::motion);
+          EvaluationLevel extent = EvaluationLevel::velocity);
 
 /// Entry i of d(P' w)/dq, w = (f, m) fixed, in the row and the column of the frame's angle; all others are zero.
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i);

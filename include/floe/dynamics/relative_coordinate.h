@@ -11,13 +11,13 @@ namespace floe::dynamics {
 /// A number x that says how a second place stands to a first one, in the plane or in space:
 ///
 ///   slide   x = e.(p_2 - p_1) - start, with e carried by the first place   [m]
-///   turn    x = angle of the second against the first - start             [rad]
+///   rotation x = angle of the second against the first - start             [rad]
 ///   length  x = |p_2 - p_1| - start                                       [m]
 ///
 /// Stops, friction and loads of joints act on it, sensors measure it. A force f on x is f dx/dq on the coordinates.
 class RelativeCoordinate {
  public:
-  enum class Of { slide, turn, length };
+  enum class Of { slide, rotation, length };
   struct Value {
     double x, rate;
   };
@@ -62,7 +62,7 @@ class PlanarCoordinate final : public RelativeCoordinate {
   Matrix6 hessian_ = Matrix6::Zero();
 };
 
-/// In space: e is the third axis of the first place; the turn is the twist of D1'D2 about z (as of SpatialSpring).
+/// In space: e is the third axis of the first place; the rotation is the twist of D1'D2 about z (as of SpatialSpring).
 class SpatialCoordinate final : public RelativeCoordinate {
  public:
   SpatialCoordinate(SpatialMarker first, SpatialMarker second, Of of, double start);

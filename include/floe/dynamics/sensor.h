@@ -39,9 +39,9 @@ class CoordinateSensor final : public Sensor {
 /// A component, in axes of the first place, of the second place's rotation vector or angular velocity against it:
 ///
 ///   rho_i,  exp(~rho) = D1'D2,  |rho| <= pi;   or   (D1'(w_2 - w_1))_i
-class SpatialTurnSensor final : public Sensor {
+class SpatialRotationSensor final : public Sensor {
  public:
-  SpatialTurnSensor(SpatialMarker first, SpatialMarker second, int component, bool rate)
+  SpatialRotationSensor(SpatialMarker first, SpatialMarker second, int component, bool rate)
       : pair_(std::move(first), std::move(second)), component_(component), rate_(rate) {}
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   double value(const Motion& motion) const override;

@@ -10,7 +10,7 @@ namespace floe::dynamics {
 // What a constraint in space is made of, one row each. D1, D2: axes of the two places in columns x, y, z = 0, 1, 2.
 
 /// C = e_axis.(p_2 - p_1), a world axis. [m]
-struct Coincide {
+struct PointCoincidence {
   int axis;
 };
 /// C = D1_axis.(p_2 - p_1) - offset - position(t). [m]
@@ -27,7 +27,7 @@ struct Product {
 struct Separation {
   double length;
 };
-using SpatialRow = std::variant<Coincide, Along, Product, Separation>;
+using SpatialRow = std::variant<PointCoincidence, Along, Product, Separation>;
 
 /// The rows that a joint holds. Its axes are those of the first place: x, y, z; D1 = D2 is its undisplaced state.
 ///
@@ -45,7 +45,7 @@ struct SpatialConstraint {
   static SpatialConstraint spherical();    ///< p_2 - p_1
   static SpatialConstraint universal();    ///< z of the first place stays normal to x of the second: p_2 - p_1; Q_31
   static SpatialConstraint planar();       ///< in the plane normal to z: D1_z; Q_31, Q_32
-  /// @throws InputError  length <= 0: places that are to coincide are held by a spherical joint
+  /// @throws InputError  length <= 0: places that are to coincide are constrained by a spherical joint
   static SpatialConstraint distance(double length);
   /// D2 = D1 rotated by angle(t) about z: as fixed, with E(t).
   static SpatialConstraint driven_revolute(TimeFunction angle);
@@ -55,8 +55,8 @@ struct SpatialConstraint {
 
 int rows(const SpatialConstraint& constraint);
 
-/// The rows that a joint leaves free, which hold its places as they are when its latch closes; none: the joint holds
-/// all, or cannot be locked (distance, universal).
+/// The rows that a joint leaves free, which hold its places as they are when its constraint switch closes; none: the
+/// joint holds all, or cannot be locked (distance, universal).
 SpatialConstraint lock_of(const SpatialConstraint& joint);
 
 /// Constraint rows in space at a level with multipliers: r += P' C_y' lambda, r_lambda = C (or its time derivatives).
@@ -69,19 +69,21 @@ class SpatialJoint final : public Connection {
   /// @param standing     rows of the constraint that stand, ascending; the others are left out
   /// @param unit         of lengths in rows that are left out [m]
   SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint, int multipliers,
-               const std::vector<int>& standing, double unit = 1, std::shared_ptr<Latch> latch = {});
+               const std::vector<int>& independent, double unit = 1,
+               std::shared_ptr<ConstraintSwitch> constraint_switch = {});
   /// All rows stand.
-  /// @param latch     if given, whether the rows hold
-  /// @param captures  the places as they are when the latch closes are the undisplaced state: D1 = D2, offsets as found
+  /// @param constraint switch     if given, whether the rows hold
+  /// @param captures  the places as they are when the constraint switch closes are the undisplaced state: D1 = D2,
+  /// offsets as found
   SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,
-               std::shared_ptr<Latch> latch = {}, bool captures = false);
+               std::shared_ptr<ConstraintSwitch> constraint_switch = {}, bool captures = false);
   const std::vector<int>& coordinates() const override { return pair_.coordinates; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Wrench on_second(const Motion& motion) const override;
   /// Axes that Products keep parallel have to point the same way, and rows that are left out to vanish: up to 1e-3 of
   /// a radian and of the length unit.
-  Standing standing(const Motion& motion) const override;
+  ConstraintStatus constraint_status(const Motion& motion) const override;
   /// The force that holds a point, with the second place's frame (or the first's, where that has none).
   void add_corotated(std::vector<Corotated>& corotated) const override;
   void begin_step(const Motion& motion) override;
@@ -89,9 +91,9 @@ class SpatialJoint final : public Connection {
   void load(std::span<const double> carried) override;
 
  private:
-  bool holds() const { return !latch_ || latch_->closed; }
+  bool holds() const { return !constraint_switch_ || constraint_switch_->closed; }
   mutable SpatialPair pair_;
-  std::shared_ptr<Latch> latch_;
+  std::shared_ptr<ConstraintSwitch> constraint_switch_;
   bool captures_, captured_ = false;
   SpatialConstraint constraint_;  // the rows that stand
   std::vector<SpatialRow> left_out_;

@@ -43,10 +43,10 @@ struct SpatialPose {
   Eigen::Vector3d p, velocity = Eigen::Vector3d::Zero(), acceleration = Eigen::Vector3d::Zero();
   Eigen::Matrix3d D;
   Eigen::Vector3d spin = Eigen::Vector3d::Zero(), spin_rate = Eigen::Vector3d::Zero();  ///< of D, in world axes
-  Matrix6Xd P;                  ///< directions: (dp, dphi) of each coordinate, 6 x n, without T(x)
-  Eigen::Matrix3d A, T;         ///< of the frame; T(x), or I when it stands still
-  Eigen::Vector3d c, c_rate;    ///< body axes: x0 + S e + 1/2 Q(e, e), and its velocity omega x c + S(e) e.
-  Eigen::Vector3d omega, turn;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
+  Matrix6Xd P;                      ///< directions: (dp, dphi) of each coordinate, 6 x n, without T(x)
+  Eigen::Matrix3d A, T;             ///< of the frame; T(x), or I when it stands still
+  Eigen::Vector3d c, c_rate;        ///< body axes: x0 + S e + 1/2 Q(e, e), and its velocity omega x c + S(e) e.
+  Eigen::Vector3d omega, rotation;  ///< body axes: spin of the frame, and of the place: omega + T(beta)' beta.
   Eigen::Vector3d beta, beta_rate;
   Eigen::Matrix3d bend;     ///< T(beta)
   Eigen::Matrix3Xd S, Qed;  ///< S(e) = S + Q e, Q e'; not set where Q vanishes
@@ -56,7 +56,7 @@ struct SpatialPose {
 /// @param extent   place: P, velocities, spins and their rates are left as they are; directions: those but P
 /// Allocates only where `out` grows.
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out, Extent extent = Extent::motion);
+          SpatialPose& out, EvaluationLevel extent = EvaluationLevel::velocity);
 
 /// rows = P' w for a wrench in world axes: what it does on each of the n coordinates. P itself is not needed.
 void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, Eigen::VectorXd& rows);

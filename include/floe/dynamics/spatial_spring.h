@@ -12,7 +12,7 @@ namespace floe::dynamics {
 ///
 /// Coinciding places have no line and carry no line force; of length 0 the spring is linear there, f = stiffness (p_2 -
 /// p_1), and its stiffness is the same in all directions. phi is the twist of D1'D2 about z, the angle that is left
-/// when the shortest turn that takes z_1 to z_2 is undone (between places on one axis: their relative angle):
+/// when the shortest rotation that takes z_1 to z_2 is undone (between places on one axis: their relative angle):
 ///
 ///   tan phi = (y_1.x_2 - x_1.y_2) / (x_1.x_2 + y_1.y_2),   phi. = h.(w_2 - w_1),   h = (z_1 + z_2) / (1 + z_1.z_2)
 ///

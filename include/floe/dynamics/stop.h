@@ -23,7 +23,7 @@ struct StopLaw {
 /// Stops of a joint's free coordinate, since the start.
 class Stop final : public JointForce {
  public:
-  Stop(std::unique_ptr<RelativeCoordinate> of, StopLaw law, std::shared_ptr<const Latch> active = {})
+  Stop(std::unique_ptr<RelativeCoordinate> of, StopLaw law, std::shared_ptr<const ConstraintSwitch> active = {})
       : JointForce(
             std::move(of), [law](double x, double rate) { return law.at(x, rate); }, std::move(active)),
         law_(law) {}

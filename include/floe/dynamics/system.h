@@ -44,14 +44,14 @@ class System {
   /// Collective.
   double constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const;
   /// A joint whose constraints are not met as they are meant to be (Term::standing), by name; empty: there is none.
-  struct Astray {
+  struct FailedConstraint {
     std::string joint;
-    Standing standing = Standing::met;
+    ConstraintStatus constraint_status = ConstraintStatus::satisfied;
     /// What happened, for messages.
     std::string text() const;
   };
   /// Collective.
-  Astray astray(double t, Vec U) const;
+  FailedConstraint failed_constraint(double t, Vec U) const;
   /// w.q dF/dU + w.v dF/dV + w.a dF/dA, assembled. Collective.
   void tangent(double t, Vec U, Vec V, Vec A, Weights weights, Mat J) const;
   /// Collective.
@@ -65,17 +65,17 @@ class System {
   void rebase(Vec U) const;
   /// Every term takes over the configuration U, as at the beginning of a step (Term::begin_step): after an event, so
   /// that what it closed holds what it finds. Collective.
-  void settle(Vec U) const;
+  void commit_step(Vec U) const;
   /// What bases and terms carry from step to step beside the unknowns, this rank's, into `numbers`; and back.
   /// @throws RunError  (load) so many numbers are those of another system. Rank-local.
   void save(std::vector<double>& numbers) const;
   void load(std::span<const double> numbers) const;
   /// The axes that every frame has at U, in columns (in the plane within x, y), of those frames that this rank owns.
   void frame_axes(Vec U, std::vector<Eigen::Matrix3d>& axes) const;
-  /// What of y is in world axes and belongs to a frame, which turned from axes `from` to those at U, turns likewise, or
-  /// `back`: places of frames (forces on them), and forces that hold points of bodies (gaps). So does a tangent, of a
-  /// free body wholly: J(U) y = turn(J(from) turn_back(y)). No communication.
-  void turn(const std::vector<Eigen::Matrix3d>& from, Vec U, bool back, Vec y) const;
+  /// What of y is in world axes and belongs to a frame, which rotated from axes `from` to those at U, rotates likewise,
+  /// or `back`: places of frames (forces on them), and forces that hold points of bodies (gaps). So does a tangent, of
+  /// a free body wholly: J(U) y = rotate(J(from) rotate_back(y)). No communication.
+  void rotate(const std::vector<Eigen::Matrix3d>& from, Vec U, bool back, Vec y) const;
   /// W = a x b in the three rows of every attitude, zero in all others. Collective.
   void bracket(Vec a, Vec b, Vec W) const;
 

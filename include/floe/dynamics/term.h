@@ -31,8 +31,8 @@ struct Weights {
 };
 
 /// How the constraints of a term stand, when their rows vanish: as they are meant to; 180 deg away, where rows of
-/// axes vanish, too; or open: what was left out, because other joints held it, they hold no longer.
-enum class Standing { met, half_turn, open };
+/// axes vanish, too; or open: what was left out, because other joints constrained it, they hold no longer.
+enum class ConstraintStatus { satisfied, flipped_branch, violated };
 
 /// What a term holds and spends. [J]
 struct Energy {
@@ -66,14 +66,14 @@ class Term {
   virtual void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const = 0;
   virtual Energy energy(const Motion&) const { return {}; }
   /// Whether constraints are met as they are meant to be. Of the motion t and q count.
-  virtual Standing standing(const Motion&) const { return Standing::met; }
+  virtual ConstraintStatus constraint_status(const Motion&) const { return ConstraintStatus::satisfied; }
   /// The configuration that a step begins from: what depends on the way there, as whole turns do, is taken over here
   /// and nowhere else. Of the motion only q counts. Called more than once for one step.
   virtual void begin_step(const Motion&) {}
-  /// Appends which of its multipliers rotate with a frame: forces between places (System::turn).
+  /// Appends which of its multipliers rotate with a frame: forces between places (System::rotate).
   virtual void add_corotated(std::vector<Corotated>&) const {}
-  /// What the term carries from step to step beside the system's unknowns (begin_step, latches), as numbers: `save`
-  /// appends them, `load` takes as many back, in the same order.
+  /// What the term carries from step to step beside the system's unknowns (begin_step, constraint switches), as
+  /// numbers: `save` appends them, `load` takes as many back, in the same order.
   virtual void save(std::vector<double>&) const {}
   virtual void load(std::span<const double>) {}
 };

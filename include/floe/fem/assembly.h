@@ -5,7 +5,7 @@
 
 namespace floe::fem {
 
-/// Global dofs held at zero, ascending, the same on all ranks.
+/// Global dofs constrained to zero, ascending, the same on all ranks.
 using Conditions = std::vector<PetscInt>;
 
 /// k K + m M, MATSBAIJ (blocks of a node). Rows and columns of `conditions` are empty but for `diagonal` times the

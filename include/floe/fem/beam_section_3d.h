@@ -30,9 +30,9 @@ SectionShape box(double width, double height, double side, double cover);
 /// Source: Canadian Institute of Steel Construction, Torsional section properties of steel shapes, 2002.
 SectionShape i_section(double width, double height, double flange, double web);
 
-/// The same section turned by `angle` [rad] about x, from y towards z: principal moments (Iyz = 0) given with the angle
-/// of their first axis.
-SectionShape turned(const SectionShape& shape, double angle);
+/// The same section rotated by `angle` [rad] about x, from y towards z: principal moments (Iyz = 0) given with the
+/// angle of their first axis.
+SectionShape rotated(const SectionShape& shape, double angle);
 
 /// Young's modulus and shear modulus [Pa], density [kg/m3].
 struct BeamMaterial {

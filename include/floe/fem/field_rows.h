@@ -78,10 +78,11 @@ Slopes slopes(const Structure& structure, const FieldRows& fields);  ///< of all
 ///
 ///   s / (s + max |u|),   s = max |n.((theta_i - theta_j) x d)| / 8  over the edges i j of elements,  d = x_j - x_i
 ///
-/// s is what the cubic of an edge sags below its chord, u the displacement of nodes; zero where nothing moves. A wave
-/// of m cells has s / max |u| = pi^2 / (2 m^2). The sag of one edge does not bend its neighbours with it (DKT's slopes
-/// across an edge are linear), so where elements sag freely, as those that are wider than their plate is long, they are
-/// far too soft. Elements of second order count as none: their edges have a node there. Collective.
-Eigen::VectorXd sags(const Structure& structure, const FieldRows& fields);
+/// s is what the cubic of an edge deflects within the element below its chord, u the displacement of nodes; zero where
+/// nothing moves. A wave of m cells has s / max |u| = pi^2 / (2 m^2). The deflection of one edge within its element
+/// does not bend its neighbours with it (DKT's slopes across an edge are linear), so where edges deflect within an
+/// element freely, as those that are wider than their plate is long, they are far too soft. Elements of second order
+/// count as none: their edges have a node there. Collective.
+Eigen::VectorXd intra_deflections(const Structure& structure, const FieldRows& fields);
 
 }  // namespace floe::fem

@@ -25,12 +25,13 @@ using mesh::CellKind;
 /// and copies of the foreign nodes that those cells touch. Local node numbers count owned nodes first, then `foreign`.
 ///
 /// Nodes may follow others rigidly: they have a place and no motion of their own, and the cells that touch them act on
-/// the dofs of those that they follow. Nodes of a line hinge follow its leader but for their turn about the line, phi:
+/// the dofs of those that they follow. Nodes of a line hinge follow its independent node but for their rotation about
+/// the line, phi:
 ///
-///   u = u_leader + theta_leader x arm,   theta = (1 - e e') theta_leader + e phi;
+///   u = u_independent + theta_independent x arm,   theta = (1 - e e') theta_independent + e phi;
 ///
 /// phi is the one dof of theirs that is left, the rotation `spin_slot`; elements that touch them act on it and on the
-/// leader.
+/// independent node.
 struct Mesh {
   /// An element: what it is, where it is, and which nodes move it.
   struct Cell {
@@ -38,10 +39,11 @@ struct Mesh {
     int part = 0;
     using Nodes = std::array<int, mesh::most_nodes>;
     Nodes place{};  ///< local nodes where it is; as many as the kind has
-    /// Local nodes that move them: the same, or those that they follow; then leaders of those that turn by themselves.
+    /// Local nodes that move them: the same, or those that they follow; then independent nodes of those that rotate by
+    /// themselves.
     std::array<int, 2 * mesh::most_nodes> moved{};
     int moving = 0;                      ///< how many
-    Nodes line = mesh::no_nodes<int>();  ///< of each node on a line hinge: where in `moved` its leader is
+    Nodes line = mesh::no_nodes<int>();  ///< of each node on a line hinge: where in `moved` its independent node is
     Cell() = default;
     Cell(CellKind k, int p, const Nodes& at) : kind(k), part(p), place(at), moving(mesh::node_count(k)) {
       std::copy(at.begin(), at.end(), moved.begin());
@@ -55,8 +57,8 @@ struct Mesh {
     bool spins() const { return line != mesh::no_nodes<int>(); }
   };
   /// An owned node that follows another one rigidly: local numbers.
-  struct Follower {
-    int node, leader;
+  struct DependentNode {
+    int node, independent_node;
   };
   MPI_Comm comm = MPI_COMM_NULL;
   int dimension = 2;
@@ -67,7 +69,7 @@ struct Mesh {
   std::vector<PetscInt> foreign;           ///< global numbers, ascending
   std::vector<Eigen::Vector3d> positions;  ///< of local nodes
   std::vector<Cell> cells;
-  std::vector<Follower> followers;  ///< among the owned nodes, ascending
+  std::vector<DependentNode> dependent_nodes;  ///< among the owned nodes, ascending
   /// A local node on a line hinge that it does not lead.
   struct Spin {
     int node;
@@ -95,21 +97,22 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments);
 
 /// A mesh from a file, its nodes moved to the ranks named and numbered there in their original order; elements go with
 /// their first node.
-/// @param ranks      of each node of this rank's share (mesh::partition); a follower goes with the one it follows
-/// @param followers  by numbers of `raw`, ascending, the same on all ranks (mesh::followers)
+/// @param ranks      of each node of this rank's share (mesh::partition); a dependent node goes with the one it follows
+/// @param dependent_nodes  by numbers of `raw`, ascending, the same on all ranks (mesh::dependent_nodes)
 /// Collective.
-Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks, const std::vector<mesh::Follower>& followers = {});
+Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks,
+             const std::vector<mesh::DependentNode>& dependent_nodes = {});
 
 /// The axis about which a local node rotates by itself; null: none.
 const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local);
 /// The rotation among three that stands for phi: the one whose axis is nearest to e.
 int spin_slot(const Eigen::Vector3d& axis);
-/// theta = spin(e) theta_own + (1 - e e') theta_leader: 3 x 3, e at the slot's column.
+/// theta = spin(e) theta_own + (1 - e e') theta_independent: 3 x 3, e at the slot's column.
 Eigen::Matrix3d spin(const Eigen::Vector3d& axis);
 
-/// Global dofs of all nodes that follow others, but for the turns that are their own, ascending, on every rank.
+/// Global dofs of all nodes that follow others, but for the rotations that are their own, ascending, on every rank.
 /// Collective.
-std::vector<PetscInt> follower_dofs(const Mesh& mesh, int dofs_per_node);
+std::vector<PetscInt> dependent_dofs(const Mesh& mesh, int dofs_per_node);
 
 /// Global numbers of nodes given by their original ones. Collective.
 std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>& originals);
@@ -127,7 +130,7 @@ struct NearestNode {
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
 /// The middle of the nodes, where the mesh's own origin is farther from it than ten times the mesh is long; else that
-/// origin. About a far one a body that rotates would also travel: its stiffness against turning would stand beside the
+/// origin. About a far one a body that rotates would also travel: its stiffness against rotating would stand beside the
 /// arm squared times that of springs that hold it in place, and be round-off of it. Collective.
 Eigen::Vector3d near_origin(const Mesh& mesh);
 

@@ -37,12 +37,13 @@ struct MassRows {
 
 /// Mass that moves to second order, as body::RotatingMass.
 struct RotaryRows : body::RotatingForms {
-  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> turn;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor> rotation;
 };
 
 /// An element or, of a quadrilateral, one of its triangles: what products of many columns are made of.
 struct PieceRows {
-  std::array<int, 2 * mesh::most_nodes> node{};  ///< local: its nodes, or what moves them; then leaders of line hinges
+  std::array<int, 2 * mesh::most_nodes>
+      node{};  ///< local: its nodes, or what moves them; then independent nodes of line hinges
   int nodes = 0;
   /// Nodes that rotate by themselves about a line hinge: their rotation is axis (slot . dofs), nothing else of them
   /// counts.

@@ -28,7 +28,7 @@ using ShellNodes = std::span<const Eigen::Vector3d>;  ///< positions in body axe
 /// nothing locks in shear. The quadrilateral has one mode in the plane and one in bending that cost no energy; no two
 /// elements that share an edge have them together.
 ///
-/// The rotation about the normal at a node is held to that of the surface there, w = n.theta - 1/2 n.curl u, by
+/// The rotation about the normal at a node is constrained to that of the surface there, w = n.theta - 1/2 n.curl u, by
 /// 1/2 drilling_share G h (area / nodes) w^2: it carries no mass and little force.
 ///
 /// Mass points: 3 x 3 Gauss points, or six of a triangle, each above and below the centre of mass by the radius of

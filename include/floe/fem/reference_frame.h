@@ -30,14 +30,15 @@ void to_frame(const ReferenceFrame& frame, Vec q);
 /// f <- P' f. Collective.
 void balance(const ReferenceFrame& frame, Vec f);
 
-/// How a body is held by its joints to the ground, seen in the linear displacements of the body in space.
+/// How a body is constrained by its joints to the ground, seen in the linear displacements of the body in space.
 struct Holding {
-  Conditions held;       ///< dofs that joints hold
-  Conditions statics;    ///< held, and frame conditions besides until no rigid motion is left: K is regular under these
+  Conditions constrained;  ///< dofs that joints hold
+  Conditions
+      statics;  ///< constrained, and frame conditions besides until no rigid motion is left: K is regular under these
   Eigen::MatrixXd left;  ///< rigid motions that the joints leave free, as combinations of ReferenceFrame::rigid
 };
 
-/// @param held  dofs that the joints hold, global, ascending. Collective.
-Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions held);
+/// @param constrained  dofs that the joints hold, global, ascending. Collective.
+Holding holding(const Structure& structure, const ReferenceFrame& frame, Conditions constrained);
 
 }  // namespace floe::fem

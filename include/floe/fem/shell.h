@@ -43,7 +43,7 @@ struct SurfacePoint {
 /// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
 /// follows a developable surface, so nothing locks. With all gradients of that plane a rigid rotation by any angle has
 /// no membrane strain. With strains of second order rotations of nodes are rotation vectors, as those of beams, joints
-/// and rigid regions: they turn the normal n by exp(theta), so that the slopes in the bending rows are those of
+/// and rigid regions: they rotate the normal n by exp(theta), so that the slopes in the bending rows are those of
 /// theta + 1/2 (theta.n) theta x n, bending is a strain, too, and K_b = 0. What is left of a rigid rotation's energy is
 /// of order a^6 in bending and drilling. Von Karman's have slopes instead of rotation vectors, K_b q linear. The
 /// membrane force is taken as constant over the element: coupling B acts on the mean curvature, and the rest of the

@@ -6,7 +6,7 @@
 
 namespace floe::fem {
 
-/// Orthotropic plane-stress material: moduli [Pa], density [kg/m3]; axis 1 is the one that a ply's angle turns.
+/// Orthotropic plane-stress material: moduli [Pa], density [kg/m3]; axis 1 is the one that a ply's angle rotates.
 struct ShellMaterial {
   double E1, E2, nu12, G12, density;
 };

@@ -46,7 +46,7 @@ struct PointMass {
 using Section = std::variant<BeamSection, SpatialBeam, ShellSection, PointMass>;
 
 /// The same section in the axes of a frame, v -> R'v.
-Section turned(const Section& section, const Eigen::Matrix3d& rotation);
+Section rotated(const Section& section, const Eigen::Matrix3d& rotation);
 
 /// Which nodes share elements with which, by global numbers, for the rows of this rank: the pattern of K and M.
 struct NodeGraph;
@@ -96,8 +96,8 @@ struct Structure {
 /// Dofs of the element's corners from those of the nodes that it acts on, q_corners = T q_nodes.
 Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell);
 
-/// Displacement and rotation of an owned node, of a follower as its leader moves it; zero entries of followers in a
-/// field mean nothing. @param owned  this rank's part of a field. Rank-local.
+/// Displacement and rotation of an owned node, of a dependent node as its independent node moves it; zero entries of
+/// dependent nodes in a field mean nothing. @param owned  this rank's part of a field. Rank-local.
 Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, int node);
 
 /// A planar frame of beams. Collective.
@@ -110,7 +110,7 @@ petsc::VecHandle field(const Structure& structure);
 double extent(const Structure& structure);
 
 /// Rigid motions, linearised: in the plane (1, 0, 0), (0, 1, 0), (-y, x, 1) at each node; in space three translations,
-/// then rotations about x, y, z through the origin. Zero at nodes that follow others, but for turns of their own.
+/// then rotations about x, y, z through the origin. Zero at nodes that follow others, but for rotations of their own.
 /// Collective.
 std::vector<petsc::VecHandle> rigid_motions(const Structure& structure);
 

@@ -11,7 +11,7 @@ namespace floe::fem {
 Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& arm);
 Eigen::Matrix3d rigid_arm(const Eigen::Vector2d& arm);  ///< in the plane
 
-/// The same on a line hinge along the axis e, but for the point's own turn about it: theta_p = (1 - e e') theta.
+/// The same on a line hinge along the axis e, but for the point's own rotation about it: theta_p = (1 - e e') theta.
 Eigen::Matrix<double, 6, 6> line_arm(const Eigen::Vector3d& arm, const Eigen::Vector3d& axis);
 
 /// Both nodes' arms on the diagonal: T of an element of two nodes.
@@ -29,7 +29,8 @@ struct RigidArm {
 /// The corners of a cell that follow others at an arm: dofs of its corners, and of the nodes that it acts on.
 std::vector<RigidArm> rigid_arms(const Mesh& mesh, const Mesh::Cell& cell);
 
-/// The element on other dofs, q_e = T q_m: rigid links, offsets, turned nodal axes, dofs held (columns left out).
+/// The element on other dofs, q_e = T q_m: rigid links, offsets, rotated nodal axes, dofs constrained (columns left
+/// out).
 ///
 /// Strains and displacements are linear in q or in slopes linear in q, so energy and mass points carry over exactly:
 /// U_m(q_m) = U_e(T q_m), M_m = T'M_e T. Positions of mass points stay.

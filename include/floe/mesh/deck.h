@@ -26,7 +26,7 @@ struct Material {
 struct Orientation {
   std::string name;
   Eigen::Vector3d a, b;
-  int axis = 0;  // 1, 2, 3; 0: not turned
+  int axis = 0;  // 1, 2, 3; 0: not rotated
   double angle = 0;
 };
 

@@ -7,10 +7,11 @@
 
 namespace floe::mesh {
 
-/// A node that moves rigidly with another one: u = u_leader + theta_leader x arm, theta = theta_leader; or, where it
-/// has an axis e, as a node of a line hinge: theta = theta_leader but for the turn about e, which is its own.
-struct Follower {
-  PetscInt node, leader;            ///< numbers of the RawMesh
+/// A node that moves rigidly with another one: u = u_independent + theta_independent x arm, theta = theta_independent;
+/// or, where it has an axis e, as a node of a line hinge: theta = theta_independent but for the rotation about e, which
+/// is its own.
+struct DependentNode {
+  PetscInt node, independent_node;  ///< numbers of the RawMesh
   std::array<double, 3> axis = {};  ///< unit vector; zero: none
   bool spins() const { return axis != std::array<double, 3>{}; }
 };
@@ -19,9 +20,9 @@ struct Follower {
 ///
 /// @throws InputError  one line a fault, by labels: a node that follows two others, or one that follows itself
 /// Collective.
-std::vector<Follower> followers(const RawMesh& mesh, const std::vector<RigidLink>& links);
+std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const std::vector<RigidLink>& links);
 
-/// The leader of a node, or the node itself. `followers` ascends.
-PetscInt leader_of(const std::vector<Follower>& followers, PetscInt node);
+/// The independent node of a node, or the node itself. `dependent_nodes` ascends.
+PetscInt independent_node_of(const std::vector<DependentNode>& dependent_nodes, PetscInt node);
 
 }  // namespace floe::mesh

@@ -8,7 +8,7 @@ namespace floe::petsc {
 /// Why a solver's factorisation failed.
 struct FactorFault {
   std::string text;       ///< in MUMPS' words, and what helps; empty if it did not fail
-  bool singular = false;  ///< the matrix is: something is not held, or constraints repeat
+  bool singular = false;  ///< the matrix is: something is not constrained, or constraints repeat
 };
 
 /// Also where PETSc has raised an error of its own for it (PETSC_ERR_LIB). Collective.

@@ -10,7 +10,7 @@ bool of_frame(const PlannedBody& body);
 /// The static columns that a body's `attachment` asks for. Collective.
 ///
 /// Unit loads where joints and loads act; a moment at a joint counts as the joint's, because no mode has a moment at a
-/// hinge. Where the ground holds a body and its modes are those of the held body, the joint brings no unit load.
+/// hinge. Where the ground holds a body and its modes are those of the constrained body, the joint brings no unit load.
 ///
 /// The body's interface (Craig-Bampton) comes first: each place as a rigid piece, its dofs displaced by one,
 /// `attachment PLACE.x` and so on.
@@ -20,10 +20,11 @@ bool of_frame(const PlannedBody& body);
 /// Bampton 1968), `attachment JOINT.rotation` or `.x`, `.y` in the frame:
 ///
 ///   - of a driven rotation, if the rest holds the body already;
-///   - of a displacement that the other held dofs determine, if the pinned frame turns as the body deforms: a guided
+///   - of a displacement that the other constrained dofs determine, if the pinned frame rotates as the body deforms: a
+///   guided
 ///     end at the distance L keeps L = cos(theta) (L + u), u = 0 to first order only.
 ///
-/// In space every joint to the ground is one rigid piece that gets a column for each motion held, where
+/// In space every joint to the ground is one rigid piece that gets a column for each motion constrained, where
 ///
 ///   - the frame moves, and joints together hold more than the rigid motions: what they keep apart or at an angle
 ///     changes at second order as the body bends;

@@ -8,12 +8,12 @@ namespace floe::plan {
 
 /// A body's mesh, for results: this rank's share.
 struct BodyMesh {
-  output::ReducedShapes shapes;                ///< without basis vectors; positions in the axes of the floating frame
-  std::vector<fem::Mesh::Follower> followers;  ///< owned nodes that move rigidly with others, local numbers
-  std::vector<fem::Mesh::Spin> spins = {};     ///< those of them that rotate by themselves about a line hinge
+  output::ReducedShapes shapes;  ///< without basis vectors; positions in the axes of the floating frame
+  std::vector<fem::Mesh::DependentNode> dependent_nodes;  ///< owned nodes that move rigidly with others, local numbers
+  std::vector<fem::Mesh::Spin> spins = {};  ///< those of them that rotate by themselves about a line hinge
 
-  /// Numbers of each owned node, dofs_per_node each, made those of the node as it moves: followers take over the motion
-  /// of those that they follow, u + theta x arm; on a line hinge theta but for their own turn about it.
+  /// Numbers of each owned node, dofs_per_node each, made those of the node as it moves: dependent nodes take over the
+  /// motion of those that they follow, u + theta x arm; on a line hinge theta but for their own rotation about it.
   void let_follow(std::span<double> values) const;
   /// From the node that moves it; zero where it moves by itself.
   Eigen::Vector3d arm(std::size_t node) const;

@@ -9,7 +9,7 @@ namespace floe::plan {
 /// Collective.
 std::optional<Eigen::Vector3d> line_of(const fem::Mesh& mesh, const Anchor& place);
 
-/// A frame's axes turned so that as many directions as can be are along one of them each, those that come first before
+/// A frame's axes rotated so that as many directions as can be are along one of them each, those that come first before
 /// others, and each by the smallest rotation.
 /// @param kept  the column that has to stay; -1: none
 Eigen::Matrix3d axes_along(Eigen::Matrix3d axes, int kept, const std::vector<Eigen::Vector3d>& directions);

@@ -7,7 +7,7 @@ namespace floe::plan {
 bool share_a_node(const Anchor& one, const Anchor& other);
 
 /// Dofs that joints hold, and those of the interface (Craig-Bampton): what the body's modes and attachment modes hold.
-fem::Conditions held_by_modes(const PlannedBody& body);
+fem::Conditions constrained_by_modes(const PlannedBody& body);
 
 /// Each interface moves as one rigid region of its own: @throws InputError  it shares a node with another one, or, in
 /// space, where what joints hold stands still, with a joint that holds it.

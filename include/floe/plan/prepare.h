@@ -19,12 +19,12 @@ namespace floe::plan {
 using namespace scene;
 
 /// How a node moves a place in space: u += share u_node + arm theta_node + 1/2 theta_node x (theta_node x lead),
-/// theta += turn theta_node.
-struct Lever {
+/// theta += rotation theta_node.
+struct AveragingWeight {
   PetscInt node;  ///< global
   double share;
   Eigen::Matrix3d arm;
-  Eigen::Matrix3d turn;
+  Eigen::Matrix3d rotation;
   Eigen::Vector3d lead = Eigen::Vector3d::Zero();  ///< from it to those that follow it, times their shares
 };
 
@@ -34,9 +34,9 @@ struct Anchor {
   PetscInt node = 0;
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< in the frame's axes; ground: world
   std::vector<PetscInt> nodes = {};             ///< in space, global: a place may be a set of nodes
-  /// In space: what moves the mean of `nodes`, those that follow no other node and the leaders of those that do; `node`
-  /// is the first of them.
-  std::vector<Lever> levers = {};
+  /// In space: what moves the mean of `nodes`, those that follow no other node and the independent nodes of those that
+  /// do; `node` is the first of them.
+  std::vector<AveragingWeight> averaging_weights = {};
   /// In space, of a load with a shape: weights of `nodes` in the place; null: those of place_weights.
   std::shared_ptr<const std::vector<reduction::WeightedNode>> weights = {};
   bool line = false;                               ///< in space: a line hinge (fem::Mesh), led by `node`
@@ -46,7 +46,7 @@ struct Anchor {
   static constexpr int elsewhere = -2;
   bool ground() const { return body == -1; }
   /// Nodes whose dofs move the place; in the plane its one node.
-  std::vector<Lever> moved_by() const;
+  std::vector<AveragingWeight> moved_by() const;
   bool moved_by(PetscInt other) const;
 };
 
@@ -61,7 +61,7 @@ struct PlannedBody {
   Eigen::Vector3d pose;                                      ///< of the frame at the start, world: (R_x, R_y, theta)
   Eigen::Vector3d velocity;                                  ///< likewise
   petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none
-  fem::Conditions held;                                      ///< dofs that joints to the ground hold
+  fem::Conditions constrained;                               ///< dofs that joints to the ground hold
   std::vector<Anchor> interface = {};                        ///< that the modes hold (Craig-Bampton)
   std::map<std::string, std::vector<PetscInt>> places = {};  ///< in space: global nodes by name
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();          ///< in space: of the frame, in mesh axes
@@ -77,8 +77,8 @@ struct PlannedBody {
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
   /// and the ground clamps the body, dependent nodes.
   fem::Conditions clamp = {};
-  int host = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
-  int host_joint = -1;  ///< the joint that makes it so
+  int parent = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
+  int parent_joint = -1;  ///< the joint that makes it so
 };
 
 /// A place with the factor by which the density of a load acts there: a length or an area times the load's shape.
@@ -111,7 +111,7 @@ struct Plan {
   /// In space, of each joint: axes at the start in the world, z its axis, x the second axis of a universal one.
   std::vector<Eigen::Matrix3d> joint_axes = {};
   /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
-  std::vector<char> joint_held = {};
+  std::vector<char> joint_constrained = {};
   std::map<std::size_t, std::vector<LoadPart>> load_parts = {};  ///< of loads per length or area
   std::vector<Interface> interfaces = {};  ///< in space, of each joint; of those without edges: nodes empty
 };
@@ -121,7 +121,7 @@ std::vector<LoadPart> parts_of_load(const Plan& plan, std::size_t load);
 
 /// The place that the joint holds in the frame of its body: by the ground, or by a rigid body whose frame it has; null
 /// when the joint is between two frames.
-const Anchor* held_place(const Plan& plan, std::size_t joint);
+const Anchor* constrained_place(const Plan& plan, std::size_t joint);
 
 /// `pinned`, `clamped`, `mean-axis`.
 std::string name_of(fem::ReferenceFrame::Kind kind);
@@ -129,7 +129,7 @@ std::string name_of(fem::ReferenceFrame::Kind kind);
 /// Meshes, frames and places of a scene. Collective.
 Plan prepare(const Scene& scene, MPI_Comm comm);
 
-Eigen::Matrix2d turn(double angle);
+Eigen::Matrix2d rotation_matrix(double angle);
 
 /// Where the system of a formulation lives: on every rank by itself, or on all together.
 MPI_Comm comm_of(const Plan& plan, Formulation formulation);

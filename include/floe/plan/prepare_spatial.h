@@ -17,7 +17,7 @@ struct SpatialMesh {
 SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm);
 
 /// Whether the joint makes one rigid region of a place of many nodes (`edges`), and does not clamp it to the ground,
-/// where every node is held.
+/// where every node is constrained.
 bool holds_a_piece(const Joint& joint);
 
 /// Where a structure's axes lie in those of its mesh: x_mesh = origin + axes x.
@@ -43,7 +43,7 @@ Anchor spatial_place(const Body& body, const fem::Structure& structure,
 std::vector<LoadPart> spread_load(const Load& load, const fem::Structure& structure, const Anchor& place,
                                   const MeshAxes& mesh);
 
-/// Bodies, frames and held dofs of a scene in space. Collective.
+/// Bodies, frames and constrained dofs of a scene in space. Collective.
 Plan prepare_spatial(const Scene& scene, MPI_Comm comm);
 
 }  // namespace floe::plan

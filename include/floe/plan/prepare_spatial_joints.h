@@ -18,7 +18,7 @@ void prepare_joints(Plan& plan, const std::function<Anchor(const Place&)>& place
 /// node by node (edges: mean): their frames are fixed to the ground, and its joints need no constraints.
 ///
 /// A frame that moves would rotate with the mean deformation: linear bodies would not be linear, and nodal rotations,
-/// which are free at edges that are held node by node, would be held in their mean. Collective.
+/// which are free at edges that are constrained node by node, would be constrained in their mean. Collective.
 void fix_frames(Plan& plan);
 
 }  // namespace floe::plan

@@ -8,13 +8,13 @@ struct Modes {
   std::vector<double> omega;     ///< [rad/s], ascending, by Rayleigh's quotient of the elements' strain energy
   std::vector<double> residual;  ///< |K^-1 (K phi - omega^2 M phi)|_M or a bound of it, at least the relative error of
                                  ///< omega^2
-  Columns raw;                   ///< phi as the body is held in space
+  Columns raw;                   ///< phi as the body is constrained in space
   Columns shapes;                ///< phi in the floating frame, P phi
   int left_out = 0;              ///< modes with the frequency of the last one that the count leaves out
 };
 
-/// Finds the lowest modes of the body as `holding.held` holds it; rigid motions that are left free are deflated, not
-/// counted. More modes may be asked for later: the factorisation serves again.
+/// Finds the lowest modes of the body as `holding.constrained` holds it; rigid motions that are left free are deflated,
+/// not counted. More modes may be asked for later: the factorisation serves again.
 ///
 /// EPS prefix modes_ (default: shift-invert at 0, or just below it for bodies that can still move rigidly, Cholesky by
 /// MUMPS; Lanczos with blocks of eight vectors, -modes_eps_type block-lanczos, or Krylov-Schur where the body is small

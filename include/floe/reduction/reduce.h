@@ -6,7 +6,7 @@
 
 namespace floe::reduction {
 
-/// An attachment mode asked for: the response to a unit load, or to a displacement of dofs that are held.
+/// An attachment mode asked for: the response to a unit load, or to a displacement of dofs that are constrained.
 struct Attachment {
   std::string label;       ///< `root.moment`
   petsc::VecHandle load;   ///< null: a displacement
@@ -33,7 +33,7 @@ struct Generators {
 Generators generators(const fem::Structure& structure, const Statics& statics, Modes modes,
                       const std::vector<Attachment>& attachments, double tolerance);
 
-/// The same with the lowest `modes` modes. @param holding  how the body is held for its modes. Collective.
+/// The same with the lowest `modes` modes. @param holding  how the body is constrained for its modes. Collective.
 Generators generators(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding,
                       const Statics& statics, int modes, const std::vector<Attachment>& attachments, double tolerance);
 

@@ -36,8 +36,8 @@ class Statics {
   /// Collective.
   Columns solve_bent(Vec q, const Columns& loads) const;
   /// Static constraint modes, in the floating frame: conditions() displaced as `moved` says (zero at all other dofs)
-  /// and the others held at zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and Bampton
-  /// 1968. Collective. One block solve, the same factor.
+  /// and the others constrained to zero, u = e + v, K v = -K e. One that is a rigid motion is zero. Source: Craig and
+  /// Bampton 1968. Collective. One block solve, the same factor.
   Columns constraint_modes(const Columns& moved) const;
 
   /// For those who need K under the same conditions: the matrix, its conditions, and the solver with its factor.
@@ -96,9 +96,9 @@ petsc::MatHandle dense_like(Vec column, std::size_t count);
 petsc::MatHandle dense_of(const Columns& columns);
 Columns columns_of(Mat dense);
 
-/// Whether dofs held at zero include all conditions of the frame: displacements are then in the frame as they are, and
-/// what P' changes in a load is borne by held dofs.
-bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& held);
+/// Whether dofs constrained to zero include all conditions of the frame: displacements are then in the frame as they
+/// are, and what P' changes in a load is borne by constrained dofs.
+bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& constrained);
 
 /// Deep copies. Collective.
 petsc::VecHandle copy(Vec vector);

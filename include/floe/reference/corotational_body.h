@@ -22,9 +22,9 @@ struct CorotationalStart {
 /// A body of beams and shells in space without a floating frame (formulation cfr): every node is a rigid frame of its
 /// own, position R in world axes and attitude A with A the frame axes' rotation of the whole body when it moves
 /// rigidly, and every element a CorotationalElement between places of these frames; a quadrilateral is its four
-/// triangles at half weight. Nodes that follow others are places of the frames of these, with their arms turned by
-/// finite rotations; nodes of a hinge line are joined to the frame of the line's leader by hinges, and nodes of rigid
-/// pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
+/// triangles at half weight. Nodes that follow others are places of the frames of these, with their arms rotated by
+/// finite rotations; nodes of a hinge line are joined to the frame of the line's independent node by hinges, and nodes
+/// of rigid pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
 ///
 /// Mass is carried rigidly by the nodes: of a beam half its mass by each, at the Gauss points of two-point quadrature,
 /// with the rotary inertia of the section; of a triangle a third by each corner, with a third of
@@ -79,9 +79,9 @@ class CorotationalBody {
   struct Moving {
     Eigen::Vector3d R, rate, spin;
   };
-  /// A node that another one's frame holds: but for turns about an axis, or wholly (axis zero).
+  /// A node that another one's frame holds: but for rotations about an axis, or wholly (axis zero).
   struct Link {
-    PetscInt node, leader;
+    PetscInt node, independent_node;
     Eigen::Vector3d arm, axis;
     int rows() const { return axis.isZero(0) ? 6 : 5; }
   };
@@ -95,12 +95,12 @@ class CorotationalBody {
 
   const fem::Structure& structure_;
   std::unique_ptr<NodeCoordinates> nodes_;
-  std::vector<Link> links_;                                           // of all ranks
-  int link_multipliers_ = 0;                                          // local index of the first
-  std::vector<std::pair<PetscInt, Eigen::Vector3d>> leader_;          // of each piece, and where it is
-  std::map<PetscInt, int> piece_;                                     // of nodes
-  std::map<PetscInt, std::shared_ptr<dynamics::Attitude>> attitude_;  // of the nodes seen that have a frame
-  std::map<PetscInt, Moving> start_;                                  // of owned ones
+  std::vector<Link> links_;                                             // of all ranks
+  int link_multipliers_ = 0;                                            // local index of the first
+  std::vector<std::pair<PetscInt, Eigen::Vector3d>> independent_node_;  // of each piece, and where it is
+  std::map<PetscInt, int> piece_;                                       // of nodes
+  std::map<PetscInt, std::shared_ptr<dynamics::Attitude>> attitude_;    // of the nodes seen that have a frame
+  std::map<PetscInt, Moving> start_;                                    // of owned ones
   bool owner_;
 };
 

@@ -17,7 +17,7 @@ namespace floe::reference {
 ///
 /// where U_e is the energy of the finite element as fem has it, and three conditions linear in d say what Q is: of a
 /// beam the chord of its ends along X_2 - X_1 and no mean twist of these; of a triangle its corners in its plane and no
-/// turn of them in the mean, sum (X_i - C) x u_i = 0; of elements with more places all three of these sums. Rigid
+/// rotation of them in the mean, sum (X_i - C) x u_i = 0; of elements with more places all three of these sums. Rigid
 /// motions cost nothing, exactly.
 ///
 /// Q is found by Newton's method; with the multipliers of Gamma the energy is stationary in Q, so that
@@ -49,7 +49,7 @@ class CorotationalElement final : public dynamics::Term {
   dynamics::Energy energy(const dynamics::Motion& motion) const override;
   /// d, of which strains are functions, 6n. Valid until the next call.
   const Eigen::VectorXd& deformation(const dynamics::Motion& motion) const {
-    see(motion, dynamics::Extent::place);
+    see(motion, dynamics::EvaluationLevel::position);
     return d_;
   }
 
@@ -59,7 +59,7 @@ class CorotationalElement final : public dynamics::Term {
   using Matrixx3 = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most, 3>;
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
   Eigen::Index size() const { return 6 * X_.cols(); }
-  void see(const dynamics::Motion& motion, dynamics::Extent extent) const;
+  void see(const dynamics::Motion& motion, dynamics::EvaluationLevel extent) const;
   Eigen::Quaterniond guess() const;
   bool measure(const Eigen::Matrix3d& Q) const;
   void see_rates() const;
@@ -83,8 +83,8 @@ class CorotationalElement final : public dynamics::Term {
   mutable Eigen::Matrix3Xd n_;                               // moments T^-1 m_i
   mutable Matrixx3 W_;
   mutable Matrix3x R_;
-  mutable Eigen::Vector3d spin_;                 // of Q, in its own axes
-  mutable Eigen::Matrix3Xd velocity_, turning_;  // Q'p_i', Q'w_i
+  mutable Eigen::Vector3d spin_;                  // of Q, in its own axes
+  mutable Eigen::Matrix3Xd velocity_, rotating_;  // Q'p_i', Q'w_i
   mutable body::ElasticityWork work_;
   mutable body::ViscosityWork viscous_work_;
 };

@@ -10,8 +10,8 @@ namespace floe::reference {
 ///   force at a place = share p(t) a / 3,   a = 1/2 (p_2 - p_1) x (p_3 - p_1) in the configuration (follower),
 ///   or as it was undeformed, in world axes (dead)
 ///
-/// The forces are those of a uniform pressure on the facets of the deformed mesh; a closed surface under a follower has
-/// no resultant. The tangent is exact.
+/// The forces are those of a uniform pressure on the facets of the deformed mesh; a closed surface under a follower
+/// pressure has no resultant. The tangent is exact.
 class FacetPressure final : public dynamics::Term {
  public:
   /// @param value  along the normal [N/m2]

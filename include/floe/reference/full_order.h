@@ -48,20 +48,21 @@ using CellsOfPart = const std::vector<char>*;
 inline bool counts(CellsOfPart part, std::size_t cell) { return !part || (*part)[cell] != 0; }
 
 /// The inertia alone of the elements, each as a FloatingBody without elasticity. Rank-local.
-std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure, const fem::Conditions& held,
+std::vector<std::unique_ptr<dynamics::Term>> inertia_terms(const fem::Structure& structure,
+                                                           const fem::Conditions& constrained,
                                                            const NodeCoordinates& nodes, int frame,
                                                            CellsOfPart part = nullptr);
 
 /// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or [m] of line.
 ///
-/// @param held  dofs that the frame holds: a force on them acts on the frame alone
+/// @param constrained  dofs that the frame holds: a force on them acts on the frame alone
 enum class Density { mass, line };
-std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& held,
+std::vector<dynamics::Marker> density_markers(const fem::Structure& structure, const fem::Conditions& constrained,
                                               const NodeCoordinates& nodes, int frame, Density density,
                                               CellsOfPart part = nullptr);
 
 /// The place of a node of a full-order body, which does not move with the dofs that the frame holds.
-dynamics::Marker node_marker(const fem::Conditions& held, const NodeCoordinates& nodes, int frame, PetscInt node,
+dynamics::Marker node_marker(const fem::Conditions& constrained, const NodeCoordinates& nodes, int frame, PetscInt node,
                              const Eigen::Vector3d& x);
 
 /// Line density on the elements of a corotational body (world axes): each half element's load goes to its node. [m]
@@ -85,9 +86,9 @@ class LinearConstraint final : public dynamics::Term {
 };
 
 /// r = scale * q: a dof that the frame holds at zero.
-class HeldDof final : public dynamics::Term {
+class ConstrainedDof final : public dynamics::Term {
  public:
-  HeldDof(int coordinate, double scale) : coordinates_{coordinate}, scale_(scale) {}
+  ConstrainedDof(int coordinate, double scale) : coordinates_{coordinate}, scale_(scale) {}
   const std::vector<int>& coordinates() const override { return coordinates_; }
   void residual(const dynamics::Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const dynamics::Motion& motion, dynamics::Weights weights, Eigen::MatrixXd& J) const override;

@@ -13,15 +13,16 @@ namespace floe::reference {
 ///
 /// s, the rigid part, are unknowns of their own, so that the tangent stays sparse.
 struct MassDamping {
-  fem::ReferenceFrame joints;  ///< Phi_r and f
-  fem::Conditions held;        ///< dofs at zero in these equations
-  double alpha = 0;            ///< [1/s]
-  int motion = -1;             ///< local index of s, as many as rigid motions; -1: s is zero whatever q
-  int multipliers = -1;        ///< likewise
+  fem::ReferenceFrame joints;   ///< Phi_r and f
+  fem::Conditions constrained;  ///< dofs at zero in these equations
+  double alpha = 0;             ///< [1/s]
+  int motion = -1;              ///< local index of s, as many as rigid motions; -1: s is zero whatever q
+  int multipliers = -1;         ///< likewise
 };
 
-/// Whether f'q is zero for every q that is zero at `held`: s needs no unknowns. Collective.
-bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& joints, const fem::Conditions& held);
+/// Whether f'q is zero for every q that is zero at `constrained`: s needs no unknowns. Collective.
+bool moves_nothing(const fem::Structure& structure, const fem::ReferenceFrame& joints,
+                   const fem::Conditions& constrained);
 
 /// Each rank gets the terms of its own elements and nodes; the last one what couples s alone. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> mass_damping_terms(const fem::Structure& structure,

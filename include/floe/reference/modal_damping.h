@@ -15,7 +15,7 @@ namespace floe::reference {
 struct ModalDamping {
   std::vector<petsc::VecHandle> forces;  ///< f_i
   Eigen::VectorXd viscosity;             ///< 2 zeta_i omega_i [1/s]
-  fem::Conditions held;                  ///< dofs at zero in these equations
+  fem::Conditions constrained;           ///< dofs at zero in these equations
   int y = -1, multipliers = -1;          ///< local indices of the first
 };
 

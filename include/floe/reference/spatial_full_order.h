@@ -22,7 +22,7 @@ struct FreeDofs {
   Eigen::MatrixXd V;
   std::vector<int> coordinates;
 };
-FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& held, const fem::Mesh::Cell& cell,
+FreeDofs free_dofs(const fem::Structure& structure, const fem::Conditions& constrained, const fem::Mesh::Cell& cell,
                    const NodeCoordinates& nodes);
 
 /// A frame in space among a system's local coordinates.
@@ -33,18 +33,18 @@ struct SpatialFrame {
 };
 
 /// Terms of one full-order body that floats in space (formulations nlffr and lffr): a SpatialBody for each element, the
-/// equations that hold the dofs of `held` at zero, and for mean_axis the constraints Phi_r' M q = 0.
+/// equations that hold the dofs of `constrained` at zero, and for mean_axis the constraints Phi_r' M q = 0.
 ///
-/// @param held       dofs that the frame holds, and those of nodes that follow others
+/// @param constrained       dofs that the frame holds, and those of nodes that follow others
 /// @param viscosity  beta of Kelvin-Voigt damping on the strain rates [s]
 /// Each rank gets the terms of its own elements. Collective.
 std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
-    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& held,
+    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& constrained,
     const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity = 0);
 
 /// The inertia alone of the elements, each as a SpatialBody without elasticity. Rank-local.
 std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,
-                                                                   const fem::Conditions& held,
+                                                                   const fem::Conditions& constrained,
                                                                    const NodeCoordinates& nodes,
                                                                    const SpatialFrame& frame,
                                                                    CellsOfPart part = nullptr);
@@ -55,8 +55,8 @@ body::Inertia density_inertia(const fem::Structure& structure, const fem::Mesh::
 
 /// A uniform force density on every element (of this rank), as a marker each: [kg] of mass, or of line and area.
 std::vector<dynamics::SpatialMarker> spatial_density_markers(const fem::Structure& structure,
-                                                             const fem::Conditions& held, const NodeCoordinates& nodes,
-                                                             const SpatialFrame& frame, Density density,
-                                                             CellsOfPart part = nullptr);
+                                                             const fem::Conditions& constrained,
+                                                             const NodeCoordinates& nodes, const SpatialFrame& frame,
+                                                             Density density, CellsOfPart part = nullptr);
 
 }  // namespace floe::reference

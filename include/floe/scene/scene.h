@@ -121,7 +121,7 @@ struct ReductionSpec {
   ModesSpec modes;
   DerivativesSpec derivatives;
   enum class Attachment { none, joints, loads, all } attachment = Attachment::joints;
-  std::vector<Place> interface;  ///< Craig-Bampton: held by the modes, with an attachment mode for each dof
+  std::vector<Place> interface;  ///< Craig-Bampton: constrained by the modes, with an attachment mode for each dof
   /// Only these, of all columns that there are and their derivatives: `mode 1`, `derivative 1,2`; empty: as the rest
   /// says.
   std::vector<std::string> columns;
@@ -245,8 +245,8 @@ struct Joint {
   math::Formula position;              ///< driven_slide: likewise along the axis [m]
   std::optional<math::Formula> speed;  ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
   std::optional<LimitsSpec> limits,
-      turn_limits;  ///< of the slide, or of the turn where there is none; of a turn besides
-  std::optional<FrictionSpec> friction, turn_friction;  ///< likewise
+      rotation_limits;  ///< of the slide, or of the rotation where there is none; of a rotation besides
+  std::optional<FrictionSpec> friction, rotation_friction;  ///< likewise
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
   bool axis_given = false;

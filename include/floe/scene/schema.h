@@ -23,7 +23,7 @@ enum class Type {
   formulas,
   load_force,
   load_moment,
-  turning,
+  rotating,
   rigid,
   inertia,
   formula_of_place,

@@ -8,9 +8,10 @@
 namespace floe::scene {
 
 /// What is free or driven between the places of a joint, and can be measured or loaded.
-enum class JointCoordinate { travel, turn, length };
+enum class JointCoordinate { travel, rotation, length };
 
-/// Travel of slides, turn of hinges, length and turn of springs (in space of those with an axis); others have none.
+/// Travel of slides, rotation of hinges, length and rotation of springs (in space of those with an axis); others have
+/// none.
 std::vector<JointCoordinate> coordinates_of(const Joint& joint, int dimension);
 
 /// The coordinate on which a load acts. @throws InputError  the joint has none, or its motion is prescribed

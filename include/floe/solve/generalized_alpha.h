@@ -34,7 +34,7 @@ PetscErrorCode TSGeneralizedAlphaSetRadius(TS ts, PetscReal rho);
 using TSGeneralizedAlphaStart = PetscErrorCode (*)(TS ts, PetscReal t, Vec U, Vec V, Vec A, void* context);
 PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, void* context);
 
-/// Rotations among the unknowns, A = base exp(x), whose rates are angular velocities in turned axes (not dx/dt).
+/// Rotations among the unknowns, A = base exp(x), whose rates are angular velocities in rotated axes (not dx/dt).
 /// Source: Bruels, Cardona, Arnold 2012, Lie group generalized-alpha time integration of constrained flexible multibody
 /// systems.
 ///
@@ -43,14 +43,14 @@ PetscErrorCode TSGeneralizedAlphaSetStart(TS ts, TSGeneralizedAlphaStart start, 
 /// the solution (at the step's end, after a rollback, interpolated) is relative to that base. `bracket` fills W with
 /// a x b in the rows of rotations and zero in all others: what such rates differ by from derivatives. Both or none.
 ///
-/// `turn`, if given, is for a Jacobian that is kept while bodies turn: it rotates a vector y of rows or of unknowns as
-/// they turned from where TSI2Jacobian was called last to U (or back), so that J(U) is about turn J turn_back. Newton's
-/// updates are made with that.
+/// `rotate`, if given, is for a Jacobian that is kept while bodies rotate: it rotates a vector y of rows or of unknowns
+/// as they rotated from where TSI2Jacobian was called last to U (or back), so that J(U) is about rotate J rotate_back.
+/// Newton's updates are made with that.
 struct TSGeneralizedAlphaRotations {
   PetscErrorCode (*rebase)(TS ts, Vec U, void* context) = nullptr;
   PetscErrorCode (*bracket)(TS ts, Vec a, Vec b, Vec W, void* context) = nullptr;
   void* context = nullptr;
-  PetscErrorCode (*turn)(TS ts, Vec U, PetscBool back, Vec y, void* context) = nullptr;
+  PetscErrorCode (*rotate)(TS ts, Vec U, PetscBool back, Vec y, void* context) = nullptr;
 };
 PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRotations* rotations);
 

@@ -47,16 +47,16 @@ class LostInRoundOff : public RunError {
 /// shape of a body that rotates at constant speed.
 ///
 /// SNES prefix static_ (Newton with full steps). Returns its iterations. Where K is singular at the start, because what
-/// will hold the configuration is not stressed yet, where a step turns by more than a right angle and where the search
-/// fails, steps with K + s M come first, s falling to nothing from where a step is short, none of them beyond a radian
-/// or uphill (pseudo-transient continuation; Kelley and Keyes 1998): of several equilibria the one that a slow damped
-/// motion comes to.
+/// will hold the configuration is not stressed yet, where a step rotates by more than a right angle and where the
+/// search fails, steps with K + s M come first, s falling to nothing from where a step is short, none of them beyond a
+/// radian or uphill (pseudo-transient continuation; Kelley and Keyes 1998): of several equilibria the one that a slow
+/// damped motion comes to.
 ///
 /// Where U need not be near an equilibrium (`descend`) and the tangent is indefinite there, as between two shapes that
 /// a buckled body can have, Newton's method goes uphill to any of them: these steps come first, too.
 ///
 /// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6
-/// of 1 rad in every turn, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
+/// of 1 rad in every rotation, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
 /// then further steps are taken.
 /// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
 /// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.

@@ -8,7 +8,7 @@
 namespace floe::solve {
 using namespace dynamics;
 
-/// The line about which everything turns; in the plane z through `point`.
+/// The line about which everything rotates; in the plane z through `point`.
 struct RotationAxis {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of unit length, world axes
@@ -28,8 +28,8 @@ struct RotatingSystem {
   /// R before x.
   std::vector<int> planar_frames;
   RotationAxis axis;
-  /// Owners (Coordinates::belongs_to) of the joints that drive the system from the ground: where their angle is held,
-  /// the ground is thought to turn along.
+  /// Owners (Coordinates::belongs_to) of the joints that drive the system from the ground: where their angle is
+  /// constrained, the ground is thought to rotate along.
   std::vector<std::string> drives;
   /// Springs and bushings to the ground, for messages: `bushing left`.
   std::vector<std::string> springs = {};
@@ -39,18 +39,18 @@ struct RotatingSystem {
 inline constexpr PetscInt largest_rotating_system = 1500;
 
 /// That the equations are the same for a scene that has rotated about the axis: constraints stay met, allow the same
-/// motions, and forces and their stiffness turn along. Tried by turning U by a finite angle.
+/// motions, and forces and their stiffness rotate along. Tried by rotating U by a finite angle.
 ///
 /// @param U  a configuration that meets the constraints; as before afterwards
-/// @throws InputError  too many unknowns, or what does not turn: a joint (by name), or loads and gravity. Collective.
-void check_turns(const RotatingSystem& rotating, Vec U);
+/// @throws InputError  too many unknowns, or what does not rotate: a joint (by name), or loads and gravity. Collective.
+void check_rotations(const RotatingSystem& rotating, Vec U);
 
 /// The steady state F(0, U, V(U), A(U)) = 0 at `speed` [rad/s] by Newton's method from the one at `from`, in halved
 /// steps of the speed where a whole one fails, down to a thousandth of the way.
 ///
-/// Where the equations leave directions open (a hub that turns freely, a hinge at rest) the nearest solution is taken.
-/// Where U is steady at `from`, it is followed in shorter steps likewise where it does not continue (branch.h, with
-/// speeds in place of t).
+/// Where the equations leave directions open (a hub that rotates freely, a hinge at rest) the nearest solution is
+/// taken. Where U is steady at `from`, it is followed in shorter steps likewise where it does not continue (branch.h,
+/// with speeds in place of t).
 ///
 /// @param jump  where the shortest step does not continue; ratio 0: it does
 /// Returns the iterations. Attitudes of U are their own bases afterwards.
@@ -65,8 +65,9 @@ void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Ve
 struct Vibration {
   double omega = 0;   ///< [rad/s]
   double growth = 0;  ///< [1/s]; > 0: unstable, < 0: damped
-  bool zero = false;  ///< neither swings nor grows: the scene may turn on or drift this way
-  double below = 0;   ///< of a zero: what is slower cannot be told from it beside the fastest vibrations [rad/s]
+  bool zero = false;  ///< neither swings nor grows: the scene may rotate on or drift this way
+  double below =
+      0;  ///< of a zero: what is slower cannot be distinguished from it beside the fastest vibrations [rad/s]
   bool unstable() const { return growth > 0; }
 };
 

@@ -83,10 +83,10 @@ TEST_CASE("run: a thrown rod, on its parabola, in the table, the summary and on 
 TEST_CASE("check: mass properties of each body, and frequencies on request") {
   const std::string said = printed([&] { app::check(parsed(thrown), PETSC_COMM_WORLD); });
   CHECK_THAT(said, Contains("centre x") && Contains("1.333333") && !Contains("[Hz]"));  // 4 kg (2 m)^2 / 12
-  const std::string held =
+  const std::string constrained =
       "joints:\n  root: {type: fixed, between: [ground, beam.start]}\n  tip: {type: revolute, between: [ground, "
       "beam.end]}\n";
-  const std::string both = printed([&] { app::check(parsed(beam(held)), PETSC_COMM_WORLD, {}, 2); });
+  const std::string both = printed([&] { app::check(parsed(beam(constrained)), PETSC_COMM_WORLD, {}, 2); });
   CHECK_THAT(both, Contains("free") && Contains("as held") && Contains("1.62"));  // 22.373 sqrt(EI/rhoA)/L^2 / 2 pi
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("static: a cantilever under a load that grows, P L^3 / 3 EI at each st
       "at: "
       "beam.end, force: [0, 3e-4*t]}\nprobes:\n  tip: {at: beam.end, quantity: displacement}\n");
   const std::string said = printed([&] {
-    app::rest_one(parsed(text), formulation, PETSC_COMM_WORLD, {2, 4}, folder, true);
+    app::solve_static(parsed(text), formulation, PETSC_COMM_WORLD, {2, 4}, folder, true);
   });
   const auto columns = columns_of(folder.probes());
   REQUIRE(columns.at("tip.y [m]").size() == 5);
@@ -166,7 +166,7 @@ TEST_CASE("static: a column beyond Euler's load is said to be unstable, and from
       "    frame: clamped\njoints:\n  root: {type: fixed, between: [ground, beam.start]}\nloads:\n  tip: {type: force, "
       "at: "
       "beam.end, force: [-t, 0]}\nprobes:\n  tip: {at: beam.end, quantity: displacement}\n");
-  printed([&] { app::rest_one(parsed(text), Formulation::nlffr, PETSC_COMM_WORLD, {8, 80}, folder, false); });
+  printed([&] { app::solve_static(parsed(text), Formulation::nlffr, PETSC_COMM_WORLD, {8, 80}, folder, false); });
   const auto summary = nlohmann::json::parse(contents(folder.summary()));
   const double exact = M_PI * M_PI * 10 / 16;
   CHECK(summary["unstable_from"].get<double>() > exact);
@@ -226,9 +226,9 @@ TEST_CASE("reduce and info: the file says what it was made of") {
   CHECK_THAT(refusal([&] { app::reduce(scene, "rod", PETSC_COMM_WORLD, path, false); }), Contains("rod"));
   CHECK_FALSE(std::filesystem::exists(path));
   const std::string made = printed([&] { app::reduce(scene, "", PETSC_COMM_WORLD, path, false); });
-  const std::string held = printed([&] { app::info(path, PETSC_COMM_WORLD); });
-  CHECK_THAT(held, Contains("beam") && Contains("27"));  // dofs
-  CHECK(made.starts_with(held));
+  const std::string constrained = printed([&] { app::info(path, PETSC_COMM_WORLD); });
+  CHECK_THAT(constrained, Contains("beam") && Contains("27"));  // dofs
+  CHECK(made.starts_with(constrained));
   CHECK_THAT(made, Contains("Reduced body: " + path));
   CHECK(refusal([&] { app::reduce(scene, "beam", PETSC_COMM_WORLD, path, false); }) != "");
   CHECK(refusal([&] { app::reduce(scene, "beam", PETSC_COMM_WORLD, path, true); }) == "");

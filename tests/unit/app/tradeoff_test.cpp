@@ -13,17 +13,18 @@ using namespace floe::app;
 
 namespace {
 
-Rung rung(const std::string& name, double motion, double error) {
-  Rung one;
+ModelVariant variant(const std::string& name, double motion, double error) {
+  ModelVariant one;
   one.name = name, one.motion = motion, one.steps = 10, one.coordinates = 7;
   one.total = {error / 2, error}, one.peak = {error, error}, one.estimate = {error, error};
   one.reduction = {0.1 * error, 0.2 * error};
   return one;
 }
 
-std::vector<Rung> rungs() {
-  std::vector<Rung> all = {rung("slow and good", 4, 1e-4), rung("dominated", 3, 0.2), rung("fair", 2, 0.008),
-                           rung("fast and poor", 1, 0.5), rung("gone", 0.5, 0.01)};
+std::vector<ModelVariant> variants() {
+  std::vector<ModelVariant> all = {variant("slow and good", 4, 1e-4), variant("dominated", 3, 0.2),
+                                   variant("fair", 2, 0.008), variant("fast and poor", 1, 0.5),
+                                   variant("gone", 0.5, 0.01)};
   all.back().stopped = "diverged at t = 1 s";
   return all;
 }
@@ -47,7 +48,7 @@ probes: {tip: {at: arm.end}}
 }  // namespace
 
 TEST_CASE("trade-off: the front has nothing that is slower and worse, and nothing that stopped") {
-  const std::vector<Rung> all = rungs();
+  const std::vector<ModelVariant> all = variants();
   CHECK(pareto_front(all) == std::vector<std::size_t>{3, 2, 0});
   CHECK(choice(all, 0.01) == std::size_t{2});
   CHECK(choice(all, 1e-3) == std::size_t{0});
@@ -56,17 +57,17 @@ TEST_CASE("trade-off: the front has nothing that is slower and worse, and nothin
 }
 
 TEST_CASE("trade-off: a rung with errors that are no numbers is on no front") {
-  std::vector<Rung> all = rungs();
+  std::vector<ModelVariant> all = variants();
   all[0].total[1] = NAN;
   CHECK(pareto_front(all) == std::vector<std::size_t>{3, 2});
   CHECK(std::isinf(all[0].worst()));
 }
 
 TEST_CASE("trade-off: rungs go between ranks as they are") {
-  std::vector<Rung> all = rungs();
+  std::vector<ModelVariant> all = variants();
   all[1].lacks = "model", all[2].required = 0.01, all[2].selected = "rigid";
-  for (const Rung& one : all) {
-    const Rung back = rung_of(to_json(one));
+  for (const ModelVariant& one : all) {
+    const ModelVariant back = variant_of(to_json(one));
     CHECK(back.name == one.name);
     CHECK(back.stopped == one.stopped);
     CHECK(back.total == one.total);
@@ -80,7 +81,7 @@ TEST_CASE("trade-off: rungs go between ranks as they are") {
 }
 
 TEST_CASE("trade-off: a table has a row for every model, the worst probe, and the place on the front") {
-  std::vector<Rung> all = rungs();
+  std::vector<ModelVariant> all = variants();
   all[2].lacks = "model";
   for (const bool full : {false, true}) {
     const output::Table table = tradeoff_table({"tip", "end"}, all, full);
@@ -99,9 +100,9 @@ TEST_CASE("trade-off: a table has a row for every model, the worst probe, and th
 }
 
 TEST_CASE("trade-off: selected models beside the fastest other one as accurate") {
-  std::vector<Rung> all = rungs();
+  std::vector<ModelVariant> all = variants();
   CHECK(selections_table(all).rows.empty());
-  Rung one = rung("selected for 1 %", 1.5, 0.009);
+  ModelVariant one = variant("selected for 1 %", 1.5, 0.009);
   one.required = 0.01, one.selected = "2 of 9 basis vectors", one.estimate = {0.007, 0.006};
   all.push_back(one);
   one.required = 1e-5;
@@ -119,7 +120,7 @@ TEST_CASE("trade-off: selected models beside the fastest other one as accurate")
 
 TEST_CASE("trade-off: the ladder varies frames, meshes, basis, steps and formulation, and leaves rigid bodies alone") {
   std::set<std::string> names, families;
-  for (const Candidate& member : ladder(arm())) {
+  for (const Candidate& member : hierarchy(arm())) {
     INFO(member.name);
     CHECK(names.insert(member.family + member.name).second);
     families.insert(member.family);
@@ -151,9 +152,9 @@ TEST_CASE("trade-off: the ladder varies frames, meshes, basis, steps and formula
 TEST_CASE("trade-off: full-order models are told apart by mesh, frames and step") {
   std::set<std::string> keys;
   std::size_t full = 0;
-  for (const Candidate& member : ladder(arm()))
+  for (const Candidate& member : hierarchy(arm()))
     if (member.formulation == scene::Formulation::nlffr) ++full, keys.insert(full_order_key(member.scene));
   CHECK(full == 9);  // as written; 2, 4 and 8 frames; half and twice the elements; 2, 4 and 8 times the step
   CHECK(keys.size() == full);
-  CHECK(full_order_key(ladder(arm())[0].scene) == full_order_key(ladder(arm())[3].scene));  // another basis alone
+  CHECK(full_order_key(hierarchy(arm())[0].scene) == full_order_key(hierarchy(arm())[3].scene));  // another basis alone
 }

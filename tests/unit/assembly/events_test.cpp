@@ -150,7 +150,7 @@ TEST_CASE("a rod whose hinge lets go flies straight on") {
   REQUIRE(history.events.size() == 1);
   CHECK(history.events[0].t == Approx(0.5).epsilon(1e-12));
   // to (omega h)^2 = 4e-5: the middle leaves where it is at t = 0.5, at speed 2 x 0.75 along the tangent, and the rod
-  // goes on turning
+  // goes on rotating
   CHECK(history["middle.x"].back() == Approx(0.75 * std::cos(1.) - 0.5 * 1.5 * std::sin(1.)).epsilon(4e-5));
   CHECK(history["middle.y"].back() == Approx(0.75 * std::sin(1.) + 0.5 * 1.5 * std::cos(1.)).epsilon(4e-5));
   CHECK(history[space ? "turn.rz" : "turn.angle"].back() == Approx(2).epsilon(1e-5));
@@ -161,7 +161,7 @@ TEST_CASE("a motion stops where a probe passes a value") {
   const History history = move(rod("enough: {stop: true, probe: turn.angle, crosses: 1.2345}"), Formulation::vm_md);
   REQUIRE(history.events.size() == 1);
   CHECK(history.t.back() == history.events[0].t);
-  CHECK(history.t.back() == Approx(1.2345 / 2).epsilon(1e-5));  // the step's own error in the turn
+  CHECK(history.t.back() == Approx(1.2345 / 2).epsilon(1e-5));  // the step's own error in the rotation
   CHECK(history["turn.angle"].back() == Approx(1.2345).epsilon(1e-8));
   for (std::size_t i = 1; i < history.t.size(); ++i) CHECK(history.t[i] > history.t[i - 1]);
 }

@@ -29,7 +29,7 @@ probes:
     INFO(frame << " " << scene::name_of(formulation));
     const std::vector<double> values = at_start(built(text, formulation));
     for (int place = 0; place < 2; ++place) {
-      const double x = place ? 1 : 0.5, X = 1.01 * x, Y = 0.02 + 0.1 * x * x;  // turned by 90 degrees: (-Y, X)
+      const double x = place ? 1 : 0.5, X = 1.01 * x, Y = 0.02 + 0.1 * x * x;  // rotated by 90 degrees: (-Y, X)
       const double expected[4] = {1 - Y, 2 + X, 0.5 - 3 * X - (0.2 * x * x + x), -3 * Y + 0.3};
       for (int i = 0; i < 4; ++i) CHECK(values[4 * place + i] == Approx(expected[i]).margin(1e-10));
     }

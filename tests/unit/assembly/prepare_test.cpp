@@ -10,7 +10,7 @@ using testing::built;
 
 namespace {
 
-// An L-shaped body turned by 30 degrees about its mesh's origin at (1, 2), which moves with (0.3, -0.4), turning at
+// An L-shaped body rotated by 30 degrees about its mesh's origin at (1, 2), which moves with (0.3, -0.4), rotating at
 // 0.7.
 const char* moving = R"yaml(
 bodies:

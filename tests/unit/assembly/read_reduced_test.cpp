@@ -91,13 +91,14 @@ TEST_CASE("a file that is missing or of another kind is one fault at its key") {
 
 TEST_CASE("places of a reduced body are those of its file, or nodes of its shapes") {
   const Files files;
-  const std::string held = "bodies: {b: {reduced: plate.h5}}\njoints: {j: {type: fixed, between: [ground, b.left]}}\n";
-  CHECK(files.faults(held + "probes: {p: {at: b.p2}, q: {at: {body: b, node: [1, 0.5, 0]}}}\n").empty());
-  CHECK(files.faults(held + "probes: {p: {at: b.rigth}}\n") ==
+  const std::string constrained =
+      "bodies: {b: {reduced: plate.h5}}\njoints: {j: {type: fixed, between: [ground, b.left]}}\n";
+  CHECK(files.faults(constrained + "probes: {p: {at: b.p2}, q: {at: {body: b, node: [1, 0.5, 0]}}}\n").empty());
+  CHECK(files.faults(constrained + "probes: {p: {at: b.rigth}}\n") ==
         Faults{"s.yaml:3:18: probes.p.at: b has no place \"rigth\"; expected one of bottom, centre, left, p1, p2, p3, "
                "p4, right, "
                "top, or coordinates; did you mean \"right\"?"});
-  CHECK(files.faults(held + "probes: {p: {at: {body: b, node: [1, 0.4, 0]}}}\n") ==
+  CHECK(files.faults(constrained + "probes: {p: {at: {body: b, node: [1, 0.4, 0]}}}\n") ==
         Faults{"s.yaml:3:14: probes.p.at: no node of b at (1, 0.4, 0); the nearest node is at (1, 0.5, 0)"});
   CHECK(files.faults("bodies: {b: {reduced: beam.h5}}\njoints: {j: {type: revolute, between: [b.end, b.end]}}\n") ==
         Faults{"s.yaml:2:10: joints.j: connects a place with itself; expected two different places"});

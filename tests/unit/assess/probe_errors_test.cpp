@@ -44,10 +44,10 @@ TEST_CASE("sizes that errors refer to: what goes far asks no more than what goes
   CHECK(still[0] == Approx(1e-9));
   CHECK(still[1] == Approx(1e-10));
   CHECK(still[2] == Approx(1e-10 * 10 / 2));
-  const std::vector<double> turned = reference_sizes(columns, {0, 6000, 0}, 2);
-  CHECK(turned[0] == Approx(1e-6));
-  CHECK(turned[1] == 6000);
-  CHECK(turned[2] == Approx(1e-7 * 10 / 2));
+  const std::vector<double> rotated = reference_sizes(columns, {0, 6000, 0}, 2);
+  CHECK(rotated[0] == Approx(1e-6));
+  CHECK(rotated[1] == 6000);
+  CHECK(rotated[2] == Approx(1e-7 * 10 / 2));
   CHECK(reference_sizes(columns, {0, 0, 70}, 2) == std::vector<double>{still[0], still[1], 70});
 }
 

@@ -29,9 +29,9 @@ body::Inertia integrated(int dimension = 2) {
   return inertia;
 }
 
-/// A section with two points at +-arm of its centre that rotates by psi = turn . e.
+/// A section with two points at +-arm of its centre that rotates by psi = rotation . e.
 const Vector2d arm(0.3, -0.7);
-VectorXd turn() { return Random(16).vector(k); }
+VectorXd rotation() { return Random(16).vector(k); }
 body::MassPoint centre() {
   Random random(17);
   return {1.3, random.vector(2), 0.4 * random.matrix(2, k)};
@@ -41,22 +41,22 @@ body::PlanarInertia section() {
   body::Inertia inertia(2, k);
   const body::MassPoint c = centre();
   for (const double side : {-1., 1.})
-    inertia.add({c.mass / 2, c.x + side * arm, c.N + side * Vector2d(-arm.y(), arm.x()) * turn().transpose()});
+    inertia.add({c.mass / 2, c.x + side * arm, c.N + side * Vector2d(-arm.y(), arm.x()) * rotation().transpose()});
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   moments.topLeftCorner<2, 2>() = c.mass * arm * arm.transpose();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, k);
-  rows.row(2) = turn().transpose();
+  rows.row(2) = rotation().transpose();
   inertia.add(body::RotatingMass(body::RotatingForms(moments), rows));
   return body::planar(inertia);
 }
 
-/// A point on an arm from that centre, which turns alike.
+/// A point on an arm from that centre, which rotates alike.
 body::PlanarInertia arm_of_centre() {
   body::Inertia inertia(2, k);
   const body::MassPoint c = centre();
-  inertia.add({c.mass, c.x + arm, c.N + Vector2d(-arm.y(), arm.x()) * turn().transpose()});
+  inertia.add({c.mass, c.x + arm, c.N + Vector2d(-arm.y(), arm.x()) * rotation().transpose()});
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, k);
-  rows.row(2) = turn().transpose();
+  rows.row(2) = rotation().transpose();
   body::RotatingForms forms;
   forms.add(c.mass, c.x + arm, Eigen::Matrix2d::Identity(), Eigen::Vector3d(arm.x(), arm.y(), 0));
   inertia.add(body::RotatingMass(forms, rows));
@@ -130,7 +130,7 @@ TEST_CASE("a section's kinetic energy is m/2 |r'|^2 + rhoI/2 (theta' + psi')^2 a
   for (int i = 0; i < 5; ++i) {
     const VectorXd q = 2 * random.vector(k + 3), v = random.vector(k + 3);
     const auto r = [&](double t) { return position(c, q + t * v); };
-    const double rate = v[2] + turn().dot(v.tail(k)), moment = c.mass * arm.squaredNorm();
+    const double rate = v[2] + rotation().dot(v.tail(k)), moment = c.mass * arm.squaredNorm();
     const double exact = 0.5 * c.mass * testing::derivative(r, 0, 1e-3).squaredNorm() + 0.5 * moment * rate * rate;
     CHECK(body::kinetic_energy(section(), q, v) == Approx(exact).epsilon(1e-10));
   }
@@ -144,9 +144,9 @@ TEST_CASE("the kinetic energy of mass on an arm is that of its point, to second 
     const auto r = [&](double t) {
       VectorXd at = q + t * v;
       at.tail(k) *= s;
-      const double psi = turn().dot(at.tail(k));
-      const Vector2d turned = arm + psi * Vector2d(-arm.y(), arm.x()) - psi * psi / 2 * arm;
-      return Vector2d(at.head<2>() + Eigen::Rotation2Dd(at[2]) * Vector2d(c.x + c.N * at.tail(k) + turned));
+      const double psi = rotation().dot(at.tail(k));
+      const Vector2d rotated = arm + psi * Vector2d(-arm.y(), arm.x()) - psi * psi / 2 * arm;
+      return Vector2d(at.head<2>() + Eigen::Rotation2Dd(at[2]) * Vector2d(c.x + c.N * at.tail(k) + rotated));
     };
     return 0.5 * c.mass * testing::derivative(r, 0, 1e-3).squaredNorm();
   };

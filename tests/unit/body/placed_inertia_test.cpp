@@ -16,11 +16,11 @@ body::Inertia inertia_at(const Eigen::Matrix3d& R, const Eigen::Vector3d& r) {
   body::Inertia inertia(3, k);
   for (int p = 0; p < 5; ++p) {
     const Eigen::Vector3d x = random.matrix(3, 1);
-    const Eigen::MatrixXd N = random.matrix(3, k), turn = random.matrix(3, k);
+    const Eigen::MatrixXd N = random.matrix(3, k), rotation = random.matrix(3, k);
     inertia.add(body::MassPoint{1. + p, R * x + r, R * N});
     body::RotatingForms forms;
     forms.add(0.5, R * x + r, Eigen::Matrix3d::Identity(), R * Eigen::Vector3d(random.matrix(3, 1)));
-    inertia.add(body::RotatingMass(forms, R * turn));
+    inertia.add(body::RotatingMass(forms, R * rotation));
   }
   return inertia;
 }

@@ -28,16 +28,16 @@ std::vector<body::MassPoint> points(int k, const Vector3d& moves = Vector3d::One
   return all;
 }
 
-/// A mass of six points that rotates rigidly, theta = turn e, about its centre or, with an odd seed, about a point
+/// A mass of six points that rotates rigidly, theta = rotation e, about its centre or, with an odd seed, about a point
 /// beside it.
 struct Rotor {
   body::MassPoint centre;
-  Eigen::MatrixXd turn;
+  Eigen::MatrixXd rotation;
   std::vector<Vector3d> arms;
   explicit Rotor(int k, unsigned seed) {
     Random random(seed);
     centre = {1.2, random.vector(3), 0.4 * random.matrix(3, k)};
-    turn = random.matrix(3, k);
+    rotation = random.matrix(3, k);
     for (int i = 0; i < 3; ++i) {
       arms.push_back(random.vector(3));
       arms.push_back(-arms.back());
@@ -53,9 +53,9 @@ struct Rotor {
     for (const Vector3d& arm : arms) {
       second += centre.mass * arm * arm.transpose();
       forms.add(centre.mass, centre.x + arm, Matrix3d::Identity(), arm);
-      sum.add({centre.mass, centre.x + arm, centre.N - math::skew(arm) * turn});
+      sum.add({centre.mass, centre.x + arm, centre.N - math::skew(arm) * rotation});
     }
-    sum.add(body::RotatingMass(about_centre() ? body::RotatingForms(second) : forms, turn));
+    sum.add(body::RotatingMass(about_centre() ? body::RotatingForms(second) : forms, rotation));
   }
 };
 
@@ -188,7 +188,7 @@ TEST_CASE("masses that rotate have the kinetic energy of their points to second 
       for (const Vector3d& arm : rotor.arms) {
         const auto r = [&](double t) {
           const VectorXd q = scaled(path.q(t), s), e = q.tail(k);
-          const Vector3d theta = rotor.turn * e;
+          const Vector3d theta = rotor.rotation * e;
           return Vector3d(q.head<3>() + axes(q) * (rotor.centre.x + rotor.centre.N * e + arm + theta.cross(arm) +
                                                    theta.cross(theta.cross(arm)) / 2));
         };
@@ -216,11 +216,11 @@ TEST_CASE("masses that rotate have the kinetic energy of their points to second 
 TEST_CASE("a body that moves in the plane has the inertia force of the planar frame") {
   const int k = 3;
   body::Inertia sum = summed(points(k, {1, 1, 0}));
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(3, k);
-  turn.row(2) = Random(27).vector(k);
+  Eigen::MatrixXd rotation = Eigen::MatrixXd::Zero(3, k);
+  rotation.row(2) = Random(27).vector(k);
   body::RotatingForms forms(Matrix3d(Vector3d(0.3, 0.7, 0).asDiagonal()));
   forms.add(0.4, Vector3d(0.3, -0.8, 0.2), Matrix3d::Identity(), Vector3d(0.5, 0.2, 0));
-  sum.add(body::RotatingMass(forms, turn));
+  sum.add(body::RotatingMass(forms, rotation));
   Random random(25);
   const VectorXd q = random.vector(k + 3), v = random.vector(k + 3), a = random.vector(k + 3);
   VectorXd planar = VectorXd::Zero(k + 3), found = VectorXd::Zero(k + 6);

@@ -1,8 +1,7 @@
-#include "floe/dynamics/held_body.h"
-
 #include <catch2/catch.hpp>
 
 #include "differences.h"
+#include "floe/dynamics/fixed_frame_body.h"
 #include "random.h"
 #include "terms.h"
 
@@ -26,7 +25,7 @@ MatrixXd symmetric() { return (MatrixXd(3, 3) << 2, 0.3, 0, 0.3, 1, 0.2, 0, 0.2,
 
 TEST_CASE("a held body's forces do the work that its energy loses; its tangent is their derivative") {
   testing::Random random(3);
-  const dynamics::HeldBody body({0, 1, 2}, symmetric(), elasticity(), 0.1 * symmetric());
+  const dynamics::FixedFrameBody body({0, 1, 2}, symmetric(), elasticity(), 0.1 * symmetric());
   const VectorXd q = random.vector(3), v = random.vector(3), a = random.vector(3);
   const auto rows = [&](const VectorXd& x, const VectorXd& y, const VectorXd& z) {
     VectorXd r = VectorXd::Zero(3);

@@ -108,7 +108,7 @@ TEST_CASE("the forces of a joint do not depend on the level of its constraint ro
 }
 
 TEST_CASE("what each joint holds, in plain numbers") {
-  // a body at (1, 2) turned by 90 degrees, its place 0.5 ahead of the origin: at (1, 2.5)
+  // a body at (1, 2) rotated by 90 degrees, its place 0.5 ahead of the origin: at (1, 2.5)
   dynamics::Marker place;
   place.framed = true;
   place.coordinates = {0, 1, 2};
@@ -130,7 +130,7 @@ TEST_CASE("what each joint holds, in plain numbers") {
   CHECK((C(dynamics::Clamp{0.2, {}}) - Eigen::Vector3d(-2, -1.5, right - 0.1 - 0.2)).norm() < 1e-14);
   CHECK((C(dynamics::Clamp{0.2, swing()}) - Eigen::Vector3d(-2, -1.5, right - 0.3 - 0.7 * std::sin(1.5))).norm() <
         1e-14);
-  const Eigen::Vector2d n(std::cos(0.1), std::sin(0.1));  // (1, 0) turned with the first place
+  const Eigen::Vector2d n(std::cos(0.1), std::sin(0.1));  // (1, 0) rotated with the first place
   CHECK((C(dynamics::Prismatic{{1, 0}, 0.25, 0.05}) -
          Eigen::Vector2d(n.dot(Eigen::Vector2d(-2, -1.5)) - 0.25, right - 0.15))
             .norm() < 1e-14);

@@ -28,12 +28,12 @@ body::Elasticity elasticity() {
   return {root.transpose() * root, random.matrix(5, k + 3), {{0, 0}, {0, 2}, {2, 2}}};
 }
 
-std::shared_ptr<dynamics::Attitude> turned() {
+std::shared_ptr<dynamics::Attitude> rotated() {
   return std::make_shared<dynamics::Attitude>(dynamics::Attitude{math::quaternion({0.4, -1.3, 2.0})});
 }
 
 SpatialBody body_with(const Eigen::MatrixXd& damping = {}) {
-  return {{0, 1, 2, 3, 4, 5, 6, 7, 8}, turned(), inertia(), elasticity(), damping};
+  return {{0, 1, 2, 3, 4, 5, 6, 7, 8}, rotated(), inertia(), elasticity(), damping};
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ TEST_CASE("a body in space: damping adds D e' to the elastic rows and nothing to
 TEST_CASE("a rigid body in space: m R'' and Euler's equations about body axes") {
   body::Inertia sum(3, 0);
   sum.m = 2, sum.C0 = Vector3d(3, 2, 1).asDiagonal();  // mass centre at the origin; J = 3, 4, 5
-  const SpatialBody rigid({0, 1, 2, 3, 4, 5}, turned(), body::spatial(sum),
+  const SpatialBody rigid({0, 1, 2, 3, 4, 5}, rotated(), body::spatial(sum),
                           {Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0), {}});
   Random random(138);
   const State s(random, 6);
@@ -81,7 +81,7 @@ TEST_CASE("a rigid body in space: m R'' and Euler's equations about body axes") 
   CHECK((testing::rows_of(rigid, s) - expected).norm() < 1e-14);
   CHECK(testing::tangent_error(rigid, s) < 1e-9);
   const body::Momentum momentum = rigid.momentum({0, s.q, s.v, s.a});
-  const Vector3d about_centre = turned()->axes(s.q.tail<3>()) * spin;
+  const Vector3d about_centre = rotated()->axes(s.q.tail<3>()) * spin;
   CHECK((momentum.linear - 2 * s.v.head<3>()).norm() < 1e-14);
   CHECK((momentum.angular - 2 * s.q.head<3>().cross(s.v.head<3>()) - about_centre).norm() < 1e-13);
 }

@@ -52,10 +52,10 @@ TEST_CASE("the power of a wrench is f.velocity + m.spin, with f and m turned as 
     const State s(random, size(force));
     dynamics::SpatialPose at;
     dynamics::pose(marker, s.q, s.v, s.a, at);
-    const Matrix3d turned = axes == SpatialForce::Axes::world  ? Matrix3d(Matrix3d::Identity())
-                            : axes == SpatialForce::Axes::body ? at.A
-                                                               : at.D;
-    const Vector3d f = turned * push(s.t).head<3>(), m = turned * push(s.t).tail<3>();
+    const Matrix3d rotated = axes == SpatialForce::Axes::world  ? Matrix3d(Matrix3d::Identity())
+                             : axes == SpatialForce::Axes::body ? at.A
+                                                                : at.D;
+    const Vector3d f = rotated * push(s.t).head<3>(), m = rotated * push(s.t).tail<3>();
     CHECK(-testing::rows_of(force, s).dot(s.v) == Approx(f.dot(at.velocity) + m.dot(at.spin)).epsilon(1e-12));
   }
 }

@@ -116,12 +116,12 @@ TEST_CASE("rows that are left out leave the others as they are") {
   many.q.head(n) = few.q.head(n), many.v.head(n) = few.v.head(n), many.a.head(n) = few.a.head(n);
   many.q.tail(6).setZero();
   for (int i = 0; i < 3; ++i) many.q[n + 1 + 2 * i] = few.q[n + i];
-  std::vector<int> standing;
-  for (int i = 0; i < n; ++i) standing.push_back(i);
-  for (int i : {1, 3, 5}) standing.push_back(static_cast<int>(n) + i);
-  CHECK((testing::rows_of(part, few) - testing::picked(testing::rows_of(whole, many), standing)).norm() < 1e-14);
+  std::vector<int> independent;
+  for (int i = 0; i < n; ++i) independent.push_back(i);
+  for (int i : {1, 3, 5}) independent.push_back(static_cast<int>(n) + i);
+  CHECK((testing::rows_of(part, few) - testing::picked(testing::rows_of(whole, many), independent)).norm() < 1e-14);
   CHECK((testing::tangent_of(part, few, {1, 2, 3}) -
-         testing::picked(testing::tangent_of(whole, many, {1, 2, 3}), standing))
+         testing::picked(testing::tangent_of(whole, many, {1, 2, 3}), independent))
             .norm() < 1e-13);
 }
 
@@ -129,11 +129,11 @@ TEST_CASE("a driven joint is held at an angle of many turns and at a position") 
   // the second place, a rigid body's, is put where the first with its axes and the motion say
   const Matrix3d axes = math::rotation({0.4, -0.3, 0.9});
   const Vector3d point(1, -2, 0.5);
-  const dynamics::TimeFunction turns{[](double t) { return 130 * t; }, [](double) { return 130.; },
-                                     [](double) { return 0.; }};
+  const dynamics::TimeFunction rotations{[](double t) { return 130 * t; }, [](double) { return 130.; },
+                                         [](double) { return 0.; }};
   const double t = 0.37;
-  const auto C = [&](const SpatialConstraint& constraint, const Matrix3d& turned, const Vector3d& shift) {
-    const auto at = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(axes * turned)});
+  const auto C = [&](const SpatialConstraint& constraint, const Matrix3d& rotated, const Vector3d& shift) {
+    const auto at = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(axes * rotated)});
     SpatialMarker place;
     place.attitude = at, place.coordinates = {0, 1, 2, 3, 4, 5};
     const SpatialJoint joint(SpatialMarker::ground(point, axes), place, constraint, 6);
@@ -143,27 +143,27 @@ TEST_CASE("a driven joint is held at an angle of many turns and at a position") 
     return VectorXd(testing::rows_of(joint, s).tail(dynamics::rows(constraint)));
   };
   const auto about_z = [](double angle) { return math::rotation({0, 0, angle}); };
-  CHECK(C(SpatialConstraint::driven_revolute(turns), about_z(130 * t), {0, 0, 0}).norm() < 1e-13);
-  CHECK(C(SpatialConstraint::driven_revolute(turns), about_z(130 * t + 0.01), {0, 0, 0})[3] ==
+  CHECK(C(SpatialConstraint::driven_revolute(rotations), about_z(130 * t), {0, 0, 0}).norm() < 1e-13);
+  CHECK(C(SpatialConstraint::driven_revolute(rotations), about_z(130 * t + 0.01), {0, 0, 0})[3] ==
         Approx(std::sin(0.01)).epsilon(1e-10));
-  CHECK(C(SpatialConstraint::driven_prismatic(turns), Matrix3d::Identity(), {0, 0, 130 * t}).norm() < 1e-13);
-  CHECK(C(SpatialConstraint::driven_prismatic(turns), Matrix3d::Identity(), {0, 0, 130 * t + 0.2})[5] ==
+  CHECK(C(SpatialConstraint::driven_prismatic(rotations), Matrix3d::Identity(), {0, 0, 130 * t}).norm() < 1e-13);
+  CHECK(C(SpatialConstraint::driven_prismatic(rotations), Matrix3d::Identity(), {0, 0, 130 * t + 0.2})[5] ==
         Approx(0.2).epsilon(1e-10));
 }
 
 namespace {
 
-/// Shift and turn (axes of the first place) of the second place.
+/// Shift and rotation (axes of the first place) of the second place.
 struct Shifted {
   Vector3d shift;
-  Matrix3d turn;
+  Matrix3d rotation;
 };
 
 /// The constraint's rows and their gradient by the second place's rigid motion.
-std::pair<VectorXd, MatrixXd> held(const SpatialConstraint& constraint, const Shifted& by) {
+std::pair<VectorXd, MatrixXd> constrained(const SpatialConstraint& constraint, const Shifted& by) {
   const Matrix3d axes = math::rotation({-0.7, 0.2, 0.5});
   SpatialMarker place;
-  place.attitude = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(axes * by.turn)});
+  place.attitude = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(axes * by.rotation)});
   place.coordinates = {0, 1, 2, 3, 4, 5};
   const SpatialJoint joint(SpatialMarker::ground({3, 1, 2}, axes), place, constraint, 6);
   Random random;
@@ -173,7 +173,7 @@ std::pair<VectorXd, MatrixXd> held(const SpatialConstraint& constraint, const Sh
   return {testing::rows_of(joint, s).tail(rows), testing::tangent_of(joint, s, {}).bottomLeftCorner(rows, 6)};
 }
 
-Matrix3d turn(double x, double y, double z) {
+Matrix3d rotation_matrix(double x, double y, double z) {
   return (Eigen::AngleAxisd(z, Vector3d::UnitZ()) * Eigen::AngleAxisd(y, Vector3d::UnitY()) *
           Eigen::AngleAxisd(x, Vector3d::UnitX()))
       .toRotationMatrix();
@@ -189,28 +189,29 @@ TEST_CASE("what each spatial joint leaves free, and that its rows are independen
     Shifted allowed;
     int rows;
   };
-  const Case cases[] = {{C::fixed(), {none, turn(0, 0, 0)}, 6},
-                        {C::revolute(), {none, turn(0, 0, 1.9)}, 5},
-                        {C::prismatic(), {{0, 0, 1.3}, turn(0, 0, 0)}, 5},
-                        {C::cylindrical(), {{0, 0, 1.3}, turn(0, 0, -2.5)}, 4},
-                        {C::spherical(), {none, turn(0.4, -1, 2)}, 3},
-                        {C::universal(), {none, turn(0.6, 0, 1.2)}, 4},  // about z of the first, then x of the second
-                        {C::planar(), {{0.3, -2, 0}, turn(0, 0, 1.1)}, 3},
-                        {C::distance(3), {{1, -2, 2}, turn(0.4, -1, 2)}, 1}};
+  const Case cases[] = {
+      {C::fixed(), {none, rotation_matrix(0, 0, 0)}, 6},
+      {C::revolute(), {none, rotation_matrix(0, 0, 1.9)}, 5},
+      {C::prismatic(), {{0, 0, 1.3}, rotation_matrix(0, 0, 0)}, 5},
+      {C::cylindrical(), {{0, 0, 1.3}, rotation_matrix(0, 0, -2.5)}, 4},
+      {C::spherical(), {none, rotation_matrix(0.4, -1, 2)}, 3},
+      {C::universal(), {none, rotation_matrix(0.6, 0, 1.2)}, 4},  // about z of the first, then x of the second
+      {C::planar(), {{0.3, -2, 0}, rotation_matrix(0, 0, 1.1)}, 3},
+      {C::distance(3), {{1, -2, 2}, rotation_matrix(0.4, -1, 2)}, 1}};
   for (const Case& c : cases) {
-    const auto [rows, gradient] = held(c.constraint, c.allowed);
+    const auto [rows, gradient] = constrained(c.constraint, c.allowed);
     CHECK(rows.size() == c.rows);
     CHECK(rows.norm() < 1e-14);
     CHECK(gradient.jacobiSvd().singularValues().minCoeff() > 0.5);
-    const Shifted away{c.allowed.shift + Vector3d(0.1, 0.2, 0.3), c.allowed.turn * turn(0.1, 0.2, 0.3)};
-    CHECK(held(c.constraint, away).first.norm() > 0.05);
+    const Shifted away{c.allowed.shift + Vector3d(0.1, 0.2, 0.3), c.allowed.rotation * rotation_matrix(0.1, 0.2, 0.3)};
+    CHECK(constrained(c.constraint, away).first.norm() > 0.05);
   }
 }
 
 TEST_CASE(
     "multipliers of point rows are forces, of orientation rows moments on the second place about the axes named") {
   const auto moment = [](const SpatialConstraint& constraint, int row) {
-    return Vector3d(held(constraint, {Vector3d::Zero(), Matrix3d::Identity()}).second.row(row).tail(3));
+    return Vector3d(constrained(constraint, {Vector3d::Zero(), Matrix3d::Identity()}).second.row(row).tail(3));
   };
   using C = SpatialConstraint;  // body axes of the second place are its own axes here
   CHECK((moment(C::fixed(), 3) - Vector3d::UnitZ()).norm() < 1e-14);
@@ -223,7 +224,7 @@ TEST_CASE(
 TEST_CASE("a distance joint says when there is nothing to measure along") {
   CHECK_THROWS_AS(SpatialConstraint::distance(0), InputError);
   CHECK_THROWS_AS(SpatialConstraint::distance(-1), InputError);
-  CHECK_THROWS_AS(held(SpatialConstraint::distance(2), {Vector3d::Zero(), Matrix3d::Identity()}), RunError);
+  CHECK_THROWS_AS(constrained(SpatialConstraint::distance(2), {Vector3d::Zero(), Matrix3d::Identity()}), RunError);
 }
 
 TEST_CASE("in the plane spatial joints are the planar ones") {
@@ -233,10 +234,10 @@ TEST_CASE("in the plane spatial joints are the planar ones") {
   const auto first = testing::in_space(one, still), second = testing::in_space(other, still, 8);
   const std::vector<int> body{0, 1, 5, 6, 7, 8, 9, 13, 14, 15};
   const auto compare = [&](const dynamics::Constraint& flat, const SpatialConstraint& constraint,
-                           const std::vector<int>& standing, const State& s) {
+                           const std::vector<int>& independent, const State& s) {
     const int rows = dynamics::rows(flat);
     const dynamics::Joint planar(one, other, flat, first_multiplier);
-    const SpatialJoint joint(first, second, constraint, first_multiplier, standing);
+    const SpatialJoint joint(first, second, constraint, first_multiplier, independent);
     std::vector<int> where = body;
     for (int i = 0; i < rows; ++i) where.push_back(16 + i);
     const State lifted = testing::in_space(s, where, 16 + rows);
@@ -249,7 +250,7 @@ TEST_CASE("in the plane spatial joints are the planar ones") {
               .norm() < 1e-12);
   };
   compare(dynamics::Revolute{}, SpatialConstraint::revolute(), {0, 1}, State(random, 12));
-  // angles are held by their sine in space: the same where the constraint is met
+  // angles are constrained by their sine in space: the same where the constraint is met
   State met(random, 13);
   met.q[7] = met.q[2] + one.angle0 - other.angle0 + one.psi.dot(met.q.segment<2>(3)) -
              other.psi.dot(met.q.segment<2>(8)) + swing().value(met.t);
@@ -261,18 +262,18 @@ TEST_CASE("in the plane spatial joints are the planar ones") {
 }
 
 TEST_CASE("a spatial joint knows when its axes point the other way") {
-  const auto turned = [](const Vector3d& axis, double angle) {
+  const auto rotated = [](const Vector3d& axis, double angle) {
     return SpatialMarker::ground(Vector3d::Zero(), Eigen::AngleAxisd(angle, axis).toRotationMatrix());
   };
   const dynamics::TimeFunction to_pi{[](double t) { return t * M_PI; }, [](double) { return M_PI; },
                                      [](double) { return 0.0; }};
   const auto right = [&](const SpatialConstraint& constraint, const Vector3d& axis, double angle, double t) {
-    const SpatialJoint joint(turned(axis, 0), turned(axis, angle), constraint, first_multiplier);
+    const SpatialJoint joint(rotated(axis, 0), rotated(axis, angle), constraint, first_multiplier);
     const VectorXd q = VectorXd::Zero(dynamics::rows(constraint)), none = q;
     VectorXd r = q;
     joint.residual({t, q, none, none}, r);
     CHECK(r.norm() < 1e-12);  // the rows do not tell
-    return joint.standing({t, q, none, none}) == dynamics::Standing::met;
+    return joint.constraint_status({t, q, none, none}) == dynamics::ConstraintStatus::satisfied;
   };
   using C = SpatialConstraint;
   const Vector3d x = Vector3d::UnitX(), z = Vector3d::UnitZ();
@@ -286,17 +287,17 @@ TEST_CASE("a spatial joint knows when its axes point the other way") {
 }
 
 TEST_CASE("a spatial joint looks after the rows that are left out") {
-  const std::vector<int> standing{0, 1, 2};
+  const std::vector<int> independent{0, 1, 2};
   const VectorXd q = VectorXd::Zero(3), none = q;
   const auto stands = [&](const Vector3d& point, double angle, double unit) {
     const Matrix3d axes = Eigen::AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
     return SpatialJoint(SpatialMarker::ground(Vector3d::Zero()), SpatialMarker::ground(point, axes),
-                        SpatialConstraint::driven_prismatic({}), first_multiplier, standing, unit)
-        .standing({0, q, none, none});
+                        SpatialConstraint::driven_prismatic({}), first_multiplier, independent, unit)
+        .constraint_status({0, q, none, none});
   };
-  using dynamics::Standing;
-  CHECK(stands({0, 0, 0}, 0, 1) == Standing::met);
-  CHECK(stands({0, 0, 0.01}, 0, 1) == Standing::open);
-  CHECK(stands({0, 0, 0.01}, 0, 20) == Standing::met);
-  CHECK(stands({0, 0, 0}, 0.01, 20) == Standing::open);
+  using dynamics::ConstraintStatus;
+  CHECK(stands({0, 0, 0}, 0, 1) == ConstraintStatus::satisfied);
+  CHECK(stands({0, 0, 0.01}, 0, 1) == ConstraintStatus::violated);
+  CHECK(stands({0, 0, 0.01}, 0, 20) == ConstraintStatus::satisfied);
+  CHECK(stands({0, 0, 0}, 0.01, 20) == ConstraintStatus::violated);
 }

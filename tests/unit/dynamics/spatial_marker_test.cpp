@@ -119,7 +119,7 @@ TEST_CASE("the rows of a wrench, by the place alone, are those of its directions
       const dynamics::Wrench w = (dynamics::Wrench() << 0.3, 2, -1, moment).finished();
       SpatialPose place;
       VectorXd rows;
-      dynamics::pose(marker, s.q, s.v, s.a, place, dynamics::Extent::place);
+      dynamics::pose(marker, s.q, s.v, s.a, place, dynamics::EvaluationLevel::position);
       CHECK(place.P.cols() == 0);
       dynamics::pull_back(marker, place, w, rows);
       const VectorXd expected = pose_at(marker, s).P.transpose() * w;

@@ -41,10 +41,10 @@ Eigen::Index size(const dynamics::Term& term) { return static_cast<Eigen::Index>
 
 double elastic(const dynamics::Term& term, const State& s) { return term.energy({s.t, s.q, s.v, s.a}).elastic; }
 
-/// A rigid body's place with the coordinates 0..5, turned by `turn` from world axes.
-SpatialMarker rigid(const Matrix3d& turn = Matrix3d::Identity()) {
+/// A rigid body's place with the coordinates 0..5, rotated by `rotation` from world axes.
+SpatialMarker rigid(const Matrix3d& rotation = Matrix3d::Identity()) {
   SpatialMarker place;
-  place.attitude = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(turn)});
+  place.attitude = std::make_shared<dynamics::Attitude>(dynamics::Attitude{Eigen::Quaterniond(rotation)});
   place.coordinates = {0, 1, 2, 3, 4, 5};
   return place;
 }
@@ -103,10 +103,10 @@ TEST_CASE("a spring in space between two points of a line, and torsion about z: 
 }
 
 TEST_CASE("the twist is the angle about z between axes that are inclined to each other") {
-  // D1'D2 = (an inclination about an axis in the plane x, y) times (a turn about z)
+  // D1'D2 = (an inclination about an axis in the plane x, y) times (a rotation about z)
   for (const double angle : {-2.0, 0.3, 1.7}) {
-    const Matrix3d turned = math::rotation({0.8, -0.4, 0}) * math::rotation({0, 0, angle});
-    const SpatialSpring spring(SpatialMarker::ground({0, 0, 0}), rigid(turned), {0, 0, 0, 2, 0, 0});
+    const Matrix3d rotated = math::rotation({0.8, -0.4, 0}) * math::rotation({0, 0, angle});
+    const SpatialSpring spring(SpatialMarker::ground({0, 0, 0}), rigid(rotated), {0, 0, 0, 2, 0, 0});
     CHECK(elastic(spring, at_rest()) == Approx(angle * angle).epsilon(1e-13));
   }
 }

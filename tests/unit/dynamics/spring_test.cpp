@@ -64,7 +64,7 @@ TEST_CASE("a damper takes power out of the motion, with the square of the speed"
 }
 
 TEST_CASE("a spring between two points of the line: Hooke and Newton") {
-  // a point at (4, 3) that moves with (1, 2), held to the origin: length 5, lengthening 2
+  // a point at (4, 3) that moves with (1, 2), constrained to the origin: length 5, lengthening 2
   dynamics::Marker point;
   point.coordinates = {0, 1, 2};
   point.S = Eigen::Matrix<double, 2, 3>::Identity();

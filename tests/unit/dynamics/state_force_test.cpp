@@ -43,7 +43,7 @@ StateForce on_joint(const Marker& first, const Marker& second, Of on, Of sensed)
   return {std::move(unit), dynamics::StateFormula(law, std::move(sensors))};
 }
 
-/// Also with frames that have turned from their bases.
+/// Also with frames that have rotated from their bases.
 template <class Term>
 void check_tangent(Term&& term, Random& random) {
   const State s(random, static_cast<Eigen::Index>(term.coordinates().size()));
@@ -51,7 +51,7 @@ void check_tangent(Term&& term, Random& random) {
   CHECK(testing::tangent_error(term, s) < 1e-8);
 }
 
-constexpr Of all[] = {Of::slide, Of::turn, Of::length};
+constexpr Of all[] = {Of::slide, Of::rotation, Of::length};
 
 }  // namespace
 
@@ -78,7 +78,7 @@ TEST_CASE("forces on places in space that depend on rotations and angular veloci
       w << random.vector(3), random.vector(3);
       std::vector<std::unique_ptr<Sensor>> sensors;
       for (const bool rate : {false, true})
-        sensors.push_back(std::make_unique<dynamics::SpatialTurnSensor>(places.first, places.second, 1, rate));
+        sensors.push_back(std::make_unique<dynamics::SpatialRotationSensor>(places.first, places.second, 1, rate));
       check_tangent(StateForce(std::make_unique<dynamics::SpatialForce>(
                                    places.first.coordinates.empty() ? places.second : places.first,
                                    [w](double) { return w; }, axes),
@@ -106,13 +106,13 @@ TEST_CASE("a sensor's rate is the derivative of its value along a motion") {
 TEST_CASE("a load of size 1 is the load itself, and a moment of a joint is what it exerts") {
   Random random(315);
   const auto pairs = testing::spatial_pairs();
-  const StateForce force = on_joint(pairs[0].first, pairs[0].second, Of::turn, Of::turn);
+  const StateForce force = on_joint(pairs[0].first, pairs[0].second, Of::rotation, Of::rotation);
   const State s(random, static_cast<Eigen::Index>(force.coordinates().size()));
-  const CoordinateSensor a(of_pair(pairs[0].first, pairs[0].second, Of::turn), false),
-      b(of_pair(pairs[0].first, pairs[0].second, Of::turn), true);
+  const CoordinateSensor a(of_pair(pairs[0].first, pairs[0].second, Of::rotation), false),
+      b(of_pair(pairs[0].first, pairs[0].second, Of::rotation), true);
   const dynamics::Motion motion{s.t, s.q, s.v, s.a};
   const double size = law.value(std::array{s.t, a.value(motion), -b.value(motion)});
-  const JointForce unit(of_pair(pairs[0].first, pairs[0].second, Of::turn), [](double, double) {
+  const JointForce unit(of_pair(pairs[0].first, pairs[0].second, Of::rotation), [](double, double) {
     return dynamics::ForceOnCoordinate{-1, 0, 0, 0};
   });
   CHECK((testing::rows_of(force, s) - size * testing::rows_of(unit, s)).norm() < 1e-14);
@@ -126,8 +126,9 @@ TEST_CASE("friction resists the rate with its level, and has exact tangents") {
   CHECK(friction(0, 1e3).force == Approx(2 + 300));
   CHECK(friction(0, -1e3).force == Approx(-2 - 300));
   for (const auto& [first, second] : testing::place_pairs())
-    for (const Of of : {Of::slide, Of::turn}) check_tangent(JointForce(of_pair(first, second, of), friction), random);
+    for (const Of of : {Of::slide, Of::rotation})
+      check_tangent(JointForce(of_pair(first, second, of), friction), random);
   for (const auto& places : testing::spatial_pairs())
-    for (const Of of : {Of::slide, Of::turn})
+    for (const Of of : {Of::slide, Of::rotation})
       check_tangent(JointForce(of_pair(places.first, places.second, of), friction), random);
 }

@@ -23,11 +23,11 @@ template <class Test>
 void each(const StopLaw& law, const Test& test) {
   using Of = dynamics::RelativeCoordinate::Of;
   for (const auto& [first, second] : testing::place_pairs()) {
-    test(Stop(std::make_unique<PlanarCoordinate>(first, second, Of::turn, 0.1), law));
+    test(Stop(std::make_unique<PlanarCoordinate>(first, second, Of::rotation, 0.1), law));
     test(Stop(std::make_unique<PlanarCoordinate>(first, second, Of::slide, 0.1, Eigen::Vector2d(0.6, 0.8)), law));
   }
   for (const auto& places : testing::spatial_pairs())
-    for (const auto of : {Of::turn, Of::slide})
+    for (const auto of : {Of::rotation, Of::slide})
       test(Stop(std::make_unique<SpatialCoordinate>(places.first, places.second, of, 0.1), law));
 }
 
@@ -67,7 +67,7 @@ TEST_CASE("tangents of stops are the differences of the force, damping included"
 TEST_CASE("undamped stops give back as power what they lose of energy") {
   Random random(242);
   for (const auto& places : testing::spatial_pairs())
-    for (const auto of : {dynamics::RelativeCoordinate::Of::turn, dynamics::RelativeCoordinate::Of::slide}) {
+    for (const auto of : {dynamics::RelativeCoordinate::Of::rotation, dynamics::RelativeCoordinate::Of::slide}) {
       const Stop stop(std::make_unique<SpatialCoordinate>(places.first, places.second, of, 0.1), undamped);
       const testing::SpatialMotion motion(random, size(stop), places.frames);
       const State s = motion.state(0.4);

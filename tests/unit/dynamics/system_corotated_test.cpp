@@ -23,7 +23,7 @@ petsc::VecHandle vector_of_entries(const dynamics::System& system, const VectorX
 struct State {
   VectorXd q, v, a;
 
-  State turned(const MatrixXd& E, const std::vector<int>& vectors) const {
+  State rotated(const MatrixXd& E, const std::vector<int>& vectors) const {
     State out = *this;
     for (VectorXd* x : {&out.q, &out.v, &out.a})
       for (const int first : vectors) x->segment(first, E.rows()) = (E * x->segment(first, E.rows())).eval();
@@ -42,16 +42,16 @@ MatrixXd tangent(const dynamics::System& system, const State& state) {
   return entries;
 }
 
-/// turn J turn_back, column by column.
-MatrixXd turned(const dynamics::System& system, const MatrixXd& J, const std::vector<Matrix3d>& from,
-                const VectorXd& q) {
+/// rotate J rotate_back, column by column.
+MatrixXd rotated(const dynamics::System& system, const MatrixXd& J, const std::vector<Matrix3d>& from,
+                 const VectorXd& q) {
   const petsc::VecHandle U = vector_of_entries(system, q);
   MatrixXd out(J.rows(), J.cols());
   for (Eigen::Index j = 0; j < J.cols(); ++j) {
     const petsc::VecHandle y = vector_of_entries(system, VectorXd::Unit(J.cols(), j));
-    system.turn(from, U, true, y);
+    system.rotate(from, U, true, y);
     const petsc::VecHandle z = vector_of_entries(system, J * numbers_of(y));
-    system.turn(from, U, false, z);
+    system.rotate(from, U, false, z);
     out.col(j) = numbers_of(z);
   }
   return out;
@@ -59,7 +59,7 @@ MatrixXd turned(const dynamics::System& system, const MatrixXd& J, const std::ve
 
 double relative(const MatrixXd& found, const MatrixXd& expected) { return (found - expected).norm() / expected.norm(); }
 
-/// A rod on a hinge, (R_x, R_y, theta, lambda_x, lambda_y), whose frame is known to turn, or not.
+/// A rod on a hinge, (R_x, R_y, theta, lambda_x, lambda_y), whose frame is known to rotate, or not.
 dynamics::System rod(bool known, double gravity) {
   dynamics::Coordinates coordinates(PETSC_COMM_SELF);
   coordinates.add_shared(3);
@@ -80,13 +80,13 @@ TEST_CASE("the tangent of a body on a hinge in the plane turns with the body") {
   Random random(11);
   const State state{random.vector(5), random.vector(5), random.vector(5)};
   const double angle = 1.3;
-  State after = state.turned(Eigen::Rotation2Dd(angle).toRotationMatrix(), {0, 3});
+  State after = state.rotated(Eigen::Rotation2Dd(angle).toRotationMatrix(), {0, 3});
   after.q[2] += angle;
   std::vector<Matrix3d> from;
   system.frame_axes(vector_of_entries(system, state.q), from);
   const MatrixXd before = tangent(system, state), expected = tangent(system, after);
   CHECK(relative(before, expected) > 0.1);
-  CHECK(relative(turned(system, before, from, after.q), expected) < 1e-14);
+  CHECK(relative(rotated(system, before, from, after.q), expected) < 1e-14);
 }
 
 TEST_CASE("the tangent of a body on a hinge in space turns with the body about the hinge") {
@@ -113,11 +113,11 @@ TEST_CASE("the tangent of a body on a hinge in space turns with the body about t
   system.frame_axes(vector_of_entries(system, state.q), from);
   const MatrixXd before = tangent(system, state);
   const Eigen::Quaterniond E(Eigen::AngleAxisd(1.3, Vector3d::UnitZ()));
-  const State after = state.turned(E.toRotationMatrix(), {0, 6});
+  const State after = state.rotated(E.toRotationMatrix(), {0, 6});
   attitude->base = E * attitude->base;
   const MatrixXd expected = tangent(system, after);
   CHECK(relative(before, expected) > 1e-4);
-  CHECK(relative(turned(system, before, from, after.q), expected) < 1e-14);
+  CHECK(relative(rotated(system, before, from, after.q), expected) < 1e-14);
 }
 
 TEST_CASE("a Jacobian that turns with its bodies saves Newton iterations") {

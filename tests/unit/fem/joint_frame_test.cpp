@@ -25,11 +25,11 @@ VectorXd projected(const fem::Structure& s, const fem::ReferenceFrame& frame, co
 TEST_CASE("what joints see of a displacement is the same in every frame, and vanishes for rigid motions") {
   const Kind kind = GENERATE(Kind::pinned, Kind::clamped, Kind::mean_axis);
   // free, hinged at the end, clamped at the middle, hinged at both ends (more than rigid motions), slide along x
-  const fem::Conditions held = GENERATE(fem::Conditions{}, fem::Conditions{18, 19}, fem::Conditions{9, 10, 11},
-                                        fem::Conditions{0, 1, 18, 19}, fem::Conditions{1, 2});
+  const fem::Conditions constrained = GENERATE(fem::Conditions{}, fem::Conditions{18, 19}, fem::Conditions{9, 10, 11},
+                                               fem::Conditions{0, 1, 18, 19}, fem::Conditions{1, 2});
   const fem::Structure s = testing::straight(PETSC_COMM_WORLD, 6, 3, {50, 0.7, 3, 0.2});
   const fem::ReferenceFrame frame = fem::reference_frame(s, kind, 0, 6);
-  const fem::ReferenceFrame joints = fem::joint_frame(s, frame, held);
+  const fem::ReferenceFrame joints = fem::joint_frame(s, frame, constrained);
   const VectorXd q = Random(41).vector(s.dofs());
   const VectorXd Pq = projected(s, joints, q);
   CHECK(testing::relative_error(projected(s, joints, projected(s, frame, q)), Pq) < 1e-12);
@@ -37,8 +37,8 @@ TEST_CASE("what joints see of a displacement is the same in every frame, and van
   for (const auto& motion : frame.rigid) CHECK(projected(s, joints, everywhere(motion)).cwiseAbs().maxCoeff() < 1e-12);
   // a displacement that is zero where joints hold, without the rigid motions that they leave, is its own vibration
   VectorXd own = q;
-  for (PetscInt dof : held) own[dof] = 0;
-  const fem::Holding holding = fem::holding(s, frame, held);
+  for (PetscInt dof : constrained) own[dof] = 0;
+  const fem::Holding holding = fem::holding(s, frame, constrained);
   const petsc::MatHandle M = fem::mass(s, {});
   Eigen::MatrixXd left(s.dofs(), holding.left.cols());
   for (Eigen::Index j = 0; j < left.cols(); ++j) {

@@ -13,24 +13,26 @@ using testing::Spread;
 
 namespace {
 
-/// q of all nodes from the linked ones, by original dofs: rows of followers say how their leaders move them; those on
-/// hinge lines turn by themselves about the axis besides, theta = (1 - e e') theta_leader + e phi.
-Eigen::MatrixXd following(const std::vector<mesh::Follower>& followers) {
+/// q of all nodes from the linked ones, by original dofs: rows of dependent nodes say how their independent nodes move
+/// them; those on hinge lines rotate by themselves about the axis besides, theta = (1 - e e') theta_independent + e
+/// phi.
+Eigen::MatrixXd following(const std::vector<mesh::DependentNode>& dependent_nodes) {
   const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(6 * raw.node_count, 6 * raw.node_count);
-  for (const mesh::Follower& f : followers) {
+  for (const mesh::DependentNode& f : dependent_nodes) {
     const Eigen::Vector3d e(f.axis[0], f.axis[1], f.axis[2]);
-    Eigen::Matrix<double, 6, 6> by_leader =
-        fem::rigid_arm(Eigen::Vector3d(raw.positions[f.node] - raw.positions[f.leader]));
-    by_leader.bottomRightCorner<3, 3>() -= e * e.transpose();
+    Eigen::Matrix<double, 6, 6> by_independent_node =
+        fem::rigid_arm(Eigen::Vector3d(raw.positions[f.node] - raw.positions[f.independent_node]));
+    by_independent_node.bottomRightCorner<3, 3>() -= e * e.transpose();
     T.block<6, 6>(6 * f.node, 6 * f.node).setZero();
     if (f.spins()) T.block<3, 1>(6 * f.node + 3, 6 * f.node + 3 + fem::spin_slot(e)) = e;
-    T.block<6, 6>(6 * f.node, 6 * f.leader) = by_leader;
+    T.block<6, 6>(6 * f.node, 6 * f.independent_node) = by_independent_node;
   }
   return T;
 }
 
-/// K q and M q of a structure with followers are T' K0 T q and T' M0 T q of the free nodes, and its nodes move by T q.
+/// K q and M q of a structure with dependent nodes are T' K0 T q and T' M0 T q of the free nodes, and its nodes move by
+/// T q.
 void check_image(const fem::Structure& s, const fem::Structure& free, const Eigen::MatrixXd& T,
                  const Eigen::VectorXd& q) {
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), K0 = fem::stiffness(free, {}),
@@ -76,7 +78,7 @@ TEST_CASE("rigid links: bodies keep their rigid motions, and followers are held"
   const fem::ReferenceFrame frame = fem::reference_frame(s, fem::ReferenceFrame::Kind::mean_axis, 0, 0);
   const fem::Holding holding = fem::holding(s, frame, {});
   CHECK(holding.left.cols() == 6);
-  CHECK(holding.held == testing::dofs_of(s, {2, 9, 13}, {0, 1, 2, 3, 4, 5}));
+  CHECK(holding.constrained == testing::dofs_of(s, {2, 9, 13}, {0, 1, 2, 3, 4, 5}));
 }
 
 TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line and the turns of its nodes") {
@@ -84,9 +86,9 @@ TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line an
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed);
   const fem::Structure s = testing::hinged_structure(PETSC_COMM_WORLD, spread, links),
                        free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
-  const std::vector<mesh::Follower> followers = testing::mixed_lines(links);
-  CHECK(std::count_if(followers.begin(), followers.end(), [](const auto& f) { return f.spins(); }) == 4);
-  const Eigen::MatrixXd T = following(followers);
+  const std::vector<mesh::DependentNode> dependent_nodes = testing::mixed_lines(links);
+  CHECK(std::count_if(dependent_nodes.begin(), dependent_nodes.end(), [](const auto& f) { return f.spins(); }) == 4);
+  const Eigen::MatrixXd T = following(dependent_nodes);
   const petsc::MatHandle K = fem::stiffness(s, {});
   testing::Random random(3);
   for (int trial = 0; trial < 3; ++trial) {
@@ -121,7 +123,7 @@ TEST_CASE("hinge lines: bodies keep their rigid motions, and followers are held 
   const fem::ReferenceFrame frame = fem::reference_frame(s, fem::ReferenceFrame::Kind::mean_axis, 0, 0);
   const fem::Holding holding = fem::holding(s, frame, {});
   CHECK(holding.left.cols() == 6);
-  std::size_t held = 0;
-  for (const mesh::Follower& f : testing::mixed_lines(true)) held += f.spins() ? 5 : 6;
-  CHECK(holding.held.size() == held);
+  std::size_t constrained = 0;
+  for (const mesh::DependentNode& f : testing::mixed_lines(true)) constrained += f.spins() ? 5 : 6;
+  CHECK(holding.constrained.size() == constrained);
 }

@@ -83,11 +83,11 @@ TEST_CASE("nearest node: the same on all ranks, the lowest of equally near ones"
 TEST_CASE("a mesh in the axes of a frame: distances stay, the origin and the axis go where they should") {
   fem::Mesh mesh = fem::mesh_of(PETSC_COMM_WORLD, branched);
   const double angle = 0.7;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix();
   const Vector3d origin(1, 2, 0);
   const auto before = all_positions(mesh);
-  fem::express_in_frame(mesh, origin, turn);
+  fem::express_in_frame(mesh, origin, rotation);
   const auto after = all_positions(mesh);
-  for (std::size_t i = 0; i < before.size(); ++i) CHECK((origin + turn * after[i] - before[i]).norm() < 1e-14);
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK((origin + rotation * after[i] - before[i]).norm() < 1e-14);
   CHECK(fem::nearest_node(mesh, Vector3d::Zero()).distance < 1e-15);
 }

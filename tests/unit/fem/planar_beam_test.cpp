@@ -152,7 +152,7 @@ TEST_CASE("element mass sums to rho V and the inertia of a rigid bar with its se
   CHECK(testing::relative_error(in.s0, section.rhoA * centre) < 1e-13);
   CHECK(in.C0 == Approx(M(2, 2)).epsilon(1e-13));
   CHECK(testing::relative_error(in.M, maps.mass_matrix()) < 1e-13);
-  // the same turn seen as an elastic displacement: S, h, g are its momenta
+  // the same rotation seen as an elastic displacement: S, h, g are its momenta
   CHECK(testing::relative_error(in.S * rigid.col(2), section.rhoA * Vector2d(-centre.y(), centre.x())) < 1e-13);
   CHECK(in.g.dot(rigid.col(2)) == Approx(M(2, 2)).epsilon(1e-13));
   CHECK(std::abs(in.h.dot(rigid.col(2))) < 1e-13);

@@ -155,7 +155,7 @@ TEST_CASE("shell benchmarks on coarse meshes") {
     });
     mirror(p, 0, 0), mirror(p, 1, 0);
     const int a = p.nearest({10, 0, 0}), b = p.nearest({0, 10, 0});
-    p.held[6 * a + 2] = true;
+    p.constrained[6 * a + 2] = true;
     const fem::ShellSection section = fem::shell_section({{fem::isotropic(6.825e7, 0.3, 1), 0.04}});
     VectorXd f = VectorXd::Zero(p.dofs());
     f[6 * a] = 1, f[6 * b + 1] = -1;

@@ -77,28 +77,28 @@ TEST_CASE("a pinned frame through one node twice leaves the rotation free") {
 
 TEST_CASE("holding: what joints leave free, and conditions that make K regular") {
   struct Case {
-    fem::Conditions held;
+    fem::Conditions constrained;
     int left;
   };
   // none; a prismatic joint along x; along y; a hinge; two hinges; a clamp; a hinge and a slide along x
-  const auto [held, left] =
+  const auto [constrained, left] =
       GENERATE(Case{{}, 3}, Case{{1, 2}, 1}, Case{{0, 2}, 1}, Case{{0, 1}, 1}, Case{{0, 1, 18, 19}, 0},
                Case{{0, 1, 2}, 0}, Case{{0, 1, 19}, 0}, Case{{1, 19}, 1}, Case{{0}, 2});
   const Kind kind = GENERATE(Kind::pinned, Kind::clamped, Kind::mean_axis);
   const fem::Structure s = beam();
   const fem::ReferenceFrame frame = frame_of(s, kind);
-  const fem::Holding holding = fem::holding(s, frame, held);
-  CHECK(holding.held == held);
+  const fem::Holding holding = fem::holding(s, frame, constrained);
+  CHECK(holding.constrained == constrained);
   REQUIRE(holding.left.cols() == left);
-  for (Eigen::Index r = 0; r < left; ++r) {  // a rigid motion that none of the held dofs takes part in
+  for (Eigen::Index r = 0; r < left; ++r) {  // a rigid motion that none of the constrained dofs takes part in
     VectorXd motion = VectorXd::Zero(s.dofs());
     for (int i = 0; i < 3; ++i) motion += holding.left(i, r) * everywhere(frame.rigid[i]);
     CHECK(motion.norm() > 0.1);
-    for (PetscInt dof : held) CHECK(std::abs(motion[dof]) < 1e-14);
+    for (PetscInt dof : constrained) CHECK(std::abs(motion[dof]) < 1e-14);
   }
   CHECK(std::is_sorted(holding.statics.begin(), holding.statics.end()));
-  CHECK(std::includes(holding.statics.begin(), holding.statics.end(), held.begin(), held.end()));
-  CHECK(holding.statics.size() == held.size() + static_cast<std::size_t>(left));
+  CHECK(std::includes(holding.statics.begin(), holding.statics.end(), constrained.begin(), constrained.end()));
+  CHECK(holding.statics.size() == constrained.size() + static_cast<std::size_t>(left));
   Eigen::MatrixXd K(s.dofs(), s.dofs());
   const petsc::MatHandle stiffness = fem::stiffness(s, holding.statics);
   for (Eigen::Index j = 0; j < K.cols(); ++j)

@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// K, C and M of small motions about steady rotation, one body clamped at its frame's origin; the frame turns steadily.
+/// K, C and M of small motions about steady rotation, one body clamped at its frame's origin; the frame rotates
+/// steadily.
 struct Steady {
   MatrixXd K, C, M;
   /// |Im s| of (s^2 M + s C + K) x = 0, ascending, each once.
@@ -35,7 +36,7 @@ struct Steady {
   }
 };
 
-/// Beams of equal length along x from 0 to 1, the first node held; d = 2: turning at spin.z.
+/// Beams of equal length along x from 0 to 1, the first node constrained; d = 2: rotating at spin.z.
 Steady steady(int elements, int d, const Vector3d& spin,
               const std::function<fem::ElementMaps(double, double)>& element) {
   const int frame = d == 2 ? 3 : 6, per_node = frame, n = per_node * elements;
@@ -143,7 +144,7 @@ TEST_CASE("sections under spin in space: the propeller moment") {
   CHECK(torsion({0, 0, 1}, 8) == Approx(std::sqrt(100 - 64 * share)).epsilon(2e-3));
 }
 
-// Seen from axes that turn with the shaft at W, r = rhoI/(rhoA L^2):
+// Seen from axes that rotate with the shaft at W, r = rhoI/(rhoA L^2):
 //   omega^2 (A + r S) + 2 W omega A + W^2 (A - r S) - K = 0, both directions of whirl by the sign of omega.
 TEST_CASE("sections under spin in space: whirl of a thick shaft, Rayleigh's beam") {
   const double r = 0.01, W = 2;

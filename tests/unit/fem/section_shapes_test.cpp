@@ -99,16 +99,16 @@ TEST_CASE("I section: parallel axes, and the published torsion constant") {
 TEST_CASE("turned sections: moments on a circle, principal ones given back") {
   fem::SectionShape s{4, 3, 1, 0.5, 0.2};
   s.shear_centre << 0.3, -0.1;
-  const fem::SectionShape quarter = fem::turned(s, pi / 2);  // y -> z, z -> -y
+  const fem::SectionShape quarter = fem::rotated(s, pi / 2);  // y -> z, z -> -y
   CHECK(quarter.Iy == Approx(s.Iz).epsilon(1e-14));
   CHECK(quarter.Iz == Approx(s.Iy).epsilon(1e-14));
   CHECK(quarter.Iyz == Approx(-s.Iyz).epsilon(1e-14));
   CHECK((quarter.shear_centre - Eigen::Vector2d(0.1, 0.3)).norm() < 1e-15);
-  const fem::SectionShape some = fem::turned(s, 0.3);
+  const fem::SectionShape some = fem::rotated(s, 0.3);
   CHECK(some.Iy + some.Iz == Approx(4).epsilon(1e-14));
   CHECK(some.Iy * some.Iz - some.Iyz * some.Iyz == Approx(2.75).epsilon(1e-14));
-  // a thin strip along y turned by 30 degrees towards z lies in the first and third quadrant
-  const fem::SectionShape strip = fem::turned(fem::rectangle(1, 1e-3), pi / 6);
+  // a thin strip along y rotated by 30 degrees towards z lies in the first and third quadrant
+  const fem::SectionShape strip = fem::rotated(fem::rectangle(1, 1e-3), pi / 6);
   CHECK(strip.Iyz == Approx(1e-3 / 12 * std::cos(pi / 6) * std::sin(pi / 6)).epsilon(1e-5));
 }
 

@@ -59,10 +59,10 @@ TEST_CASE("patch test: with the states prescribed on the boundary the inner node
     const VectorXd exact = testing::nodal(states().back(), p.nodes);
     VectorXd boundary = exact;
     for (int d = 0; d < p.dofs(); ++d)
-      if (!p.held[d]) boundary[d] = 0;
+      if (!p.constrained[d]) boundary[d] = 0;
     VectorXd load = -(whole * boundary);
     for (int d = 0; d < p.dofs(); ++d)
-      if (p.held[d]) load[d] = exact[d];
+      if (p.constrained[d]) load[d] = exact[d];
     CHECK(testing::relative_error(testing::solved(K, load), exact) < 1e-9);
   }
 }

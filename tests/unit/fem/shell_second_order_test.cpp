@@ -28,7 +28,7 @@ testing::Plate tube(double length, int n, int m) {
       const int a = i * ring + j, b = i * ring + (j + 1) % ring;
       p.cells.push_back({a, a + ring, b + ring, b});
     }
-  p.held.assign(p.dofs(), false);
+  p.constrained.assign(p.dofs(), false);
   p.hold([](const Vector3d& x) { return x.x() < 1e-9; }, {0, 1, 2, 3, 4, 5});
   return p;
 }
@@ -62,7 +62,7 @@ VectorXd capped_end(End end, const VectorXd& load) {
   testing::Plate p = tube(10, n, m);
   const int middle = static_cast<int>(p.nodes.size());
   p.nodes.emplace_back(10, 0, 0);
-  p.held.resize(p.dofs(), false);
+  p.constrained.resize(p.dofs(), false);
   std::vector<fem::ElementMaps> maps = testing::all_maps(p, wall(Strains::second_order));
   if (end == End::diaphragm) {
     for (int j = 0; j < ring; j += 2) {
@@ -71,7 +71,7 @@ VectorXd capped_end(End end, const VectorXd& load) {
     }
   } else {
     for (int j = 0; j < ring; ++j)
-      for (int d = 0; d < 6; ++d) p.held[6 * (first + j) + d] = true;
+      for (int d = 0; d < 6; ++d) p.constrained[6 * (first + j) + d] = true;
     for (std::size_t c = 0; c < p.cells.size(); ++c) {
       std::vector<int>& cell = p.cells[c];
       MatrixXd T = MatrixXd::Identity(24, 24);
@@ -95,7 +95,7 @@ VectorXd capped_end(End end, const VectorXd& load) {
   return testing::equilibrium(p, maps, f, 4).segment<6>(6 * middle);
 }
 
-/// The lowest frequency in the plane of a strip 1 x 0.05 that turns at gamma about z, without Coriolis' forces, over
+/// The lowest frequency in the plane of a strip 1 x 0.05 that rotates at gamma about z, without Coriolis' forces, over
 /// sqrt(EI / (rho A)).
 double lag(double gamma) {
   testing::Plate p = testing::plate(1, 0.05, 40, 2, testing::Cells::quadrilaterals);
@@ -110,10 +110,10 @@ double lag(double gamma) {
   VectorXd place = VectorXd::Zero(p.dofs());
   for (std::size_t i = 0; i < p.nodes.size(); ++i) place.segment<3>(6 * i) = p.nodes[i];
   testing::Plate whole = p;
-  whole.held.assign(p.dofs(), false);
+  whole.constrained.assign(p.dofs(), false);
   VectorXd pull = spin * spin * (testing::mass(whole, section) * place);
   for (int d = 0; d < p.dofs(); ++d)
-    if (p.held[d]) pull[d] = 0;
+    if (p.constrained[d]) pull[d] = 0;
   VectorXd q = VectorXd::Zero(p.dofs());
   for (int round = 0; round < 3; ++round) q = testing::equilibrium(p, maps, pull + spin * spin * (M * q), 1);
   std::size_t cell = 0;

@@ -53,13 +53,13 @@ TEST_CASE("A, B, D of a cross-ply: the sums of Jones, ch. 4") {
 TEST_CASE("turning a ply or turning the axes: the energy of a strain is the same") {
   const double angle = 0.6, c = std::cos(angle), s = std::sin(angle);
   const Matrix3d along = fem::shell_section({{carbon, 1, 0}}, 0, {1, 0, 0}).A;
-  const Matrix3d turned = fem::shell_section({{carbon, 1, angle}}, 0, {1, 0, 0}).A;
+  const Matrix3d rotated = fem::shell_section({{carbon, 1, angle}}, 0, {1, 0, 0}).A;
   Eigen::Matrix2d R, e;
   R << c, -s, s, c;
   e << 0.3, -0.2, -0.2, 0.7;  // tensor, in the ply's axes
   const Eigen::Matrix2d f = R * e * R.transpose();
   const Eigen::Vector3d in_ply(e(0, 0), e(1, 1), 2 * e(0, 1)), in_axes(f(0, 0), f(1, 1), 2 * f(0, 1));
-  CHECK(in_axes.dot(turned * in_axes) == Approx(in_ply.dot(along * in_ply)).epsilon(1e-13));
+  CHECK(in_axes.dot(rotated * in_axes) == Approx(in_ply.dot(along * in_ply)).epsilon(1e-13));
 }
 
 TEST_CASE("the higher-order coefficient does not depend on the axes of a material") {

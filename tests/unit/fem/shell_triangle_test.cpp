@@ -18,16 +18,16 @@ namespace {
 
 const fem::TriangleNodes flat{Vector3d(0.2, -0.1, 0), Vector3d(1.3, 0.2, 0), Vector3d(0.5, 0.9, 0)};
 const double flat_area = (1.1 * 1.0 - 0.3 * 0.3) / 2;
-const Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+const Matrix3d rotation = Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
 
-fem::TriangleNodes turned(const fem::TriangleNodes& nodes) {
-  return {turn * nodes[0], turn * nodes[1], turn * nodes[2]};
+fem::TriangleNodes rotated(const fem::TriangleNodes& nodes) {
+  return {rotation * nodes[0], rotation * nodes[1], rotation * nodes[2]};
 }
 
 /// Node-wise rotation of 18 dofs.
-MatrixXd turn_of_dofs() {
+MatrixXd rotation_of_dofs() {
   MatrixXd T = MatrixXd::Zero(18, 18);
-  for (int block = 0; block < 6; ++block) T.block<3, 3>(3 * block, 3 * block) = turn;
+  for (int block = 0; block < 6; ++block) T.block<3, 3>(3 * block, 3 * block) = rotation;
   return T;
 }
 
@@ -35,7 +35,7 @@ MatrixXd turn_of_dofs() {
 
 TEST_CASE("shell triangle: fast matrices are those of the maps") {
   for (const auto& section : {testing::skew_laminate(), testing::aluminium(0.01)}) {
-    const fem::TriangleNodes nodes = turned(flat);
+    const fem::TriangleNodes nodes = rotated(flat);
     const fem::ElementMaps maps = fem::shell_triangle(nodes, section);
     const fem::ShellStrain strain = fem::shell_triangle_strain(nodes, section);
     CHECK(relative_error(fem::shell_triangle_stiffness(nodes, section), maps.stiffness()) < 1e-13);
@@ -49,7 +49,7 @@ TEST_CASE("shell triangle: fast matrices are those of the maps") {
 }
 
 TEST_CASE("shell triangle: six rigid motions, drilling included, and nothing else without energy") {
-  const fem::TriangleNodes nodes = turned(flat);
+  const fem::TriangleNodes nodes = rotated(flat);
   const fem::ElementMaps maps = fem::shell_triangle(nodes, testing::skew_laminate(0));
   const MatrixXd K = maps.stiffness();
   CHECK((K * testing::rigid_motions(nodes)).cwiseAbs().maxCoeff() < 1e-12 * K.cwiseAbs().maxCoeff());
@@ -73,7 +73,8 @@ TEST_CASE("shell triangle: exact energy of constant strain and curvature, for an
 }
 
 TEST_CASE("shell triangle: signs of rotation and curvature") {
-  // a plate that sags in the middle along x: w = x^2 / 2 has rotation_y = -x and kappa_x = -1; its top is compressed
+  // a plate that deflects within the element in the middle along x: w = x^2 / 2 has rotation_y = -x and kappa_x = -1;
+  // its top is compressed
   const fem::ShellSection top = fem::shell_section({{fem::isotropic(1, 0, 1), 0.01}}, 0.5);
   const VectorXd q = testing::nodal(testing::ConstantState{Eigen::Matrix2d::Zero(), {-1, 0, 0}}, flat);
   CHECK(q[6 + 4] == Approx(-1.3));
@@ -84,12 +85,12 @@ TEST_CASE("shell triangle: signs of rotation and curvature") {
 }
 
 TEST_CASE("shell triangle: a turned element has turned matrices; the order of the nodes does not matter") {
-  const MatrixXd T = turn_of_dofs();
+  const MatrixXd T = rotation_of_dofs();
   fem::ShellSection section = testing::skew_laminate();
   const MatrixXd K = fem::shell_triangle_stiffness(flat, section), M = fem::shell_triangle_mass(flat, section);
-  section.axis = turn * section.axis;
-  CHECK(relative_error(fem::shell_triangle_stiffness(turned(flat), section), T * K * T.transpose()) < 1e-12);
-  CHECK(relative_error(fem::shell_triangle_mass(turned(flat), section), T * M * T.transpose()) < 1e-12);
+  section.axis = rotation * section.axis;
+  CHECK(relative_error(fem::shell_triangle_stiffness(rotated(flat), section), T * K * T.transpose()) < 1e-12);
+  CHECK(relative_error(fem::shell_triangle_mass(rotated(flat), section), T * M * T.transpose()) < 1e-12);
 
   MatrixXd cycle = MatrixXd::Zero(18, 18);  // isotropic: the element's axes follow another edge
   for (int i = 0; i < 3; ++i) cycle.block<6, 6>(6 * i, 6 * ((i + 1) % 3)).setIdentity();
@@ -130,7 +131,7 @@ TEST_CASE("shell triangle: mass, its first and second moments, and the inertia o
 }
 
 TEST_CASE("shell triangle: the von Karman force is the gradient of the energy, from the strains of its definition") {
-  const fem::ElementMaps maps = fem::shell_triangle(turned(flat), testing::skew_laminate());
+  const fem::ElementMaps maps = fem::shell_triangle(rotated(flat), testing::skew_laminate());
   const MatrixXd every = MatrixXd::Identity(18, 18);
   const body::Elasticity elastic = fem::elasticity(maps, every);
   VectorXd q = 0.1 * testing::Random(3).vector(18);
@@ -159,12 +160,12 @@ TEST_CASE("shell triangle: a tilted plane has the von Karman strain of its slope
 TEST_CASE("shell triangle: strains of second order are Green-Lagrange's of the plane through the displaced nodes") {
   fem::ShellSection section = testing::skew_laminate();
   section.strains = fem::Strains::second_order;
-  section.axis = turn * section.axis;
-  const fem::TriangleNodes nodes = turned(flat);
+  section.axis = rotation * section.axis;
+  const fem::TriangleNodes nodes = rotated(flat);
   const fem::ShellStrain strain = fem::shell_triangle_strain(nodes, section);
   fem::StrainPoint point = fem::shell_triangle(nodes, section).membrane[0];
   for (MatrixXd& P : point.P) P = P.topLeftCorner(6, 6).eval();  // without the products of rotations in its curvature
-  const Vector3d x = (turn * Vector3d(1, 0.2, 0)).normalized(), y = (turn * Vector3d::UnitZ()).cross(x);
+  const Vector3d x = (rotation * Vector3d(1, 0.2, 0)).normalized(), y = (rotation * Vector3d::UnitZ()).cross(x);
   const Matrix3d H = 0.3 * testing::Random(4).matrix(3, 3);  // u = H x, with the rotations that go along
   VectorXd q(18);
   const Matrix3d skew = (H - H.transpose()) / 2;

@@ -25,15 +25,15 @@ inline Eigen::Matrix3d some_rotation() {
 }
 
 /// diag(Q, Q, ...): dofs in the axes Q -> in body axes.
-inline Eigen::MatrixXd turn_dofs(const Eigen::Matrix3d& Q, int nodes) {
+inline Eigen::MatrixXd rotation_dofs(const Eigen::Matrix3d& Q, int nodes) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(6 * nodes, 6 * nodes);
   for (int i = 0; i < 2 * nodes; ++i) T.block<3, 3>(3 * i, 3 * i) = Q;
   return T;
 }
 
-/// Elements are turned into the axes Q, so that a support may hold a direction of these.
-inline BeamChain beam_chain(int n, double length, const fem::SpatialBeamSection& section, const std::vector<int>& held,
-                            const fem::SpatialBeamStrain& strain = {},
+/// Elements are rotated into the axes Q, so that a support may hold a direction of these.
+inline BeamChain beam_chain(int n, double length, const fem::SpatialBeamSection& section,
+                            const std::vector<int>& constrained, const fem::SpatialBeamStrain& strain = {},
                             const Eigen::Matrix3d& Q = Eigen::Matrix3d::Identity()) {
   BeamChain chain;
   chain.Q = Q;
@@ -41,10 +41,10 @@ inline BeamChain beam_chain(int n, double length, const fem::SpatialBeamSection&
     const Eigen::Vector3d x = Q.col(0);
     chain.places.push_back({length * e / n * x, length * (e + 1) / n * x, Q.col(1)});
     chain.elements.push_back(
-        fem::transformed(fem::spatial_beam(chain.places.back(), section, strain), turn_dofs(Q, 2)));
+        fem::transformed(fem::spatial_beam(chain.places.back(), section, strain), rotation_dofs(Q, 2)));
   }
   for (int i = 0; i < chain.dofs(); ++i)
-    if (std::find(held.begin(), held.end(), i) == held.end()) chain.free.push_back(i);
+    if (std::find(constrained.begin(), constrained.end(), i) == constrained.end()) chain.free.push_back(i);
   return chain;
 }
 

@@ -46,7 +46,7 @@ TEST_CASE("cantilever: bending frequencies in both planes, order 4") {
 
 TEST_CASE("cantilever with product of inertia: frequencies are those of the principal planes") {
   const fem::SpatialBeamSection principal{1e6, 9, 4, 0, 1e4, 3, 0.009, 0.004, 0};
-  const double c = std::cos(0.5), d = std::sin(0.5);  // turned: [Iz Iyz; Iyz Iy] = R diag(4, 9) R'
+  const double c = std::cos(0.5), d = std::sin(0.5);  // rotated: [Iz Iyz; Iyz Iy] = R diag(4, 9) R'
   fem::SpatialBeamSection s = principal;
   s.EIz = 4 * c * c + 9 * d * d, s.EIy = 4 * d * d + 9 * c * c, s.EIyz = (4 - 9) * c * d;
   s.rhoIz = s.EIz / 1000, s.rhoIy = s.EIy / 1000, s.rhoIyz = s.EIyz / 1000;

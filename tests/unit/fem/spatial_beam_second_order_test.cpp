@@ -95,11 +95,11 @@ TEST_CASE("a kinked line of two members, turned anyhow, costs an energy of order
       second{{0.7, 0.1, 0}, {0.9, 0.6, 0.4}, {1, 0, 0.3}};
   const fem::SpatialBeamSection s = section(true, false);
   const fem::ElementMaps a = fem::spatial_beam(first, s, second_order), b = fem::spatial_beam(second, s, second_order);
-  const auto whole = [&](double turn, const Vector3d& t) {  // the node between has one rotation vector
-    return energy(a, rigid(first, turn, t)) + energy(b, rigid(second, turn, t));
+  const auto whole = [&](double rotation, const Vector3d& t) {  // the node between has one rotation vector
+    return energy(a, rigid(first, rotation, t)) + energy(b, rigid(second, rotation, t));
   };
   for (const Vector3d& t : {Vector3d(0.3, -0.5, 0.4), Vector3d(0.8, 0.1, -0.4)})
-    CHECK(order([&](double turn) { return whole(turn, t); }, 0.02) == Approx(6).margin(0.1));
+    CHECK(order([&](double rotation) { return whole(rotation, t); }, 0.02) == Approx(6).margin(0.1));
 }
 
 TEST_CASE("strains of second order: force is the gradient of the energy, tangent that of the force") {
@@ -132,10 +132,11 @@ TEST_CASE("lateral buckling of a narrow beam within 0.3 % from 16 elements: Mich
   force[cantilever.dofs() - 5] = 4.0126 * std::sqrt(EIy * GJ) / (L * L);
   CHECK(critical(cantilever, force) == Approx(before).epsilon(0.003));
   const int end = 6 * 16;
-  const testing::BeamChain held = testing::beam_chain(16, L, s, {0, 1, 2, 3, end + 1, end + 2, end + 3}, second_order);
-  VectorXd moments = VectorXd::Zero(held.dofs());
+  const testing::BeamChain constrained =
+      testing::beam_chain(16, L, s, {0, 1, 2, 3, end + 1, end + 2, end + 3}, second_order);
+  VectorXd moments = VectorXd::Zero(constrained.dofs());
   moments[5] = -pi * std::sqrt(EIy * GJ) / L, moments[end + 5] = -moments[5];
-  CHECK(critical(held, moments) == Approx(before).epsilon(0.003));
+  CHECK(critical(constrained, moments) == Approx(before).epsilon(0.003));
 }
 
 // At 0.9 of the load with 0.005 of it sideways, a geometrically exact rod (lateral_buckling.py); 0.0067 without

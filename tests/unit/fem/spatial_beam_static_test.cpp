@@ -47,7 +47,7 @@ TEST_CASE("cantilever of one element: Gere's tip deflections, turns by the right
 }
 
 TEST_CASE("cantilever with shear: Timoshenko's tip deflections, whatever the number of elements") {
-  // Timoshenko, Strength of materials I, art. 39: v = F L^3/3EI + F L/GA; the section turns by F L^2/2EI as without
+  // Timoshenko, Strength of materials I, art. 39: v = F L^3/3EI + F L/GA; the section rotates by F L^2/2EI as without
   // shear. In general axes E [Iz Iyz; Iyz Iy] takes the place of EI, [GAy 0; 0 GAz] that of GA.
   fem::SpatialBeamSection s{50, 0.9, 0.7, 0.3, 0.4, 0, 0, 0, 0};
   s.GA << 2, 0.5;
@@ -56,8 +56,8 @@ TEST_CASE("cantilever with shear: Timoshenko's tip deflections, whatever the num
   const Matrix2d soft = (Matrix2d() << 0.7, 0.3, 0.3, 0.9).finished().inverse();
   for (const Vector2d& F : {Vector2d(1, 0), Vector2d(0, 1)}) {
     const Vector6 q = tip(linear_deflection(beam, tip_load(beam, load(0, F[0], F[1]))));
-    const Vector2d deflection = L * L * L / 3 * soft * F + L * F.cwiseQuotient(s.GA), turn = L * L / 2 * soft * F;
-    CHECK((q - load(0, deflection[0], deflection[1], 0, -turn[1], turn[0])).norm() < 1e-12);
+    const Vector2d deflection = L * L * L / 3 * soft * F + L * F.cwiseQuotient(s.GA), rotation = L * L / 2 * soft * F;
+    CHECK((q - load(0, deflection[0], deflection[1], 0, -rotation[1], rotation[0])).norm() < 1e-12);
   }
 }
 
@@ -102,7 +102,7 @@ TEST_CASE("principal axes given by an angle are the orientation vector turned by
   const fem::BeamMaterial steel{200e9, 80e9, 7800};
   const fem::BeamPlace straight{{0, 0, 0}, {L, 0, 0}, {0, 1, 0}};
   const fem::BeamPlace rolled{{0, 0, 0}, {L, 0, 0}, {0, std::cos(angle), std::sin(angle)}};
-  const fem::ElementMaps a = fem::spatial_beam(straight, fem::spatial_section(fem::turned(strip, angle), steel));
+  const fem::ElementMaps a = fem::spatial_beam(straight, fem::spatial_section(fem::rotated(strip, angle), steel));
   const fem::ElementMaps b = fem::spatial_beam(rolled, fem::spatial_section(strip, steel));
   CHECK((a.stiffness() - b.stiffness()).norm() < 1e-13 * b.stiffness().norm());
   CHECK((a.mass_matrix() - b.mass_matrix()).norm() < 1e-13 * b.mass_matrix().norm());

@@ -33,7 +33,7 @@ fem::SpatialBeamSection general() {
 
 body::Elasticity elasticity(const fem::ElementMaps& maps) { return fem::elasticity(maps, MatrixXd::Identity(12, 12)); }
 
-/// Rigid motions of two nodes: three translations, three turns about the origin.
+/// Rigid motions of two nodes: three translations, three rotations about the origin.
 MatrixXd rigid_motions(const fem::BeamPlace& p) {
   MatrixXd motions(12, 6);
   motions << fem::rigid_arm(p.from), fem::rigid_arm(p.to);
@@ -44,8 +44,8 @@ MatrixXd rigid_motions(const fem::BeamPlace& p) {
 
 TEST_CASE("a planar beam in space has the matrices of the planar element, in any attitude") {
   const MembraneStrain strain = GENERATE(MembraneStrain::averaged, MembraneStrain::pointwise);
-  const bool turned = GENERATE(false, true);
-  const Matrix3d Q = turned ? testing::some_rotation() : Matrix3d::Identity();
+  const bool rotated = GENERATE(false, true);
+  const Matrix3d Q = rotated ? testing::some_rotation() : Matrix3d::Identity();
   const Vector2d from(0.3, -0.2), to(1.1, 0.4);
   const double GA = GENERATE(std::numeric_limits<double>::infinity(), 6.);
   const fem::ElementMaps planar = fem::planar_beam(from, to, {50, 0.7, 3, 0.2, GA}, strain);
@@ -53,7 +53,8 @@ TEST_CASE("a planar beam in space has the matrices of the planar element, in any
   section.GA << GA, 2 * GA;
   const auto lifted = [&](double x, double y) { return Vector3d(Q * Vector3d(x, y, 0)); };
   const fem::BeamPlace place{lifted(from.x(), from.y()), lifted(to.x(), to.y()), lifted(-1, 1.5)};
-  const fem::ElementMaps maps = fem::transformed(fem::spatial_beam(place, section, {strain}), testing::turn_dofs(Q, 2));
+  const fem::ElementMaps maps =
+      fem::transformed(fem::spatial_beam(place, section, {strain}), testing::rotation_dofs(Q, 2));
 
   const std::vector<int> in{0, 1, 5, 6, 7, 11}, out{2, 3, 4, 8, 9, 10};
   const MatrixXd K = maps.stiffness(), M = maps.mass_matrix();
@@ -130,7 +131,7 @@ TEST_CASE("the six rigid motions bring no force; nothing else is without energy"
   for (const auto& g : maps.membrane) CHECK((g.G * rigid.leftCols(3)).norm() < 1e-13);  // translations: no slope
   for (const auto& g : maps.membrane)
     CHECK((g.G * rigid * (VectorXd(6) << 0, 0, 0, oblique.to - oblique.from).finished()).norm() <
-          1e-13);  // a turn about the beam neither
+          1e-13);  // a rotation about the beam neither
 }
 
 TEST_CASE("spatial element: force is the gradient of the energy, tangent that of the force") {
@@ -164,7 +165,7 @@ TEST_CASE("a turned element is the element in turned axes") {
   const fem::ElementMaps here = fem::spatial_beam(oblique, s, {MembraneStrain::averaged, true});
   const fem::BeamPlace place{Q * oblique.from, Q * oblique.to, Q * oblique.orientation};
   const fem::ElementMaps there =
-      fem::transformed(fem::spatial_beam(place, s, {MembraneStrain::averaged, true}), testing::turn_dofs(Q, 2));
+      fem::transformed(fem::spatial_beam(place, s, {MembraneStrain::averaged, true}), testing::rotation_dofs(Q, 2));
   CHECK(relative_error(there.stiffness(), here.stiffness()) < 1e-13);
   CHECK(relative_error(there.mass_matrix(), here.mass_matrix()) < 1e-13);
   CHECK(relative_error(there.membrane[0].L, here.membrane[0].L) < 1e-13);
@@ -243,7 +244,7 @@ TEST_CASE("the line of a spatial element has its length, its place and the textb
   // unit load along z through the shear centre: half to each node, ry = -+l^2/12, and its arm y_S about x
   body::Inertia centre(3, 12);
   for (const auto& point : fem::spatial_beam_line(oblique, s, s.shear_centre)) centre.add(point);
-  const VectorXd load = testing::turn_dofs(axes, 2).transpose() * (centre.S.transpose() * axes.col(2));
+  const VectorXd load = testing::rotation_dofs(axes, 2).transpose() * (centre.S.transpose() * axes.col(2));
   const double h = l / 2, m = l * l / 12, t = h * s.shear_centre[0];
   CHECK(relative_error(load, (VectorXd(12) << 0, 0, h, t, -m, 0, 0, 0, h, t, m, 0).finished()) < 1e-13);
 }

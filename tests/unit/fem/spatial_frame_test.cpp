@@ -107,9 +107,9 @@ TEST_CASE("holding in space: what joints leave free, and conditions that make K 
   const Kind kind = GENERATE(Kind::pinned, Kind::clamped, Kind::mean_axis);
   const fem::Structure s = mixed();
   const fem::ReferenceFrame frame = frame_of(s, kind);
-  const fem::Conditions held = testing::dofs_of(s, c.nodes, c.directions);
-  const fem::Holding holding = fem::holding(s, frame, held);
-  CHECK(holding.held == held);
+  const fem::Conditions constrained = testing::dofs_of(s, c.nodes, c.directions);
+  const fem::Holding holding = fem::holding(s, frame, constrained);
+  CHECK(holding.constrained == constrained);
   REQUIRE(holding.left.cols() == c.left);
   const MatrixXd rigid = columns(s, frame.rigid), free = rigid * holding.left;
   if (c.left > 0) CHECK(free.colPivHouseholderQr().rank() == c.left);
@@ -117,8 +117,8 @@ TEST_CASE("holding in space: what joints leave free, and conditions that make K 
     for (int d : c.directions)
       if (c.left > 0) CHECK(free.row(6 * node + d).cwiseAbs().maxCoeff() < 1e-12);
   CHECK(std::is_sorted(holding.statics.begin(), holding.statics.end()));
-  CHECK(std::includes(holding.statics.begin(), holding.statics.end(), held.begin(), held.end()));
-  CHECK(holding.statics.size() == held.size() + static_cast<std::size_t>(c.left));
+  CHECK(std::includes(holding.statics.begin(), holding.statics.end(), constrained.begin(), constrained.end()));
+  CHECK(holding.statics.size() == constrained.size() + static_cast<std::size_t>(c.left));
   // K is regular: positive definite on the complement of the rigid motions, so that it is enough that none is left
   MatrixXd rows(static_cast<Eigen::Index>(holding.statics.size()), 6);
   for (int i = 0; i < 6; ++i) {

@@ -84,7 +84,7 @@ TEST_CASE(
   const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, Spread::shuffled);
   const std::vector<PetscInt> nodes{0, 11, 20};
   const std::vector<int> directions{0, 4, 5};
-  const fem::Conditions held = testing::dofs_of(s, nodes, directions);
+  const fem::Conditions constrained = testing::dofs_of(s, nodes, directions);
   VectorXd x = Random(54).vector(s.dofs()), without = x;
   for (PetscInt node : nodes)
     for (int d : directions) without[6 * node + d] = 0;
@@ -99,8 +99,8 @@ TEST_CASE(
       }
     CHECK(testing::relative_error(found, expected) < 1e-13);
   };
-  check(fem::stiffness(s, held), fem::stiffness(s, {}), true);
-  check(fem::mass(s, held), fem::mass(s, {}), false);
+  check(fem::stiffness(s, constrained), fem::stiffness(s, {}), true);
+  check(fem::mass(s, constrained), fem::mass(s, {}), false);
 }
 
 TEST_CASE("six rigid motions bring no force and carry mass, first and second moments") {

@@ -47,17 +47,17 @@ TEST_CASE("assembled K and M are the sums over the elements, on any number of ra
 
 TEST_CASE("conditions empty their rows and columns; the stiffness keeps a positive diagonal there, the mass none") {
   const fem::Structure s = angle(PETSC_COMM_WORLD), alone = angle(PETSC_COMM_SELF);
-  const fem::Conditions held{0, 1, 11, 20};
+  const fem::Conditions constrained{0, 1, 11, 20};
   Eigen::MatrixXd K = dense(alone, &fem::ElementMaps::stiffness), M = dense(alone, &fem::ElementMaps::mass_matrix);
-  for (PetscInt dof : held)
+  for (PetscInt dof : constrained)
     for (auto* A : {&K, &M}) A->row(dof).setZero(), A->col(dof).setZero();
-  Eigen::MatrixXd found = columns(s, fem::stiffness(s, held));
-  for (PetscInt dof : held) {
+  Eigen::MatrixXd found = columns(s, fem::stiffness(s, constrained));
+  for (PetscInt dof : constrained) {
     CHECK(found(dof, dof) > 0);
     found(dof, dof) = 0;
   }
   CHECK(testing::relative_error(found, K) < 1e-14);
-  CHECK(testing::relative_error(columns(s, fem::mass(s, held)), M) < 1e-14);
+  CHECK(testing::relative_error(columns(s, fem::mass(s, constrained)), M) < 1e-14);
 }
 
 TEST_CASE("rigid motions of a structure bring no force and carry its mass") {

@@ -23,7 +23,7 @@ TEST_CASE("a rigid arm carries u + theta x arm, and forces back with their momen
   const VectorXd f = fem::rigid_arm(arm).transpose() * (VectorXd(6) << force, moment).finished();
   CHECK((f.head<3>() - force).norm() == 0);
   CHECK((f.tail<3>() - (moment + arm.cross(force))).norm() < 1e-14);
-  // in the plane: the same with arm and turn in it
+  // in the plane: the same with arm and rotation in it
   const Vector3d flat = fem::rigid_arm(Eigen::Vector2d(1, 2)) * Vector3d(0.1, 0.2, 0.6);
   CHECK((flat - Vector3d(0.1 - 0.6 * 2, 0.2 + 0.6 * 1, 0.6)).norm() < 1e-15);
 }
@@ -58,15 +58,15 @@ TEST_CASE("an element on other dofs has the same energy, mass and derivative") {
 }
 
 TEST_CASE("an element of a rigid region is not strained by a rotation, to second order") {
-  const Vector3d nodes[] = {{0.2, -0.1, 0}, {1.3, 0.2, 0.1}, {0.5, 0.9, 0}}, leader(-0.4, 0.7, 1.1);
+  const Vector3d nodes[] = {{0.2, -0.1, 0}, {1.3, 0.2, 0.1}, {0.5, 0.9, 0}}, independent_node(-0.4, 0.7, 1.1);
   fem::ShellSection section = fem::shell_section({{fem::isotropic(1e4, 0.3, 2), 0.1, 0}});
   section.strains = fem::Strains::second_order;
   const fem::ElementMaps maps = fem::shell_triangle({nodes[0], nodes[1], nodes[2]}, section);
   MatrixXd T(18, 6);
   std::vector<fem::RigidArm> arms;
   for (int i = 0; i < 3; ++i) {
-    T.middleRows<6>(6 * i) = fem::rigid_arm(Vector3d(nodes[i] - leader));
-    arms.push_back({6 * i, 3, nodes[i] - leader});
+    T.middleRows<6>(6 * i) = fem::rigid_arm(Vector3d(nodes[i] - independent_node));
+    arms.push_back({6 * i, 3, nodes[i] - independent_node});
   }
   const VectorXd q = Random(54).vector(6);
   const auto membrane = [&](const fem::ElementMaps& of) {  // strains of the membrane, and drilling

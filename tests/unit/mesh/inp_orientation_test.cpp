@@ -56,8 +56,8 @@ TEST_CASE("cylindrical orientations give each shell the direction at its centre"
     CHECK((found[1] - tangent(67.5)).norm() < 1e-5);
     CHECK_THAT(file.notices.back(), Contains("cylindrical orientations have 2 different directions"));
   }
-  const auto turned = directions(read(tube(cylinder("1, 90.\n"), composite)));
-  for (const auto& direction : turned) CHECK((direction - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
+  const auto rotated = directions(read(tube(cylinder("1, 90.\n"), composite)));
+  for (const auto& direction : rotated) CHECK((direction - Eigen::Vector3d::UnitZ()).norm() < 1e-9);
   const auto radial = directions(read(tube(cylinder("3, 0.\n"), composite)));
   CHECK((radial.at(0) - Eigen::Vector3d(std::cos(M_PI / 8), std::sin(M_PI / 8), 0)).norm() < 1e-5);
 }

@@ -135,9 +135,9 @@ TEST_CASE("beams have sections by numbers and by shapes") {
 }
 
 TEST_CASE("beams have orientations by grid, in displacement axes, and by default") {
-  const std::string bar = "PBAR,5,1,.01,3.-6,2.-6,1.-6\n", turned = "CORD2R,1,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n";
+  const std::string bar = "PBAR,5,1,.01,3.-6,2.-6,1.-6\n", rotated = "CORD2R,1,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n";
   const auto direction = [&](const std::string& cards) {
-    const auto file = read("orient.bdf", square + bar + turned + cards);
+    const auto file = read("orient.bdf", square + bar + rotated + cards);
     REQUIRE(file.deck.beam_sections.size() == 1);
     return file.deck.beam_sections[0].direction_1;
   };

@@ -9,9 +9,9 @@ using Pairs = std::vector<std::array<PetscInt, 2>>;
 
 namespace {
 
-Pairs joined(const std::vector<Follower>& links, const std::vector<std::vector<PetscInt>>& pieces) {
+Pairs joined(const std::vector<DependentNode>& links, const std::vector<std::vector<PetscInt>>& pieces) {
   Pairs pairs;
-  for (const Follower& f : with_pieces(links, pieces)) pairs.push_back({f.node, f.leader});
+  for (const DependentNode& f : with_pieces(links, pieces)) pairs.push_back({f.node, f.independent_node});
   return pairs;
 }
 
@@ -25,7 +25,7 @@ TEST_CASE("a piece is led by a node of its middle, pieces with a common node are
 }
 
 TEST_CASE("a piece that touches a rigid link is led by the link's reference") {
-  const std::vector<Follower> links{{4, 20}, {5, 20}, {6, 21}};
+  const std::vector<DependentNode> links{{4, 20}, {5, 20}, {6, 21}};
   CHECK(joined(links, {}) == Pairs{{4, 20}, {5, 20}, {6, 21}});
   CHECK(joined(links, {{1, 2, 4}}) == Pairs{{1, 20}, {2, 20}, {4, 20}, {5, 20}, {6, 21}});
   CHECK(joined(links, {{5, 6}}) == Pairs{{4, 20}, {5, 20}, {6, 20}, {21, 20}});
@@ -33,27 +33,28 @@ TEST_CASE("a piece that touches a rigid link is led by the link's reference") {
 
 TEST_CASE("a hinge line is led by what it touches, else by a node that is preferred, else by one of its middle") {
   const std::array<double, 3> x{1, 0, 0}, y{0, 1, 0};
-  const auto led = [](const std::vector<Follower>& links, const std::vector<HingeLine>& lines,
+  const auto led = [](const std::vector<DependentNode>& links, const std::vector<HingeLine>& lines,
                       const std::vector<PetscInt>& preferred) {
-    Pairs turning;
-    for (const Follower& f : with_lines(links, lines, preferred))
-      if (f.spins()) turning.push_back({f.node, f.leader});
-    return turning;
+    Pairs rotating;
+    for (const DependentNode& f : with_lines(links, lines, preferred))
+      if (f.spins()) rotating.push_back({f.node, f.independent_node});
+    return rotating;
   };
   CHECK(led({}, {{{9, 3, 5}, x}}, {}) == Pairs{{3, 5}, {9, 5}});
   CHECK(led({}, {{{9, 3, 5}, x}}, {9, 11}) == Pairs{{3, 9}, {5, 9}});
   CHECK(led({}, {{{1, 2, 3}, x}, {{3, 4, 5}, y}}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
   CHECK(led({}, {{{1, 2, 3}, x}, {{2, 3, 4}, x}}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}});
-  const std::vector<Follower> links{{4, 20}, {5, 20}, {6, 21}};
+  const std::vector<DependentNode> links{{4, 20}, {5, 20}, {6, 21}};
   CHECK(with_lines(links, {}).size() == 3);
   CHECK(led(links, {{{1, 2, 4}, x}}, {1}) == Pairs{{1, 20}, {2, 20}});
   CHECK(led(links, {{{1, 20, 4}, x}}, {}) == Pairs{{1, 20}});
   CHECK_THROWS_WITH(led(links, {{{1, 4, 6}, x, "s.yaml:3: joints.a"}}, {}),
                     Catch::StartsWith("s.yaml:3: joints.a: its edge has nodes in common with two others"));
   CHECK_THROWS_AS(led({}, {{{1, 2, 3}, x}, {{3, 4, 5}, y}, {{5, 6, 7}, x}}, {}), floe::InputError);
-  const HingeLine held{{3, 4, 5}, y, "", true}, apart{{8, 9}, x, "", true};  // by the ground
-  CHECK(led({}, {{{1, 2, 3}, x}, held, {{5, 6, 7}, x}, apart}, {}) == Pairs{{1, 2}, {3, 2}, {5, 6}, {7, 6}, {8, 9}});
-  CHECK(led({}, {{{1, 2, 3}, x}, held}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
+  const HingeLine constrained{{3, 4, 5}, y, "", true}, apart{{8, 9}, x, "", true};  // by the ground
+  CHECK(led({}, {{{1, 2, 3}, x}, constrained, {{5, 6, 7}, x}, apart}, {}) ==
+        Pairs{{1, 2}, {3, 2}, {5, 6}, {7, 6}, {8, 9}});
+  CHECK(led({}, {{{1, 2, 3}, x}, constrained}, {}) == Pairs{{1, 3}, {2, 3}, {4, 3}, {5, 3}});
 }
 
 TEST_CASE("hinge lines of one holder that meet are one rigid rim, led by a corner") {
@@ -62,12 +63,12 @@ TEST_CASE("hinge lines of one holder that meet are one rigid rim, led by a corne
   const HingeLine bottom{{1, 2, 3}, x, "s.yaml:3: joints.a", true, "ground"},
       right{{3, 6, 9}, y, "s.yaml:4: joints.b", true, "ground"},
       top{{7, 8, 9}, x, "s.yaml:5: joints.c", true, "ground"}, left{{1, 4, 7}, y, "s.yaml:6: joints.d", true, "ground"};
-  const auto led = [](const std::vector<Follower>& links, const std::vector<HingeLine>& lines,
+  const auto led = [](const std::vector<DependentNode>& links, const std::vector<HingeLine>& lines,
                       const std::vector<PetscInt>& preferred, bool spins) {
-    Pairs followers;
-    for (const Follower& f : with_lines(links, lines, preferred))
-      if (f.spins() == spins) followers.push_back({f.node, f.leader});
-    return followers;
+    Pairs dependent_nodes;
+    for (const DependentNode& f : with_lines(links, lines, preferred))
+      if (f.spins() == spins) dependent_nodes.push_back({f.node, f.independent_node});
+    return dependent_nodes;
   };
   CHECK(led({}, {bottom, right}, {}, true) == Pairs{{1, 3}, {2, 3}, {6, 3}, {9, 3}});
   CHECK(led({}, {bottom, right}, {}, false).empty());
@@ -76,7 +77,7 @@ TEST_CASE("hinge lines of one holder that meet are one rigid rim, led by a corne
   CHECK(led({}, {top, bottom, right, left}, {7, 8}, true) == Pairs{{2, 7}, {4, 7}, {6, 7}, {8, 7}});
   CHECK(led({}, {top, bottom, right, left}, {7, 8}, false) == Pairs{{1, 7}, {3, 7}, {9, 7}});
   // a piece on the left leads the three others; its own nodes do not rotate by themselves
-  const std::vector<Follower> piece{{1, 4}, {7, 4}};
+  const std::vector<DependentNode> piece{{1, 4}, {7, 4}};
   CHECK(led(piece, {bottom, right, top}, {}, true) == Pairs{{2, 4}, {6, 4}, {8, 4}});
   CHECK(led(piece, {bottom, right, top}, {}, false) == Pairs{{1, 4}, {3, 4}, {7, 4}, {9, 4}});
   // parts of one line
@@ -88,6 +89,6 @@ TEST_CASE("hinge lines of one holder that meet are one rigid rim, led by a corne
   CHECK(with_lines({}, {bottom, right, flap}, {}, &left_out).size() == 2);
   CHECK(left_out == std::vector<std::string>{right.where, bottom.where});
   HingeLine lower = bottom, side = right;
-  lower.held = side.held = false, lower.holder = side.holder = "body hub";
+  lower.constrained = side.constrained = false, lower.holder = side.holder = "body hub";
   CHECK_THROWS_AS(with_lines({}, {lower, side, flap}, {}), floe::InputError);
 }

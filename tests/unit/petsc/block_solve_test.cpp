@@ -13,7 +13,7 @@ using petsc::check;
 
 namespace {
 
-/// Springs between neighbours on a grid of n by n, held by `ground` at each; the last rank may have no row.
+/// Springs between neighbours on a grid of n by n, constrained by `ground` at each; the last rank may have no row.
 petsc::MatHandle springs(PetscInt n, double ground, PetscInt own) {
   petsc::MatHandle A;
   check(MatCreate(PETSC_COMM_WORLD, A.out()));

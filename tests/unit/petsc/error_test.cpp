@@ -86,7 +86,7 @@ TEST_CASE("agree_if_parallel lets a rank that works for itself throw alone") {
     petsc::agree_if_parallel(PETSC_COMM_WORLD, true, [&] {
       if (mine) throw Other("alone");
     });
-  } catch (const Other&) {  // not turned into a RunError
+  } catch (const Other&) {  // not rotated into a RunError
     thrown = true;
   }
   CHECK(thrown == mine);

@@ -42,10 +42,10 @@ TEST_CASE("axes along directions: about a column that has to stay") {
   for (int kept = 0; kept < 3; ++kept) {
     const Vector3d across = (Q.col((kept + 1) % 3) - 3 * Q.col((kept + 2) % 3)).normalized(),
                    oblique = (Q.col(kept) + Q.col((kept + 1) % 3)).normalized();
-    const Matrix3d turned = plan::axes_along(Q, kept, {oblique, across});
-    check_rotation(turned);
-    CHECK(turned.col(kept) == Q.col(kept));
-    CHECK(off(turned, across) < 1e-15);
+    const Matrix3d rotated = plan::axes_along(Q, kept, {oblique, across});
+    check_rotation(rotated);
+    CHECK(rotated.col(kept) == Q.col(kept));
+    CHECK(off(rotated, across) < 1e-15);
     CHECK(plan::axes_along(Q, kept, {oblique}) == Q);
   }
 }

@@ -31,18 +31,18 @@ petsc::MatHandle diagonal(PetscInt n, const std::function<double(PetscInt)>& val
   return matrix(n, [&](PetscInt i, auto&& set) { set(i, value(i)); });
 }
 
-/// Springs of one in a row between n masses, the ends held or free.
-petsc::MatHandle chain(PetscInt n, bool held) {
+/// Springs of one in a row between n masses, the ends constrained or free.
+petsc::MatHandle chain(PetscInt n, bool constrained) {
   return matrix(n, [&](PetscInt i, auto&& set) {
     const bool end = i == 0 || i == n - 1;
-    set(i, end && !held ? 1 : 2);
+    set(i, end && !constrained ? 1 : 2);
     if (i > 0) set(i - 1, -1);
     if (i < n - 1) set(i + 1, -1);
   });
 }
 
-double of_chain(PetscInt n, int k, bool held) {
-  return 4 * std::pow(std::sin(k * std::numbers::pi / (2. * double(held ? n + 1 : n))), 2);
+double of_chain(PetscInt n, int k, bool constrained) {
+  return 4 * std::pow(std::sin(k * std::numbers::pi / (2. * double(constrained ? n + 1 : n))), 2);
 }
 
 petsc::EpsHandle solver(Mat K, Mat M, int count, double target = 0) {
@@ -95,9 +95,9 @@ void check_pairs(EPS eps, Mat K, Mat M, const std::vector<double>& expected) {
   }
 }
 
-std::vector<double> chain_values(PetscInt n, int count, bool held) {
+std::vector<double> chain_values(PetscInt n, int count, bool constrained) {
   std::vector<double> values;
-  for (int k = 1; k <= count; ++k) values.push_back(of_chain(n, k, held));
+  for (int k = 1; k <= count; ++k) values.push_back(of_chain(n, k, constrained));
   return values;
 }
 

@@ -8,7 +8,7 @@ namespace floe::testing {
 
 using Kind = fem::ReferenceFrame::Kind;
 
-/// A structure with its frame, held by joints, and what its reduction needs.
+/// A structure with its frame, constrained by joints, and what its reduction needs.
 struct Held {
   fem::Structure structure;
   fem::ReferenceFrame frame;
@@ -16,10 +16,10 @@ struct Held {
   reduction::Statics statics;
 
   /// Frame: origin at node 0, x axis through the last node (pinned).
-  Held(fem::Structure s, Kind kind, const fem::Conditions& held)
+  Held(fem::Structure s, Kind kind, const fem::Conditions& constrained)
       : structure(std::move(s)),
         frame(fem::reference_frame(structure, kind, 0, structure.mesh.node_count - 1)),
-        holding(fem::holding(structure, frame, held)),
+        holding(fem::holding(structure, frame, constrained)),
         statics(structure, frame, holding) {}
   Held(const Held&) = delete;
 

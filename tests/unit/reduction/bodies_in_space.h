@@ -4,20 +4,20 @@
 
 namespace floe::testing {
 
-/// A body in space with its frame, held by joints, and what its reduction needs.
-struct SpatiallyHeld {
+/// A body in space with its frame, constrained by joints, and what its reduction needs.
+struct SpatiallyConstrained {
   fem::Structure structure;
   fem::ReferenceFrame frame;
   fem::Holding holding;
   reduction::Statics statics;
 
   /// Frame: at original node 0. @param nodes  original numbers of those that are clamped
-  SpatiallyHeld(fem::Structure s, Kind kind, const std::vector<PetscInt>& nodes)
+  SpatiallyConstrained(fem::Structure s, Kind kind, const std::vector<PetscInt>& nodes)
       : structure(std::move(s)),
         frame(fem::reference_frame(structure, kind, fem::global_nodes(structure.mesh, {0})[0], 0)),
         holding(fem::holding(structure, frame, dofs_of(structure, nodes, {0, 1, 2, 3, 4, 5}))),
         statics(structure, frame, holding) {}
-  SpatiallyHeld(const SpatiallyHeld&) = delete;
+  SpatiallyConstrained(const SpatiallyConstrained&) = delete;
 
   reduction::Modes modes(int count) const {
     return reduction::vibration_modes(structure, frame, holding, statics, count);

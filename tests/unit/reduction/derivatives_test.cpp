@@ -17,13 +17,13 @@ fem::Structure paper_beam(MPI_Comm comm, PetscInt elements) {
   return testing::straight(comm, elements, 100, testing::paper_section());
 }
 
-/// The equilibrium of the held body under a load, by Newton on dense matrices.
-VectorXd equilibrium(const fem::Structure& s, const fem::Conditions& held, const VectorXd& load) {
+/// The equilibrium of the constrained body under a load, by Newton on dense matrices.
+VectorXd equilibrium(const fem::Structure& s, const fem::Conditions& constrained, const VectorXd& load) {
   VectorXd q = VectorXd::Zero(s.dofs());
   for (int iteration = 0; iteration < 8; ++iteration) {
     testing::FullElasticity at(s, q);
     VectorXd out = load - at.force;
-    for (PetscInt dof : held)
+    for (PetscInt dof : constrained)
       at.tangent.row(dof).setZero(), at.tangent.col(dof).setZero(), at.tangent(dof, dof) = 1, out[dof] = 0;
     q += at.tangent.ldlt().solve(out);
   }
@@ -34,18 +34,18 @@ VectorXd equilibrium(const fem::Structure& s, const fem::Conditions& held, const
 
 TEST_CASE("static derivatives are the second-order part of the equilibrium under K (eta_i phi_i + eta_j phi_j)") {
   // q(eta) = sum eta_i phi_i + 1/2 sum_ij eta_i eta_j theta_ij + ..., and the mixed difference gives theta_ij
-  const fem::Conditions held = GENERATE(fem::Conditions{0, 1, 2}, fem::Conditions{0, 1, 18, 19});
-  const Held body(paper_beam(PETSC_COMM_WORLD, 6), Kind::clamped, held);
+  const fem::Conditions constrained = GENERATE(fem::Conditions{0, 1, 2}, fem::Conditions{0, 1, 18, 19});
+  const Held body(paper_beam(PETSC_COMM_WORLD, 6), Kind::clamped, constrained);
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = reduction::vibration_modes(s, body.frame, body.holding, body.statics, 3);
   const petsc::MatHandle K = fem::stiffness(s, {});
-  // Differences are taken of the body as it is held (raw modes); the frame's projector then acts on the result.
+  // Differences are taken of the body as it is constrained (raw modes); the frame's projector then acts on the result.
   const reduction::Columns theta = reduction::static_derivatives(s, body.statics, modes.raw, reduction::all_pairs(3));
   const reduction::Pairs pairs = reduction::all_pairs(3);
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [i, j] = pairs[p];
     const VectorXd fi = testing::product(K, modes.raw[i]), fj = testing::product(K, modes.raw[j]);
-    const auto q = [&](double a, double b) { return equilibrium(s, held, a * fi + b * fj); };
+    const auto q = [&](double a, double b) { return equilibrium(s, constrained, a * fi + b * fj); };
     const auto second = [&](double h) -> VectorXd {
       return i == j ? VectorXd((q(h, 0) + q(-h, 0)) / (h * h))
                     : VectorXd((q(h, h) - q(h, -h) - q(-h, h) + q(-h, -h)) / (4 * h * h));
@@ -66,8 +66,9 @@ TEST_CASE("derivatives of hinged modes against the closed form") {
   const int n = 48;
   const bool fixed = GENERATE(true, false);
   const double pi = std::numbers::pi;
-  const fem::Conditions held = fixed ? fem::Conditions{0, 1, 3 * n, 3 * n + 1} : fem::Conditions{0, 1, 3 * n + 1};
-  const Held body(testing::straight(PETSC_COMM_WORLD, n, 1, {1e8, 1, 1, 0}), Kind::pinned, held);
+  const fem::Conditions constrained =
+      fixed ? fem::Conditions{0, 1, 3 * n, 3 * n + 1} : fem::Conditions{0, 1, 3 * n + 1};
+  const Held body(testing::straight(PETSC_COMM_WORLD, n, 1, {1e8, 1, 1, 0}), Kind::pinned, constrained);
   const reduction::Modes modes = reduction::vibration_modes(body.structure, body.frame, body.holding, body.statics, 3);
   const reduction::Pairs pairs = reduction::all_pairs(3);
   const reduction::Columns theta = reduction::static_derivatives(body.structure, body.statics, modes.shapes, pairs);
@@ -100,9 +101,9 @@ TEST_CASE("derivatives are solved under the joints' axial conditions") {
 }
 
 TEST_CASE("full derivatives satisfy eq. 10 and are M-orthogonal to their mode, as the joints hold the body") {
-  const fem::Conditions held = GENERATE(fem::Conditions{0, 1, 2}, fem::Conditions{0, 1, 24, 25});
+  const fem::Conditions constrained = GENERATE(fem::Conditions{0, 1, 2}, fem::Conditions{0, 1, 24, 25});
   const Kind kind = GENERATE(Kind::clamped, Kind::pinned, Kind::mean_axis);
-  const Held body(paper_beam(PETSC_COMM_WORLD, 8), kind, held);
+  const Held body(paper_beam(PETSC_COMM_WORLD, 8), kind, constrained);
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = reduction::vibration_modes(s, body.frame, body.holding, body.statics, 4);
   reduction::Pairs which;
@@ -119,15 +120,16 @@ TEST_CASE("full derivatives satisfy eq. 10 and are M-orthogonal to their mode, a
     const double lambda = modes.omega[i] * modes.omega[i];
     // theta stands in the frame; the rigid motion that brings it back under the joints is unique
     VectorXd raw = everywhere(theta[p]);
-    const VectorXd away = raw(held), back = rigid(held, Eigen::all).completeOrthogonalDecomposition().solve(away);
+    const VectorXd away = raw(constrained),
+                   back = rigid(constrained, Eigen::all).completeOrthogonalDecomposition().solve(away);
     raw -= rigid * back;
-    CHECK(raw(held).cwiseAbs().maxCoeff() <= 1e-9 * raw.cwiseAbs().maxCoeff());
+    CHECK(raw(constrained).cwiseAbs().maxCoeff() <= 1e-9 * raw.cwiseAbs().maxCoeff());
     const petsc::VecHandle load = fem::stiffness_derivative(s, modes.shapes[i], modes.shapes[j]);
     const double slope = everywhere(modes.shapes[i]).dot(everywhere(load));
     fem::balance(body.frame, load);
     VectorXd left = testing::product(K, theta[p]) - lambda * mass(raw);
     VectorXd right = slope * testing::product(M, modes.raw[i]) - everywhere(load);
-    for (PetscInt dof : held) left[dof] = right[dof] = 0;
+    for (PetscInt dof : constrained) left[dof] = right[dof] = 0;
     const double scale = everywhere(load).cwiseAbs().maxCoeff();
     INFO(i << "," << j);
     CHECK((left - right).cwiseAbs().maxCoeff() < 1e-8 * scale + 1e-9);
@@ -137,8 +139,8 @@ TEST_CASE("full derivatives satisfy eq. 10 and are M-orthogonal to their mode, a
 
 TEST_CASE("full derivatives are the derivatives of the modes of the deformed body") {
   // K(q) phi = omega^2 M phi at q = eta phi_j: differences of the mode i, by a dense eigenvalue solve
-  const fem::Conditions held{0, 1, 18, 19};
-  const Held body(paper_beam(PETSC_COMM_WORLD, 6), Kind::pinned, held);
+  const fem::Conditions constrained{0, 1, 18, 19};
+  const Held body(paper_beam(PETSC_COMM_WORLD, 6), Kind::pinned, constrained);
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = reduction::vibration_modes(s, body.frame, body.holding, body.statics, 2);
   reduction::Pairs which;
@@ -150,7 +152,7 @@ TEST_CASE("full derivatives are the derivatives of the modes of the deformed bod
   for (Eigen::Index c = 0; c < n; ++c) M.col(c) = testing::product(mass, testing::field_of(s, VectorXd::Unit(n, c)));
   std::vector<int> free;
   for (int dof = 0; dof < n; ++dof)
-    if (!std::count(held.begin(), held.end(), dof)) free.push_back(dof);
+    if (!std::count(constrained.begin(), constrained.end(), dof)) free.push_back(dof);
   const auto mode = [&](int i, const VectorXd& q) -> VectorXd {
     const Eigen::MatrixXd K = testing::FullElasticity(s, q).tangent;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K(free, free), M(free, free));

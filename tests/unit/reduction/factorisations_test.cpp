@@ -35,8 +35,8 @@ int factorisations() {
 }
 
 /// Of modes, more modes, and derivatives.
-int spent(Kind kind, const fem::Conditions& held) {
-  const Held body(straight(PETSC_COMM_WORLD, 10, 1, {1e4, 1, 1, 0}), kind, held);
+int spent(Kind kind, const fem::Conditions& constrained) {
+  const Held body(straight(PETSC_COMM_WORLD, 10, 1, {1e4, 1, 1, 0}), kind, constrained);
   const int before = factorisations();
   reduction::ModeSolver solver(body.structure, body.frame, body.holding, body.statics);
   const auto few = solver.solve(2), more = solver.solve(4);

@@ -9,13 +9,13 @@ using namespace floe;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 
 namespace {
 
-/// Equal round beams of length one that stick out of a hub, original node 0, in the plane z = 0. Held at the hub, the
-/// body has each frequency of one of them twice as often as there are beams.
+/// Equal round beams of length one that stick out of a hub, original node 0, in the plane z = 0. Constrained at the
+/// hub, the body has each frequency of one of them twice as often as there are beams.
 fem::Structure hub(MPI_Comm comm, int beams, int elements) {
   generate::Polyline lines{{{0, 0, 0}}, {}, {}, {}};
   for (int i = 0; i < beams; ++i) {
@@ -29,10 +29,10 @@ fem::Structure hub(MPI_Comm comm, int beams, int elements) {
 }
 
 /// All eigenvalues but those of rigid motions, from dense matrices under conditions.
-std::vector<double> dense_values(const SpatiallyHeld& body) {
-  const fem::Conditions& held = body.holding.held;
-  const MatrixXd M = testing::dense(body.structure, fem::mass(body.structure, held)),
-                 K = testing::dense(body.structure, fem::stiffness(body.structure, held)) + M;  // shifted by one
+std::vector<double> dense_values(const SpatiallyConstrained& body) {
+  const fem::Conditions& constrained = body.holding.constrained;
+  const MatrixXd M = testing::dense(body.structure, fem::mass(body.structure, constrained)),
+                 K = testing::dense(body.structure, fem::stiffness(body.structure, constrained)) + M;  // shifted by one
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> pairs(M, K, Eigen::EigenvaluesOnly);
   std::vector<double> lambda;
   for (Eigen::Index i = K.cols(); i-- > 0;)
@@ -40,9 +40,9 @@ std::vector<double> dense_values(const SpatiallyHeld& body) {
   return lambda;
 }
 
-void check_modes(const SpatiallyHeld& body, int count, const std::vector<double>& lambda) {
+void check_modes(const SpatiallyConstrained& body, int count, const std::vector<double>& lambda) {
   const reduction::Modes modes = body.modes(count);
-  const petsc::MatHandle M = fem::mass(body.structure, body.holding.held);
+  const petsc::MatHandle M = fem::mass(body.structure, body.holding.constrained);
   const petsc::VecHandle product = fem::field(body.structure);
   REQUIRE(std::ssize(modes.raw) == count);
   for (int i = 0; i < count; ++i) {
@@ -60,8 +60,8 @@ void check_modes(const SpatiallyHeld& body, int count, const std::vector<double>
 
 TEST_CASE("no mode is passed over where many have one frequency") {
   const auto [beams, elements] = GENERATE(std::pair{12, 3}, std::pair{16, 2});
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, beams, elements), Kind::clamped, {0});
-  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, elements), Kind::clamped, {0});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, beams, elements), Kind::clamped, {0});
+  const SpatiallyConstrained one(hub(PETSC_COMM_SELF, 1, elements), Kind::clamped, {0});
   std::vector<double> lambda;
   for (double value : dense_values(one)) lambda.insert(lambda.end(), beams, value);
   for (const int count : {4, beams, 2 * beams + 4, 3 * beams}) {
@@ -71,7 +71,7 @@ TEST_CASE("no mode is passed over where many have one frequency") {
 }
 
 TEST_CASE("no mode of a free body is passed over, its rigid motions are not counted") {
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 12, 2), Kind::mean_axis, {});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, 12, 2), Kind::mean_axis, {});
   const std::vector<double> lambda = dense_values(body);
   for (const int count : {6, 20, 40}) check_modes(body, count, lambda);
 }
@@ -81,15 +81,15 @@ using Given = std::map<std::string, std::string>;
 TEST_CASE("no mode is passed over where a cluster has more than a block, or the user's solver takes one by one") {
   const testing::Options options(GENERATE(as<Given>(), Given{}, Given{{"-modes_eps_type", "krylovschur"}},
                                           Given{{"-modes_eps_block_lanczos_size", "3"}}));
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 20, 6), Kind::clamped, {0});
-  const SpatiallyHeld one(hub(PETSC_COMM_SELF, 1, 6), Kind::clamped, {0});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, 20, 6), Kind::clamped, {0});
+  const SpatiallyConstrained one(hub(PETSC_COMM_SELF, 1, 6), Kind::clamped, {0});
   std::vector<double> lambda;
   for (double value : dense_values(one)) lambda.insert(lambda.end(), 20, value);
   check_modes(body, 30, lambda);
 }
 
 TEST_CASE("modes of one frequency are the same whether all of them are asked for or a few") {
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 30, 2), Kind::clamped, {0});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, 30, 2), Kind::clamped, {0});
   const reduction::Modes all = body.modes(120), some = body.modes(70);  // of 60 and 60
   CHECK(all.left_out == 0);
   CHECK(some.left_out == 50);
@@ -105,12 +105,12 @@ TEST_CASE("modes of one frequency are the same whether all of them are asked for
 }
 
 TEST_CASE("more modes of one frequency than are looked for are refused") {
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 160, 1), Kind::clamped, {0});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, 160, 1), Kind::clamped, {0});
   CHECK_THROWS_WITH(body.modes(3), Catch::Contains("modes 1 to 320 have the same frequency; ask for as many"));
 }
 
 TEST_CASE("an eigenvalue solver that finds rigid motions is refused") {
-  const SpatiallyHeld body(hub(PETSC_COMM_WORLD, 4, 2), Kind::mean_axis, {});
+  const SpatiallyConstrained body(hub(PETSC_COMM_WORLD, 4, 2), Kind::mean_axis, {});
   const testing::Options options(Given{{"-modes_eps_type", "lapack"}});
   CHECK_THROWS_WITH(body.modes(6), Catch::Contains("rigid motions"));
 }

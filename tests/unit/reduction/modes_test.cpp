@@ -26,7 +26,7 @@ reduction::Modes modes_of(const Held& body, int count) {
 TEST_CASE("bending frequencies beta^2 of beams, exact to the mesh's own error") {
   struct Case {
     const char* name;
-    fem::Conditions held;
+    fem::Conditions constrained;
     std::array<double, 3> beta2;
   };
   const double pi2 = std::numbers::pi * std::numbers::pi, last = 3 * elements;
@@ -38,7 +38,7 @@ TEST_CASE("bending frequencies beta^2 of beams, exact to the mesh's own error") 
                     Case{"free-free", {}, {22.373285448, 61.672822868, 0}});
   INFO(c.name);
   const Kind kind = GENERATE(Kind::pinned, Kind::mean_axis);
-  const Held body(unit_beam(PETSC_COMM_WORLD), kind, c.held);
+  const Held body(unit_beam(PETSC_COMM_WORLD), kind, c.constrained);
   const reduction::Modes modes = modes_of(body, 3);
   // cubic elements: relative error of omega (beta h)^4 / 1440
   for (int i = 0; i < 3 && c.beta2[i] > 0; ++i)
@@ -64,14 +64,14 @@ TEST_CASE("the paper's cantilever with rotary inertia") {
 }
 
 TEST_CASE("modes satisfy K phi = omega^2 M phi, are M-orthonormal, and stand in the frame") {
-  const fem::Conditions held = GENERATE(fem::Conditions{}, fem::Conditions{0, 1, 2}, fem::Conditions{0, 1});
+  const fem::Conditions constrained = GENERATE(fem::Conditions{}, fem::Conditions{0, 1, 2}, fem::Conditions{0, 1});
   const Kind kind = GENERATE(Kind::pinned, Kind::mean_axis);
-  const Held body(testing::straight(PETSC_COMM_WORLD, 8, 100, testing::paper_section()), kind, held);
+  const Held body(testing::straight(PETSC_COMM_WORLD, 8, 100, testing::paper_section()), kind, constrained);
   const reduction::Modes modes = modes_of(body, 6);
-  const petsc::MatHandle K = fem::stiffness(body.structure, held), M = fem::mass(body.structure, held);
+  const petsc::MatHandle K = fem::stiffness(body.structure, constrained), M = fem::mass(body.structure, constrained);
   for (int i = 0; i < 6; ++i) {
     VectorXd Kphi = testing::product(K, modes.raw[i]);
-    for (PetscInt dof : held) Kphi[dof] = 0;
+    for (PetscInt dof : constrained) Kphi[dof] = 0;
     const double lambda = modes.omega[i] * modes.omega[i];
     CHECK(testing::relative_error(Kphi, lambda * testing::product(M, modes.raw[i])) < 1e-7);
     CHECK(modes.residual[i] < 1e-8);
@@ -99,9 +99,10 @@ TEST_CASE("mean axes: modes of the free body carry no momentum") {
 }
 
 TEST_CASE("the same frequencies and shapes on any number of ranks") {
-  const fem::Conditions held = GENERATE(fem::Conditions{}, fem::Conditions{0, 1, 2});
+  const fem::Conditions constrained = GENERATE(fem::Conditions{}, fem::Conditions{0, 1, 2});
   const auto beam = [](MPI_Comm comm) { return testing::straight(comm, 12, 100, testing::paper_section()); };
-  const Held all(beam(PETSC_COMM_WORLD), Kind::pinned, held), alone(beam(PETSC_COMM_SELF), Kind::pinned, held);
+  const Held all(beam(PETSC_COMM_WORLD), Kind::pinned, constrained),
+      alone(beam(PETSC_COMM_SELF), Kind::pinned, constrained);
   const reduction::Modes found = modes_of(all, 8), expected = modes_of(alone, 8);
   for (int i = 0; i < 8; ++i) {
     CHECK(found.omega[i] == Approx(expected.omega[i]).epsilon(1e-9));

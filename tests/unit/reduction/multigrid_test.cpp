@@ -29,8 +29,8 @@ Eigen::MatrixXd all(const reduction::Columns& columns, PetscInt dofs) {
 }
 
 /// Modes, then their derivatives.
-Eigen::MatrixXd columns_of(Kind kind, const std::vector<PetscInt>& held, std::vector<double>& omega) {
-  const SpatiallyHeld body(body_of(What::triangles, PETSC_COMM_WORLD, Spread::metis), kind, held);
+Eigen::MatrixXd columns_of(Kind kind, const std::vector<PetscInt>& constrained, std::vector<double>& omega) {
+  const SpatiallyConstrained body(body_of(What::triangles, PETSC_COMM_WORLD, Spread::metis), kind, constrained);
   const PetscInt dofs = body.structure.dofs();
   const reduction::Modes modes = body.modes(3);
   omega = modes.omega;
@@ -41,11 +41,11 @@ Eigen::MatrixXd columns_of(Kind kind, const std::vector<PetscInt>& held, std::ve
   return both;
 }
 
-void check_same(Kind kind, const std::vector<PetscInt>& held, std::map<std::string, std::string> options) {
+void check_same(Kind kind, const std::vector<PetscInt>& constrained, std::map<std::string, std::string> options) {
   std::vector<double> exact, omega;
-  const Eigen::MatrixXd direct = columns_of(kind, held, exact);
+  const Eigen::MatrixXd direct = columns_of(kind, constrained, exact);
   const Options set(std::move(options));
-  const Eigen::MatrixXd iterated = columns_of(kind, held, omega);
+  const Eigen::MatrixXd iterated = columns_of(kind, constrained, omega);
   for (std::size_t i = 0; i < exact.size(); ++i) CHECK(omega[i] == Approx(exact[i]).epsilon(1e-9));
   for (Eigen::Index j = 0; j < direct.cols(); ++j)
     CHECK((iterated.col(j) - direct.col(j)).norm() < 1e-6 * direct.col(j).norm());
@@ -55,7 +55,7 @@ void check_same(Kind kind, const std::vector<PetscInt>& held, std::map<std::stri
 
 TEST_CASE("the near null space of a body that nothing holds is that of its stiffness") {
   const What what = GENERATE(What::triangles, What::beams);
-  const SpatiallyHeld body(body_of(what, PETSC_COMM_WORLD, Spread::metis), Kind::mean_axis, {});
+  const SpatiallyConstrained body(body_of(what, PETSC_COMM_WORLD, Spread::metis), Kind::mean_axis, {});
   const petsc::MatHandle K = fem::stiffness(body.structure, {}), rows = reduction::for_multigrid(K, body.frame, {});
   MatNullSpace near = nullptr;
   PetscInt count = 0, block = 0;
@@ -87,8 +87,8 @@ TEST_CASE("so they do of a body that nothing holds") {
 }
 
 TEST_CASE("derivatives with inertia want a factor") {
-  const SpatiallyHeld body(small_plate(PETSC_COMM_WORLD, generate::ShellCells::triangles, Spread::metis), Kind::clamped,
-                           root_of_plate());
+  const SpatiallyConstrained body(small_plate(PETSC_COMM_WORLD, generate::ShellCells::triangles, Spread::metis),
+                                  Kind::clamped, root_of_plate());
   const reduction::Modes modes = body.modes(1);
   const Options set(multigrid("derivatives_"));
   reduction::Pairs which;

@@ -11,21 +11,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::body_of;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::What;
 
 namespace {
 
 /// A curved shell, clamped at a node, on modes and all their derivatives.
 struct Reduced {
-  SpatiallyHeld held;
+  SpatiallyConstrained constrained;
   reduction::Basis basis;
   body::FlexibleBody body;
   std::vector<char> follows;
   explicit Reduced(What what = What::curved, int modes = 4)
-      : held(body_of(what, PETSC_COMM_WORLD, testing::Spread::metis), Kind::clamped, {0}),
-        basis(held.basis(modes)),
-        body(reduction::project(held.structure, basis)) {
+      : constrained(body_of(what, PETSC_COMM_WORLD, testing::Spread::metis), Kind::clamped, {0}),
+        basis(constrained.basis(modes)),
+        body(reduction::project(constrained.structure, basis)) {
     for (const auto& origin : basis.origins)
       if (origin.kept) follows.push_back(origin.kind == reduction::ColumnOrigin::Kind::derivative);
   }

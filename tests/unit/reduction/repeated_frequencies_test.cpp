@@ -4,7 +4,7 @@
 
 using namespace floe;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 
 namespace {
@@ -38,9 +38,9 @@ TEST_CASE("modes of one frequency are the same on any partition, however many ar
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
   const int count = GENERATE(1, 2, 3, 5);
   const auto make = beam ? round_beam : square_plate;
-  const std::vector<PetscInt> held = beam ? std::vector<PetscInt>{0} : edges_of_plate();
-  const SpatiallyHeld all(make(PETSC_COMM_WORLD, spread), Kind::clamped, held),
-      alone(make(PETSC_COMM_SELF, Spread::last), Kind::clamped, held);
+  const std::vector<PetscInt> constrained = beam ? std::vector<PetscInt>{0} : edges_of_plate();
+  const SpatiallyConstrained all(make(PETSC_COMM_WORLD, spread), Kind::clamped, constrained),
+      alone(make(PETSC_COMM_SELF, Spread::last), Kind::clamped, constrained);
   const reduction::Modes found = all.modes(count), expected = alone.modes(count);
   INFO((beam ? "beam, " : "plate, ") << count);
   CHECK(found.left_out == expected.left_out);
@@ -54,7 +54,7 @@ TEST_CASE("modes of one frequency are the same on any partition, however many ar
 
 // The first translation that the two of a round beam share is along y: the first mode takes it, the second has none.
 TEST_CASE("modes of a round beam bend along y and z, and the one that the count leaves out is counted") {
-  const SpatiallyHeld body(round_beam(PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
+  const SpatiallyConstrained body(round_beam(PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
   for (const int count : {1, 2, 3, 4}) {
     const reduction::Modes modes = body.modes(count);
     INFO(count);

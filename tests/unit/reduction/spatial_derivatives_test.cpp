@@ -8,7 +8,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using generate::ShellCells;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 using testing::What;
 
@@ -23,7 +23,7 @@ What kind_of(bool beams) { return beams ? What::beams : What::triangles; }
 TEST_CASE("static derivatives in space solve K theta = -(dK/deta_j) phi_i under the joints, in the frame") {
   const bool beams = GENERATE(false, true);
   const Kind kind = GENERATE(Kind::clamped, Kind::mean_axis);
-  const SpatiallyHeld body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::shuffled), kind, root_of(beams));
+  const SpatiallyConstrained body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::shuffled), kind, root_of(beams));
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = body.modes(3);
   const reduction::Pairs pairs = reduction::all_pairs(3);
@@ -34,7 +34,7 @@ TEST_CASE("static derivatives in space solve K theta = -(dK/deta_j) phi_i under 
     fem::balance(body.frame, load);
     VectorXd left = testing::product(K, theta[p]), right = -testing::everywhere(load);
     const double scale = right.cwiseAbs().maxCoeff();
-    for (PetscInt dof : body.holding.held) left[dof] = right[dof] = 0;  // the joints' reactions
+    for (PetscInt dof : body.holding.constrained) left[dof] = right[dof] = 0;  // the joints' reactions
     CHECK((left - right).cwiseAbs().maxCoeff() < 1e-8 * scale);
     const VectorXd before = testing::everywhere(theta[p]);
     CHECK(before.norm() > 0);
@@ -46,9 +46,9 @@ TEST_CASE("static derivatives in space solve K theta = -(dK/deta_j) phi_i under 
 TEST_CASE("static derivatives in space are the same on any partition") {
   const bool beams = GENERATE(false, true);
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
-  const SpatiallyHeld all(body_of(kind_of(beams), PETSC_COMM_WORLD, spread), Kind::clamped, root_of(beams)),
+  const SpatiallyConstrained all(body_of(kind_of(beams), PETSC_COMM_WORLD, spread), Kind::clamped, root_of(beams)),
       alone(body_of(kind_of(beams), PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(beams));
-  const auto derivatives = [](const SpatiallyHeld& body) {
+  const auto derivatives = [](const SpatiallyConstrained& body) {
     std::vector<VectorXd> columns;
     for (const auto& theta :
          reduction::static_derivatives(body.structure, body.statics, body.modes(3).shapes, reduction::all_pairs(3)))
@@ -62,9 +62,10 @@ TEST_CASE("static derivatives in space are the same on any partition") {
 
 TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to their mode") {
   const bool beams = GENERATE(false, true);
-  const SpatiallyHeld body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::metis), Kind::clamped, root_of(beams));
+  const SpatiallyConstrained body(body_of(kind_of(beams), PETSC_COMM_WORLD, Spread::metis), Kind::clamped,
+                                  root_of(beams));
   const fem::Structure& s = body.structure;
-  const fem::Conditions& held = body.holding.held;
+  const fem::Conditions& constrained = body.holding.constrained;
   const reduction::Modes modes = body.modes(3);
   reduction::Pairs which;
   const reduction::Columns theta =
@@ -81,7 +82,7 @@ TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to thei
     const double slope = testing::everywhere(modes.shapes[i]).dot(f);
     VectorXd left = testing::product(K, theta[p]) - lambda * Mtheta,
              right = slope * testing::product(M, modes.raw[i]) - f;
-    for (PetscInt dof : held) left[dof] = right[dof] = 0;
+    for (PetscInt dof : constrained) left[dof] = right[dof] = 0;
     CHECK((left - right).cwiseAbs().maxCoeff() < 1e-7 * f.cwiseAbs().maxCoeff());
     CHECK(std::abs(testing::everywhere(modes.raw[i]).dot(Mtheta)) <
           1e-8 * std::sqrt(testing::everywhere(theta[p]).dot(Mtheta)));
@@ -90,7 +91,7 @@ TEST_CASE("full derivatives in space satisfy eq. 10 and are M-orthogonal to thei
 
 TEST_CASE("full derivatives in space are the derivatives of the modes of the deformed body") {
   // (K + eta dK/deta_j) phi = omega^2 M phi, the tangent's part of first order in eta: differences of a dense solve
-  const SpatiallyHeld body(body_of(What::beams, PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(true));
+  const SpatiallyConstrained body(body_of(What::beams, PETSC_COMM_SELF, Spread::last), Kind::clamped, root_of(true));
   const fem::Structure& s = body.structure;
   const reduction::Modes modes = body.modes(2);
   reduction::Pairs which;
@@ -107,7 +108,7 @@ TEST_CASE("full derivatives in space are the derivatives of the modes of the def
   };
   std::vector<int> free;
   for (int dof = 0; dof < s.dofs(); ++dof)
-    if (!std::count(body.holding.held.begin(), body.holding.held.end(), dof)) free.push_back(dof);
+    if (!std::count(body.holding.constrained.begin(), body.holding.constrained.end(), dof)) free.push_back(dof);
   for (std::size_t p = 0; p < theta.size(); ++p) {
     const auto [i, j] = which[p];
     const MatrixXd dK = first_order(modes.shapes[j]);
@@ -125,7 +126,7 @@ TEST_CASE("full derivatives in space are the derivatives of the modes of the def
 TEST_CASE("full derivatives in space have the same energies on any partition") {
   const bool beams = GENERATE(false, true);
   const auto energies = [&](MPI_Comm comm, Spread spread) {
-    const SpatiallyHeld body(body_of(kind_of(beams), comm, spread), Kind::clamped, root_of(beams));
+    const SpatiallyConstrained body(body_of(kind_of(beams), comm, spread), Kind::clamped, root_of(beams));
     reduction::Pairs which;
     const petsc::MatHandle K = fem::stiffness(body.structure, {});
     std::vector<double> all;

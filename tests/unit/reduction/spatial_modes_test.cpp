@@ -9,7 +9,7 @@ using Eigen::VectorXd;
 using generate::ShellCells;
 using testing::body_of;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 using testing::What;
 
@@ -26,7 +26,7 @@ VectorXd dense_eigenvalues(const fem::Structure& s, double shift) {
 
 TEST_CASE("a free body in space has six zero modes, which are deflated, and elastic modes that carry no momentum") {
   const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed);
-  const SpatiallyHeld body(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::mean_axis, {});
+  const SpatiallyConstrained body(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::mean_axis, {});
   const fem::Structure alone = body_of(what, PETSC_COMM_SELF, Spread::last);
   const int count = 6;
   const reduction::Modes modes = body.modes(count);
@@ -50,11 +50,11 @@ TEST_CASE("a free body in space has six zero modes, which are deflated, and elas
 
 TEST_CASE("frequencies and shapes of bodies in space are the same on any partition") {
   const What what = GENERATE(What::triangles, What::quadrilaterals, What::beams, What::mixed);
-  const bool held = GENERATE(false, true);
+  const bool constrained = GENERATE(false, true);
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
-  const std::vector<PetscInt> root = held ? std::vector<PetscInt>{0} : std::vector<PetscInt>{};
-  const Kind kind = held ? Kind::clamped : Kind::mean_axis;
-  const SpatiallyHeld all(body_of(what, PETSC_COMM_WORLD, spread), kind, root),
+  const std::vector<PetscInt> root = constrained ? std::vector<PetscInt>{0} : std::vector<PetscInt>{};
+  const Kind kind = constrained ? Kind::clamped : Kind::mean_axis;
+  const SpatiallyConstrained all(body_of(what, PETSC_COMM_WORLD, spread), kind, root),
       alone(body_of(what, PETSC_COMM_SELF, Spread::last), kind, root);
   const int count = 6;
   const reduction::Modes found = all.modes(count), expected = alone.modes(count);
@@ -67,29 +67,29 @@ TEST_CASE("frequencies and shapes of bodies in space are the same on any partiti
 
 TEST_CASE("modes of a body in space satisfy K phi = omega^2 M phi under its joints") {
   const What what = GENERATE(What::quadrilaterals, What::beams);
-  const SpatiallyHeld body(body_of(what, PETSC_COMM_WORLD, Spread::metis), Kind::clamped, {0, 5});
+  const SpatiallyConstrained body(body_of(what, PETSC_COMM_WORLD, Spread::metis), Kind::clamped, {0, 5});
   const reduction::Modes modes = body.modes(4);
-  const petsc::MatHandle K = fem::stiffness(body.structure, body.holding.held),
-                         M = fem::mass(body.structure, body.holding.held);
+  const petsc::MatHandle K = fem::stiffness(body.structure, body.holding.constrained),
+                         M = fem::mass(body.structure, body.holding.constrained);
   for (int i = 0; i < 4; ++i) {
     VectorXd left = testing::product(K, modes.raw[i]);
-    for (PetscInt dof : body.holding.held) left[dof] = 0;
+    for (PetscInt dof : body.holding.constrained) left[dof] = 0;
     const double lambda = modes.omega[i] * modes.omega[i];
     CHECK(testing::relative_error(left, lambda * testing::product(M, modes.raw[i])) < 1e-6);
-    for (PetscInt dof : body.holding.held) CHECK(testing::everywhere(modes.raw[i])[dof] == 0);
+    for (PetscInt dof : body.holding.constrained) CHECK(testing::everywhere(modes.raw[i])[dof] == 0);
   }
 }
 
 // Rotations about a shell's normal have no mass: what the eigenvalue solver leaves there in high modes has to go.
 TEST_CASE("high modes of a shell are those of a dense solver, without what the mass does not see") {
-  const SpatiallyHeld body(
+  const SpatiallyConstrained body(
       testing::small_plate(PETSC_COMM_WORLD, GENERATE(ShellCells::triangles, ShellCells::quadrilaterals),
                            Spread::metis),
       Kind::clamped, testing::root_of_plate());
   const int count = 40;
   const reduction::Modes modes = body.modes(count);
-  const petsc::MatHandle K = fem::stiffness(body.structure, body.holding.held),
-                         M = fem::mass(body.structure, body.holding.held);
+  const petsc::MatHandle K = fem::stiffness(body.structure, body.holding.constrained),
+                         M = fem::mass(body.structure, body.holding.constrained);
   const MatrixXd k = testing::dense(body.structure, K), m = testing::dense(body.structure, M);
   const VectorXd expected =
       Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(m, k).eigenvalues().reverse().head(count).cwiseInverse();
@@ -108,9 +108,9 @@ TEST_CASE("more modes than elastic dofs of a body in space are refused, free or 
     return testing::structure_of(generate::polyline(PETSC_COMM_WORLD, {{{0, 0, 0}, {1, 0, 0}}, {}, {2}, {}}), {section},
                                  Spread::last);
   };
-  const SpatiallyHeld free(beam(), Kind::mean_axis, {}), held(beam(), Kind::clamped, {0});
+  const SpatiallyConstrained free(beam(), Kind::mean_axis, {}), constrained(beam(), Kind::clamped, {0});
   CHECK_THROWS_AS(free.modes(13), InputError);
-  CHECK_THROWS_AS(held.modes(13), InputError);
-  CHECK(held.modes(12).omega.size() == 12);
+  CHECK_THROWS_AS(constrained.modes(13), InputError);
+  CHECK(constrained.modes(12).omega.size() == 12);
   CHECK(free.modes(12).omega.size() == 12);
 }

@@ -9,7 +9,7 @@ using Eigen::VectorXd;
 using generate::ShellCells;
 using testing::body_of;
 using testing::Kind;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 using testing::What;
 
@@ -17,13 +17,13 @@ namespace {
 
 /// Clamped at original node 0, on its modes and all their derivatives.
 struct Reduced {
-  SpatiallyHeld held;
+  SpatiallyConstrained constrained;
   reduction::Basis basis;
   body::FlexibleBody body;
   Reduced(What what, MPI_Comm comm, Spread spread, int modes)
-      : held(body_of(what, comm, spread), Kind::clamped, {0}),
-        basis(held.basis(modes)),
-        body(reduction::project(held.structure, basis)) {}
+      : constrained(body_of(what, comm, spread), Kind::clamped, {0}),
+        basis(constrained.basis(modes)),
+        body(reduction::project(constrained.structure, basis)) {}
 };
 
 VectorXd force_of(const body::Elasticity& e, const VectorXd& eta) {
@@ -40,25 +40,25 @@ TEST_CASE("reduced energy and force of bodies in space equal the projected full 
                              What::linked_second_order, What::curved, What::curved_plate);
   const Reduced r(what, PETSC_COMM_WORLD, Spread::shuffled, 3);
   CHECK(r.basis.columns > 3);
-  const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
+  const MatrixXd V = testing::columns_in_originals(r.constrained.structure, r.basis);
   for (const double deflection : {1e-3, 0.05, 0.5}) {  // of a body of size 1: linear, moderate, far
     VectorXd eta = testing::Random(81).vector(V.cols());
     eta *= deflection / (V * eta).cwiseAbs().maxCoeff();
-    const testing::SpatialElasticity full(r.held.structure, V * eta);
+    const testing::SpatialElasticity full(r.constrained.structure, V * eta);
     CHECK(body::energy(r.body.elasticity, eta) == Approx(full.energy).epsilon(1e-11));
     CHECK(testing::relative_error(force_of(r.body.elasticity, eta), V.transpose() * full.force) < 1e-10);
   }
-  const MatrixXd K = testing::dense(r.held.structure, fem::stiffness(r.held.structure, {}));
+  const MatrixXd K = testing::dense(r.constrained.structure, fem::stiffness(r.constrained.structure, {}));
   CHECK(testing::relative_error(r.body.elasticity.linear_stiffness(), V.transpose() * K * V) < 1e-11);
 }
 
 TEST_CASE("reduced inertia constants of bodies in space are V' times those of the full body") {
   const What what = GENERATE(What::quadrilaterals, What::mixed, What::curved, What::curved_plate);
   const Reduced r(what, PETSC_COMM_WORLD, Spread::metis, 3);
-  const fem::Structure& s = r.held.structure;
+  const fem::Structure& s = r.constrained.structure;
   const MatrixXd V = testing::columns_in_originals(s, r.basis), M = testing::dense(s, fem::mass(s, {}));
   MatrixXd rigid(s.dofs(), 6);
-  for (int i = 0; i < 6; ++i) rigid.col(i) = testing::in_original_order(s, r.held.frame.rigid[i]);
+  for (int i = 0; i < 6; ++i) rigid.col(i) = testing::in_original_order(s, r.constrained.frame.rigid[i]);
   const MatrixXd mass = rigid.transpose() * M * rigid;
   const body::Inertia& in = r.body.inertia;
   REQUIRE(in.dimension() == 3);
@@ -80,7 +80,8 @@ TEST_CASE("reduced inertia constants of bodies in space are V' times those of th
     for (const auto& cell : s.mesh.cells) {
       MatrixXd pick = MatrixXd::Zero(static_cast<Eigen::Index>(s.cell_dofs(cell).size()), s.dofs());
       for (Eigen::Index i = 0; i < pick.rows(); ++i) pick(i, s.original_dof(s.cell_dofs(cell)[i])) = 1;
-      for (const body::RotatingMass& part : s.maps(cell).rotary) full.add(body::RotatingMass(part, part.turn * pick));
+      for (const body::RotatingMass& part : s.maps(cell).rotary)
+        full.add(body::RotatingMass(part, part.rotation * pick));
     }
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
@@ -136,11 +137,11 @@ TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place 
   same(r.body.elasticity.F.data(), r.body.elasticity.F.size());
   same(r.body.elasticity.bending.data(), r.body.elasticity.bending.size());
   same(r.body.inertia.S.data(), r.body.inertia.S.size());
-  const MatrixXd V = testing::columns_in_originals(r.held.structure, r.basis);
+  const MatrixXd V = testing::columns_in_originals(r.constrained.structure, r.basis);
   const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
   for (PetscInt original : {0, 7, 20}) {
-    const PetscInt node = fem::global_nodes(r.held.structure.mesh, {original})[0];
-    const body::PlaceMap place = reduction::place_map(r.held.structure, r.basis, node);
+    const PetscInt node = fem::global_nodes(r.constrained.structure.mesh, {original})[0];
+    const body::PlaceMap place = reduction::place_map(r.constrained.structure, r.basis, node);
     CHECK(place.x == Eigen::VectorXd(raw.positions[original]));
     CHECK(place.S == V.middleRows(6 * original, 3));
     CHECK(place.psi == V.middleRows(6 * original + 3, 3));
@@ -149,8 +150,8 @@ TEST_CASE("a reduced body in space is the same to the bit on all ranks; a place 
 
 TEST_CASE("strains of second order: loads of derivatives are those of the elements, one by one") {
   const What what = GENERATE(What::second_order, What::linked_second_order);
-  const SpatiallyHeld held(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
-  const fem::Structure& s = held.structure;
+  const SpatiallyConstrained constrained(body_of(what, PETSC_COMM_WORLD, Spread::shuffled), Kind::clamped, {0});
+  const fem::Structure& s = constrained.structure;
   std::vector<petsc::VecHandle> fields;
   for (unsigned seed : {1u, 2u, 3u})
     fields.push_back(testing::field_of_originals(s, testing::Random(seed).vector(s.dofs())));

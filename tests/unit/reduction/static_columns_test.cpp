@@ -8,14 +8,14 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using testing::in_original_order;
-using testing::SpatiallyHeld;
+using testing::SpatiallyConstrained;
 using testing::Spread;
 
 namespace {
 
 Matrix3d oblique() { return Eigen::AngleAxisd(1.3, Vector3d(0.3, -0.7, 1.1).normalized()).toRotationMatrix(); }
 
-/// Two slender members at an angle, turned by R, clamped at original node 0: r/L = 1e-4.
+/// Two slender members at an angle, rotated by R, clamped at original node 0: r/L = 1e-4.
 fem::Structure bent(MPI_Comm comm, const Matrix3d& R) {
   const generate::Polyline lines{
       {{0, 0, 0}, R * Vector3d(1, 0, 0), R * Vector3d(1.8, 0.4, 0.5)}, {{0, 1}, {1, 2}}, {5, 4}, {}};
@@ -37,7 +37,7 @@ struct Asked {
   VectorXd load;  // by original dofs
 };
 
-reduction::Generators generators(const SpatiallyHeld& body, int modes, const std::vector<Asked>& asked) {
+reduction::Generators generators(const SpatiallyConstrained& body, int modes, const std::vector<Asked>& asked) {
   std::vector<reduction::Attachment> attachments;
   for (const Asked& each : asked)
     attachments.push_back({each.label, testing::field_of_originals(body.structure, each.load), {}});
@@ -51,7 +51,7 @@ std::vector<Asked> unit_forces(const fem::Structure& s, PetscInt node, const std
 }
 
 /// What the basis lacks of the response to a load, of it. Collective.
-double missing(const SpatiallyHeld& body, const reduction::Basis& basis, const VectorXd& load) {
+double missing(const SpatiallyConstrained& body, const reduction::Basis& basis, const VectorXd& load) {
   const fem::Structure& s = body.structure;
   reduction::Columns loads;
   loads.push_back(testing::field_of_originals(s, load));
@@ -66,7 +66,7 @@ double missing(const SpatiallyHeld& body, const reduction::Basis& basis, const V
 
 TEST_CASE("unit forces on an oblique slender frame: the basis holds the response along a member") {
   const Matrix3d R = oblique();
-  const SpatiallyHeld body(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0});
+  const SpatiallyConstrained body(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0});
   const fem::Structure& s = body.structure;
   std::vector<Asked> asked = unit_forces(s, knee, "knee");
   for (Asked& each : unit_forces(s, end, "end")) asked.push_back(std::move(each));
@@ -83,9 +83,9 @@ TEST_CASE("unit forces on an oblique slender frame: the basis holds the response
 
 TEST_CASE("static columns of an oblique body are the same on any number of ranks") {
   const Matrix3d R = oblique();
-  const SpatiallyHeld all(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0}),
+  const SpatiallyConstrained all(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0}),
       alone(bent(PETSC_COMM_SELF, R), testing::Kind::clamped, {0});
-  const auto columns = [](const SpatiallyHeld& body) {
+  const auto columns = [](const SpatiallyConstrained& body) {
     const reduction::Generators g = generators(body, 0, unit_forces(body.structure, knee, "knee"));
     REQUIRE(g.fields.size() == 3);
     MatrixXd U(body.structure.dofs(), 3);
@@ -97,7 +97,7 @@ TEST_CASE("static columns of an oblique body are the same on any number of ranks
 }
 
 TEST_CASE("static columns that need no difference of loads are the responses themselves") {
-  const SpatiallyHeld body(bent(PETSC_COMM_WORLD, Matrix3d::Identity()), testing::Kind::clamped, {0});
+  const SpatiallyConstrained body(bent(PETSC_COMM_WORLD, Matrix3d::Identity()), testing::Kind::clamped, {0});
   const fem::Structure& s = body.structure;
   const reduction::Generators g = generators(body, 0, unit_forces(s, knee, "knee"));
   REQUIRE(g.fields.size() == 3);
@@ -112,7 +112,7 @@ TEST_CASE("static columns that need no difference of loads are the responses the
 
 TEST_CASE("loads that repeat others, or do nothing, are told with their reason") {
   const Matrix3d R = oblique();
-  const SpatiallyHeld body(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0});
+  const SpatiallyConstrained body(bent(PETSC_COMM_WORLD, R), testing::Kind::clamped, {0});
   const fem::Structure& s = body.structure;
   std::vector<Asked> asked = unit_forces(s, knee, "knee");
   asked.push_back({"again.fy", 3 * asked[1].load});

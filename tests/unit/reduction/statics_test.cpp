@@ -43,17 +43,18 @@ TEST_CASE("three members that meet in a rigid knot share its moment as 3 EI/l, 4
   const double EI = 0.7, M = 0.3;
   const fem::Segments star{{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {4, 0, 0}}, {{0, 1}, {2, 1}, {1, 3}}, {2, 4, 6}};
   const fem::Mesh mesh = fem::mesh_of(PETSC_COMM_WORLD, star);
-  const fem::BeamSection stiff{1e9, EI, 1, 0};  // members that do not stretch: the knot only turns
+  const fem::BeamSection stiff{1e9, EI, 1, 0};  // members that do not stretch: the knot only rotates
   const auto node = [&](double x, double y) { return fem::nearest_node(mesh, {x, y, 0}).node; };
-  fem::Conditions held;
-  for (PetscInt n : {node(0, 0), node(1, 2), node(4, 0)}) held.insert(held.end(), {3 * n, 3 * n + 1, 3 * n + 2});
-  std::sort(held.begin(), held.end());
+  fem::Conditions constrained;
+  for (PetscInt n : {node(0, 0), node(1, 2), node(4, 0)})
+    constrained.insert(constrained.end(), {3 * n, 3 * n + 1, 3 * n + 2});
+  std::sort(constrained.begin(), constrained.end());
   const Held body(fem::planar_structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped,
-                  held);
+                  constrained);
   const PetscInt knot = 3 * node(1, 0);
   CHECK(response(body, knot + 2, M)[knot + 2] == Approx(M / (4 * EI * (1 / 1. + 1 / 2. + 1 / 3.))).epsilon(1e-7));
   // the far end of the second member hinged: 3 EI/l of it
-  fem::Conditions hinged = held;
+  fem::Conditions hinged = constrained;
   hinged.erase(std::find(hinged.begin(), hinged.end(), 3 * node(1, 2) + 2));
   const Held other(fem::planar_structure(mesh, {stiff, stiff, stiff}, fem::MembraneStrain::averaged), Kind::clamped,
                    hinged);

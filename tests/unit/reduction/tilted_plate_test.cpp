@@ -12,7 +12,7 @@ using generate::ShellCells;
 
 namespace {
 
-/// A thin cantilever plate, 2 x 1 x 0.002, turned by R, on four modes and all their derivatives.
+/// A thin cantilever plate, 2 x 1 x 0.002, rotated by R, on four modes and all their derivatives.
 struct Cantilever {
   fem::Structure structure;
   fem::ReferenceFrame frame;
@@ -48,8 +48,8 @@ struct Cantilever {
         body(reduction::project(structure, basis)) {}
 };
 
-/// The columns, each displacement and rotation turned by R.
-MatrixXd turned(const Matrix3d& R, MatrixXd columns) {
+/// The columns, each displacement and rotation rotated by R.
+MatrixXd rotated(const Matrix3d& R, MatrixXd columns) {
   for (Eigen::Index i = 0; i < columns.rows(); i += 3) columns.middleRows(i, 3) = (R * columns.middleRows(i, 3)).eval();
   return columns;
 }
@@ -68,7 +68,7 @@ TEST_CASE("a tilted plate reduces to the same body as one in a coordinate plane"
   CHECK(flat.body.elasticity.pairs.size() == 10);  // of the four modes; their derivatives stay in the plane
   REQUIRE(tilted.body.elasticity.pairs == flat.body.elasticity.pairs);
 
-  const MatrixXd V = turned(R, testing::columns_in_originals(flat.structure, flat.basis)),
+  const MatrixXd V = rotated(R, testing::columns_in_originals(flat.structure, flat.basis)),
                  W = testing::columns_in_originals(tilted.structure, tilted.basis);
   VectorXd sign(V.cols());  // the rule for signs looks at the axes
   for (Eigen::Index j = 0; j < V.cols(); ++j) sign[j] = V.col(j).dot(W.col(j)) < 0 ? -1 : 1;
@@ -109,9 +109,9 @@ TEST_CASE("the mass matrix is shared, conditions take a copy, and a spoilt one i
   const fem::Structure s = testing::mixed_structure(PETSC_COMM_WORLD, testing::Spread::metis);
   const petsc::MatHandle first = fem::mass(s, {});
   const VectorXd x = testing::Random(3).vector(s.dofs()), y = testing::product_in_originals(s, first, x);
-  const petsc::MatHandle held = fem::mass(s, {0, 1, 8}), second = fem::mass(s, {});
+  const petsc::MatHandle constrained = fem::mass(s, {0, 1, 8}), second = fem::mass(s, {});
   CHECK(first.get() == second.get());
-  CHECK(held.get() != first.get());
+  CHECK(constrained.get() != first.get());
   CHECK(testing::product_in_originals(s, second, x) == y);
   petsc::check(MatScale(first, 2));
   CHECK(testing::relative_error(testing::product_in_originals(s, fem::mass(s, {}), x), y) < 1e-15);

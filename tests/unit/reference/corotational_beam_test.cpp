@@ -30,8 +30,8 @@ struct State {
   VectorXd q, v, a;
 };
 
-/// Deflected by tenths of a radian, turned by `turn`, moving.
-State some_state(unsigned seed, double turn) {
+/// Deflected by tenths of a radian, rotated by `rotation`, moving.
+State some_state(unsigned seed, double rotation) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> number(-1, 1);
   const auto vector = [&](double size) {
@@ -39,9 +39,9 @@ State some_state(unsigned seed, double turn) {
   };
   State state{vector(0.2), vector(3), vector(20)};
   const Vector2d d = X2 - X1;
-  state.q.segment<2>(3) += Eigen::Rotation2Dd(turn) * d - d;
-  state.q[2] += turn;
-  state.q[5] += turn;
+  state.q.segment<2>(3) += Eigen::Rotation2Dd(rotation) * d - d;
+  state.q[2] += rotation;
+  state.q[5] += rotation;
   return state;
 }
 
@@ -84,8 +84,8 @@ void check_derivative(const MatrixXd& exact, const std::function<VectorXd(const 
 
 TEST_CASE("corotational beam: the static force is the gradient of the energy", "[corotational]") {
   const auto beam = stocky_beam();
-  for (const double turn : {0.3, 3.1, -7.9}) {
-    State s = some_state(1, turn);
+  for (const double rotation : {0.3, 3.1, -7.9}) {
+    State s = some_state(1, rotation);
     s.v.setZero(), s.a.setZero();
     check_derivative(
         residual(beam, s).transpose(),
@@ -99,8 +99,8 @@ TEST_CASE("corotational beam: the static force is the gradient of the energy", "
 
 TEST_CASE("corotational beam: the tangent is the derivative of the residual", "[corotational]") {
   const auto beam = GENERATE(true, false) ? viscous_beam() : stocky_beam();
-  for (const double turn : {0.3, 3.1, -7.9}) {
-    const State s = some_state(2, turn);
+  for (const double rotation : {0.3, 3.1, -7.9}) {
+    const State s = some_state(2, rotation);
     check_derivative(
         tangent(beam, s, {1, 0, 0}),
         [&](const VectorXd& q) {
@@ -125,8 +125,8 @@ TEST_CASE("corotational beam: viscous forces take power from strain rates alone"
     const VectorXd q = s.q + t * s.v;
     const Vector2d d = X2 - X1, now = d + q.segment<2>(3) - q.head<2>();
     const double beta = std::atan2(d[0] * now[1] - d[1] * now[0], d.dot(now)), whole = 2 * std::numbers::pi;
-    const double turns = beta + whole * std::round(((q[2] + q[5]) / 2 - beta) / whole);
-    const double a1 = q[2] - turns, a2 = q[5] - turns;
+    const double rotations = beta + whole * std::round(((q[2] + q[5]) / 2 - beta) / whole);
+    const double a1 = q[2] - rotations, a2 = q[5] - rotations;
     return Eigen::Vector3d(now.norm() / length - 1 + (2 * a1 * a1 - a1 * a2 + 2 * a2 * a2) / 30, a1, a2);
   };
   const double h = 1e-4;
@@ -165,7 +165,8 @@ TEST_CASE("corotational beam: its mass is that of its inertia forces", "[corotat
 TEST_CASE("corotational beam: kinetic energy equals quadrature of the moving body", "[corotational]") {
   const auto beam = stocky_beam();
   const State s = some_state(3, 1.1);
-  const auto place = [&](double xi, double t) -> Eigen::Vector3d {  // of a point of the line, and turn of its section
+  const auto place = [&](double xi,
+                         double t) -> Eigen::Vector3d {  // of a point of the line, and rotation of its section
     const VectorXd q = s.q + t * s.v;
     const Vector2d r1 = X1 + q.head<2>(), r2 = X2 + q.segment<2>(3), e = (r2 - r1).normalized(), d = X2 - X1;
     const double beta = std::atan2(e[1], e[0]) - std::atan2(d[1], d[0]);
@@ -220,19 +221,19 @@ TEST_CASE("corotational beam: rigid motion by any angle strains nothing and has 
   const Vector2d d = X2 - X1, shift(3, -2), velocity(0.7, -1.9);
   const double spin = 2.3, mass = stocky.rhoA * length, J = mass * length * length / 12 + stocky.rhoI * length;
   for (const double angle : {0.0, 1.0, std::numbers::pi, 6.2, -3.0, 20.0, -1234.5}) {
-    const Vector2d turned = Eigen::Rotation2Dd(angle) * d, half(-spin * turned[1] / 2, spin * turned[0] / 2);
+    const Vector2d rotated = Eigen::Rotation2Dd(angle) * d, half(-spin * rotated[1] / 2, spin * rotated[0] / 2);
     State s{VectorXd::Zero(6), VectorXd::Zero(6), VectorXd::Zero(6)};
-    s.q << shift, angle, shift + turned - d, angle;
+    s.q << shift, angle, shift + rotated - d, angle;
     s.v << velocity - half, spin, velocity + half, spin;
     CHECK(energy(beam, s).elastic < 1e-18);
     CHECK(energy(beam, s).kinetic == Approx(mass * velocity.squaredNorm() / 2 + J * spin * spin / 2).epsilon(1e-12));
-    CHECK(energy(beam, s).potential == Approx(-mass * gravity.dot(X1 + shift + turned / 2)).epsilon(1e-12));
+    CHECK(energy(beam, s).potential == Approx(-mass * gravity.dot(X1 + shift + rotated / 2)).epsilon(1e-12));
 
-    // steady turning: each half is held by its centripetal force, and gravity by half the weight at each end
-    s.a << spin * spin * turned / 2, 0, -spin * spin * turned / 2, 0;
+    // steady rotating: each half is constrained by its centripetal force, and gravity by half the weight at each end
+    s.a << spin * spin * rotated / 2, 0, -spin * spin * rotated / 2, 0;
     VectorXd expected = VectorXd::Zero(6);
-    const Vector2d pull = mass * spin * spin * turned / 12, weight = mass * gravity / 2;
-    const double moment = mass / 12 * (gravity[1] * turned[0] - gravity[0] * turned[1]);
+    const Vector2d pull = mass * spin * spin * rotated / 12, weight = mass * gravity / 2;
+    const double moment = mass / 12 * (gravity[1] * rotated[0] - gravity[0] * rotated[1]);
     expected << pull - weight, -moment, -pull - weight, moment;
     CHECK((residual(beam, s) - expected).norm() < 1e-10 * expected.norm());
   }

@@ -20,7 +20,7 @@ using testing::State;
 
 namespace {
 
-/// An element, its body turned somehow at rest.
+/// An element, its body rotated somehow at rest.
 struct Sample {
   mesh::CellKind kind;
   Matrix3Xd X;
@@ -189,11 +189,11 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
   const Near near(random, sample, 0.1);
   const CorotationalElement bent(sample.kind, places(sample, false, near.bases), sample.X, sample.elasticity);
   State one = state_of(random, near, 6 * sample.X.cols()), other = one;
-  const Eigen::Quaterniond turn = math::quaternion({1.3, -2.1, 0.8});
+  const Eigen::Quaterniond rotation = math::quaternion({1.3, -2.1, 0.8});
   std::vector<Eigen::Quaterniond> bases;
   for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
-    bases.push_back(turn * near.bases[i]);
-    other.q.segment<3>(6 * i) = turn * Vector3d(one.q.segment<3>(6 * i)) + v;
+    bases.push_back(rotation * near.bases[i]);
+    other.q.segment<3>(6 * i) = rotation * Vector3d(one.q.segment<3>(6 * i)) + v;
   }
   const VectorXd loads = testing::rows_of(bent, one);
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
@@ -204,10 +204,10 @@ TEST_CASE("corotational element in space: rigid motions cost nothing, and the fo
   }
   CHECK(force.norm() < 1e-12 * loads.norm());
   CHECK(moment.norm() < 1e-11 * loads.norm());
-  const CorotationalElement turned(sample.kind, places(sample, false, bases), sample.X, sample.elasticity);
-  const VectorXd f = testing::rows_of(bent, one), g = testing::rows_of(turned, other);
+  const CorotationalElement rotated(sample.kind, places(sample, false, bases), sample.X, sample.elasticity);
+  const VectorXd f = testing::rows_of(bent, one), g = testing::rows_of(rotated, other);
   for (Eigen::Index i = 0; i < sample.X.cols(); ++i) {
-    CHECK((g.segment<3>(6 * i) - turn * Vector3d(f.segment<3>(6 * i))).norm() < 1e-12 * f.norm());
+    CHECK((g.segment<3>(6 * i) - rotation * Vector3d(f.segment<3>(6 * i))).norm() < 1e-12 * f.norm());
     CHECK((g.segment<3>(6 * i + 3) - f.segment<3>(6 * i + 3)).norm() < 1e-12 * f.norm());
   }
 }

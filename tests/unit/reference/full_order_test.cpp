@@ -90,7 +90,7 @@ TEST_CASE("full-order tangents are the differences of the residual") {
   const FullOrder body(PETSC_COMM_WORLD, kind, force, 0.02, true);
   Random random(142);
   const VectorXd q = state(random, body.size), v = state(random, body.size), a = state(random, body.size);
-  // along a direction without multipliers or held dofs, which count with weight 1 whatever the weights
+  // along a direction without multipliers or constrained dofs, which count with weight 1 whatever the weights
   VectorXd d = state(random, body.size);
   d.tail(body.size - dofs - 3).setZero();
   for (PetscInt dof : body.frame.conditions) d[dof] = 0;
@@ -160,7 +160,7 @@ TEST_CASE("forces on dofs that the frame holds act on the frame and do not move 
   const int first = coordinates.add_shared(3);
   const reference::NodeCoordinates placed(coordinates, mesh, {});
   const dynamics::Marker root = reference::node_marker(frame.conditions, placed, first, 0, {0, 0, 0});
-  CHECK(root.S.norm() == 0);  // u and v of the origin's node are held, its rotation only by the clamped frame
+  CHECK(root.S.norm() == 0);  // u and v of the origin's node are constrained, its rotation only by the clamped frame
   CHECK(root.psi[2] == (kind == Kind::pinned ? 1 : 0));
   const dynamics::Marker tip = reference::node_marker(frame.conditions, placed, first, elements, {100, 0, 0});
   CHECK((tip.S(0, 0) == 1 && tip.S(1, 1) == (kind == Kind::pinned ? 0 : 1) && tip.psi[2] == 1));

@@ -160,8 +160,9 @@ TEST_CASE("lffr of a body from a file is the linear body, beside bodies of full 
   CHECK(linear.model.coordinates < full.model.coordinates);
   CHECK(relative_error(linear, full, "tip.x") < 0.01);
   CHECK(relative_error(linear, full, "bend.y") < 0.03);
-  const Pair held(plate, "plate", meshed_plate);
-  CHECK(relative_error(move(held.from_file, Formulation::lffr), move(held.meshed, Formulation::lffr), "tip.z") < 0.05);
+  const Pair constrained(plate, "plate", meshed_plate);
+  CHECK(relative_error(move(constrained.from_file, Formulation::lffr), move(constrained.meshed, Formulation::lffr),
+                       "tip.z") < 0.05);
 }
 
 TEST_CASE("formulations of full order name the body that has no mesh") {
@@ -173,11 +174,11 @@ TEST_CASE("formulations of full order name the body that has no mesh") {
 }
 
 TEST_CASE("frequencies of a body from a file are those of its mesh, and derivatives beside it are chosen by count") {
-  const Pair held(plate, "plate", meshed_plate);
+  const Pair constrained(plate, "plate", meshed_plate);
   const auto omega = [](const std::string& text) {
     return assembly::body_modes(scene::parse_scene(text, "scene"), PETSC_COMM_WORLD).at(0).omega;
   };
-  const std::vector<double> file = omega(held.from_file), mesh = omega(held.meshed);
+  const std::vector<double> file = omega(constrained.from_file), mesh = omega(constrained.meshed);
   REQUIRE(file.size() == mesh.size());
   for (std::size_t i = 0; i < file.size(); ++i) CHECK(file[i] == Approx(mesh[i]).epsilon(1e-10));
   const Pair arm(mechanism, "rod", fill(rod, {{"frame", "pinned"}, {"modal", "0.01"}}));

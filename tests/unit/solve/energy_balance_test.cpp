@@ -44,7 +44,7 @@ TEST_CASE("the work of a follower force on a pendulum is its moment times the an
   CHECK(balance.growth() < 1e-5 * F * l);
 }
 
-// The top's weight has no energy of its own here: its work is what its centre falls. Its frame turns in every step.
+// The top's weight has no energy of its own here: its work is what its centre falls. Its frame rotates in every step.
 TEST_CASE("the work of a force on a body in space, whose frame turns, is force times path") {
   const auto attitude = std::make_shared<dynamics::Attitude>();
   dynamics::Coordinates coordinates(PETSC_COMM_SELF);

@@ -17,8 +17,8 @@ using testing::vector_of;
 
 namespace {
 
-/// A rigid body in space whose place at `arm` from its frame is held to the ground there, in one of two ways, under a
-/// moment about z.
+/// A rigid body in space whose place at `arm` from its frame is constrained to the ground there, in one of two ways,
+/// under a moment about z.
 struct Held {
   std::shared_ptr<dynamics::Attitude> attitude = std::make_shared<dynamics::Attitude>();
   std::unique_ptr<dynamics::System> system;
@@ -75,15 +75,15 @@ TEST_CASE("equilibrium on a bushing that an arm hides: the turn M / k, or words,
         INFO("arm " << length << ", k " << k << ", about z " << about_z);
         const Held body(length * Vector3d(1, 0.3, 0.1), 10, bushing(k, about_z));
         const double hidden = k * length * length * PETSC_MACHINE_EPSILON / about_z;  // round-off of the arm's share
-        double turn = 10 / about_z;
+        double rotation = 10 / about_z;
         try {
-          turn = body.rest()[5];
+          rotation = body.rest()[5];
         } catch (const solve::NothingHolds&) {
           CHECK(hidden > 1e-3);
         } catch (const solve::LostInRoundOff&) {
           CHECK(hidden > 1e-3);
         }
-        CHECK(std::abs(turn - 10 / about_z) < 1e-6);
+        CHECK(std::abs(rotation - 10 / about_z) < 1e-6);
       }
 }
 

@@ -22,7 +22,7 @@ Exponents of_companion(const Quadratic& problem) {
   return {values.begin(), values.end()};
 }
 
-/// A disk of mass 1 on a massless shaft of stiffness k_x, k_y that turns at W, in axes that turn along (Jeffcott).
+/// A disk of mass 1 on a massless shaft of stiffness k_x, k_y that rotates at W, in axes that rotate along (Jeffcott).
 Quadratic jeffcott(double kx, double ky, double W, double internal = 0) {
   Quadratic problem{Matrix2d::Identity(), internal * Matrix2d::Identity(), Matrix2d::Zero()};
   problem.C += (Matrix2d() << 0, -2 * W, 2 * W, 0).finished();

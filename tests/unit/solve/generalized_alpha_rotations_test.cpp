@@ -9,11 +9,11 @@ using namespace floe::solve;
 using namespace floe::solve::testing;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using floe::testing::Turning;
+using floe::testing::Rotating;
 
 namespace {
 
-const Turning start_of_top{{1, 1.6, 2.2}, Vector3d::Zero(), floe::math::quaternion({0.3, -0.8, 0.5}), {0.4, 2, -0.6}};
+const Rotating start_of_top{{1, 1.6, 2.2}, Vector3d::Zero(), floe::math::quaternion({0.3, -0.8, 0.5}), {0.4, 2, -0.6}};
 
 Vector3d three(const Numbers& x) { return {x[0], x[1], x[2]}; }
 
@@ -60,7 +60,7 @@ struct Top {
   Quaterniond now(Vec U) const { return attitude.base * floe::math::quaternion(three(numbers(U))); }
 };
 
-/// Where the body's z axis passes the world's xy plane the spin is reversed, and the top turns back the way it came.
+/// Where the body's z axis passes the world's xy plane the spin is reversed, and the top rotates back the way it came.
 PetscErrorCode height(TS, PetscReal, Vec U, PetscScalar* value, void* context) {
   value[0] = (static_cast<Top*>(context)->now(U) * Vector3d::UnitZ()).z();
   return 0;
@@ -147,15 +147,15 @@ TEST_CASE("rotations: the estimate of a step's error is its error, relative to a
   check(TSSetTolerances(top.run.ts, PETSC_DECIDE, nullptr, rtol, nullptr));
   top.run.solve();
   const auto size = [](const Vector3d& x) { return std::sqrt(start_of_top.moments.dot(x.cwiseAbs2())); };
-  Turning last{start_of_top.moments, Vector3d::Zero(), Quaterniond::Identity(), start_of_top.w};
+  Rotating last{start_of_top.moments, Vector3d::Zero(), Quaterniond::Identity(), start_of_top.w};
   if (steps > 1) last.w = three(top.run.v[steps - 2]);
   const Vector3d error = three(top.run.u.back()) - floe::math::rotation_vector(last.after(h, 100).attitude);
-  Vector3d turned = Vector3d::Zero();
-  for (const Numbers& x : top.run.u) turned += three(x);
+  Vector3d rotated = Vector3d::Zero();
+  for (const Numbers& x : top.run.u) rotated += three(x);
   PetscInt order;
   PetscReal estimate;
   check(TSEvaluateWLTE(top.run.ts, NORM_2, &order, &estimate));
-  CHECK(estimate * rtol * size(turned) == Approx(size(error)).epsilon(0.05));
+  CHECK(estimate * rtol * size(rotated) == Approx(size(error)).epsilon(0.05));
 }
 
 TEST_CASE("rotations need both rebase and bracket") {

@@ -62,7 +62,7 @@ Problem hardening() {
 
 }  // namespace
 
-// The tension changes sign and the rod turns by half a circle within two steps: a Jacobian from before sends Newton
+// The tension changes sign and the rod rotates by half a circle within two steps: a Jacobian from before sends Newton
 // away from the solution.
 TEST_CASE("generalized-alpha: a step that a kept Jacobian leads astray is made with new ones") {
   const double step = GENERATE(0.1, 0.3, 0.6);

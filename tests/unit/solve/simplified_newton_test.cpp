@@ -147,7 +147,7 @@ PetscErrorCode to_present(SNES, Vec U, PetscBool, Vec y, void*) {
 TEST_CASE("simplified Newton with a kept Jacobian that is turned to U is Newton") {
   solve::register_simplified_newton();
   Solver newton(solve::simplified_newton, 1), kept(solve::simplified_newton, 100);
-  check(solve::set_turn(kept.snes, to_present, nullptr));
+  check(solve::set_rotation(kept.snes, to_present, nullptr));
   PetscInt iterations[2] = {0, 0};
   for (Solver* solver : {&newton, &kept}) {
     check(VecSet(solver->U, 1.5));

@@ -38,7 +38,7 @@ struct FreeBody {
 };
 
 /// A top that tumbles through its intermediate axis while its centre drifts.
-const testing::Turning start{moments, Vector3d::Zero(), math::quaternion({0.3, -0.8, 0.5}), {0.1, 2, -0.05}};
+const testing::Rotating start{moments, Vector3d::Zero(), math::quaternion({0.3, -0.8, 0.5}), {0.1, 2, -0.05}};
 const double horizon = 8;
 
 struct Error {
@@ -53,7 +53,7 @@ Error tumble(const solve::Integration& how) {
                          V = vector_of(*free.system, {1, 2, 3, start.w[0], start.w[1], start.w[2]});
   Error error{};
   error.report = solve::simulate(*free.system, how, U, V, [](const solve::Instant&) {});
-  const testing::Turning exact = start.after(horizon);
+  const testing::Rotating exact = start.after(horizon);
   const VectorXd q = numbers_of(U), v = numbers_of(V);
   error.attitude = (free.axes(q) - exact.attitude.toRotationMatrix()).norm();
   error.w = (v.tail<3>() - exact.w).norm();
@@ -64,7 +64,7 @@ Error tumble(const solve::Integration& how) {
 }  // namespace
 
 TEST_CASE("Euler's top tumbles through its intermediate axis: attitude and spin of order 2 against Runge-Kutta") {
-  const testing::Turning exact = start.after(horizon);  // the reference keeps momentum in world axes and energy
+  const testing::Rotating exact = start.after(horizon);  // the reference keeps momentum in world axes and energy
   const Matrix3d J = moments.asDiagonal();
   CHECK((exact.attitude * (J * exact.w) - start.attitude * (J * start.w)).norm() < 1e-11);
   CHECK(exact.w.dot(J * exact.w) == Approx(start.w.dot(J * start.w)).epsilon(1e-12));

@@ -17,7 +17,7 @@ namespace {
 const double m = 2, l = 0.5, g = 9.81;
 const Vector3d slender(0.2, 0.2, 0.3), centre(0, 0, l);
 
-/// A heavy top: unknowns (R, x, lambda), the frame at the mass centre, the point -centre held at the origin.
+/// A heavy top: unknowns (R, x, lambda), the frame at the mass centre, the point -centre constrained at the origin.
 struct Top {
   std::shared_ptr<dynamics::Attitude> attitude = std::make_shared<dynamics::Attitude>();
   std::unique_ptr<dynamics::System> system;
@@ -30,7 +30,7 @@ struct Top {
     coordinates.add_shared(3, true);
     coordinates.number();
     testing::Terms terms;
-    if (spring > 0) terms.push_back(std::make_unique<testing::TurningSpring>(attitude, towards, spring));
+    if (spring > 0) terms.push_back(std::make_unique<testing::TorsionalSpring>(attitude, towards, spring));
     terms.push_back(std::make_unique<dynamics::SpatialBody>(std::vector<int>{0, 1, 2, 3, 4, 5}, attitude,
                                                             testing::rigid(m, moments), testing::no_elasticity()));
     terms.push_back(std::make_unique<testing::HeavyOnPoint>(attitude, -centre, m * g));
@@ -41,12 +41,12 @@ struct Top {
 
 Vector3d about_point(const Vector3d& moments) { return moments + m * l * l * Vector3d(1, 1, 0); }
 
-testing::Turning turning(const Vector3d& moments, const Eigen::Quaterniond& at, const Vector3d& w) {
+testing::Rotating rotating(const Vector3d& moments, const Eigen::Quaterniond& at, const Vector3d& w) {
   return {about_point(moments), m * g * centre, at, w};
 }
 
 /// lambda = -m (R'' + g e_z) of a rotation about the origin.
-Vector3d held(const testing::Turning& now) {
+Vector3d constrained(const testing::Rotating& now) {
   const Vector3d wd = now.acceleration(now.attitude, now.w);
   return -m * (now.attitude * (wd.cross(centre) + now.w.cross(now.w.cross(centre))) + Vector3d(0, 0, g));
 }
@@ -58,13 +58,13 @@ struct Errors {
 };
 
 /// Against the motion `exact` at a tenth of the horizon each (lambda from the first step on).
-Errors spin(const Vector3d& moments, const testing::Turning& start, const solve::Integration& how) {
+Errors spin(const Vector3d& moments, const testing::Rotating& start, const solve::Integration& how) {
   Top top(moments, start.attitude);
   const Vector3d R = start.attitude * centre, Rd = start.attitude * start.w.cross(centre);
   const petsc::VecHandle U = vector_of(*top.system, {R[0], R[1], R[2], 0, 0, 0, 0, 0, 0}),
                          V = vector_of(*top.system, {Rd[0], Rd[1], Rd[2], start.w[0], start.w[1], start.w[2], 0, 0, 0});
   Errors errors;
-  testing::Turning exact = start;
+  testing::Rotating exact = start;
   double reached = 0;
   const auto report = solve::simulate(*top.system, how, U, V, [&](const solve::Instant& now) {
     if (now.step == 0) return;
@@ -73,7 +73,7 @@ Errors spin(const Vector3d& moments, const testing::Turning& start, const solve:
     const VectorXd q = numbers_of(now.U), v = numbers_of(now.V);
     errors.attitude = std::max(errors.attitude, (top.axes(q) - exact.attitude.toRotationMatrix()).norm());
     errors.w = std::max(errors.w, (v.segment<3>(3) - exact.w).norm());
-    errors.lambda = std::max(errors.lambda, (q.tail<3>() - held(exact)).norm());
+    errors.lambda = std::max(errors.lambda, (q.tail<3>() - constrained(exact)).norm());
     errors.constraint =
         std::max(errors.constraint, top.system->constraint_violation(now.t, now.U, now.V, ConstraintLevel::position));
   });
@@ -91,7 +91,7 @@ TEST_CASE("the steady heavy top precesses at the rate of the closed form") {
   const double tilt = 0.6, W = 1.5, J = about_point(slender).x();
   const double w3 = (m * g * l + J * W * W * std::cos(tilt)) / (slender.z() * W), end = 2;
   const Eigen::Quaterniond at = math::quaternion({tilt, 0, 0});
-  const testing::Turning start = turning(slender, at, {0, W * std::sin(tilt), w3});
+  const testing::Rotating start = rotating(slender, at, {0, W * std::sin(tilt), w3});
   const auto rate_error = [&](double step, Errors& errors) {
     errors = spin(slender, start, {end, step, 0.8, {}});
     const Vector3d axis = errors.end.col(2), azimuth(std::sin(W * end), -std::cos(W * end), 0);  // begins at -y
@@ -109,7 +109,7 @@ TEST_CASE("the steady heavy top precesses at the rate of the closed form") {
 
 TEST_CASE("a heavy top of three moments that nutates: order 2 in attitude, spin and multipliers from the first step") {
   const Vector3d moments(0.2, 0.25, 0.3);
-  const testing::Turning start = turning(moments, tilted, {1, -2, 12});
+  const testing::Rotating start = rotating(moments, tilted, {1, -2, 12});
   const double rho = GENERATE(0.8, 0.5, 0.0);
   const Errors coarse = spin(moments, start, {1.5, 0.004, rho, {}}), fine = spin(moments, start, {1.5, 0.002, rho, {}});
   INFO(rho << ": " << coarse.attitude << " " << fine.attitude << ", " << coarse.w << " " << fine.w << ", "
@@ -122,7 +122,7 @@ TEST_CASE("a heavy top of three moments that nutates: order 2 in attitude, spin 
 
 TEST_CASE("the multipliers of a heavy top have no error of order 1 in the first step") {
   const Vector3d moments(0.2, 0.25, 0.3);
-  const testing::Turning start = turning(moments, tilted, {1, -2, 12});
+  const testing::Rotating start = rotating(moments, tilted, {1, -2, 12});
   const double coarse = spin(moments, start, {0.002, 0.002, 0.8, {}}).lambda,
                fine = spin(moments, start, {0.001, 0.001, 0.8, {}}).lambda;
   INFO(coarse << " " << fine);
@@ -131,7 +131,7 @@ TEST_CASE("the multipliers of a heavy top have no error of order 1 in the first 
 
 TEST_CASE("adaptive steps of a heavy top: multipliers stay smooth through changes of the step") {
   const Vector3d moments(0.2, 0.25, 0.3);
-  const testing::Turning start = turning(moments, tilted, {1, -2, 12});
+  const testing::Rotating start = rotating(moments, tilted, {1, -2, 12});
   const Errors loose = spin(moments, start, {1.5, 1e-3, 0.8, 1e-4}),
                tight = spin(moments, start, {1.5, 1e-3, 0.8, 1e-6});
   INFO(loose.attitude << " " << tight.attitude << ", " << loose.lambda << " " << tight.lambda << ", " << loose.steps

@@ -108,7 +108,7 @@ TEST_CASE("equilibrium: a rod on a torsional hinge under its weight") {
 }
 
 TEST_CASE("equilibrium at a constant speed: a spring in a turning body stretches by w^2 h / (k - w^2 m)") {
-  // one elastic coordinate along x of a mass 3 at (2, 0), held by a spring of 50, turned at 1.7 rad/s
+  // one elastic coordinate along x of a mass 3 at (2, 0), constrained by a spring of 50, rotated at 1.7 rad/s
   body::Inertia sum(2, 1);
   sum.add({3, Eigen::Vector2d(2, 0), Eigen::Vector2d(1, 0)});
   const double w = 1.7, k = 50;

@@ -7,7 +7,7 @@ namespace floe::fem {
 /// independent. What the ground holds is at rest in it, so that it is fixed to the ground.
 /// @param dofs  of several nodes, global, the same on all ranks
 /// @throws InputError  they leave a rigid motion free. Collective.
-ReferenceFrame held_frame(const Structure& structure, const Conditions& dofs);
+ReferenceFrame constrained_frame(const Structure& structure, const Conditions& dofs);
 
 /// Whether every rigid motion moves one of the dofs. Collective.
 bool determine_rigid_motions(const Structure& structure, const Conditions& dofs);

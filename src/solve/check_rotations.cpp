@@ -45,7 +45,7 @@ std::vector<Index> angle_rows(const RotatingSystem& rotating, const std::vector<
                   what, expected));
 }
 
-/// The constraints' values and gradients at the configuration and at the turned one, and the forces there.
+/// The constraints' values and gradients at the configuration and at the rotated one, and the forces there.
 struct Trial {
   RotatingTangent here, there;
 };
@@ -53,30 +53,30 @@ struct Trial {
 Trial trial(const RotatingSystem& rotating, Vec U) {
   const System& system = rotating.system;
   const KeptState kept(system, U);
-  const petsc::VecHandle turned = system.create_vector();
-  petsc::check(VecCopy(U, turned));
-  VectorXd forces_aside = gather_to_all(system, turned);
+  const petsc::VecHandle rotated = system.create_vector();
+  petsc::check(VecCopy(U, rotated));
+  VectorXd forces_aside = gather_to_all(system, rotated);
   const std::vector<char> is_multiplier = multiplier_flags(system);
   for (Index i = 0; i < forces_aside.size(); ++i)
     if (is_multiplier[i]) forces_aside[i] = 0;
-  set(turned, forces_aside);
+  set(rotated, forces_aside);
   Trial out;
-  out.here = rotating_tangent(rotating, 0, turned);
-  turn(rotating, tried, turned);
-  out.there = rotating_tangent(rotating, 0, turned);
+  out.here = rotating_tangent(rotating, 0, rotated);
+  rotate(rotating, tried, rotated);
+  out.there = rotating_tangent(rotating, 0, rotated);
   kept.restore(U);
   for (auto* X : {&out.there.G, &out.there.K}) {
-    turn_rows(rotating, -tried, *X);
+    rotation_rows(rotating, -tried, *X);
     MatrixXd columns = X->transpose();
-    turn_rows(rotating, -tried, columns);
+    rotation_rows(rotating, -tried, columns);
     *X = columns.transpose();
   }
-  turn_rows(rotating, -tried, out.there.F);
+  rotation_rows(rotating, -tried, out.there.F);
   return out;
 }
 
 /// That K is the same at both configurations: bearings that are stiffer one way than the other make it periodic in
-/// rotating axes. Entries count as the forces that turns by one radian and what they move make.
+/// rotating axes. Entries count as the forces that rotations by one radian and what they move make.
 void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std::vector<char>& is_multiplier,
                      const VectorXd& reach, const std::vector<std::string>& names) {
   const VectorXd size = reach.asDiagonal() * at.here.K.cwiseAbs() * reach;  // of each row
@@ -97,7 +97,7 @@ void check_stiffness(const RotatingSystem& rotating, const Trial& at, const std:
 
 }  // namespace
 
-void check_turns(const RotatingSystem& rotating, Vec U) {
+void check_rotations(const RotatingSystem& rotating, Vec U) {
   const System& system = rotating.system;
   const PetscInt unknowns = system.coordinates().global_size();
   if (unknowns > largest_rotating_system)
@@ -110,8 +110,8 @@ void check_turns(const RotatingSystem& rotating, Vec U) {
   const std::vector<Index> angles = angle_rows(rotating, names);
   const Trial at = trial(rotating, U);
   const MassScale mass = mass_scale(rotating, at.here.M);
-  // what a coordinate moves where a frame turns by one radian
-  const VectorXd reach = mass.root.unaryExpr([&](double root) { return root > 0 ? mass.turn / root : 0.0; });
+  // what a coordinate moves where a frame rotates by one radian
+  const VectorXd reach = mass.root.unaryExpr([&](double root) { return root > 0 ? mass.rotation / root : 0.0; });
   const AllowedMotions allowed(system, at.here, mass.root);
   const MatrixXd lost = allowed.restrict_rows(at.there.G.transpose());
   for (Index i = 0; i < unknowns; ++i) {
@@ -119,7 +119,7 @@ void check_turns(const RotatingSystem& rotating, Vec U) {
     const double size = at.here.G.row(i).cwiseAbs() * reach;
     const bool met = std::abs(at.there.F[i] - at.here.F[i]) <= 1e-7 * size ||
                      std::find(angles.begin(), angles.end(), i) != angles.end();
-    if (!met || (size > 0 && lost.col(i).norm() * mass.turn > 1e-7 * size))
+    if (!met || (size > 0 && lost.col(i).norm() * mass.rotation > 1e-7 * size))
       refuse(names[i], "joints to the ground on the axis that leave the rotation about it free or drive it");
   }
   const VectorXd change = at.there.F - at.here.F, stiff = at.here.K.cwiseAbs() * reach;

@@ -1,4 +1,4 @@
-#include "tradeoff_ladder.h"
+#include "model_hierarchy.h"
 
 #include <fmt/format.h>
 
@@ -146,7 +146,7 @@ void add_selected(const Scene& scene, std::vector<Candidate>& members) {
 
 }  // namespace
 
-std::vector<Candidate> ladder(const Scene& as_written) {
+std::vector<Candidate> hierarchy(const Scene& as_written) {
   const Scene scene = at_equal_times(as_written);
   std::vector<Candidate> members;
   const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return !b.rigid; });

@@ -8,7 +8,7 @@ namespace floe::fem {
 namespace {
 
 /// Of the edges of a cell; values: six of each local node, in body axes.
-double greatest_sag(const Mesh& mesh, const Mesh::Cell& cell, const double* values) {
+double max_intra_deflection(const Mesh& mesh, const Mesh::Cell& cell, const double* values) {
   const auto corners = cell.corners();
   const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return mesh.positions[corners[i % corners.size()]]; };
   const auto rotation = [&](std::size_t i) {
@@ -25,12 +25,12 @@ double greatest_sag(const Mesh& mesh, const Mesh::Cell& cell, const double* valu
 
 }  // namespace
 
-Eigen::VectorXd sags(const Structure& structure, const FieldRows& fields) {
-  Eigen::ArrayXXd most = Eigen::ArrayXXd::Zero(fields.cols(), 2);  // sag, displacement
+Eigen::VectorXd intra_deflections(const Structure& structure, const FieldRows& fields) {
+  Eigen::ArrayXXd most = Eigen::ArrayXXd::Zero(fields.cols(), 2);  // deflect within an element, displacement
   for_each_field(structure, fields, [&](Eigen::Index j, const double* values) {
     for (const Mesh::Cell& cell : structure.mesh.cells)
       if (is_shell(cell) && !mesh::is_quadratic(cell.kind) && !cell.follows())
-        most(j, 0) = std::max(most(j, 0), greatest_sag(structure.mesh, cell, values));
+        most(j, 0) = std::max(most(j, 0), max_intra_deflection(structure.mesh, cell, values));
     for (std::size_t i = 0; i < structure.mesh.positions.size(); ++i)
       most(j, 1) = std::max(most(j, 1), Eigen::Map<const Eigen::Vector3d>(values + 6 * i).norm());
   });

@@ -1,27 +1,27 @@
-#include "floe/dynamics/held_body.h"
+#include "floe/dynamics/fixed_frame_body.h"
 
 namespace floe::dynamics {
 
-HeldBody::HeldBody(std::vector<int> coordinates, Eigen::MatrixXd mass, body::Elasticity elasticity,
-                   Eigen::MatrixXd damping)
+FixedFrameBody::FixedFrameBody(std::vector<int> coordinates, Eigen::MatrixXd mass, body::Elasticity elasticity,
+                               Eigen::MatrixXd damping)
     : coordinates_(std::move(coordinates)),
       mass_(std::move(mass)),
       damping_(std::move(damping)),
       elasticity_(std::move(elasticity)) {}
 
-void HeldBody::residual(const Motion& motion, Eigen::VectorXd& r) const {
+void FixedFrameBody::residual(const Motion& motion, Eigen::VectorXd& r) const {
   r.noalias() += mass_ * motion.a;
   body::add_force(elasticity_, motion.q, work_, r);
   if (damping_.size() > 0) r.noalias() += damping_ * motion.v;
 }
 
-void HeldBody::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
+void FixedFrameBody::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
   J += weights.a * mass_;
   if (weights.q != 0) body::add_tangent(elasticity_, motion.q, weights.q, work_, J);
   if (damping_.size() > 0) J += weights.v * damping_;
 }
 
-Energy HeldBody::energy(const Motion& motion) const {
+Energy FixedFrameBody::energy(const Motion& motion) const {
   return {0.5 * motion.v.dot(mass_ * motion.v), body::energy(elasticity_, motion.q), 0};
 }
 

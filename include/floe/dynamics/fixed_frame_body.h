@@ -10,12 +10,12 @@ namespace floe::dynamics {
 ///
 /// What the floating frame's couplings leave of FloatingBody when the frame is fixed to the ground; for any number of
 /// dimensions.
-class HeldBody final : public Term {
+class FixedFrameBody final : public Term {
  public:
   /// @param mass     k x k, symmetric [kg]
   /// @param damping  k x k, or empty for none
-  HeldBody(std::vector<int> coordinates, Eigen::MatrixXd mass, body::Elasticity elasticity,
-           Eigen::MatrixXd damping = {});
+  FixedFrameBody(std::vector<int> coordinates, Eigen::MatrixXd mass, body::Elasticity elasticity,
+                 Eigen::MatrixXd damping = {});
   const std::vector<int>& coordinates() const override { return coordinates_; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;

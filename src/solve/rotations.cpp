@@ -1,4 +1,4 @@
-#include "turns.h"
+#include "rotations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 
 namespace floe::solve {
 
-double greatest_turn(const System& system, Vec from, Vec to) {
+double max_rotation(const System& system, Vec from, Vec to) {
   const petsc::VecHandle by = system.create_vector();
   petsc::check(VecWAXPY(by, -1, from, to));
-  return turn_by(system, by);
+  return max_rotation_of_step(system, by);
 }
 
-double turn_by(const System& system, Vec step) {
+double max_rotation_of_step(const System& system, Vec step) {
   Eigen::VectorXd by;
   system.gather(step, by);
   double greatest = by.allFinite() ? 0 : INFINITY;
