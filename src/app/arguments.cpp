@@ -286,11 +286,13 @@ void add_campbell(CLI::App& app, Arguments& given, Work& work) {
   command->add_option("--modes", given.campbell.modes, "number of vibrations at each speed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  add_no_estimate(command, given);
   add_folder(command, given);
   command->callback([&given, &work] {
     work = [&given] {
       const scene::Formulation formulation = scene::formulation_of(given.formulation);
       const scene::Scene scene = read(given.scene);
+      given.campbell.estimate = !given.no_estimate;
       campbell_one(scene, formulation, PETSC_COMM_WORLD, given.campbell, new_folder(given, "campbell"));
     };
   });

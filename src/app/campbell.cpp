@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campbell_estimate.h"
+#include "campbell_tracks.h"
 #include "floe/assembly/rotation.h"
 #include "floe/assess/validity.h"
 #include "floe/output/progress.h"
@@ -65,7 +67,8 @@ double visit(const solve::RotatingSystem& rotating, double from, int modes, Vec 
     return from;
   }
   try {
-    point.vibrations = solve::vibrations(rotating, point.speed, U, modes);
+    for (solve::Vibration& one : solve::vibrations(rotating, point.speed, U, modes))
+      point.vibrations.push_back({std::move(one)});
   } catch (const RunError& error) {
     point.fault = error.what();
   }
@@ -136,6 +139,35 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
                     what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
 }
 
+/// Frequency errors at the fastest steady rotation, by a model on larger bases that comes there from rest.
+void estimate(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
+              CampbellDiagram& diagram) {
+  if (diagram.model.formulation != scene::Formulation::vm && diagram.model.formulation != scene::Formulation::vm_md)
+    return;
+  CampbellEstimate& estimate = diagram.estimate;
+  estimate.speed = speed;
+  const auto at = std::find_if(diagram.points.begin(), diagram.points.end(),
+                               [&](const CampbellPoint& point) { return point.steady && point.speed == speed; });
+  const std::optional<scene::Scene> larger = on_larger_bases(scene);
+  if (at == diagram.points.end() || !larger) {
+    estimate.missing = larger ? "no steady rotation" : "no body has a mesh from which a larger basis could be computed";
+    return;
+  }
+  CampbellPoint point{speed, {}, 0, {}};
+  try {
+    CampbellDiagram second{{}, diagram.axis, plan(*larger, scene::Formulation::vm_md, comm), {}};
+    estimate.coordinates = second.model.coordinates;
+    visit(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
+    estimate.missing = point.fault;
+  } catch (const InputError& error) {
+    estimate.missing = error.what();
+  } catch (const RunError& error) {
+    estimate.missing = error.what();
+  }
+  if (estimate.missing.empty())
+    estimate.errors = frequency_errors(*at, {point.vibrations.begin(), point.vibrations.end()});
+}
+
 }  // namespace
 
 CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm,
@@ -167,17 +199,20 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
     output::Progress progress(comm, 0, static_cast<double>(speeds.size()));
     double from = 0, fastest = 0;
     std::vector<solve::State> state;
+    CampbellTracks tracks;
     for (const double speed : speeds) {
       CampbellPoint point{speed, {}, 0, {}};
       from = visit(rotating, from, request.modes, diagram.model.U, point);
       if (point.steady && std::abs(speed) >= std::abs(fastest))
         fastest = speed, state = {state_at(diagram.model, diagram.axis, speed)};
       warn_of_jump(point, diagram);
+      tracks.follow(point);
       diagram.points.push_back(std::move(point));
       progress.update(static_cast<double>(diagram.points.size()), static_cast<PetscInt>(diagram.points.size()));
       interruption.check(comm);
     }
     warn(fastest, state, comm, diagram.model);
+    if (request.estimate) estimate(given, look ? with_hub(given, *hub) : given, request.modes, fastest, comm, diagram);
     check_instability(given, look ? with_hub(given, *hub) : given, request.modes, comm, diagram);
   } catch (const std::exception&) {
     fault = std::current_exception();

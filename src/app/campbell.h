@@ -17,6 +17,7 @@ struct CampbellRequest {
   std::string speeds;                         ///< `from:to:step` or `a,b,c` [rad/s]
   std::optional<std::string> about, through;  ///< `x,y,z`, brackets as one likes
   int modes = 6;
+  bool estimate = true;  ///< of the frequencies of reduced models
 };
 
 /// `from:to:step` or `a,b,c`, at most 10000 numbers. @throws what `fault` makes of what is wrong
@@ -27,21 +28,42 @@ std::vector<double> parse_speeds(const std::string& text);
 /// @param option  for messages  @throws InputError  not two or three numbers
 Eigen::Vector3d parse_point(const std::string& text, const std::string& option);
 
+/// A vibration, and its number among those that are followed from speed to speed.
+struct TrackedVibration : solve::Vibration {
+  int track = 0;         ///< from 1 on; 0: without oscillation
+  double assurance = 0;  ///< solve::modal_assurance with the speed before; 0: the track begins, or has no shape
+};
+
 /// One speed of the diagram.
 struct CampbellPoint {
   double speed = 0;
   std::string fault;  ///< why there is no steady rotation, or why its vibrations are not found; empty: there is
   PetscInt iterations = 0;
-  std::vector<solve::Vibration> vibrations;
+  std::vector<TrackedVibration> vibrations;
   bool steady = true;
   solve::BranchJump jump = {};  ///< on the way from the speed before; ratio 0: none
+};
+
+/// Estimated error of a reduced model's frequency (campbell_estimate.h).
+struct FrequencyError {
+  int track = 0;
+  double relative = 0;
+};
+
+/// Estimated errors at the fastest steady rotation of a reduced model.
+struct CampbellEstimate {
+  double speed = 0;
+  PetscInt coordinates = 0;  ///< of the model on larger bases
+  std::vector<FrequencyError> errors;
+  std::string missing;  ///< why there is none; empty: there is, or the model is not reduced
 };
 
 struct CampbellDiagram {
   std::vector<CampbellPoint> points;
   solve::RotationAxis axis;
   assembly::Model model;  ///< at the last steady rotation
-  std::string label;
+  CampbellEstimate estimate = {};
+  std::string label = {};
   double offline_seconds = 0, seconds = 0;
 };
 

@@ -20,26 +20,26 @@ bool is_real(const solve::Vibration& v) { return v.omega == 0 && !v.zero; }
 
 output::Table campbell_table(const CampbellDiagram& diagram) {
   output::Table table;
-  table.columns = {{"speed", "rad/s", 6},     {"mode", ""},         {"frequency", "Hz", 6},
+  table.columns = {{"speed", "rad/s", 6},     {"mode", ""},         {"track", ""}, {"frequency", "Hz", 6},
                    {"frequency", "rad/s", 6}, {"growth", "1/s", 4}, {"remark", ""}};
   for (const CampbellPoint& point : diagram.points) {
     const std::string empty;
     if (!point.fault.empty() || point.vibrations.empty())
-      table.rows.push_back({point.speed, empty, empty, empty, empty,
+      table.rows.push_back({point.speed, empty, empty, empty, empty, empty,
                             std::string(point.fault.empty() ? "no vibrations"
                                         : point.steady      ? "vibrations not found"
                                                             : "no steady rotation")});
     std::int64_t mode = 0;
-    for (const solve::Vibration& v : point.vibrations)
+    for (const TrackedVibration& v : point.vibrations)
       if (!is_real(v))
-        table.rows.push_back({point.speed, ++mode, v.omega / (2 * M_PI), v.omega,
+        table.rows.push_back({point.speed, ++mode, std::int64_t{v.track}, v.omega / (2 * M_PI), v.omega,
                               v.growth == 0 ? output::Cell(empty) : output::Cell(v.growth),
                               std::string(v.unstable() ? "unstable"
                                           : v.zero     ? fmt::format("rigid-body mode, or below {:.2g} rad/s", v.below)
                                                        : "")});
     for (const solve::Vibration& v : point.vibrations)
       if (is_real(v))
-        table.rows.push_back({point.speed, empty, empty, empty, v.growth,
+        table.rows.push_back({point.speed, empty, empty, empty, empty, v.growth,
                               std::string(v.unstable() ? "unstable, without oscillation" : "overdamped")});
   }
   return table;
@@ -64,16 +64,25 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
       at["reason"] = point.fault;
     else
       at["newton_iterations"] = point.iterations, at["vibrations"] = ordered_json::array();
-    for (const solve::Vibration& v : point.vibrations) {
+    for (const TrackedVibration& v : point.vibrations) {
       if (is_real(v)) {
         at["real_exponents_per_s"].push_back(v.growth);
         continue;
       }
       at["vibrations"].push_back(
           {{"Hz", v.omega / (2 * M_PI)}, {"rad_per_s", v.omega}, {"growth_per_s", v.growth}, {"zero", v.zero}});
+      at["vibrations"].back()["track"] = v.track;
+      if (v.assurance > 0) at["vibrations"].back()["assurance"] = v.assurance;
       if (v.zero) at["vibrations"].back()["below_rad_per_s"] = v.below;
     }
     j["speeds"].push_back(at);
+  }
+  if (const CampbellEstimate& estimate = diagram.estimate; !estimate.errors.empty()) {
+    j["estimate"] = {{"rad_per_s", estimate.speed}, {"coordinates", estimate.coordinates}};
+    for (const FrequencyError& one : estimate.errors)
+      j["estimate"]["frequencies"].push_back({{"track", one.track}, {"relative_error", one.relative}});
+  } else if (!estimate.missing.empty()) {
+    j["estimate"] = {{"rad_per_s", estimate.speed}, {"missing", estimate.missing}};
   }
   j["warnings"] = diagram.model.warnings;
   j["seconds"] = {{"offline", diagram.offline_seconds}, {"speeds", diagram.seconds}};
@@ -103,6 +112,18 @@ void write(const scene::Scene& scene, const CampbellDiagram& diagram, const std:
   output::write_summary(comm, folder, summary);
 }
 
+/// Estimated errors of the frequencies, in one line; empty for a model that is not reduced.
+std::string text_of(const CampbellEstimate& estimate) {
+  if (!estimate.missing.empty())
+    return fmt::format("Estimated error of the frequencies: none ({})\n", estimate.missing);
+  std::string text;
+  for (const FrequencyError& one : estimate.errors)
+    text += fmt::format("{}{:.2g} % (track {})", text.empty() ? "" : ", ", 100 * one.relative, one.track);
+  if (text.empty()) return text;
+  return fmt::format("Estimated reduction error of the frequencies at {:.6g} rad/s, by a basis of {} coordinates: {}\n",
+                     estimate.speed, estimate.coordinates, text);
+}
+
 void show(const scene::Scene& scene, const CampbellDiagram& diagram, const output::ResultFolder& folder) {
   const auto tidy = [](double x) { return std::abs(x) < 1e-12 ? 0 : x; };  // -1.7e-18 for a place on the axis
   const Eigen::Vector3d about = diagram.axis.direction.unaryExpr(tidy), through = diagram.axis.point.unaryExpr(tidy);
@@ -112,6 +133,7 @@ void show(const scene::Scene& scene, const CampbellDiagram& diagram, const outpu
   fmt::print("offline {:.3g} s, {} speeds {:.3g} s\n\n", diagram.offline_seconds, diagram.points.size(),
              diagram.seconds);
   fmt::print("{}", output::to_text(campbell_table(diagram)));
+  fmt::print("{}", text_of(diagram.estimate));
   for (const CampbellPoint& point : diagram.points)
     if (!point.fault.empty()) fmt::print("Note: {}\n", point.fault);
   for (const std::string& warning : diagram.model.warnings) fmt::print("Note: {}\n", warning);

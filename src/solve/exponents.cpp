@@ -81,6 +81,60 @@ Refined refined(const Quadratic& problem, const Complex start) {
   return start.imag() == 0 ? iterate(problem, start.real()) : iterate(problem, start);
 }
 
+namespace {
+
+Complex exponent_of(const Vibration& one) { return {one.growth, one.omega}; }
+
+/// y^H M y = 1.
+Eigen::VectorXcd of_unit_mass(const Quadratic& problem, const Eigen::VectorXcd& y) {
+  return y / std::sqrt(std::abs(y.dot(problem.M * y)));
+}
+
+}  // namespace
+
+Eigen::MatrixXcd shapes(const Quadratic& problem, const std::vector<Vibration>& vibrations, const Exponents& found,
+                        const Eigen::MatrixXcd& vectors) {
+  Eigen::MatrixXcd all = Eigen::MatrixXcd::Zero(problem.M.rows(), static_cast<Eigen::Index>(vibrations.size()));
+  std::vector<char> taken(found.size());
+  for (std::size_t i = 0; i < vibrations.size(); ++i) {
+    const Complex s = exponent_of(vibrations[i]);
+    std::optional<std::size_t> nearest;
+    for (std::size_t j = 0; j < found.size(); ++j)
+      if (!taken[j] && (!nearest || std::abs(found[j] - s) < std::abs(found[*nearest] - s))) nearest = j;
+    if (s.imag() == 0 || !nearest) continue;
+    taken[*nearest] = 1;
+    all.col(static_cast<Eigen::Index>(i)) = of_unit_mass(problem, vectors.col(static_cast<Eigen::Index>(*nearest)));
+  }
+  return all;
+}
+
+Eigen::MatrixXcd shapes(const Quadratic& problem, const std::vector<Vibration>& vibrations) {
+  const Eigen::Index n = problem.M.rows();
+  Eigen::MatrixXcd all = Eigen::MatrixXcd::Zero(n, static_cast<Eigen::Index>(vibrations.size()));
+  const auto exponent = [&](Eigen::Index i) { return exponent_of(vibrations[static_cast<std::size_t>(i)]); };
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
+    const Complex s = exponent(i);
+    if (s.imag() == 0) continue;
+    const Complex beside = s * (1 + 1e-9);  // Q(s) itself is singular
+    const Eigen::MatrixXcd slope = 2.0 * beside * problem.M + problem.C;
+    const Eigen::PartialPivLU<Eigen::MatrixXcd> factor(beside * beside * problem.M + beside * problem.C + problem.K);
+    Eigen::VectorXcd y = start_vector<Complex>(n);
+    for (int sweep = 0; sweep < 3; ++sweep) {
+      y = factor.solve(slope * y);
+      for (Eigen::Index j = 0; j < i; ++j)
+        if (std::abs(exponent(j) - s) <= 1e-6 * std::abs(s)) y -= all.col(j) * all.col(j).dot(problem.M * y);
+      y = of_unit_mass(problem, y);
+    }
+    if (y.allFinite()) all.col(i) = y;
+  }
+  return all;
+}
+
+double modal_assurance(const Vibration& one, const Vibration& other) {
+  if (one.shape.size() == 0 || one.shape.size() != other.shape.size()) return 0;
+  return std::norm((one.shape.dot(other.momentum) + one.momentum.dot(other.shape)) / 2.0);
+}
+
 std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Exponents& found, double nothing,
                                           double small, int count) {
   const auto wanted = static_cast<std::size_t>(count);

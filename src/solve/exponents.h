@@ -38,4 +38,11 @@ Refined refined(const Quadratic& problem, std::complex<double> start);
 std::vector<Vibration> slowest_vibrations(const Quadratic& problem, const Exponents& found, double nothing,
                                           double small, int count);
 
+/// The eigenvectors y of vibrations that oscillate, y^H M y = 1, by inverse iteration, y <- Q(s)^-1 Q'(s) y; those of
+/// exponents that coincide are orthogonal to one another in M. Others' columns are zero. n x number of vibrations
+Eigen::MatrixXcd shapes(const Quadratic& problem, const std::vector<Vibration>& vibrations);
+/// The same from eigenvectors that are known, each of the nearest exponent.
+Eigen::MatrixXcd shapes(const Quadratic& problem, const std::vector<Vibration>& vibrations, const Exponents& found,
+                        const Eigen::MatrixXcd& vectors);
+
 }  // namespace floe::solve

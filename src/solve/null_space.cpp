@@ -28,6 +28,15 @@ MatrixXd AllowedMotions::restrict_rows(const MatrixXd& X) const {
   return all.bottomRows(size());
 }
 
+MatrixXd AllowedMotions::expand(const MatrixXd& y, Index unknowns) const {
+  MatrixXd all = MatrixXd::Zero(static_cast<Index>(free_.size()), y.cols());
+  all.bottomRows(size()) = y;
+  if (rank_ > 0) all.applyOnTheLeft(qr_.householderQ().setLength(rank_));
+  MatrixXd u = MatrixXd::Zero(unknowns, y.cols());
+  u(free_, Eigen::all) = scale_.asDiagonal() * all;
+  return u;
+}
+
 MatrixXd AllowedMotions::restrict_both(const MatrixXd& X) const {
   const MatrixXd half = restrict_rows(X);
   return restrict_rows(half.transpose()).transpose();

@@ -14,6 +14,8 @@ class AllowedMotions {
   Eigen::MatrixXd restrict_both(const Eigen::MatrixXd& X) const;
   /// (D Q)' X.
   Eigen::MatrixXd restrict_rows(const Eigen::MatrixXd& X) const;
+  /// D Q y over all unknowns; zero elsewhere.
+  Eigen::MatrixXd expand(const Eigen::MatrixXd& y, Eigen::Index unknowns) const;
 
  private:
   std::vector<Eigen::Index> free_;

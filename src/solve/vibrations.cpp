@@ -34,6 +34,16 @@ petsc::MatHandle dense(const MatrixXd& X) {
   return mat;
 }
 
+VectorXd entries_of(Vec x) {
+  PetscInt n = 0;
+  const double* values = nullptr;
+  check(VecGetLocalSize(x, &n));
+  check(VecGetArrayRead(x, &values));
+  VectorXd copy = Eigen::Map<const VectorXd>(values, n);
+  check(VecRestoreArrayRead(x, &values));
+  return copy;
+}
+
 /// Greatest |K_ii| / M_ii, the square of about the highest frequency.
 double fastest(const Quadratic& problem) {
   double greatest = 0;
@@ -103,7 +113,8 @@ Exponents all_exponents(const Quadratic& problem, double shift) {
 
 /// Those nearest to `shift` > 0, which for swings are the slowest; solved for s / shift, so that a linearisation's
 /// halves weigh alike.
-Exponents first_exponents(const Quadratic& problem, double shift, int count) {
+/// @param y  their eigenvectors, n x as many
+Exponents first_exponents(const Quadratic& problem, double shift, int count, Eigen::MatrixXcd& y) {
   const PetscInt n = static_cast<PetscInt>(problem.K.rows());
   const petsc::MatHandle K = dense(problem.K), C = dense(shift * problem.C), M = dense(shift * shift * problem.M);
   Mat all[3] = {K, C, M};
@@ -129,10 +140,14 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count) {
     throw RunError(fmt::format("vibrations not found (options -campbell_pep_...): {}, {} converged",
                                PEPConvergedReasons[reason], converged));
   Exponents found(converged);
+  y.resize(n, converged);
+  petsc::VecHandle real, imaginary;
+  check(MatCreateVecs(K, real.out(), imaginary.out()));
   for (PetscInt i = 0; i < converged; ++i) {
     double re = 0, im = 0;
-    check(PEPGetEigenpair(pep, i, &re, &im, nullptr, nullptr));
+    check(PEPGetEigenpair(pep, i, &re, &im, real, imaginary));
     found[i] = {shift * re, shift * im};
+    y.col(i).real() = entries_of(real), y.col(i).imag() = entries_of(imaginary);
   }
   return found;
 }
@@ -148,10 +163,21 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   const double scale = swing > 0 ? swing : 1;
   const double noise = std::clamp(noise_of(problem), 1e-6 * scale, 1e-2 * scale);
   constexpr Index small = 150;
+  Eigen::MatrixXcd vectors;
   const Exponents found = allowed.size() <= small && !petsc::user_sets("campbell_")
                               ? all_exponents(problem, scale)
-                              : first_exponents(problem, scale, count);
-  return slowest_vibrations(problem, found, noise, 1e-6 * scale, count);
+                              : first_exponents(problem, scale, count, vectors);
+  std::vector<Vibration> slowest = slowest_vibrations(problem, found, noise, 1e-6 * scale, count);
+  const Eigen::MatrixXcd y = vectors.size() > 0 ? shapes(problem, slowest, found, vectors) : shapes(problem, slowest);
+  for (std::size_t i = 0; i < slowest.size(); ++i) {
+    const Eigen::VectorXcd own = y.col(static_cast<Index>(i));
+    if (own.isZero(0)) continue;
+    slowest[i].shape.resize(at.M.rows());
+    slowest[i].shape.real() = allowed.expand(own.real(), at.M.rows());
+    slowest[i].shape.imag() = allowed.expand(own.imag(), at.M.rows());
+    slowest[i].momentum = at.M * slowest[i].shape;
+  }
+  return slowest;
 }
 
 }  // namespace floe::solve

@@ -182,18 +182,27 @@ def numbers_of_the_files(folder):
 
 
 def vibrations_are_followed(folder):
-    """Frequencies that cross: each line of the diagram is one of them; one that ends and one that begins are others."""
+    """Each line of the diagram is a track, through crossings; one that ends and one that begins are others."""
     import campbell
     from style import MORE_COLOURS
 
     of = [lambda x: 30 + 0.6 * x, lambda x: 60 + 0.02 * x, lambda x: 80 - 0.35 * x, lambda x: 120 - 0.001 * x * x]
-    speeds = {float(x): [(f, False) for f in sorted(line(x) for line in of)] for x in range(0, 101, 5)}
-    lines = campbell.tracked(speeds)
-    assert len(lines) == 4
-    for line, points in zip(of, lines):
-        assert np.allclose(points, [(x, line(x)) for x in sorted(speeds)]), points
-    speeds[105.0] = speeds[100.0][1:]  # the lowest is not there any more
-    assert sorted(len(points) for points in campbell.tracked(speeds)) == [21, 22, 22, 22]
+    rows = [(x, track + 1, line(x)) for x in range(0, 101, 5) for track, line in enumerate(of)] + [(105, 2, 62.1)]
+    results = folder / "tracks"
+    results.mkdir()
+    with open(results / "campbell.csv", "w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["speed [rad/s]", "mode", "track", "frequency [Hz]", "growth [1/s]", "remark"])
+        table.writerows([x, 1, track, hertz, "", "unstable" if hertz > 119 else ""] for x, track, hertz in rows)
+        table.writerow([50, "", "", "", 3, "unstable, without oscillation"])
+    with open(results / "summary.json", "w") as file:
+        json.dump({"scene": {"title": "crossings"}}, file)
+    tracks, unstable, _ = campbell.load(str(results))
+    assert sorted(tracks) == [1, 2, 3, 4]
+    for track, line in enumerate(of):
+        points = [(x, line(x)) for x in range(0, 101, 5)] + ([(105, 62.1)] if track == 1 else [])
+        assert np.allclose(tracks[track + 1], points), points
+    assert unstable == [(x, 120 - 0.001 * x * x) for x in range(0, 35, 5)] + [(50, 0)], unstable
     assert len(set(MORE_COLOURS)) == len(MORE_COLOURS) >= 14
 
 

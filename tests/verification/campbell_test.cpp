@@ -1,6 +1,7 @@
 #include "../../src/app/campbell.h"
 
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "spatial_scenes.h"
 
@@ -145,6 +146,61 @@ TEST_CASE("campbell: flap and lag frequencies of a driven beam in space") {
       CHECK(r.at(2 * i + 1) == Approx(b.at(2 * i + 1)).epsilon(2e-3));
     }
   }
+}
+
+// EI = 1 out of the plane, 4 in it, where omega(gamma; 4) = 2 omega(gamma/2; 1): lag is above flap at rest and below it
+// at gamma = 12, so that lines cross (both of first order) as the second ones of flap and third ones of lag do not.
+TEST_CASE("campbell: vibrations are followed by shape through a crossing of flap and lag") {
+  const std::string beam = fill(R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0, 1], to: [1, 0, 1], elements: 24}}
+    section: {A: 1, Iy: 1e-8, Iz: 4e-8, J: 5e-8, orientation: [0, 1, 0]}
+    material: {E: 1e8, G: 4e7, rho: 1}
+    reduction: {modes: 12, derivatives: all}
+joints: {root: {type: driven, axis: [0, 0, 1], angle: "t", between: [ground, beam.start]}}
+)yaml",
+                                {});
+  for (const Formulation formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    const auto found = diagram(beam, formulation, "0:12:2", 3);
+    std::map<int, std::vector<double>> tracks;
+    for (const auto& point : found.points) {
+      omega(point);
+      for (const auto& one : point.vibrations) tracks[one.track].push_back(one.omega);
+    }
+    REQUIRE(tracks.size() >= 2);
+    const double lag_at_12 = std::sqrt(std::pow(2 * flaps[1].omega[0], 2) - std::pow(12, 2));
+    CHECK(tracks[1].front() == Approx(3.5160152685).epsilon(3e-3));
+    CHECK(tracks[2].front() == Approx(2 * 3.5160152685).epsilon(3e-3));
+    REQUIRE(tracks[1].size() == 7);
+    REQUIRE(tracks[2].size() == 7);
+    CHECK(tracks[1].back() == Approx(flaps[2].omega[0]).epsilon(3e-3));
+    CHECK(tracks[2].back() == Approx(lag_at_12).epsilon(3e-3));
+    for (const auto& one : found.points.back().vibrations) CHECK(one.assurance > 0.5);
+  }
+}
+
+// Two bending modes of a slender beam and their derivatives leave errors of frequencies, which the full-order model of
+// the same mesh shows.
+TEST_CASE("campbell: errors of reduced frequencies are estimated") {
+  std::string scene = planar("pinned", driven, "24");
+  scene.replace(scene.find("modes: 8"), 8, "modes: 3");
+  const auto reduced = diagram(scene, Formulation::vm_md, "4,12", 3),
+             full = diagram(scene, Formulation::nlffr, "12", 3);
+  REQUIRE(reduced.estimate.missing == "");
+  CHECK(reduced.estimate.speed == 12);
+  REQUIRE(reduced.estimate.errors.size() == 3);
+  const auto approximate = omega(reduced.points.back()), exact = omega(full.points.back());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double error = std::abs(approximate[i] - exact[i]) / exact[i];
+    INFO("true " << error << ", estimated " << reduced.estimate.errors[i].relative);
+    if (error > 1e-5) {
+      CHECK(reduced.estimate.errors[i].relative > 0.3 * error);
+      CHECK(reduced.estimate.errors[i].relative < 3 * error);
+    }
+  }
+  CHECK(std::abs(approximate[2] - exact[2]) > 1e-5 * exact[2]);
+  CHECK(full.estimate.errors.empty());
 }
 
 // A rod that is hinged at the distance e: flap^2 = gamma^2 (1 + 3e/2), lag^2 = gamma^2 3e/2 (moments about the hinge);

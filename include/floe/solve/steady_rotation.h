@@ -68,8 +68,15 @@ struct Vibration {
   bool zero = false;  ///< neither swings nor grows: the scene may rotate on or drift this way
   double below =
       0;  ///< of a zero: what is slower cannot be distinguished from it beside the fastest vibrations [rad/s]
+  /// y over all unknowns of the system, y^H M y = 1, and M y; empty without an oscillation.
+  Eigen::VectorXcd shape = {}, momentum = {};
   bool unstable() const { return growth > 0; }
 };
+
+/// Modal assurance criterion of two vibrations at different speeds, in the mass norm:
+///
+///   |y_1^H (M_1 + M_2)/2 y_2|^2 in [0, 1];  0 where one of them has no shape.
+double modal_assurance(const Vibration& one, const Vibration& other);
 
 /// The `count` slowest vibrations u = Re y e^(st) about a steady state by |s|, and all found that grow; in the order of
 /// their frequencies.
