@@ -138,9 +138,6 @@ void PlanarAssembly::add_body_terms(int b) {
 void PlanarAssembly::add_corotational(int b, const BodyPart* part) {
   const PlannedBody& body = plan_.bodies[b];
   const Slot& slot = slots_[b];
-  if (body.spec.section.GA)
-    throw InputError(body.spec.section.where.text() +
-                     ": formulation cfr has no shear (GA); expected vm, vm+md, lffr or nlffr, or a section without GA");
   const fem::Structure& s = body.structure;
   const Weight weight(plan_.scene);
   const Eigen::Vector2d gravity = weight.constant() ? Eigen::Vector2d(weight(0).head<2>()) : Eigen::Vector2d::Zero();
@@ -155,7 +152,7 @@ void PlanarAssembly::add_corotational(int b, const BodyPart* part) {
         coordinates, undeformed_place(body, s.mesh.positions[cell.place[0]]),
         undeformed_place(body, s.mesh.positions[cell.place[1]]),
         reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI,
-                                                body.spec.damping.stiffness},
+                                                body.spec.damping.stiffness, section.GA},
         gravity);
     if (!weight.constant())
       beam->changing_gravity = [weight](double t) -> Eigen::Vector2d { return weight(t).head<2>(); };

@@ -96,7 +96,7 @@ std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, in
     terms_.push_back(std::make_unique<RelativeDamping>(
         std::make_unique<reference::CorotationalBeamMass>(
             coordinates, undeformed_place(body, ends[0]), undeformed_place(body, ends[1]),
-            reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI}),
+            reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, 0, section.GA}),
         nodes, whole.axes(), whole.alpha));
   }
   return all;

@@ -24,6 +24,7 @@ void refuse_faults(const std::vector<int>& coordinates, double length, const Cor
   refuse(!positive(length), "its two nodes coincide, or are not finite");
   refuse(!positive(p.EA), "expected EA > 0");
   refuse(!positive(p.EI), "expected EI > 0");
+  refuse(!(p.GA > 0), "expected GA > 0");
   refuse(!positive(p.rhoA), "expected rhoA > 0");
   refuse(!positive(p.rhoI) && p.rhoI != 0, "expected rhoI >= 0");
   refuse(!(p.viscosity >= 0 && std::isfinite(p.viscosity)), "expected viscosity >= 0");

@@ -5,15 +5,19 @@
 // Forces and energies of the corotational beam over its extended coordinates z (corotational_beam_chord.h).
 namespace floe::reference::corotational {
 
-/// Integrals over an undeformed element of length l0, in closed form. phi_1 = l0 xi (1-xi)^2, phi_2 = -l0 xi^2 (1-xi).
+/// Integrals over an undeformed element of length l0, in closed form. Without shear phi_1 = l0 xi (1-xi)^2, phi_2 = -l0
+/// xi^2 (1-xi); with shear those that T = 1 - c [1 1; 1 1] makes of them. alpha_i = phi_i' + c: rotation of the
+/// section.
 struct Moments {
-  double mass;                  ///< int rhoA
-  Eigen::Vector2d first, last;  ///< int rhoA (1 - xi) phi_i,  int rhoA xi phi_i
-  Eigen::Matrix2d deflection;   ///< int rhoA phi_i phi_j
-  double rotary;                ///< int rhoI
-  Eigen::Matrix2d slope;        ///< 1/l0 int phi_i' phi_j'
-  double axial;                 ///< EA / l0
-  Eigen::Matrix2d bending;      ///< int EI phi_i'' phi_j''
+  double mass;                    ///< int rhoA
+  Eigen::Vector2d first, last;    ///< int rhoA (1 - xi) phi_i,  int rhoA xi phi_i
+  Eigen::Matrix2d deflection;     ///< int rhoA phi_i phi_j
+  double rotary;                  ///< int rhoI
+  Eigen::Matrix2d slope;          ///< 1/l0 int phi_i' phi_j'
+  Eigen::Matrix2d rotation;       ///< 1/l0 int alpha_i alpha_j
+  Eigen::Vector2d mean_rotation;  ///< 1/l0 int alpha_i = c; zero without shear
+  double axial;                   ///< EA / l0
+  Eigen::Matrix2d bending;        ///< int EI phi_i'' phi_j'' + GA c^2
 };
 Moments moments(double length, const CorotationalBeam::Properties& properties);
 

@@ -2,8 +2,8 @@
 
 // r = (1 - xi) r1 + xi r2 + n w, w = phi.a, gives with the rotating rate b = dbeta/dt
 //     r.. = (1 - xi) r1.. + xi r2.. + n phi.A - e phi.B,    A = a.. - b^2 a,    B = 2 b a. + b. a
-// and dr = (1 - xi) dr1 + xi dr2 + n phi.da - e w dbeta. The section rotates by psi = beta + phi'.a, where int phi_i'
-// dx = 0.
+// and dr = (1 - xi) dr1 + xi dr2 + n phi.da - e w dbeta. The section rotates by psi = beta + alpha.a, where int alpha_i
+// dx = c l0, zero without shear.
 namespace floe::reference::corotational {
 
 double kinetic_energy(const Moments& m, const Chord& chord, const Seven& v) {
@@ -12,7 +12,8 @@ double kinetic_energy(const Moments& m, const Chord& chord, const Seven& v) {
   const double b = v[6];
   return m.mass / 6 * (v1.dot(v1) + v1.dot(v2) + v2.dot(v2)) + rate.dot(m.first * v1[1] + m.last * v2[1]) -
          b * a.dot(m.first * v1[0] + m.last * v2[0]) + rate.dot(m.deflection * rate) / 2 +
-         b * b * a.dot(m.deflection * a) / 2 + m.rotary / 2 * (b * b + rate.dot(m.slope * rate));
+         b * b * a.dot(m.deflection * a) / 2 +
+         m.rotary / 2 * (b * b + 2 * b * m.mean_rotation.dot(rate) + rate.dot(m.rotation * rate));
 }
 
 Seven inertia_force(const Moments& m, const Chord& chord, const Rates& rates) {
@@ -24,8 +25,10 @@ Seven inertia_force(const Moments& m, const Chord& chord, const Rates& rates) {
   Seven f;
   f.head<2>() = m.mass / 6 * (2 * a1 + a2) + Eigen::Vector2d(-m.first.dot(B), m.first.dot(A));
   f.segment<2>(2) = m.mass / 6 * (a1 + 2 * a2) + Eigen::Vector2d(-m.last.dot(B), m.last.dot(A));
-  f.segment<2>(4) = m.first * a1[1] + m.last * a2[1] + m.deflection * A + m.rotary * (m.slope * second);
-  f[6] = -a.dot(m.first * a1[0] + m.last * a2[0]) + a.dot(m.deflection * B) + m.rotary * spin;
+  f.segment<2>(4) =
+      m.first * a1[1] + m.last * a2[1] + m.deflection * A + m.rotary * (m.rotation * second + spin * m.mean_rotation);
+  f[6] = -a.dot(m.first * a1[0] + m.last * a2[0]) + a.dot(m.deflection * B) +
+         m.rotary * (spin + m.mean_rotation.dot(second));
   return f;
 }
 
@@ -82,7 +85,9 @@ SevenSquare by_acceleration(const Moments& m, const Chord& chord) {
   M.block<2, 1>(4, 3) = m.last;
   M.block<1, 2>(1, 4) = m.first.transpose();
   M.block<1, 2>(3, 4) = m.last.transpose();
-  M.block<2, 2>(4, 4) = m.deflection + m.rotary * m.slope;
+  M.block<2, 2>(4, 4) = m.deflection + m.rotary * m.rotation;
+  M.block<2, 1>(4, 6) = m.rotary * m.mean_rotation;
+  M.block<1, 2>(6, 4) = m.rotary * m.mean_rotation.transpose();
   M(0, 6) = M(6, 0) = -m.first.dot(a);
   M(2, 6) = M(6, 2) = -m.last.dot(a);
   M(6, 6) = a.dot(m.deflection * a) + m.rotary;

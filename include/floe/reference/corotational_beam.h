@@ -1,13 +1,15 @@
 #pragma once
 #include <Eigen/Dense>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "floe/dynamics/term.h"
 
 namespace floe::reference {
 
-/// Planar corotational Bernoulli beam element with cubic deflection in the internal force and in the inertia.
+/// Planar corotational beam element, Bernoulli's or Timoshenko's where GA is finite, with cubic deflection in the
+/// internal force and in the inertia.
 ///
 /// Coordinates q = (u1, v1, theta1, u2, v2, theta2): displacements [m] and rotations [rad, unwrapped] of the two nodes
 /// from the undeformed configuration, world axes. The chord from node 1 to node 2 has length l, direction e, normal n
@@ -18,6 +20,13 @@ namespace floe::reference {
 ///     U = 1/2 EA l0 eps^2 + 1/2 EI int w''^2 dx,    eps = (l - l0)/l0 + 1/(2 l0) int w'^2 dx
 ///     V = - int rhoA g.r dx,    D = 1/2 beta (EA l0 (deps/dt)^2 + EI int (dw''/dt)^2 dx)
 ///
+/// With shear the section rotates by alpha = w' - gamma against the chord and a_i are its values at the ends; gamma is
+/// constant, from the equilibrium without load between the ends:
+///     gamma = -c (a_1 + a_2),   c = Phi / (2 (1 + Phi)),   Phi = 12 EI / (GA l0^2)
+///     w = phi_1 (a_1 + gamma) + phi_2 (a_2 + gamma),   U has + 1/2 GA l0 gamma^2,   T has rhoI (dbeta/dt +
+///     dalpha/dt)^2,
+/// and eps keeps w', the slope of the line.
+///
 /// Kelvin-Voigt damping D acts on the strain rates: a rigid motion has none.
 ///
 /// Nothing of T is neglected: the force holds every gyroscopic and centrifugal term, and the tangent is exact. The
@@ -27,19 +36,21 @@ namespace floe::reference {
 ///
 /// A chord that shrinks to a point gives values that are not finite.
 ///
-/// Source: Le, Battini, Hjiaj 2011, Comput. Mech. 48; here without shear and with every power of a_i in the inertia.
+/// Source: Le, Battini, Hjiaj 2011, Comput. Mech. 48; here with every power of a_i in the inertia.
+/// Shear: Reissner 1972, J. Appl. Math. Phys. 23; Przemieniecki 1968, Theory of Matrix Structural Analysis, sec. 5.6.
 class CorotationalBeam : public dynamics::Term {
  public:
   /// Per unit length: axial [N] and bending stiffness [N m2], mass [kg/m], rotary inertia [kg m] (0: left out);
-  /// beta of Kelvin-Voigt damping [s].
+  /// beta of Kelvin-Voigt damping [s]; shear stiffness kappa G A [N], infinite: Euler-Bernoulli.
   struct Properties {
-    double EA, EI, rhoA, rhoI, viscosity = 0;
+    double EA, EI, rhoA, rhoI, viscosity = 0, GA = std::numeric_limits<double>::infinity();
   };
 
   /// @param coordinates  six different indices into the system's local coordinates, in the order of q
   /// @param X1, X2       the nodes at zero displacement, world axes [m]
   /// @param gravity      acceleration of free fall, world axes [m/s2]
-  /// @throws InputError  nodes that coincide, EA, EI or rhoA not positive, rhoI negative, a number that is not finite
+  /// @throws InputError  nodes that coincide, EA, EI, GA or rhoA not positive, rhoI negative, a number that is not
+  /// finite
   CorotationalBeam(std::vector<int> coordinates, Eigen::Vector2d X1, Eigen::Vector2d X2, Properties properties,
                    Eigen::Vector2d gravity = Eigen::Vector2d::Zero());
 

@@ -22,7 +22,12 @@ const CorotationalBeam::Properties stocky{3.0e3, 40, 1.7, 0.3};
 const Vector2d X1(0.4, -0.2), X2(1.5, 0.6), gravity(1.3, -9.81);
 const double length = (X2 - X1).norm();
 
+/// Phi = 12 EI / (GA l^2) = 1.73.
+const CorotationalBeam::Properties sheared{3.0e3, 40, 1.7, 0.3, 0, 150};
+
 CorotationalBeam stocky_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, stocky, gravity}; }
+
+CorotationalBeam sheared_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, sheared, gravity}; }
 
 CorotationalBeam viscous_beam() { return {{0, 1, 2, 3, 4, 5}, X1, X2, {3.0e3, 40, 1.7, 0.3, 0.04}, gravity}; }
 
@@ -83,7 +88,7 @@ void check_derivative(const MatrixXd& exact, const std::function<VectorXd(const 
 }  // namespace
 
 TEST_CASE("corotational beam: the static force is the gradient of the energy", "[corotational]") {
-  const auto beam = stocky_beam();
+  const auto beam = GENERATE(true, false) ? sheared_beam() : stocky_beam();
   for (const double rotation : {0.3, 3.1, -7.9}) {
     State s = some_state(1, rotation);
     s.v.setZero(), s.a.setZero();
@@ -98,7 +103,12 @@ TEST_CASE("corotational beam: the static force is the gradient of the energy", "
 }
 
 TEST_CASE("corotational beam: the tangent is the derivative of the residual", "[corotational]") {
-  const auto beam = GENERATE(true, false) ? viscous_beam() : stocky_beam();
+  auto viscous_shear = sheared;
+  viscous_shear.viscosity = 0.04;
+  const int kind = GENERATE(0, 1, 2);
+  const auto beam = kind == 0   ? viscous_beam()
+                    : kind == 1 ? sheared_beam()
+                                : CorotationalBeam({0, 1, 2, 3, 4, 5}, X1, X2, viscous_shear, gravity);
   for (const double rotation : {0.3, 3.1, -7.9}) {
     const State s = some_state(2, rotation);
     check_derivative(
@@ -140,8 +150,9 @@ TEST_CASE("corotational beam: viscous forces take power from strain rates alone"
 }
 
 TEST_CASE("corotational beam: its mass is that of its inertia forces", "[corotational]") {
-  const auto beam = stocky_beam();
-  const reference::CorotationalBeamMass mass({0, 1, 2, 3, 4, 5}, X1, X2, stocky);
+  const CorotationalBeam::Properties properties = GENERATE(true, false) ? sheared : stocky;
+  const CorotationalBeam beam({0, 1, 2, 3, 4, 5}, X1, X2, properties, gravity);
+  const reference::CorotationalBeamMass mass({0, 1, 2, 3, 4, 5}, X1, X2, properties);
   State s = some_state(5, -1.3);
   s.v.setZero();
   const auto force = [&](const State& at) {
@@ -163,18 +174,20 @@ TEST_CASE("corotational beam: its mass is that of its inertia forces", "[corotat
 }
 
 TEST_CASE("corotational beam: kinetic energy equals quadrature of the moving body", "[corotational]") {
-  const auto beam = stocky_beam();
+  const CorotationalBeam::Properties properties = GENERATE(true, false) ? sheared : stocky;
+  const CorotationalBeam beam({0, 1, 2, 3, 4, 5}, X1, X2, properties, gravity);
   const State s = some_state(3, 1.1);
+  const double Phi = 12 * properties.EI / (properties.GA * length * length), c = Phi / (2 * (1 + Phi));
   const auto place = [&](double xi,
                          double t) -> Eigen::Vector3d {  // of a point of the line, and rotation of its section
     const VectorXd q = s.q + t * s.v;
     const Vector2d r1 = X1 + q.head<2>(), r2 = X2 + q.segment<2>(3), e = (r2 - r1).normalized(), d = X2 - X1;
     const double beta = std::atan2(e[1], e[0]) - std::atan2(d[1], d[0]);
-    const double a1 = q[2] - beta, a2 = q[5] - beta;
+    const double gamma = -c * (q[2] + q[5] - 2 * beta), a1 = q[2] - beta + gamma, a2 = q[5] - beta + gamma;
     const double w = length * (xi * (1 - xi) * (1 - xi) * a1 - xi * xi * (1 - xi) * a2);
     const double slope = (1 - xi) * (1 - 3 * xi) * a1 + xi * (3 * xi - 2) * a2;
     const Vector2d r = (1 - xi) * r1 + xi * r2 + w * Vector2d(-e[1], e[0]);
-    return {r[0], r[1], beta + slope};
+    return {r[0], r[1], beta + slope - gamma};
   };
   const double points[] = {0.8611363115940526, 0.3399810435848563},
                weights[] = {0.3478548451374538, 0.6521451548625461};
@@ -183,13 +196,14 @@ TEST_CASE("corotational beam: kinetic energy equals quadrature of the moving bod
     const double xi = 0.5 + (g % 2 ? 0.5 : -0.5) * points[g / 2], h = 1e-4;
     const Eigen::Vector3d rate =
         (8 * (place(xi, h) - place(xi, -h)) - (place(xi, 2 * h) - place(xi, -2 * h))) / (12 * h);
-    T += length * weights[g / 2] / 4 * (stocky.rhoA * rate.head<2>().squaredNorm() + stocky.rhoI * rate[2] * rate[2]);
+    T += length * weights[g / 2] / 4 *
+         (properties.rhoA * rate.head<2>().squaredNorm() + properties.rhoI * rate[2] * rate[2]);
   }
   CHECK(energy(beam, s).kinetic == Approx(T).epsilon(1e-10));
 }
 
 TEST_CASE("corotational beam: the inertia force is Lagrange's derivative of the kinetic energy", "[corotational]") {
-  const auto beam = stocky_beam();
+  const auto beam = GENERATE(true, false) ? sheared_beam() : stocky_beam();
   const State s = some_state(4, 2.2);
   const State still{s.q, VectorXd::Zero(6), VectorXd::Zero(6)};
   const VectorXd inertia = residual(beam, s) - residual(beam, still);
@@ -217,7 +231,7 @@ TEST_CASE("corotational beam: the inertia force is Lagrange's derivative of the 
 
 TEST_CASE("corotational beam: rigid motion by any angle strains nothing and has a rigid bar's energy",
           "[corotational]") {
-  const auto beam = stocky_beam();
+  const auto beam = GENERATE(true, false) ? sheared_beam() : stocky_beam();
   const Vector2d d = X2 - X1, shift(3, -2), velocity(0.7, -1.9);
   const double spin = 2.3, mass = stocky.rhoA * length, J = mass * length * length / 12 + stocky.rhoI * length;
   for (const double angle : {0.0, 1.0, std::numbers::pi, 6.2, -3.0, 20.0, -1234.5}) {
@@ -239,6 +253,17 @@ TEST_CASE("corotational beam: rigid motion by any angle strains nothing and has 
   }
 }
 
+// Small end load F and moment M of a clamped beam: v = F L^3/3EI + F L/GA + M L^2/2EI, theta = F L^2/2EI + M L/EI.
+TEST_CASE("corotational beam: a clamped element with shear bends as Timoshenko's beam", "[corotational]") {
+  const double L = 2, EI = 40, GA = 150, F = 1e-6, M = 3e-6;
+  const CorotationalBeam beam({0, 1, 2, 3, 4, 5}, {0, 0}, {L, 0}, {3e3, EI, 1.7, 0.3, 0, GA});
+  const VectorXd none = VectorXd::Zero(6);
+  const MatrixXd K = tangent(beam, {none, none, none}, {1, 0, 0}).bottomRightCorner(3, 3);
+  const Eigen::Vector3d u = K.ldlt().solve(Eigen::Vector3d(0, F, M));
+  CHECK(u[1] == Approx(F * L * L * L / (3 * EI) + F * L / GA + M * L * L / (2 * EI)).epsilon(1e-12));
+  CHECK(u[2] == Approx(F * L * L / (2 * EI) + M * L / EI).epsilon(1e-12));
+}
+
 TEST_CASE("corotational beam: what cannot be an element is refused, all faults at once", "[corotational]") {
   const std::vector<int> six{0, 1, 2, 3, 4, 5};
   CHECK_THROWS_AS(CorotationalBeam(six, X1, X1, stocky), InputError);
@@ -251,4 +276,5 @@ TEST_CASE("corotational beam: what cannot be an element is refused, all faults a
   } catch (const InputError& error) {
     CHECK(error.faults().size() == 4);
   }
+  CHECK_THROWS_AS(CorotationalBeam(six, X1, X2, {1, 1, 1, 0, 0, 0}), InputError);
 }
