@@ -107,13 +107,13 @@ void PlanarAssembly::add_stops(std::size_t j, const std::array<Marker, 2>& place
   const bool slides = joint.kind == Joint::Kind::prismatic;
   if (joint.friction && owner_)
     connect(j, std::make_unique<dynamics::JointForce>(coordinate_of(j, slides ? Of::slide : Of::rotation, places, q),
-                                                      law_of(*joint.friction), own_latch(switches_, joint.name)));
+                                                      law_of(*joint.friction), own_switch(switches_, joint.name)));
   if (!joint.limits) return;
   const dynamics::Stop* term = nullptr;
   if (owner_) {
     auto stop = std::make_unique<dynamics::Stop>(coordinate_of(j, slides ? Of::slide : Of::rotation, places, q),
                                                  law_of(*joint.limits, !slides, plan_.extent),
-                                                 own_latch(switches_, joint.name));
+                                                 own_switch(switches_, joint.name));
     term = stop.get();
     connect(j, std::move(stop));
   }

@@ -37,13 +37,23 @@ dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen:
   return pose;
 }
 
+dynamics::SpatialPose placed(const SpatialProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  if (probe.mean.empty()) return placed(probe.marker, q, v);
+  dynamics::SpatialPose sum = placed(probe.mean.front(), q, v);
+  for (std::size_t i = 1; i < probe.mean.size(); ++i) {
+    const dynamics::SpatialPose at = placed(probe.mean[i], q, v);
+    sum.p += at.p, sum.velocity += at.velocity;
+  }
+  return sum;
+}
+
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& D) {
   return math::rotation_vector(Eigen::Quaterniond(D).normalized());
 }
 
 void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
-  dynamics::SpatialPose at = placed(probe.marker, q, v);
+  dynamics::SpatialPose at = placed(probe, q, v);
   if (probe.relative_to) {  // seen from axes that rotate with the other place
     const dynamics::SpatialPose from = placed(*probe.relative_to, q, v);
     const Eigen::Matrix3d Dt = from.D.transpose();
@@ -148,10 +158,15 @@ void add_acceleration(const ModelProbe& probe, const Eigen::VectorXd& q, const E
     dynamics::pick(coordinates, a, second);
   };
   if (probe.spatial) {
-    pick_all(probe.spatial->marker.coordinates);
-    dynamics::SpatialPose at;
-    dynamics::pose(probe.spatial->marker, own, rate, second, at);
-    Eigen::Vector3d value = angular ? at.spin_rate : at.acceleration;
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    const auto add = [&](const dynamics::SpatialMarker& marker) {
+      pick_all(marker.coordinates);
+      dynamics::SpatialPose at;
+      dynamics::pose(marker, own, rate, second, at);
+      value += angular ? at.spin_rate : at.acceleration;
+    };
+    if (probe.spatial->mean.empty()) add(probe.spatial->marker);
+    for (const dynamics::SpatialMarker& share : probe.spatial->mean) add(share);
     if (probe.spatial->relative_to) value = placed(*probe.spatial->relative_to, q, v).D.transpose() * value;
     values.insert(values.end(), value.data(), value.data() + 3);
     return;

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 
 #include "floe/fem/shell.h"
 #include "floe/plan/prepare_spatial_joints.h"
 #include "floe/reference/facet_pressure.h"
 #include "floe/scene/joint_events.h"
+#include "floe/scene/sensors.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -19,8 +21,15 @@ namespace {
 
 bool leads(const AveragingWeight& weight) { return weight.share != 0; }
 
-/// a of an averaging weight's arm, which maps theta to theta x a.
-Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
+/// a of an averaging weight, whose arm maps theta to theta x a normal to a shell, and to a multiple of it in its plane
+/// (cubic deflections, quadratic displacements by drilling rotations): a is that of the deflections, the smaller one.
+Vector3d arm_of(const AveragingWeight& weight) {
+  const Eigen::Matrix3d odd = (weight.arm - weight.arm.transpose()) / 2;
+  const Vector3d along(-odd(2, 1), -odd(0, 2), -odd(1, 0));
+  if (along.norm() <= 1e-14 * weight.arm.norm() || along.norm() == 0) return Vector3d::Zero();
+  const Vector3d sizes = Eigen::JacobiSVD<Eigen::Matrix3d>(weight.arm).singularValues();
+  return (sizes[1] > 1e-9 * sizes[0] ? sizes[1] : sizes[0]) * along.normalized();
+}
 
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
   return std::all_of(place.averaging_weights.begin(), place.averaging_weights.end(),
@@ -68,6 +77,37 @@ std::vector<std::vector<PetscInt>> SpatialAssembly::clamped_edges(int b) const {
   return pieces;
 }
 
+bool SpatialAssembly::is_corotated_mean(const Anchor& place) const {
+  return formulation_ == Formulation::cfr && place.body >= 0 && corotated(place.body) &&
+         is_mean(place, clamped_edges(place.body));
+}
+
+namespace {
+
+/// Quantities of a place that are means of those of its nodes.
+bool is_linear(Probe::Quantity quantity) {
+  return quantity == Probe::Quantity::position || quantity == Probe::Quantity::displacement ||
+         quantity == Probe::Quantity::velocity || quantity == Probe::Quantity::acceleration;
+}
+
+/// Whether a formula of a load or of a probe names the probe.
+bool is_in_formula(const Scene& scene, int probe) {
+  const auto names = [&](const math::Formula& formula) {
+    const auto& all = formula.variables();
+    return std::any_of(all.begin() + (all.empty() ? 0 : 1), all.end(),
+                       [&](const std::string& name) { return scene::sensor_of(scene, name).probe == probe; });
+  };
+  const auto of_load = [&](const Load& load) {
+    return names(load.on_joint) || (load.has_sensors() && (std::any_of(load.force.begin(), load.force.end(), names) ||
+                                                           std::any_of(load.moment.begin(), load.moment.end(), names)));
+  };
+  return std::any_of(scene.loads.begin(), scene.loads.end(), of_load) ||
+         std::any_of(scene.probes.begin(), scene.probes.end(),
+                     [&](const Probe& one) { return one.quantity == Probe::Quantity::formula && names(one.formula); });
+}
+
+}  // namespace
+
 void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
   if (formulation_ != Formulation::cfr) return;
   std::vector<Pieces> pieces;
@@ -111,12 +151,11 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
           probe.where.text() +
           ": deflection is from the floating frame, which formulation cfr does not have in space; expected "
           "displacement, with relative_to a place that stands for the frame");
-    for (const Anchor* at : {&place, &other})
-      if (mean(*at))
-        faults.push_back(
-            probe.where.text() +
-            ": looks at the mean of several nodes, which formulation cfr does not know; expected places of "
-            "one node");
+    if (mean(other) || (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
+      faults.push_back(
+          probe.where.text() +
+          ": looks at the mean of several nodes, of which formulation cfr has the position, displacement, velocity and "
+          "acceleration alone, and not in formulas; expected one of these, or places of one node");
   }
 }
 

@@ -159,7 +159,7 @@ std::unique_ptr<dynamics::SpatialCoordinate> SpatialAssembly::coordinate_of(int 
 
 void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<ModelStop>& stops) {
   const Joint& joint = plan_.scene.joints[j];
-  const std::shared_ptr<const dynamics::ConstraintSwitch> active = own_latch(switches_, joint.name);
+  const std::shared_ptr<const dynamics::ConstraintSwitch> active = own_switch(switches_, joint.name);
   const auto add = [&](const LimitsSpec& limits, Of of) {
     const dynamics::Stop* term = nullptr;
     if (owner_) {

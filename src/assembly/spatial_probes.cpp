@@ -74,6 +74,8 @@ void SpatialAssembly::add_probes(Model& model) {
     const Probe& spec = plan_.scene.probes[p];
     const Anchor place = has_place(spec) ? plan_.probes[p][0] : Anchor{};
     SpatialProbe probe{marker(place), {}};
+    if (is_corotated_mean(place) && owner_)
+      for (auto& [at, share] : corotated_parts(place)) probe.mean.push_back(std::move(at));
     DrivenCoordinate drive;
     if (spec.quantity == Probe::Quantity::drive || spec.quantity == Probe::Quantity::power) {
       const std::size_t j = joint_index(plan_.scene, spec.joint);
@@ -93,7 +95,8 @@ void SpatialAssembly::add_probes(Model& model) {
     if (owner_) {
       for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
         if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
-      probe.start = start_of(probe.marker).p;
+      probe.start = probe.mean.empty() ? start_of(probe.marker).p : Vector3d::Zero();
+      for (const SpatialMarker& share : probe.mean) probe.start += start_of(share).p;
       if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
     }
     if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates

@@ -103,7 +103,7 @@ void PlanarAssembly::add_state_loads(Model& model, const Eigen::VectorXd& q) {
       const std::size_t j = joint_index(plan_.scene, load.joint);
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 2));
       connect(j, std::make_unique<StateForce>(
-                     unit_load(coordinate_of(j, of, joint_places_[j], q), own_latch(switches_, load.joint)),
+                     unit_load(coordinate_of(j, of, joint_places_[j], q), own_switch(switches_, load.joint)),
                      StateFormula(load.on_joint, sensors(load.on_joint, model, q))));
       continue;
     }
@@ -149,7 +149,7 @@ void SpatialAssembly::add_state_loads(Model& model) {
       const auto j = static_cast<int>(joint_index(plan_.scene, load.joint));
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 3));
       connect(
-          j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_latch(switches_, load.joint)),
+          j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_switch(switches_, load.joint)),
                                           StateFormula(load.on_joint, sensors(load.on_joint, model))));
       continue;
     }

@@ -10,7 +10,7 @@ dynamics::StopLaw law_of(const LimitsSpec& limits, bool rotation, double extent)
 dynamics::FrictionLaw law_of(const FrictionSpec& friction);
 
 /// What states whether a joint's own constraints are active; none: no event unlocks it.
-std::shared_ptr<const dynamics::ConstraintSwitch> own_latch(const std::map<std::string, JointSwitches>& all,
+std::shared_ptr<const dynamics::ConstraintSwitch> own_switch(const std::map<std::string, JointSwitches>& all,
                                                             const std::string& joint);
 
 /// Notes the stops of a joint. @param term  null where another rank has it

@@ -560,6 +560,15 @@ SPACE = [
       for name, code, says, stiffness in (
           ("stiffer one way", 2, ("the stiffness acting on body a (to the ground: bushing l, bushing r)",), (1000, 3000)),
           ("as stiff all around", 0, (), (1000, 1000)))),
+    Case("space: the mean of an edge of corotational elements", run("cfr"), 0, lines=0,
+         check=space.near("edge.z", 0, 1e-12),
+         scene=space.body(space.PLATE, "c: {type: fixed, between: [ground, a.left]}",
+                          probes="{edge: {at: a.right, quantity: displacement}}")),
+    *(Case(f"space: the mean of an edge of corotational elements, {what}", run("cfr"), 2,
+           ("looks at the mean of several nodes, of which formulation cfr has the position",), lines=1, check=nothing,
+           scene=space.body(space.PLATE, "c: {type: fixed, between: [ground, a.left]}", probes=probes))
+      for what, probes in (("rotated", "{edge: {at: a.right, quantity: rotation}}"),
+                           ("in a formula", '{edge: {at: a.right, quantity: velocity}, f: {formula: "2*edge.z"}}'))),
     Case("space: a load in axes of its place", run(), 0, lines=0, check=space.near("end.y", 0, 1e-12),
          scene=space.body(space.TILTED % ", frame: pinned, reduction: {modes: 3, derivatives: none, attachment: none}",
                           more="loads: {f: {type: force, at: a.middle, force: [0.1, 0, 0], axes: place}}\n",

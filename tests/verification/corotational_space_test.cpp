@@ -248,6 +248,44 @@ probes: {A: {at: plate.A}, B: {at: plate.B}}
 }
 
 // The motion is that of rigid bodies at the nodes: all energy that is lost is the scheme's.
+// The mean of a cubic edge, by nodes h = 0.15 apart: trapezoidal rule and h^2/12 (w'(0) - w'(L)) / L, w' = theta_x.
+TEST_CASE("cfr in space: the mean of an edge is that of the displacements of its elements") {
+  std::string panel = R"yaml(
+bodies:
+  plate:
+    mesh: {plate: {origin: [0, 0, 0], along: [1, 0, 0], across: [0, 0.6, 0], elements: [6, 4], cells: quadrilaterals}}
+    section: {thickness: 0.01}
+    material: {E: 1e9, nu: 0.3, rho: 1000}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads:
+  edge: {type: force, at: plate.right, force: [0, 0, "1e-2*sin(20*t)"]}
+  corner: {type: force, at: plate.p3, force: [0, 0, "2e-2*t"]}
+motion: {end: 0.1, step: 1e-3}
+probes:
+  x: {at: plate.right, quantity: position, relative_to: plate.p1}
+)yaml";
+  const std::pair<const char*, const char*> pairs[] = {
+      {"displacement", "rotation"}, {"velocity", "angular_velocity"}, {"acceleration", "angular_acceleration"}};
+  for (const auto& [linear, angular] : pairs) {
+    panel += fmt::format("  {0}: {{at: plate.right, quantity: {0}}}\n", linear);
+    for (int i = 0; i < 5; ++i)
+      panel +=
+          fmt::format("  {0}{1}: {{at: {{body: plate, node: [1, {2}, 0]}}, quantity: {0}}}\n", linear, i, 0.15 * i);
+    for (const char* end : {"p2", "p3"})
+      panel += fmt::format("  {0}_{1}: {{at: plate.{1}, quantity: {0}}}\n", angular, end);
+  }
+  const History at = move(panel, Formulation::cfr);
+  for (const auto& [linear, angular] : pairs) {
+    const auto w = [&, name = linear](int i) { return at[fmt::format("{}{}.z", name, i)].back(); };
+    const std::string slope = angular, component = linear == std::string("displacement") ? ".rx" : ".x";
+    const double ends = at[slope + "_p2" + component].back() - at[slope + "_p3" + component].back();
+    const double mean = (w(0) + w(4)) / 8 + (w(1) + w(2) + w(3)) / 4 + 0.15 * 0.15 / 12 * ends / 0.6;
+    INFO(linear << ": rotations of the ends contribute " << 0.15 * 0.15 / 12 * ends / 0.6 / mean);
+    CHECK(at[linear + std::string(".z")].back() == Approx(mean).epsilon(1e-6));
+  }
+  CHECK(at["x.x"].back() == Approx(1).epsilon(1e-6));
+}
+
 TEST_CASE("cfr in space: a free beam keeps its energy") {
   const auto flown = [](double step) {
     return move(fill(R"yaml(

@@ -73,6 +73,9 @@ struct SpatialProbe {
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
   std::optional<SpatialFrameByPlaces> frame = {};     ///< deflection of split bodies
   std::optional<dynamics::SpatialMarker> other = {};  ///< drive, power: the first place of the joint, marker its second
+  /// Places whose positions' sum is that of the probe, in place of `marker`: nodes by their shares in a mean, for
+  /// position, displacement, velocity and acceleration (cfr).
+  std::vector<dynamics::SpatialMarker> mean = {};
 };
 
 /// The free or driven coordinate of a joint, along which its drive acts.
