@@ -167,7 +167,8 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
       } catch (const solve::MotionStopped& error) {
         report = error.report();
         reason = error.reason();
-        throw;
+        if (model.stretched_start.empty()) throw;
+        throw solve::MotionStopped(fmt::format("{}; {}", error.what(), model.stretched_start), error.report(), *reason);
       }
     });
     if (reduced && !told) {

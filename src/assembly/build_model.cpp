@@ -13,6 +13,7 @@
 #include "planar_assembly.h"
 #include "residual_responses.h"
 #include "spatial_assembly.h"
+#include "stretched_start.h"
 
 namespace floe::assembly {
 
@@ -153,6 +154,8 @@ Model assembled(const Plan& plan, const ReducedBodies& reduced) {
   for (std::string& words : middles_beside_nodes(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : loads_in_axes_of_parts(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : smoothed_drives(plan.scene)) model.warnings.push_back(std::move(words));
+  model.stretched_start = stretched_start(plan, model);
+  if (!model.stretched_start.empty()) model.warnings.push_back(model.stretched_start);
   return model;
 }
 

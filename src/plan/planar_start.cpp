@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "floe/fem/element_stiffness.h"
 #include "floe/petsc/values.h"
 
 namespace floe::plan {
@@ -197,6 +198,7 @@ void start_body(PlannedBody& body) {
   if (!body.spec.rigid && (start.deformation || start.deformation_rate)) {
     const DeformedBody deformed(body);
     if (start.deformation) {
+      body.linear_start_energy = fem::ElementStiffness(body.structure).strain_energy(deformed.displacement(pose));
       pose = frame_pose(deformed);
       body.deformation = deformed.displacement(pose);
       fem::to_frame(body.frame, body.deformation);

@@ -1,6 +1,7 @@
 #include "floe/plan/spatial_start.h"
 
 #include "floe/error.h"
+#include "floe/fem/element_stiffness.h"
 #include "floe/fem/quadratic_beam.h"
 #include "floe/fem/quadratic_shell.h"
 #include "floe/math/rotation.h"
@@ -255,6 +256,7 @@ void start_spatial_body(PlannedBody& body) {
   if (!body.spec.rigid && !body.spec.reduced && (start.spatial_deformation || start.spatial_deformation_rate)) {
     const Shape shape(body);
     if (start.spatial_deformation) {
+      body.linear_start_energy = fem::ElementStiffness(body.structure).strain_energy(displacement(shape, pose));
       pose = frame_pose(shape, fem::extent(body.structure));
       body.deformation = displacement(shape, pose);
       fem::to_frame(body.frame, body.deformation);

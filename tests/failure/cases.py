@@ -84,6 +84,11 @@ COMMANDS = [
     Case("equilibria with modes cut among equal ones", ["static", "scene.yaml", "-o", "out"], 0, lines=0,
          shows=("Note: body f: 1 more mode has the frequency of mode 1",),
          scene=rod(modes=1, more=HELD_ROD + "loads: {tip: {type: force, at: f.end, force: [0, t, 0]}}\nprobes: {tip: {at: f.end}}\n")),
+    *(Case(f"an initial deformation without its shortening in {formulation}", run(formulation), 1,
+           ("the simulation stopped at t = 0", "initial.deformation of beam: its strain energy is",
+            "the deflections stretch the body", "start: equilibrium"), lines=1,
+           scene=scene({"bodies.beam.initial": {"deformation": [0, "0.3*x^2"]}, "loads": None, "bodies.beam.section.EA": 1e9}))
+      for formulation in ("vm+md", "nlffr", "cfr")),
     Case("a comparison with shear", ["compare", "scene.yaml", "-o", "out"], 0, lines=0, shows=("CFR", "NLFFR"),
          scene=scene({"bodies.beam.section.GA": 1e6})),
     Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),

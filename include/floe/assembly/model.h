@@ -163,6 +163,7 @@ struct Model {
   std::vector<BodyReport> bodies;
   std::vector<ModelStop> stops;
   std::vector<std::string> warnings;
+  std::string stretched_start = {};               ///< the one of them about initial deformations; empty: none
   std::map<std::string, JointSwitches> switches;  ///< of the joints that events name
   PetscInt coordinates = 0, multipliers = 0;
   double extent = 1;               ///< a length of the scene [m]

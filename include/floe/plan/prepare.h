@@ -77,8 +77,9 @@ struct PlannedBody {
   /// In space: dofs that do not move in the frame: its conditions, those of all nodes of the place where it is clamped
   /// and the ground clamps the body, dependent nodes.
   fem::Conditions clamp = {};
-  int parent = -1;        ///< in space: the body whose frame it has (shared_frames); -1: its own
-  int parent_joint = -1;  ///< the joint that makes it so
+  int parent = -1;                 ///< in space: the body whose frame it has (shared_frames); -1: its own
+  int parent_joint = -1;           ///< the joint that makes it so
+  double linear_start_energy = 0;  ///< 1/2 q'K q of the initial deformation as given, in mesh axes [J]
 };
 
 /// A place with the factor by which the density of a load acts there: a length or an area times the load's shape.

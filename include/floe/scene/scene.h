@@ -245,7 +245,7 @@ struct Joint {
   math::Formula position;              ///< driven_slide: likewise along the axis [m]
   std::optional<math::Formula> speed;  ///< driven, driven_slide: in their place their rate [rad/s], [m/s]
   std::optional<LimitsSpec> limits,
-      rotation_limits;  ///< of the slide, or of the rotation where there is none; of a rotation besides
+      rotation_limits;  ///< of the slide, or of the rotation where there is none; of the rotation beside a slide
   std::optional<FrictionSpec> friction, rotation_friction;  ///< likewise
   /// Of sliding, of a hinge, normal of a planar joint; world axes at the start, carried by the first place.
   Point axis{1, 0, 0};
