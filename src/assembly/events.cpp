@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "floe/assembly/model.h"
+#include "floe/assembly/values_of_probe.h"
 #include "floe/math/nearest.h"
+#include "floe/scene/sensors.h"
 
 namespace floe::assembly {
 namespace {
@@ -43,12 +45,19 @@ double time_of(const Event& event, double step, double end) {
   }
 }
 
-/// The index of a column of the probes.
-std::size_t column_of(const Event& event, const Model& model) {
+struct ProbeComponent {
+  std::size_t probe, component;
+};
+
+/// The component of a probe that an event watches.
+ProbeComponent component_of(const Event& event, const Model& model) {
   std::vector<std::string> names;
-  for (const ProbeColumn& column : probe_columns(model)) names.push_back(column.name);
-  const auto found = std::find(names.begin(), names.end(), event.probe);
-  if (found != names.end()) return found - names.begin();
+  for (std::size_t p = 0; p < model.probes.size(); ++p) {
+    const ModelProbe& probe = model.probes[p];
+    const std::vector<std::string> components = components_of(probe.quantity, probe.spatial ? 3 : 2);
+    for (std::size_t i = 0; i < components.size(); ++i)
+      if (names.emplace_back(probe.name + "." + components[i]) == event.probe) return {p, i};
+  }
   const std::string near = math::nearest(event.probe, names);
   throw InputError(fmt::format("{}.probe: is \"{}\"; expected a component of a probe{}", event.where.text(),
                                event.probe, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
@@ -88,9 +97,8 @@ std::vector<dynamics::Event> events_of(const Scene& scene, const Model& model, d
     if (event.at) out.at = *event.at;
     if (event.when) out.at = time_of(event, scene.motion.step, end);
     if (!event.probe.empty()) {
-      const std::size_t column = column_of(event, model);
-      out.crosses = [&model, column, value = event.crosses](double t, Vec U, Vec V) {
-        return probe_values(model, t, U, V)[column] - value;
+      out.crosses = [&model, at = component_of(event, model), value = event.crosses](double t, Vec U, Vec V) {
+        return values_of_probe(model, at.probe, t, U, V)[at.component] - value;
       };
     }
     events.push_back(std::move(out));

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "connections.h"
 #include "floe/assembly/model.h"
+#include "floe/assembly/values_of_probe.h"
 #include "floe/dynamics/local_indices.h"
 #include "floe/dynamics/state_formula.h"
 #include "floe/math/rotation.h"
@@ -105,12 +107,14 @@ void agree(const Model& model, const Work& work) {
   petsc::agree_if_parallel(model.system->comm(), size == 1, work);
 }
 
+using Probes = std::span<const ModelProbe>;
+
 /// What the cuts of all sections exert on their parts, one after the other. Collective.
-std::vector<dynamics::Wrench> in_sections(const Model& model, double t, const Eigen::VectorXd& q,
+std::vector<dynamics::Wrench> in_sections(const Model& model, Probes probes, double t, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   std::vector<dynamics::Wrench> all;
   agree(model, [&] {
-    for (const ModelProbe& probe : model.probes)
+    for (const ModelProbe& probe : probes)
       for (const ModelSection& section : probe.sections) all.push_back(on_part(section.cut, t, q, v, a));
   });
   MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(6 * all.size()), MPI_DOUBLE, MPI_SUM, model.system->comm());
@@ -208,10 +212,11 @@ double drive_or_power(const ModelProbe& probe, double t, const Eigen::VectorXd& 
 }
 
 /// Energies of the bodies of all probes that measure one, one after the other. Collective.
-std::vector<double> of_bodies(const Model& model, double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+std::vector<double> of_bodies(const Model& model, Probes probes, double t, const Eigen::VectorXd& q,
+                              const Eigen::VectorXd& v) {
   std::vector<double> all;
   Eigen::VectorXd own, rate;
-  for (const ModelProbe& probe : model.probes) {
+  for (const ModelProbe& probe : probes) {
     const bool kinetic = probe.quantity == Probe::Quantity::kinetic_energy;
     if (!kinetic && probe.quantity != Probe::Quantity::strain_energy) continue;
     double& sum = all.emplace_back(0);
@@ -228,10 +233,10 @@ std::vector<double> of_bodies(const Model& model, double t, const Eigen::VectorX
 }
 
 /// What all probes of shells record, one after the other. Collective.
-std::vector<Eigen::Vector3d> in_shells(const Model& model, double t, const Eigen::VectorXd& q) {
+std::vector<Eigen::Vector3d> in_shells(const Model& model, Probes probes, double t, const Eigen::VectorXd& q) {
   std::vector<Eigen::Vector3d> all;
   agree(model, [&] {
-    for (const ModelProbe& probe : model.probes)
+    for (const ModelProbe& probe : probes)
       if (probe.shell) all.push_back(probe.shell->value(t, q));
   });
   if (!all.empty())
@@ -339,30 +344,29 @@ void find_accelerations(const Model& model, double t, Vec U, Vec V, Vec A, Eigen
   model.system->gather(found, a);
 }
 
-}  // namespace
-
-std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec A) {
+/// Of some probes of the model, one after the other. Collective.
+std::vector<double> values_of(const Model& model, Probes probes, double t, Vec U, Vec V, Vec A) {
   static thread_local Eigen::VectorXd q, v, a, whole;
   model.system->gather(U, q);
   model.system->gather(V, v);
   std::vector<double> values;
   std::vector<dynamics::Wrench> wrenches;
-  const bool sections = std::any_of(model.probes.begin(), model.probes.end(), of_section);
-  if (sections || std::any_of(model.probes.begin(), model.probes.end(), of_acceleration)) {
+  const bool sections = std::any_of(probes.begin(), probes.end(), of_section);
+  if (sections || std::any_of(probes.begin(), probes.end(), of_acceleration)) {
     whole = q;
     find_accelerations(model, t, U, V, A, whole, a);
-    if (sections) wrenches = in_sections(model, t, whole, v, a);
+    if (sections) wrenches = in_sections(model, probes, t, whole, v, a);
   }
   const MPI_Comm comm = model.system->comm();
   int rank = 0, size = 1;
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
-  const std::vector<Eigen::Vector3d> of_shells = in_shells(model, t, q);
-  const std::vector<double> energies = of_bodies(model, t, q, v);
+  const std::vector<Eigen::Vector3d> of_shells = in_shells(model, probes, t, q);
+  const std::vector<double> energies = of_bodies(model, probes, t, q, v);
   std::size_t next = 0, next_shell = 0, next_body = 0;
   agree(model, [&] {
     if (rank != size - 1) return;
-    for (const ModelProbe& probe : model.probes) {
+    for (const ModelProbe& probe : probes) {
       if (of_section(probe))
         add_section(probe, &wrenches[next], q, v, values);
       else if (probe.shell)
@@ -377,10 +381,22 @@ std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec
     }
   });
   if (size > 1) {
-    values.resize(probe_columns(model).size());
-    MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, size - 1, comm);
+    auto count = static_cast<int>(values.size());
+    MPI_Bcast(&count, 1, MPI_INT, size - 1, comm);
+    values.resize(count);
+    MPI_Bcast(values.data(), count, MPI_DOUBLE, size - 1, comm);
   }
   return values;
+}
+
+}  // namespace
+
+std::vector<double> probe_values(const Model& model, double t, Vec U, Vec V, Vec A) {
+  return values_of(model, model.probes, t, U, V, A);
+}
+
+std::vector<double> values_of_probe(const Model& model, std::size_t probe, double t, Vec U, Vec V) {
+  return values_of(model, Probes(model.probes).subspan(probe, 1), t, U, V, nullptr);
 }
 
 }  // namespace floe::assembly

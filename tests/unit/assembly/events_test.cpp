@@ -213,3 +213,26 @@ TEST_CASE("a formula of an event that is no number is told with its key, unless 
   CHECK_THROWS_WITH(events("sqrt(0.5 - t) + 1"), Contains(".when: \"sqrt(0.5 - t) + 1\" is not a number at t = 0.5"));
   CHECK(events("sqrt(0.5 - t) - 0.5")[0].at == Approx(0.25));
 }
+
+// Accelerations of another probe cost a factorisation of the whole system; here they cannot even be computed.
+TEST_CASE("events: evaluate the probe that they watch alone") {
+  const scene::Scene scene = scene::parse_scene(R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0], to: [1.5, 0], elements: 2}}
+    section: {rhoA: 1}
+joints: {hinge: {type: revolute, between: [ground, rod.start]}}
+motion: {end: 1, step: 1e-2}
+probes:
+  pull: {at: rod.end, quantity: acceleration}
+  turn: {at: rod.end, quantity: rotation}
+events: {end: {stop: true, probe: turn.angle, crosses: 0.25}}
+)yaml",
+                                                "scene");
+  const assembly::Model model = assembly::build(scene, Formulation::vm_md, PETSC_COMM_WORLD);
+  const std::vector<dynamics::Event> events = assembly::events_of(scene, model, 1);
+  const petsc::VecHandle unknown = model.system->create_vector();
+  petsc::check(VecSet(unknown, std::nan("")));
+  CHECK(events.at(0).crosses(0, model.U, unknown) == Approx(-0.25));
+}
