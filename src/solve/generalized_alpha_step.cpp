@@ -103,17 +103,22 @@ PetscErrorCode worth_adding(TS ts, PetscReal factor, PetscBool* yes) {
   PetscFunctionReturn(0);
 }
 
-// Where Newton starts, into U1: a_1 = a_0 + h A' with A' from the two accelerations that the step begins with, whose
-// times are (af - am) h apart. That needs nothing from steps before. Plain, or where the difference is noise of stiff
-// motions or of round-off: a_1 = a_0.
-PetscErrorCode predict(TS ts, PetscBool plain) {
+// Where Newton starts, into U1. Extrapolated: a_1 = a_0 + h A' with A' from the two accelerations that the step begins
+// with, whose times are (af - am) h apart. That needs nothing from steps before. Plain, or where the difference is
+// noise of stiff motions or of round-off: a_1 = a_0. Standing: q_1 = q_0. Motions that the step does not resolve move
+// by h^2 a_0 / 2 in the other two, (omega h)^2 / 2 times what the force does statically, which is beyond Newton's reach
+// after a sudden force at a node.
+enum class Guess { extrapolated, plain, standing };
+
+PetscErrorCode predict(TS ts, Guess guess) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal of_a = data->beta * data->h * data->h, factor = 1 / (data->alpha_f - data->alpha_m);
   PetscBool extrapolates = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(data->U1, of_a, data->a_used, data->base_q));
-  if (!plain) PetscCall(worth_adding(ts, factor, &extrapolates));
+  if (guess == Guess::standing) PetscCall(VecCopy(data->U0, data->U1));
+  if (guess == Guess::extrapolated) PetscCall(worth_adding(ts, factor, &extrapolates));
   if (!extrapolates) PetscFunctionReturn(0);
   const Entries A(data->A0), a(data->a_used);
   Changed U(data->U1);
@@ -152,11 +157,11 @@ PetscErrorCode refuse_not_finite(TS ts) {
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode newton(TS ts, PetscBool plain, SNESConvergedReason* reason) {
+PetscErrorCode newton(TS ts, Guess guess, SNESConvergedReason* reason) {
   PetscInt iterations, linear;
 
   PetscFunctionBegin;
-  PetscCall(predict(ts, plain));
+  PetscCall(predict(ts, guess));
   PetscCall(solve_again(ts->snes, generalized_alpha_data(ts)->U1));
   PetscCall(refuse_not_finite(ts));
   PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
@@ -180,12 +185,13 @@ PetscErrorCode solve(TS ts) {
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
   if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
   if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
-  PetscCall(newton(ts, PETSC_FALSE, &reason));
+  PetscCall(newton(ts, Guess::extrapolated, &reason));
   if (kept) ts->snes->lagjacobian = lag;
-  if (reason < 0 && lag != 1) {
+  if (reason < 0) {
     ts->snes->lagjacobian = 1;
     renew_jacobian(ts->snes, 0);
-    PetscCall(newton(ts, PETSC_TRUE, &reason));
+    PetscCall(newton(ts, Guess::standing, &reason));
+    if (reason < 0) PetscCall(newton(ts, Guess::plain, &reason));
     ts->snes->lagjacobian = lag;
   }
   if (reason < 0) renew_jacobian(ts->snes, 0);
