@@ -48,7 +48,8 @@ std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, i
   const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<BodyProperties> all;
-  for (const PlannedBody& body : plan.bodies) {
+  for (int b = 0; b < static_cast<int>(plan.bodies.size()); ++b) {
+    const PlannedBody& body = plan.bodies[b];
     BodyProperties& found = all.emplace_back();
     found.name = body.spec.name;
     if (body.spec.reduced) {
@@ -63,9 +64,9 @@ std::vector<BodyProperties> body_properties(const Scene& whole, MPI_Comm comm, i
     found.box = box_of(body.structure.mesh, frame);
     if (body.spec.rigid || frequencies == 0) continue;
     found.free = frequencies_of(body, {}, fem::holding(body.structure, body.frame, {}), frequencies);
-    const fem::Holding of_modes = holding_of_modes(body);
+    const fem::Holding of_modes = holding_of_modes(plan, b);
     if (!of_modes.constrained.empty())
-      found.constrained = frequencies_of(body, constrained_by_modes(body), of_modes, frequencies);
+      found.constrained = frequencies_of(body, constrained_by_modes(plan, b), of_modes, frequencies);
   }
   return all;
 }

@@ -95,15 +95,17 @@ void generate(const Plan& plan, int index, int modes, Stage& stage, BodyReport& 
   report.seconds_modes = MPI_Wtime() - start;
 }
 
-fem::Holding holding_of_modes(const PlannedBody& body) {
-  return fem::holding(body.structure, body.frame, of_frame(body) ? body.frame.conditions : constrained_by_modes(body));
+fem::Holding holding_of_modes(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  return fem::holding(body.structure, body.frame,
+                      of_frame(body) ? body.frame.conditions : constrained_by_modes(plan, index));
 }
 
 void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report) {
   const PlannedBody& body = plan.bodies[index];
   check_interface(plan, index);
-  stage.for_statics = fem::holding(body.structure, body.frame, constrained_by_modes(body));
-  stage.for_modes = of_frame(body) ? holding_of_modes(body) : stage.for_statics;
+  stage.for_statics = fem::holding(body.structure, body.frame, constrained_by_modes(plan, index));
+  stage.for_modes = of_frame(body) ? holding_of_modes(plan, index) : stage.for_statics;
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
   stage.attachments = attachments(plan, index);

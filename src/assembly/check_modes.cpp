@@ -13,10 +13,11 @@ void check_modes(const Scene& whole, MPI_Comm comm) {
   const Scene scene = split_frames(whole, comm);
   const Plan plan = prepare(scene, comm);
   std::vector<std::string> faults;
-  for (const PlannedBody& body : plan.bodies) {
+  for (int b = 0; b < static_cast<int>(plan.bodies.size()); ++b) {
+    const PlannedBody& body = plan.bodies[b];
     const ModesSpec& modes = body.spec.reduction.modes;
     if (body.spec.rigid || body.spec.reduced || !modes.given || modes.count * plenty <= body.structure.dofs()) continue;
-    const fem::Holding holding = holding_of_modes(body);
+    const fem::Holding holding = holding_of_modes(plan, b);
     const reduction::Statics statics(body.structure, body.frame, holding);
     const PetscInt available = reduction::ModeSolver(body.structure, body.frame, holding, statics).available();
     if (modes.count <= available) continue;

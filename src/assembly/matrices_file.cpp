@@ -62,9 +62,11 @@ std::string table(const fem::Structure& structure, const FreeRows& rows, const s
   return text;
 }
 
-void write_body_matrices(MPI_Comm comm, const PlannedBody& body, const std::filesystem::path& folder) {
+void write_body_matrices(const Plan& plan, int index, const std::filesystem::path& folder) {
+  const MPI_Comm comm = plan.comm;
+  const PlannedBody& body = plan.bodies[index];
   const fem::Structure& structure = body.structure;
-  const fem::Conditions constrained = holding_of_modes(body).constrained;
+  const fem::Conditions constrained = holding_of_modes(plan, index).constrained;
   const FreeRows rows = free_rows(structure, constrained);
   const auto file = [&](const char* what) { return folder / fmt::format("{}-{}", body.spec.name, what); };
   const std::vector<Eigen::Vector3d> x = positions(structure.mesh);
@@ -94,8 +96,9 @@ std::vector<std::string> write_matrices(const Scene& whole, MPI_Comm comm, const
     throw InputError(
         fmt::format("{}: no body is flexible and has a mesh; expected one whose matrices can be written", scene.file));
   const output::ResultFolder results = output::prepare_folder(comm, folder, overwrite);
-  for (const PlannedBody& body : plan.bodies)
-    if (!body.spec.rigid && !body.spec.reduced) write_body_matrices(comm, body, results.path);
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    if (!plan.bodies[b].spec.rigid && !plan.bodies[b].spec.reduced)
+      write_body_matrices(plan, static_cast<int>(b), results.path);
   return names;
 }
 

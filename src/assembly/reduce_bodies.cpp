@@ -10,6 +10,7 @@
 #include "floe/assembly/mode_warnings.h"
 #include "floe/assembly/shared_reduction.h"
 #include "floe/plan/attachments.h"
+#include "floe/plan/hold_at_frame.h"
 #include "floe/plan/interface.h"
 #include "floe/plan/mesh_copy.h"
 #include "floe/reduction/ranking.h"
@@ -70,6 +71,7 @@ void warn(const Plan& plan, int index, Formulation formulation, std::vector<std:
     if (!touches || !moment || !no_columns) continue;
     if (body.frame.kind == fem::ReferenceFrame::Kind::clamped && constrained_here) continue;
     if (constrained_here && !of_frame(body)) continue;
+    if (joins_at_frame(plan, index, j)) continue;
     const auto& [first, second] = plan.joints[j];
     if (of_interface(first.body == index ? first : second)) continue;  // its columns carry all
     warnings.push_back(fmt::format(
@@ -186,9 +188,10 @@ std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation f
 }
 
 /// Not factored before they solve. Collective.
-std::shared_ptr<const reduction::Statics> statics_of(const PlannedBody& body) {
+std::shared_ptr<const reduction::Statics> statics_of(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
   return std::make_shared<const reduction::Statics>(
-      body.structure, body.frame, fem::holding(body.structure, body.frame, constrained_by_modes(body)));
+      body.structure, body.frame, fem::holding(body.structure, body.frame, constrained_by_modes(plan, index)));
 }
 
 /// Formulation vm without a number of its own: as many modes as modes and derivatives together keep columns.
@@ -349,7 +352,7 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     for (int copy = b + 1; copy < count; ++copy) {
       if (shared[copy].of != b) continue;
       all[copy] = shared_body(plan, copy, shared[copy], all[b]);
-      if (keep_statics && !all[copy].statics) all[copy].statics = statics_of(plan.bodies[copy]);
+      if (keep_statics && !all[copy].statics) all[copy].statics = statics_of(plan, copy);
     }
   }
   return all;

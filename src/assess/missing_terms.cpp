@@ -167,7 +167,8 @@ void judge_missing(const Model& model, std::size_t b, const std::vector<const St
     fem::Holding holding;
     if (!statics) {
       const PlannedBody& plan = model.offline->plan.bodies[b];
-      holding = fem::holding(plan.structure, plan.frame, constrained_by_modes(plan));
+      holding =
+          fem::holding(plan.structure, plan.frame, constrained_by_modes(model.offline->plan, static_cast<int>(b)));
       statics = std::make_shared<const reduction::Statics>(plan.structure, plan.frame, holding);
     }
     for (const State* state : most_loaded(body, *statics, states))

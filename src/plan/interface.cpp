@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "floe/plan/hold_at_frame.h"
+
 namespace floe::plan {
 
 std::vector<AveragingWeight> Anchor::moved_by() const {
@@ -42,8 +44,11 @@ std::string joint_that_holds(const Plan& plan, int index, const Anchor& place) {
 
 }  // namespace
 
-fem::Conditions constrained_by_modes(const PlannedBody& body) {
+fem::Conditions constrained_by_modes(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
   fem::Conditions constrained = body.constrained;
+  const fem::Conditions at_frame = held_at_frame(plan, index);
+  constrained.insert(constrained.end(), at_frame.begin(), at_frame.end());
   const int n = body.structure.dofs_per_node;
   for (const Anchor& place : body.interface)
     for (const AveragingWeight& weight : place.moved_by())

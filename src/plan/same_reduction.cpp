@@ -49,19 +49,21 @@ struct HeldConditions {
 };
 
 /// Collective.
-HeldConditions conditions_of(const PlannedBody& body) {
-  const fem::Holding statics = fem::holding(body.structure, body.frame, constrained_by_modes(body)),
+HeldConditions conditions_of(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  const fem::Holding statics = fem::holding(body.structure, body.frame, constrained_by_modes(plan, index)),
                      modes = body.spec.reduction.modes.of == ModesSpec::Of::frame
                                  ? fem::holding(body.structure, body.frame, body.frame.conditions)
                                  : statics;
   return {modes.constrained, statics.statics, modes.left.cols()};
 }
 
-bool same_conditions(const PlannedBody& a, const PlannedBody& b, bool rotates) {
+bool same_conditions(const Plan& plan, int first, int second, bool rotates) {
+  const PlannedBody &a = plan.bodies[first], &b = plan.bodies[second];
   if (a.frame.kind != b.frame.kind || a.frame.conditions != b.frame.conditions) return false;
   if (a.frame_places[0].node != b.frame_places[0].node || a.frame_places[1].node != b.frame_places[1].node)
     return false;
-  const HeldConditions one = conditions_of(a), other = conditions_of(b);
+  const HeldConditions one = conditions_of(plan, first), other = conditions_of(plan, second);
   if (one.modes != other.modes || one.statics != other.statics || one.free_motions != other.free_motions) return false;
   return !rotates || (whole(a.frame.conditions) && whole(one.modes) && whole(one.statics));
 }
@@ -153,7 +155,7 @@ std::vector<SharedReduction> same_reductions(const Plan& plan, const Attachments
       if (one.structure.dimension() != other.structure.dimension()) continue;
       const fem::Placement placement = placement_of(one, other);
       int same =
-          same_conditions(one, other, placement.rotates) && fem::congruent(one.structure, other.structure, placement);
+          same_conditions(plan, a, b, placement.rotates) && fem::congruent(one.structure, other.structure, placement);
       MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, plan.comm);
       if (same != 0 && same_attachments(other, placement, loads_of(a), loads_of(b))) all[b] = {a, placement};
     }

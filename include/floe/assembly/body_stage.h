@@ -20,7 +20,7 @@ constexpr int as_the_body_has = -1;
 int count_of_modes(const PlannedBody& body);
 
 /// How the body is constrained when it vibrates in its modes. Collective.
-fem::Holding holding_of_modes(const PlannedBody& body);
+fem::Holding holding_of_modes(const Plan& plan, int index);
 
 /// Factors, modes and attachment modes. @param modes  how many, or as_the_body_has. Collective.
 void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyReport& report);
