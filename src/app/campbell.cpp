@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campbell_check.h"
 #include "campbell_estimate.h"
 #include "campbell_tracks.h"
 #include "floe/assembly/rotation.h"
@@ -53,28 +54,6 @@ Eigen::Vector3d hub_position(const assembly::Model& model, int dimension) {
   return at;
 }
 
-assembly::Model plan(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
-  const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
-  return assembly::build(scene, formulation, comm, true);
-}
-
-/// From the steady rotation at `from` to the vibrations at `speed`. Returns where the next search begins.
-double visit(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
-  try {
-    point.iterations = solve::steady_rotation(rotating, from, point.speed, U, &point.jump);
-  } catch (const RunError& error) {
-    point.fault = error.what(), point.steady = false;
-    return from;
-  }
-  try {
-    for (solve::Vibration& one : solve::vibrations(rotating, point.speed, U, modes))
-      point.vibrations.push_back({std::move(one)});
-  } catch (const RunError& error) {
-    point.fault = error.what();
-  }
-  return point.speed;
-}
-
 /// The steady rotation in the model's unknowns.
 solve::State state_at(const assembly::Model& model, const solve::RotationAxis& axis, double speed) {
   const petsc::VecHandle rest = model.system->create_vector();
@@ -105,69 +84,6 @@ void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
                   point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
 }
 
-bool is_unstable(const CampbellPoint& point) {
-  return std::any_of(point.vibrations.begin(), point.vibrations.end(),
-                     [](const solve::Vibration& v) { return v.unstable(); });
-}
-
-/// Looks whether what a reduced model says of the first unstable speed is so at full order of the same mesh, from rest.
-void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
-                       CampbellDiagram& diagram) {
-  const auto unstable = std::find_if(diagram.points.begin(), diagram.points.end(), is_unstable);
-  if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation)) return;
-  const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
-  CampbellPoint point{unstable->speed, {}, 0, {}};
-  try {
-    CampbellDiagram full{{}, diagram.axis, plan(scene, scene::Formulation::nlffr, comm), {}};
-    const PetscInt unknowns = full.model.coordinates + full.model.multipliers;
-    if (unknowns > solve::largest_rotating_system)
-      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
-    else
-      visit(assembly::rotating_system(given, full.model, full.axis), 0, modes, full.model.U, point);
-  } catch (const InputError& error) {
-    point.fault = error.what();
-  } catch (const RunError& error) {
-    point.fault = error.what();
-  }
-  if (!point.fault.empty())
-    diagram.model.warnings.push_back(
-        fmt::format("{} was not checked with the full-order model: {}; compare with more modes", what, point.fault));
-  else if (!is_unstable(point))
-    diagram.model.warnings.push_back(
-        fmt::format("{} is an artefact of the reduced model: the full-order model of the same mesh is stable there "
-                    "(growth below 0, first frequency {:.4g} rad/s); take more modes and derivatives, or nlffr",
-                    what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
-}
-
-/// Frequency errors at the fastest steady rotation, by a model on larger bases that comes there from rest.
-void estimate(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
-              CampbellDiagram& diagram) {
-  if (diagram.model.formulation != scene::Formulation::vm && diagram.model.formulation != scene::Formulation::vm_md)
-    return;
-  CampbellEstimate& estimate = diagram.estimate;
-  estimate.speed = speed;
-  const auto at = std::find_if(diagram.points.begin(), diagram.points.end(),
-                               [&](const CampbellPoint& point) { return point.steady && point.speed == speed; });
-  const std::optional<scene::Scene> larger = on_larger_bases(scene);
-  if (at == diagram.points.end() || !larger) {
-    estimate.missing = larger ? "no steady rotation" : "no body has a mesh from which a larger basis could be computed";
-    return;
-  }
-  CampbellPoint point{speed, {}, 0, {}};
-  try {
-    CampbellDiagram second{{}, diagram.axis, plan(*larger, scene::Formulation::vm_md, comm), {}};
-    estimate.coordinates = second.model.coordinates;
-    visit(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
-    estimate.missing = point.fault;
-  } catch (const InputError& error) {
-    estimate.missing = error.what();
-  } catch (const RunError& error) {
-    estimate.missing = error.what();
-  }
-  if (estimate.missing.empty())
-    estimate.errors = frequency_errors(*at, {point.vibrations.begin(), point.vibrations.end()});
-}
-
 }  // namespace
 
 CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulation, MPI_Comm comm,
@@ -187,7 +103,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
     throw InputError(given.file +
                      ": the axis is not that of one driven or revolute joint to the ground; expected --through X,Y");
   const double begin = MPI_Wtime();
-  diagram.model = plan(look ? with_hub(given, *hub) : given, formulation, comm);
+  diagram.model = plan_rotation(look ? with_hub(given, *hub) : given, formulation, comm);
   if (look) diagram.axis.point = hub_position(diagram.model, given.dimension);
   diagram.label = label_of(diagram.model);
   const solve::RotatingSystem rotating = assembly::rotating_system(given, diagram.model, diagram.axis);
@@ -202,7 +118,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
     CampbellTracks tracks;
     for (const double speed : speeds) {
       CampbellPoint point{speed, {}, 0, {}};
-      from = visit(rotating, from, request.modes, diagram.model.U, point);
+      from = visit_speed(rotating, from, request.modes, diagram.model.U, point);
       if (point.steady && std::abs(speed) >= std::abs(fastest))
         fastest = speed, state = {state_at(diagram.model, diagram.axis, speed)};
       warn_of_jump(point, diagram);
@@ -212,8 +128,10 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
       interruption.check(comm);
     }
     warn(fastest, state, comm, diagram.model);
-    if (request.estimate) estimate(given, look ? with_hub(given, *hub) : given, request.modes, fastest, comm, diagram);
-    check_instability(given, look ? with_hub(given, *hub) : given, request.modes, comm, diagram);
+    const scene::Scene scene = look ? with_hub(given, *hub) : given;
+    if (request.estimate) estimate_frequencies(given, scene, request.modes, fastest, comm, diagram);
+    check_instability(given, scene, request.modes, comm, diagram);
+    if (!state.empty()) check_rotating_model(given, scene, fastest, request.modes, comm, diagram);
   } catch (const std::exception&) {
     fault = std::current_exception();
   }

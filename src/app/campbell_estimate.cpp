@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "campbell_check.h"
+#include "floe/assembly/rotation.h"
 #include "model_hierarchy.h"
 
 namespace floe::app {
@@ -45,6 +47,34 @@ std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const s
     errors.push_back({one.track, apart(*nearest) / larger[*nearest].omega});
   }
   return errors;
+}
+
+void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
+                          CampbellDiagram& diagram) {
+  if (diagram.model.formulation != scene::Formulation::vm && diagram.model.formulation != scene::Formulation::vm_md)
+    return;
+  CampbellEstimate& estimate = diagram.estimate;
+  estimate.speed = speed;
+  const auto at = std::find_if(diagram.points.begin(), diagram.points.end(),
+                               [&](const CampbellPoint& point) { return point.steady && point.speed == speed; });
+  const std::optional<scene::Scene> larger = on_larger_bases(scene);
+  if (at == diagram.points.end() || !larger) {
+    estimate.missing = larger ? "no steady rotation" : "no body has a mesh from which a larger basis could be computed";
+    return;
+  }
+  CampbellPoint point{speed, {}, 0, {}};
+  try {
+    CampbellDiagram second{{}, diagram.axis, plan_rotation(*larger, scene::Formulation::vm_md, comm), {}};
+    estimate.coordinates = second.model.coordinates;
+    visit_speed(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
+    estimate.missing = point.fault;
+  } catch (const InputError& error) {
+    estimate.missing = error.what();
+  } catch (const RunError& error) {
+    estimate.missing = error.what();
+  }
+  if (estimate.missing.empty())
+    estimate.errors = frequency_errors(*at, {point.vibrations.begin(), point.vibrations.end()});
 }
 
 }  // namespace floe::app

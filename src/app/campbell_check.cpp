@@ -1,0 +1,145 @@
+#include "campbell_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "floe/assembly/rotation.h"
+#include "floe/math/rounded.h"
+#include "floe/output/progress.h"
+
+namespace floe::app {
+
+assembly::Model plan_rotation(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
+  const output::Waiting waiting(comm, "preparing " + scene::name_of(formulation));
+  return assembly::build(scene, formulation, comm, true);
+}
+
+double visit_speed(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
+  try {
+    point.iterations = solve::steady_rotation(rotating, from, point.speed, U, &point.jump);
+  } catch (const RunError& error) {
+    point.fault = error.what(), point.steady = false;
+    return from;
+  }
+  try {
+    for (solve::Vibration& one : solve::vibrations(rotating, point.speed, U, modes))
+      point.vibrations.push_back({std::move(one)});
+  } catch (const RunError& error) {
+    point.fault = error.what();
+  }
+  return point.speed;
+}
+
+namespace {
+
+bool is_unstable(const CampbellPoint& point) {
+  return std::any_of(point.vibrations.begin(), point.vibrations.end(),
+                     [](const solve::Vibration& v) { return v.unstable(); });
+}
+
+}  // namespace
+
+void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
+                       CampbellDiagram& diagram) {
+  const auto unstable = std::find_if(diagram.points.begin(), diagram.points.end(), is_unstable);
+  if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation)) return;
+  const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
+  CampbellPoint point{unstable->speed, {}, 0, {}};
+  try {
+    CampbellDiagram full{{}, diagram.axis, plan_rotation(scene, scene::Formulation::nlffr, comm), {}};
+    const PetscInt unknowns = full.model.coordinates + full.model.multipliers;
+    if (unknowns > solve::largest_rotating_system)
+      point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
+    else
+      visit_speed(assembly::rotating_system(given, full.model, full.axis), 0, modes, full.model.U, point);
+  } catch (const InputError& error) {
+    point.fault = error.what();
+  } catch (const RunError& error) {
+    point.fault = error.what();
+  }
+  if (!point.fault.empty())
+    diagram.model.warnings.push_back(
+        fmt::format("{} was not checked with the full-order model: {}; compare with more modes", what, point.fault));
+  else if (!is_unstable(point))
+    diagram.model.warnings.push_back(
+        fmt::format("{} is an artefact of the reduced model: the full-order model of the same mesh is stable there "
+                    "(growth below 0, first frequency {:.4g} rad/s); take more modes and derivatives, or nlffr",
+                    what, point.vibrations.empty() ? 0 : point.vibrations.front().omega));
+}
+
+namespace {
+
+constexpr PetscInt most_unknowns = 300;
+constexpr double most_difference = 0.025;
+
+std::vector<double> frequencies_of(const CampbellPoint& point) {
+  std::vector<double> all;
+  for (const solve::Vibration& v : point.vibrations)
+    if (v.omega > 0 && !v.zero) all.push_back(v.omega);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+/// At rest and at the speed; empty: not found.
+using Frequencies = std::array<std::vector<double>, 2>;
+
+Frequencies at_rest_and_at(const scene::Scene& given, assembly::Model& model, const solve::RotationAxis& axis,
+                           double speed, int modes) {
+  const solve::RotatingSystem rotating = assembly::rotating_system(given, model, axis);
+  Frequencies found;
+  double from = 0;
+  for (const int i : {0, 1}) {
+    CampbellPoint point{i * speed, {}, 0, {}};
+    from = visit_speed(rotating, from, modes, model.U, point);
+    if (point.fault.empty()) found[i] = frequencies_of(point);
+  }
+  return found;
+}
+
+}  // namespace
+
+void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, double speed, int modes, MPI_Comm comm,
+                          CampbellDiagram& diagram) {
+  using scene::Formulation;
+  int ranks = 1;
+  MPI_Comm_size(comm, &ranks);
+  const Formulation formulation = diagram.model.formulation;
+  if (ranks > 1 || scene.dimension == 2 || speed == 0) return;
+  if (formulation == Formulation::cfr || formulation == Formulation::lffr) return;
+  Frequencies mine, exact;
+  try {
+    assembly::Model cfr = plan_rotation(scene, Formulation::cfr, comm);
+    if (cfr.coordinates + cfr.multipliers > most_unknowns) return;
+    exact = at_rest_and_at(given, cfr, diagram.axis, speed, modes);
+    assembly::Model again = plan_rotation(scene, formulation, comm);
+    mine = at_rest_and_at(given, again, diagram.axis, speed, modes);
+  } catch (const InputError&) {
+    return;
+  } catch (const RunError&) {
+    return;
+  }
+  std::size_t count = modes;
+  for (const Frequencies& one : {mine, exact})
+    for (const std::vector<double>& omega : one) count = std::min(count, omega.size());
+  double worst = most_difference;
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    double limit = most_difference;  // and what it and its neighbours, which it may cross, differ by at rest
+    for (std::size_t j = 0; j < std::min(i + 2, count); ++j)
+      limit = std::max(limit, most_difference + std::abs(mine[0][j] / exact[0][j] - 1));
+    const double error = std::abs(mine[1][i] / exact[1][i] - 1);
+    if (!(error > limit && error - limit > worst - most_difference)) continue;
+    worst = error - limit + most_difference;
+    text = fmt::format(
+        "at {:.6g} rad/s: frequency {} is {:.4g} rad/s, and {:.4g} rad/s with geometrically exact beams and shells "
+        "(cfr) "
+        "on the same mesh: {} apart (limit {}); use several frames (frames: N), more modes and derivatives, or cfr",
+        speed, i + 1, mine[1][i], exact[1][i], math::percent(error), math::percent(limit));
+  }
+  if (!text.empty()) diagram.model.warnings.push_back(text);
+}
+
+}  // namespace floe::app

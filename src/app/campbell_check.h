@@ -1,0 +1,25 @@
+#pragma once
+#include "campbell.h"
+
+namespace floe::app {
+
+/// A scene's model for steady rotations. Collective.
+assembly::Model plan_rotation(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm);
+
+/// From the steady rotation at `from` to the vibrations at `point.speed`. @return  where the next search begins
+double visit_speed(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point);
+
+/// Whether what a reduced model says of the first unstable speed is so at full order of the same mesh, from rest: a
+/// warning where it is not, or where this is not known.
+/// @param given, scene  what the user wrote, and with a probe of the hub
+void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
+                       CampbellDiagram& diagram);
+
+/// A warning where a frequency at a speed is further from that of geometrically exact beams and shells (cfr) on the
+/// same mesh than 2.5 %, which 5 % of the stiffness make, and what the frequencies up to the next one differ at rest:
+/// the error of the basis and of cfr's inertia. In the order of the frequencies. In space, on one rank, where cfr
+/// supports the scene with at most 300 unknowns; elsewhere nothing is checked.
+void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, double speed, int modes, MPI_Comm comm,
+                          CampbellDiagram& diagram);
+
+}  // namespace floe::app
