@@ -108,7 +108,7 @@ class Follower {
     set_state(system_, known, U_, V_, A_);
     system_.rebase(U_);  // springs take over their rotations
     VectorXd d = last_.d + h * last_.rate;
-    if (!newton(known, by, d)) return false;
+    if (!newton(known, by, d) && !newton(known, by, d = last_.d, true)) return false;
     last_ = with_rates(by, d);
     return true;
   }
@@ -145,9 +145,10 @@ class Follower {
     return -x;
   }
 
-  /// A factor is made for a new step size, and where corrections do not fall to a fifth. What counts is the error
-  /// beside the distance from the extrapolation, h^2 d'': a part of d itself would be differenced twice.
-  bool newton(const State& known, const Scheme& by, VectorXd& d) {
+  /// A factor is made for a new step size, and where corrections do not fall to a fifth; in every iteration if `renew`,
+  /// which finds what Newton's method does not from where stiff motions would go (d = last_.d). What counts is the
+  /// error beside the distance from the extrapolation, h^2 d'': a part of d itself would be differenced twice.
+  bool newton(const State& known, const Scheme& by, VectorXd& d, bool renew = false) {
     bool stale = std::abs(factored_for_ - by.by_rate) > 0.05 * by.by_rate;
     const double round_off =
         1e-9 * (without_multipliers(known.q).norm() + without_multipliers(known.v).norm() / by.by_rate);
@@ -155,7 +156,7 @@ class Follower {
     double before = 0;
     for (int i = 0; i < 12; ++i) {
       set(known, by, d);
-      if (stale) factor(known.t, by);
+      if (stale || renew) factor(known.t, by);
       const VectorXd x = correction(known.t);
       if (!x.allFinite()) return false;
       d += x;
