@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "floe/error.h"
 #include "floe/fem/shell.h"
 #include "floe/plan/prepare_spatial_joints.h"
 #include "floe/reference/facet_pressure.h"
@@ -161,6 +162,11 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
 
 void SpatialAssembly::add_corotated(int b) {
   const PlannedBody& body = plan_.bodies[b];
+  for (const fem::Section& section : body.structure.sections)
+    if (std::holds_alternative<fem::NodeSpring>(section))
+      throw InputError(body.spec.where.text() +
+                       ": a body with springs between its nodes has no corotational model; expected another "
+                       "formulation than cfr");
   coordinates_.belongs_to("body " + body.spec.name);
   slots_[b].corotated = std::make_unique<reference::CorotationalBody>(
       coordinates_, body.structure, visited(b), clamped_edges(b),

@@ -19,7 +19,8 @@ namespace {
 double bending_stiffness(const fem::Section& section) {
   if (const auto* plane = std::get_if<fem::BeamSection>(&section)) return plane->EI;
   const auto* space = std::get_if<fem::SpatialBeam>(&section);
-  return space ? std::sqrt(space->section.EIy * space->section.EIz) : 0;
+  const bool bends = space && space->releases.none();  // of released ends the nodes do not know the slope
+  return bends ? std::sqrt(space->section.EIy * space->section.EIz) : 0;
 }
 
 constexpr int numbers = 13;  // of an element on its way between ranks
@@ -265,7 +266,7 @@ std::vector<BentElement> bent_elements(const fem::Structure& structure, Vec defo
   int shells = 0;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
     if (!mesh::is_line(cell.kind)) {
-      shells = shells || cell.kind != fem::CellKind::point;
+      shells = shells || mesh::is_shell(cell.kind);
       continue;
     }
     using Ends = std::vector<std::array<int, 2>>;

@@ -45,7 +45,9 @@ ElementMaps maps_of(const Corners& at, const BeamSection& section) {
 }
 ElementMaps maps_of(const Corners& at, const SpatialBeam& beam) {
   if (at.quadratic()) return quadratic_beam(curve_of(at, beam), beam.section, beam.strain);
-  return spatial_beam(place_of(at, beam), beam.section, beam.strain);
+  const ElementMaps rigidly_joined = spatial_beam(place_of(at, beam), beam.section, beam.strain);
+  if (beam.releases.none()) return rigidly_joined;
+  return transformed(rigidly_joined, released(place_of(at, beam), beam.section, beam.releases));
 }
 ElementMaps maps_of(const Corners& at, const ShellSection& section) {
   if (at.quadratic()) return quadratic_shell(at.all(), section);
@@ -54,6 +56,7 @@ ElementMaps maps_of(const Corners& at, const ShellSection& section) {
 ElementMaps maps_of(const Corners& at, const PointMass& point) {
   return point_mass(at[0], point.mass, point.inertia, point.offset);
 }
+ElementMaps maps_of(const Corners& at, const NodeSpring& spring) { return node_spring(at[0], at[1], spring); }
 
 Eigen::MatrixXd sums_of(const ElementMaps& maps, double k, double m) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(maps.bending.rows(), maps.bending.cols());
@@ -66,7 +69,7 @@ Eigen::MatrixXd matrix_of(const Corners& at, const Section& section, double k, d
   return sums_of(maps_of(at, section), k, m);
 }
 Eigen::MatrixXd matrix_of(const Corners& at, const SpatialBeam& beam, double k, double m) {
-  if (at.quadratic()) return sums_of(quadratic_beam(curve_of(at, beam), beam.section, beam.strain), k, m);
+  if (at.quadratic() || beam.releases.any()) return sums_of(maps_of(at, beam), k, m);
   Matrix12 A = Matrix12::Zero();
   if (k != 0) A += k * stiffness(fixed_spatial_beam(place_of(at, beam), beam.section, beam.strain.wagner));
   if (m != 0) A += m * spatial_beam_mass(place_of(at, beam), beam.section);
@@ -91,7 +94,9 @@ std::vector<body::MassPoint> line_of(const Corners& at, const BeamSection& secti
 }
 std::vector<body::MassPoint> line_of(const Corners& at, const SpatialBeam& beam) {
   if (at.quadratic()) return quadratic_beam_line(curve_of(at, beam));
-  return spatial_beam_line(place_of(at, beam), beam.section);
+  const std::vector<body::MassPoint> line = spatial_beam_line(place_of(at, beam), beam.section);
+  if (beam.releases.none()) return line;
+  return transformed(line, released(place_of(at, beam), beam.section, beam.releases));
 }
 std::vector<body::MassPoint> line_of(const Corners& at, const ShellSection&) {
   std::vector<body::MassPoint> points;
@@ -106,6 +111,7 @@ std::vector<body::MassPoint> line_of(const Corners& at, const ShellSection&) {
   return points;
 }
 std::vector<body::MassPoint> line_of(const Corners&, const PointMass&) { return {}; }
+std::vector<body::MassPoint> line_of(const Corners& at, const NodeSpring& spring) { return maps_of(at, spring).mass; }
 
 /// Elements of second order, by their place where they cannot be.
 template <class Make>
@@ -134,11 +140,13 @@ void check_of(const Corners& at, const ShellSection& section) {
       shell_triangle_strain({at[corner[0]], at[corner[1]], at[corner[2]]}, section);
 }
 void check_of(const Corners& at, const PointMass& point) { maps_of(at, point); }
+void check_of(const Corners& at, const NodeSpring& spring) { maps_of(at, spring); }
 
 bool belongs(CellKind kind, const BeamSection&) { return kind == CellKind::line; }
 bool belongs(CellKind kind, const SpatialBeam&) { return mesh::is_line(kind); }
 bool belongs(CellKind kind, const ShellSection&) { return mesh::is_shell(kind); }
 bool belongs(CellKind kind, const PointMass&) { return kind == CellKind::point; }
+bool belongs(CellKind kind, const NodeSpring&) { return kind == CellKind::spring; }
 
 }  // namespace
 
@@ -281,6 +289,10 @@ Section rotate(PointMass point, const Eigen::Matrix3d& R) {
   point.inertia = R.transpose() * point.inertia * R;
   point.offset = R.transpose() * point.offset;
   return point;
+}
+Section rotate(NodeSpring spring, const Eigen::Matrix3d& R) {
+  spring.axes = R.transpose() * spring.axes;
+  return spring;
 }
 
 }  // namespace

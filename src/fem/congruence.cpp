@@ -25,7 +25,7 @@ bool same(const SpatialBeam& a, const SpatialBeam& b) {
          s.rhoIy == t.rhoIy && s.rhoIz == t.rhoIz && s.rhoIyz == t.rhoIyz && s.centroid == t.centroid &&
          s.shear_centre == t.shear_centre && s.GA == t.GA && near(a.orientation, b.orientation) &&
          a.strain.membrane == b.strain.membrane && a.strain.wagner == b.strain.wagner &&
-         a.strain.strains == b.strain.strains;
+         a.strain.strains == b.strain.strains && a.releases == b.releases;
 }
 
 bool same(const ShellSection& a, const ShellSection& b) {
@@ -36,6 +36,10 @@ bool same(const ShellSection& a, const ShellSection& b) {
 
 bool same(const PointMass& a, const PointMass& b) {
   return a.mass == b.mass && near(a.inertia, b.inertia) && near(a.offset, b.offset);
+}
+
+bool same(const NodeSpring& a, const NodeSpring& b) {
+  return a.stiffness == b.stiffness && near(a.axes, b.axes) && a.at == b.at;
 }
 
 bool same(const Section& a, const Section& b) {

@@ -171,10 +171,13 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
         const auto* beam = std::get_if<SpatialBeam>(&section);
         return beam && lacks_coupling(*beam);
       }))
-    missing.coupling =
-        of_kind<SpatialBeam>(structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) {
+    missing.coupling = of_kind<SpatialBeam>(
+        structure, [&](const Mesh::Cell& cell, const SpatialBeam& beam, const MatrixXd& T) -> MatrixXd {
           const VectorXd own = of_corners(cell, T);
-          return lacks_coupling(beam) ? coupling(structure, cell, beam, own) : MatrixXd::Zero(own.size(), own.size());
+          if (!lacks_coupling(beam)) return MatrixXd::Zero(own.size(), own.size());
+          if (beam.releases.none()) return coupling(structure, cell, beam, own);
+          const Matrix12 to_ends = released(place_of(structure, cell, beam), beam.section, beam.releases);
+          return to_ends.transpose() * coupling(structure, cell, beam, to_ends * own) * to_ends;
         });
   return missing;
 }

@@ -29,10 +29,7 @@ bool is_isotropic(const ShellMaterial& m) {
 
 /// Plane-stress stiffness of a ply in the section's axes, T Q T' with the stress transformation T.
 Eigen::Matrix3d stiffness(const Ply& ply) {
-  const ShellMaterial& m = ply.material;
-  const double nu21 = m.nu12 * m.E2 / m.E1, d = 1 - m.nu12 * nu21;
-  Eigen::Matrix3d Q;
-  Q << m.E1 / d, m.nu12 * m.E2 / d, 0, m.nu12 * m.E2 / d, m.E2 / d, 0, 0, 0, m.G12;
+  const Eigen::Matrix3d Q = plane_stress(ply.material);
   if (ply.angle == 0) return Q;
   const double c = std::cos(ply.angle), s = std::sin(ply.angle);
   Eigen::Matrix3d T;
@@ -53,7 +50,21 @@ double higher_order(const Eigen::Matrix3d& A) {
   return std::max(256 * E.determinant() / W - 1.5, 0.01);
 }
 
+/// Whether a stiffness is the same in all directions: (a, b, 0; b, a, 0; 0, 0, (a - b) / 2).
+bool is_isotropic(const Eigen::Matrix3d& S) {
+  Eigen::Matrix3d same;
+  same << S(0, 0), S(0, 1), 0, S(0, 1), S(0, 0), 0, 0, 0, (S(0, 0) - S(0, 1)) / 2;
+  return (S - same).norm() <= 1e-9 * S.norm();
+}
+
 }  // namespace
+
+Eigen::Matrix3d plane_stress(const ShellMaterial& m) {
+  const double nu21 = m.nu12 * m.E2 / m.E1, d = 1 - m.nu12 * nu21;
+  Eigen::Matrix3d Q;
+  Q << m.E1 / d, m.nu12 * m.E2 / d, 0, m.nu12 * m.E2 / d, m.E2 / d, 0, 0, 0, m.G12;
+  return Q;
+}
 
 ShellMaterial isotropic(double E, double nu, double density) {
   require(nu > -1 && nu <= 0.5, "Poisson's ratio must lie between -1 and 0.5");
@@ -98,6 +109,27 @@ ShellSection shell_section(const std::vector<Ply>& plies, double offset, const E
   section.mass_centre = offset + centre;
   section.mass_radius = mass > 0 ? std::sqrt(second / mass - centre * centre) : 0;
   section.axis = axis;
+  return section;
+}
+
+ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, const Eigen::Matrix3d& D,
+                               double mass, const Eigen::Vector3d& axis) {
+  require(A.allFinite() && B.allFinite() && D.allFinite() && axis.allFinite(), "a shell's stiffness must be finite");
+  require(std::isfinite(mass) && mass >= 0, "a shell's mass per area must not be negative");
+  require(A.llt().info() == Eigen::Success, "a shell's membrane stiffness A is not positive definite");
+  const Eigen::Matrix3d C = A.inverse() * B, Ds = D - B * C;
+  const Eigen::Matrix3d bending = (Ds + Ds.transpose()) / 2;
+  require(bending.llt().info() == Eigen::Success,
+          "a shell's bending stiffness D - B A^-1 B is not positive definite (a section of membranes alone?)");
+  const bool directed = !(is_isotropic(A) && is_isotropic(B) && is_isotropic(D));
+  require(!directed || axis.norm() > 0, "a shell whose stiffness differs by direction needs an axis");
+  ShellSection section;
+  section.A = A, section.coupling = C, section.bending = bending;
+  section.shear = 5. / 6 * A(2, 2);
+  section.higher_order = higher_order(A);
+  section.mass = mass, section.mass_centre = 0;
+  section.mass_radius = std::sqrt((bending(0, 0) + bending(1, 1)) / (A(0, 0) + A(1, 1)));
+  section.axis = directed ? axis : Eigen::Vector3d::Zero();
   return section;
 }
 

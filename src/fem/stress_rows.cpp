@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "floe/fem/quadratic_beam.h"
+#include "floe/fem/transform.h"
 #include "floe/math/rotation.h"
 
 namespace floe::fem {
@@ -103,8 +104,10 @@ BeamForces::BeamForces(const Structure& structure, const Mesh::Cell& cell)
   const auto& beam = std::get<SpatialBeam>(structure.sections[cell.part]);
   rotation_vectors_ = beam.strain.strains == Strains::second_order;
   if (cell.kind == CellKind::line) {
-    maps_ = spatial_beam({x(0), x(1), beam.orientation}, beam.section, beam.strain);
-    axes_[0] = axes_[1] = element_axes({x(0), x(1), beam.orientation});
+    const BeamPlace place{x(0), x(1), beam.orientation};
+    maps_ = spatial_beam(place, beam.section, beam.strain);
+    if (beam.releases.any()) maps_ = transformed(maps_, released(place, beam.section, beam.releases));
+    axes_[0] = axes_[1] = element_axes(place);
   } else {
     const BeamCurve curve{x(0), x(1), x(2), beam.orientation};
     maps_ = quadratic_beam(curve, beam.section, beam.strain);

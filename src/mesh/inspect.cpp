@@ -46,6 +46,7 @@ std::string shape_fault(const Cell& cell, const Corners& corners) {
   constexpr double flat = 1e-12;
   const int all = node_count(cell.kind), n = corner_count(cell.kind);
   if (cell.kind == CellKind::point) return "";
+  if (cell.kind == CellKind::spring) return cell.nodes[0] == cell.nodes[1] ? " has the same node twice" : "";
   for (int i = 0; i < all; ++i)
     for (int j = 0; j < i; ++j)
       if (cell.nodes[i] == cell.nodes[j]) return " has the same node twice";
@@ -91,7 +92,7 @@ void check_duplicates(const RawMesh& mesh, Faults& faults) {
   MPI_Comm_size(mesh.comm, &ranks);
   std::vector<Key> keys;
   for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-    if (mesh.cells[i].kind == CellKind::point) continue;  // masses on one node add up
+    if (!has_extent(mesh.cells[i].kind)) continue;  // masses on one node add up, springs between two likewise
     Key key{no_nodes<PetscInt>(), mesh.first_cell + static_cast<PetscInt>(i), mesh.cell_labels[i]};
     std::copy_n(mesh.cells[i].nodes.begin(), node_count(mesh.cells[i].kind), key.nodes.begin());
     std::sort(key.nodes.begin(), key.nodes.end());

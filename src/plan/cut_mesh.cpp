@@ -22,7 +22,7 @@ Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
 
 std::string frames_of(const Body& body) { return body.where.text() + ".frames"; }
 
-bool spreads(const Cell& cell) { return cell.kind != mesh::CellKind::point; }
+bool spreads(const Cell& cell) { return mesh::has_extent(cell.kind); }
 
 /// Coordinates of the nodes along the direction in which the mesh is longest.
 std::vector<double> stations(const Body& body, const RawMesh& mesh) {
@@ -88,6 +88,9 @@ class Sets {
 /// Of each element with an extent its piece, numbered by slices and in each by the first element; -1: a point mass.
 std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
   const RawMesh& mesh = whole.mesh;
+  if (std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const Cell& c) { return c.kind == mesh::CellKind::spring; }))
+    throw InputError(fmt::format("{}: body {} has springs between its nodes and is not divided; expected frames: 1",
+                                 frames_of(body), body.name));
   const std::vector<double> s = stations(body, mesh), cuts = planes(body, mesh, s);
   std::vector<int> slice(mesh.cells.size(), -1);
   for (std::size_t c = 0; c < slice.size(); ++c) {

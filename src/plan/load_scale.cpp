@@ -14,15 +14,19 @@ namespace {
 /// Mass per unit length or area, and bending stiffness of the softer direction ([N m2] or, of shells, [N m]).
 struct Softness {
   double operator()(const fem::BeamSection& section) const { return section.EI; }
-  double operator()(const fem::SpatialBeam& beam) const { return std::min(beam.section.EIy, beam.section.EIz); }
+  double operator()(const fem::SpatialBeam& beam) const {
+    return beam.releases.any() ? 0 : std::min(beam.section.EIy, beam.section.EIz);
+  }
   double operator()(const fem::ShellSection& shell) const { return shell.D()(0, 0); }
   double operator()(const fem::PointMass&) const { return 0; }
+  double operator()(const fem::NodeSpring&) const { return 0; }
 };
 struct Density {
   double operator()(const fem::BeamSection& section) const { return section.rhoA; }
   double operator()(const fem::SpatialBeam& beam) const { return beam.section.rhoA; }
   double operator()(const fem::ShellSection& shell) const { return shell.mass; }
   double operator()(const fem::PointMass& point) const { return point.mass; }
+  double operator()(const fem::NodeSpring&) const { return 0; }
 };
 
 /// Length, area (of second order: of its corners), or 1 of a mass.

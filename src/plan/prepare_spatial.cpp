@@ -114,7 +114,7 @@ FrameChoice choose_frame(const Scene& scene, const Body& body, const SpatialMesh
 bool has_mass(const fem::Section& section) {
   if (const auto* beam = std::get_if<fem::SpatialBeam>(&section)) return beam->section.rhoA > 0;
   if (const auto* shell = std::get_if<fem::ShellSection>(&section)) return shell->mass > 0;
-  return true;
+  return !std::holds_alternative<fem::NodeSpring>(section);
 }
 
 /// The frame of a welded body: clamped at its joint's place, with the origin and the axes of the parent's.

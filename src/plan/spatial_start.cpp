@@ -94,7 +94,7 @@ struct Shape {
       node.push_back({X + value(d, X), Matrix3d::Zero()}), node_rate.push_back({value(w, X), Matrix3d::Zero()});
     }
     for (const auto& cell : mesh.cells) {
-      if (cell.kind == fem::CellKind::point) continue;
+      if (!mesh::has_extent(cell.kind)) continue;
       const bool shell = mesh::is_shell(cell.kind);
       const double h = 1e-4 * (mesh.positions[cell.place[1]] - mesh.positions[cell.place[0]]).norm();
       Vector3d middle = Vector3d::Zero();

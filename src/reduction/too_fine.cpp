@@ -23,10 +23,12 @@ struct RadiusOfGyration {
   }
   double operator()(const fem::BeamSection& section) const { return of(section.EI, section.EA); }
   double operator()(const fem::SpatialBeam& beam) const {
+    if (beam.releases.any()) return std::numeric_limits<double>::infinity();
     return std::min(of(beam.section.EIy, beam.section.EA), of(beam.section.EIz, beam.section.EA));
   }
   double operator()(const fem::ShellSection& shell) const { return of(shell.D()(0, 0), shell.A(0, 0)); }
   double operator()(const fem::PointMass&) const { return std::numeric_limits<double>::infinity(); }
+  double operator()(const fem::NodeSpring&) const { return std::numeric_limits<double>::infinity(); }
 };
 
 /// h, r of the cell with the greatest h/r, and whether the body bends without stretching its cells in any direction of
@@ -47,7 +49,7 @@ Cells cells_of(const fem::Structure& structure) {
   double least[2] = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};  // r/h; r
   Matrix3d directions = Matrix3d::Zero();
   for (const fem::Mesh::Cell& cell : mesh.cells) {
-    if (cell.corners().size() < 2) continue;
+    if (!mesh::has_extent(cell.kind)) continue;
     const double h = (mesh.positions[cell.place[1]] - mesh.positions[cell.place[0]]).norm(),
                  r = std::visit(RadiusOfGyration(), structure.sections[cell.part]);
     if (r / h < least[0]) least[0] = r / h, least[1] = r;

@@ -240,7 +240,7 @@ void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_pt
   const fem::Mesh& mesh = structure_.mesh;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const fem::Mesh::Cell& cell = mesh.cells[c];
-    if (cell.kind == fem::CellKind::point || !counts(part, c)) continue;
+    if (!mesh::has_extent(cell.kind) || !counts(part, c)) continue;
     const std::size_t pieces = cell.kind == fem::CellKind::quadrilateral ? fem::quadrilateral_triangles.size() : 1;
     for (std::size_t i = 0; i < pieces; ++i)
       if (auto one = element(cell, i, viscosity)) terms.push_back(std::move(one));
@@ -298,7 +298,7 @@ void CorotationalBody::add_idle(std::vector<std::unique_ptr<dynamics::Term>>& te
   const fem::Mesh& mesh = structure_.mesh;
   double stiffest = 0;
   for (const fem::Mesh::Cell& cell : mesh.cells)
-    if (cell.kind != fem::CellKind::point)
+    if (mesh::has_extent(cell.kind))
       stiffest = std::max(
           stiffest, structure_.matrix(fem::Mesh::Cell(cell.kind, cell.part, cell.place), 1, 0).diagonal().maxCoeff());
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, mesh.comm);

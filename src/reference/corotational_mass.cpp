@@ -95,6 +95,7 @@ struct Carry {
     if (density == Density::line) return {};
     return {{0, point.mass, point.offset, point.inertia.trace() / 2 * Matrix3d::Identity() - point.inertia}};
   }
+  std::vector<CarriedMass> operator()(const fem::NodeSpring&) const { return {}; }
   std::vector<CarriedMass> operator()(const fem::BeamSection&) const { return {}; }  // of the plane
 };
 

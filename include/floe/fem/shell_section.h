@@ -63,4 +63,18 @@ struct ShellSection {
 ShellSection shell_section(const std::vector<Ply>& plies, double offset = 0,
                            const Eigen::Vector3d& axis = Eigen::Vector3d::Zero());
 
+/// A section by its stiffness about the plane of the nodes, (N, M) = [A B; B D] (eps, kappa), and its mass per area.
+///
+/// The mass is centred in that plane. Its radius of inertia is that of a homogeneous shell of this stiffness,
+/// r^2 = (D*_11 + D*_22) / (A_11 + A_22). `shear` is 5/6 A_33, as of a homogeneous shell with G13 = G23 = G12.
+/// @param A, B, D  symmetric; together positive definite
+/// @param mass     [kg/m2]
+/// @param axis     direction of eps_11, as of shell_section; without effect where all directions have one stiffness
+/// @throws InputError  not positive definite; a mass that is negative; no axis where the directions differ
+ShellSection stiffness_section(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B, const Eigen::Matrix3d& D,
+                               double mass, const Eigen::Vector3d& axis = Eigen::Vector3d::Zero());
+
+/// Plane-stress stiffness Q of a material in its own axes, (1, 2, 12) [Pa].
+Eigen::Matrix3d plane_stress(const ShellMaterial& material);
+
 }  // namespace floe::fem

@@ -3,7 +3,9 @@
 #include <variant>
 #include <vector>
 
+#include "floe/fem/beam_releases.h"
 #include "floe/fem/mesh.h"
+#include "floe/fem/node_spring.h"
 #include "floe/fem/planar_beam.h"
 #include "floe/fem/shell_section.h"
 #include "floe/fem/spatial_beam.h"
@@ -33,6 +35,7 @@ struct SpatialBeam {
   SpatialBeamSection section;
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
   SpatialBeamStrain strain;
+  BeamReleases releases;  ///< of elements of two nodes
 };
 
 /// A rigid mass at a node, in body axes.
@@ -42,8 +45,8 @@ struct PointMass {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< of its centre from the node
 };
 
-/// What a part of the mesh is made of: planar or spatial lines, triangles and quadrilaterals, points.
-using Section = std::variant<BeamSection, SpatialBeam, ShellSection, PointMass>;
+/// What a part of the mesh is made of: planar or spatial lines, triangles and quadrilaterals, points, springs.
+using Section = std::variant<BeamSection, SpatialBeam, ShellSection, PointMass, NodeSpring>;
 
 /// The same section in the axes of a frame, v -> R'v.
 Section rotated(const Section& section, const Eigen::Matrix3d& rotation);

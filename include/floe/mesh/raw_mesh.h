@@ -8,16 +8,29 @@
 
 namespace floe::mesh {
 
-/// The last three are of second order: their nodes are the corners and then the middles of the edges, from each corner
-/// to the next.
-enum class CellKind : signed char { point = -1, line, triangle, quadrilateral, line3, triangle6, quadrilateral8 };
+/// A spring joins two nodes, which may be at one point. The last three are of second order: their nodes are the corners
+/// and then the middles of the edges, from each corner to the next.
+enum class CellKind : signed char {
+  spring = -2,
+  point,
+  line,
+  triangle,
+  quadrilateral,
+  line3,
+  triangle6,
+  quadrilateral8
+};
 
 constexpr bool is_quadratic(CellKind kind) { return kind >= CellKind::line3; }
 constexpr bool is_line(CellKind kind) { return kind == CellKind::line || kind == CellKind::line3; }
-constexpr bool is_shell(CellKind kind) { return kind != CellKind::point && !is_line(kind); }
+/// Whether it is a piece of material: a beam or a shell, no mass or spring.
+constexpr bool has_extent(CellKind kind) { return kind >= CellKind::line; }
+constexpr bool is_shell(CellKind kind) { return has_extent(kind) && !is_line(kind); }
 
 /// Corners of an element: 1 to 4.
-constexpr int corner_count(CellKind kind) { return static_cast<int>(kind) + (is_quadratic(kind) ? -1 : 2); }
+constexpr int corner_count(CellKind kind) {
+  return kind == CellKind::spring ? 2 : static_cast<int>(kind) + (is_quadratic(kind) ? -1 : 2);
+}
 
 /// Nodes of an element: 1 to 8.
 constexpr int node_count(CellKind kind) {

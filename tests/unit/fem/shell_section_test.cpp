@@ -76,3 +76,26 @@ TEST_CASE("sections that cannot be") {
   CHECK_THROWS_AS(fem::shell_section({{{1, 10, 0.4, 1, 1}, 1}}, 0, {1, 0, 0}), InputError);
   CHECK_THROWS_AS(fem::shell_section({{{1, -1, 0.4, 1, 1}, 1}}, 0, {1, 0, 0}), InputError);
 }
+
+TEST_CASE("a section by its stiffness is the section of the plies that have it") {
+  const fem::ShellSection plies = testing::skew_laminate(0.4);
+  const fem::ShellSection same = fem::stiffness_section(plies.A, plies.B(), plies.D(), plies.mass, plies.axis);
+  CHECK(relative_error(same.A, plies.A) < 1e-14);
+  CHECK(relative_error(same.coupling, plies.coupling) < 1e-12);
+  CHECK(relative_error(same.bending, plies.bending) < 1e-8);  // the difference of D and B A^-1 B, which are 1e6 larger
+  CHECK(same.higher_order == plies.higher_order);
+  const fem::ShellSection plate = testing::aluminium(2e-3),
+                          again = fem::stiffness_section(plate.A, plate.B(), plate.D(), plate.mass);
+  CHECK(again.mass_radius == Approx(plate.mass_radius));
+  CHECK(again.shear == Approx(plate.shear));
+}
+
+TEST_CASE("a stiffness that is not positive definite, or has directions without an axis, is an input error") {
+  const fem::ShellSection plate = testing::aluminium(2e-3), laminate = testing::skew_laminate(0);
+  const Matrix3d none = Matrix3d::Zero();
+  CHECK_THROWS_AS(fem::stiffness_section(none, none, plate.D(), 1), InputError);
+  CHECK_THROWS_AS(fem::stiffness_section(plate.A, none, none, 1), InputError);
+  CHECK_THROWS_AS(fem::stiffness_section(plate.A, plate.A, plate.D(), 1), InputError);
+  CHECK_THROWS_AS(fem::stiffness_section(plate.A, none, plate.D(), -1), InputError);
+  CHECK_THROWS_AS(fem::stiffness_section(laminate.A, none, laminate.D(), 1), InputError);
+}

@@ -1,0 +1,20 @@
+#pragma once
+#include <bitset>
+
+#include "floe/fem/spatial_beam_fixed.h"
+
+namespace floe::fem {
+
+/// Dofs of a beam's ends that it does not share with its nodes, in element axes: (u, v, w, rx, ry, rz) of the first
+/// end, then of the second.
+using BeamReleases = std::bitset<12>;
+
+/// The dofs of a beam's ends from those of its nodes, q_e = T q: released ones a are where they carry no force,
+/// q_a = -K_aa^+ K_ab q_b, of the linear stiffness; K_aa^+ is the pseudo-inverse, for what is released at both ends.
+///
+/// T keeps rigid motions, so that strains of second order and mass carry over by q_e = T q, too.
+/// Source: Przemieniecki, Theory of matrix structural analysis, ch. 6.6 (static condensation).
+/// @throws floe::InputError  as spatial_beam
+Matrix12 released(const BeamPlace& place, const SpatialBeamSection& section, const BeamReleases& releases);
+
+}  // namespace floe::fem
