@@ -32,6 +32,8 @@ DeckFile deck_file(MPI_Comm comm, const std::string& path, FileMesh mesh, Deck d
   if (numbered.dropped > 0)
     notices.push_back(path + ": " + std::to_string(numbered.dropped) + " unused nodes are ignored");
   for (auto& mass : deck.masses) mass.node = numbered.mentioned[mass.node];
+  for (auto& spring : deck.springs)
+    for (auto& node : spring.nodes) node = numbered.mentioned[node];
   for (auto& link : deck.links) {
     link.reference = numbered.mentioned[link.reference];
     for (auto& node : link.nodes) node = numbered.mentioned[node];

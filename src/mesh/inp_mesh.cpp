@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "inp_reading.h"
 #include "text.h"
@@ -9,9 +10,10 @@ namespace {
 const std::map<std::string, CellKind>& element_kinds() {
   using enum CellKind;
   static const std::map<std::string, CellKind> kinds{
-      {"B31", line},          {"B32", line3},          {"B32R", line3},       {"B33", line},          {"S3", triangle},
-      {"S3R", triangle},      {"STRI3", triangle},     {"S4", quadrilateral}, {"S4R", quadrilateral}, {"S6", triangle6},
-      {"S8", quadrilateral8}, {"S8R", quadrilateral8}, {"MASS", point}};
+      {"B31", line},          {"B32", line3},      {"B32R", line3},        {"B33", line},
+      {"S3", triangle},       {"S3R", triangle},   {"STRI3", triangle},    {"S4", quadrilateral},
+      {"S4R", quadrilateral}, {"S6", triangle6},   {"S8", quadrilateral8}, {"S8R", quadrilateral8},
+      {"MASS", point},        {"SPRINGA", spring}, {"SPRING2", spring}};
   return kinds;
 }
 
@@ -31,9 +33,9 @@ struct ElementType {
 
 // Nodes of solids, membranes, trusses, springs, ...: mostly the number that follows the family; 0: none of them.
 int nodes_of_other(const std::string& type) {
-  static const std::map<std::string, int> named{{"SPRINGA", 2},  {"SPRING1", 1},  {"SPRING2", 2}, {"DASHPOTA", 2},
-                                                {"DASHPOT1", 1}, {"DASHPOT2", 2}, {"GAPUNI", 2},  {"DCOUP3D", 1},
-                                                {"CONN3D2", 2},  {"RB3D2", 2},    {"ROTARYI", 1}, {"D", 3}};
+  static const std::map<std::string, int> named{{"SPRING1", 1}, {"DASHPOTA", 2}, {"DASHPOT1", 1}, {"DASHPOT2", 2},
+                                                {"GAPUNI", 2},  {"DCOUP3D", 1},  {"CONN3D2", 2},  {"RB3D2", 2},
+                                                {"ROTARYI", 1}, {"D", 3}};
   if (const auto found = named.find(type); found != named.end()) return found->second;
   for (const char* family : {"C3D", "F3D", "CPS", "CPE", "CAX", "M3D", "T3D", "R3D", "SC", "DC3D", "AC3D", "COH3D"}) {
     const std::string_view start(family);
@@ -59,6 +61,13 @@ ElementType type_of(const InpBlock& block) {
 }
 
 int nodes_of(const InpBlock& block) { return type_of(block).nodes; }
+
+// Why elements of another type are left out without being asked; "": they are refused.
+std::string reason_to_leave_out(const std::string& type) {
+  if (type == "SPRING1") return "a spring to ground resists rigid motion; use springs or bushings of the scene";
+  if (type.starts_with("DASHPOT")) return "damping is that of the scene";
+  return "";
+}
 
 // Lines that the first record takes: it goes on after a comma at the end while nodes are missing.
 long long lines_of_record(const InpBlock& block, int nodes) {
@@ -132,6 +141,10 @@ InpShares shares_of(const std::vector<InpBlock>& blocks, int rank, int ranks, Fa
 void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& reading) {
   const auto named = block.parameters.find("NSET");
   const int set = named == block.parameters.end() ? -1 : reading.node_sets.named(named->second, block.where);
+  const auto system = block.parameters.find("SYSTEM");
+  const std::string axes = system == block.parameters.end() ? "R" : upper(system->second);
+  if (axes != "R" && axes != "C")
+    reading.faults.add(block.where, block.name + " is read with SYSTEM=R or C, not " + in_quotes(system->second));
   const Window part = window(shares.nodes_before, block.lines(), shares.nodes);
   shares.nodes_before += block.lines();
   constexpr std::size_t most_of_node = 7;  // the normal's direction may follow
@@ -150,6 +163,10 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
     }
     if (!good)
       return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + in_quotes(line));
+    if (axes == "C") {  // radius, degrees, height
+      const double angle = position[1] * M_PI / 180;
+      position.head<2>() = position[0] * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    }
     reading.mesh.node_labels.push_back(label);
     reading.mesh.positions.push_back(position);
     reading.mesh.node_where.push_back(where);
@@ -159,11 +176,13 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
 
 void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& reading) {
   const std::string type = required(block, "TYPE", reading);
-  const auto [nodes, other, kind] = type_of(block);
+  auto [nodes, other, kind] = type_of(block);
   const auto& ignored = reading.request.ignore;
-  const bool left_out = std::any_of(ignored.begin(), ignored.end(), [&](const std::string& name) {
-    return !type.empty() && upper(name) == upper(type);
-  });
+  const bool asked = std::any_of(ignored.begin(), ignored.end(),
+                                 [&](const std::string& name) { return !type.empty() && upper(name) == upper(type); });
+  if (asked && kind == CellKind::spring) other = true;
+  const std::string why = asked ? "" : reason_to_leave_out(upper(type));
+  const bool left_out = asked || !why.empty();
   if ((!nodes || (other && !left_out)) && !type.empty()) {
     std::vector<std::string> known;
     for (const auto& [name, unused] : element_kinds()) known.push_back(name);
@@ -179,7 +198,8 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
   const long long lines = lines_of_record(block, nodes), records = block.lines() / lines;
   if (other && left_out)
     reading.notices.push_back(reading.faults.text_of(block.where) + ": " + counted(records, "element") + " of type " +
-                              type + (records == 1 ? " is" : " are") + " left out, as the scene asks");
+                              type + (records == 1 ? " is" : " are") + " left out" +
+                              (why.empty() ? ", as the scene asks" : ": " + why));
   const std::string what = "an element number and " + std::to_string(nodes) + " nodes" +
                            (lines > 1 ? " on " + std::to_string(lines) + " lines, as in the first record" : "");
   if (records * lines != block.lines()) reading.faults.add(block.where, block.name + " expects records of " + what);
@@ -188,6 +208,7 @@ void read_inp_elements(const InpBlock& block, InpShares& shares, InpReading& rea
   std::vector<std::string_view> fields, more;
   InpElement element{0, nodes, set, -1, no_nodes<long long>(), {}};
   element.kind = kind;
+  element.axial = upper(type) == "SPRINGA";
   long long line_of_record = 0;
   block.each_line(part.skipped * lines, part.count * lines, [&](Where where, std::string_view line) {
     if (line_of_record == 0) element.where = where;

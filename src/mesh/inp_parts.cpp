@@ -8,6 +8,7 @@ namespace {
 
 bool fits(const InpElement& element, InpUse::Kind kind) {
   if (element.kind == CellKind::point) return kind == InpUse::mass;
+  if (element.kind == CellKind::spring) return kind == InpUse::spring;
   return kind == InpUse::scene || kind == (is_line(element.kind) ? InpUse::beam : InpUse::shell);
 }
 
@@ -22,14 +23,15 @@ void assign(InpElement& element, int use, const InpReading& reading) {
 }
 
 void refuse_unused(const InpElement& element, InpReading& reading) {
-  const std::string needed = element.kind == CellKind::point ? "*MASS"
-                             : is_line(element.kind)         ? "*BEAM SECTION"
-                                                             : "*SHELL SECTION";
+  const std::string needed = element.kind == CellKind::point    ? "*MASS"
+                             : element.kind == CellKind::spring ? "*SPRING"
+                             : is_line(element.kind)            ? "*BEAM SECTION"
+                                                                : "*SHELL SECTION";
   if (element.other_use >= 0)
     return reading.faults.add(element.where, "element " + std::to_string(element.label) + " needs a " + needed +
                                                  ", set " + in_quotes(reading.uses[element.other_use].set) +
                                                  " has another section");
-  const bool by_scene = element.nodes > 1 && (reading.request.section || !reading.request.parts.empty());
+  const bool by_scene = has_extent(element.kind) && (reading.request.section || !reading.request.parts.empty());
   if (!by_scene)
     reading.faults.add(element.where,
                        "element " + std::to_string(element.label) + " has no section: it is in no set of a " + needed);
@@ -53,7 +55,8 @@ std::vector<int> parts_without_section(MPI_Comm comm, InpReading& reading) {
   const std::size_t sets = reading.element_sets.sets.size();
   std::vector<int> parts(sets + 1, 0);
   for (const auto& element : reading.elements)
-    if (element.nodes > 1 && element.use < 0) parts[element.set < 0 ? sets : static_cast<std::size_t>(element.set)] = 1;
+    if (element.nodes > 1 && has_extent(element.kind) && element.use < 0)
+      parts[element.set < 0 ? sets : static_cast<std::size_t>(element.set)] = 1;
   MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(parts.size()), MPI_INT, MPI_MAX, comm);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const bool needed = parts[i] > 0;
@@ -67,7 +70,7 @@ std::vector<int> parts_without_section(MPI_Comm comm, InpReading& reading) {
 void add_requested(InpReading& reading) {
   for (const auto& name : reading.request.parts) {
     const bool own = std::any_of(reading.uses.begin(), reading.uses.end(), [&](const InpUse& use) {
-      return use.kind != InpUse::mass && upper(use.set) == upper(name);
+      return use.kind != InpUse::mass && use.kind != InpUse::spring && upper(use.set) == upper(name);
     });
     if (!own && reading.element_sets.find(name) >= 0)
       reading.uses.push_back(
@@ -98,7 +101,7 @@ void assign_sections(MPI_Comm comm, InpReading& reading) {
   auto& mesh = reading.mesh;
   std::vector<int> part_of(reading.uses.size(), -1);
   for (std::size_t use = 0; use < reading.uses.size(); ++use) {
-    if (reading.uses[use].kind == InpUse::mass) continue;
+    if (reading.uses[use].kind == InpUse::mass || reading.uses[use].kind == InpUse::spring) continue;
     part_of[use] = static_cast<int>(mesh.parts.size());
     mesh.parts.push_back(reading.uses[use].set);
   }
@@ -111,6 +114,11 @@ void assign_sections(MPI_Comm comm, InpReading& reading) {
       if (element.use < 0) continue;
       reading.deck.masses.push_back({static_cast<PetscInt>(mesh.mentions.size()), reading.uses[element.use].amount});
       mesh.mentions.push_back({element.node_labels[0], element.where});
+      mesh.masses.push_back({element.label, element.where});
+    } else if (element.kind == CellKind::spring) {
+      if (element.use < 0) continue;
+      reading.springs.push_back(
+          {element.label, {element.node_labels[0], element.node_labels[1]}, element.use, element.axial, element.where});
       mesh.masses.push_back({element.label, element.where});
     } else {
       const int part = element.use >= 0  ? part_of[element.use]

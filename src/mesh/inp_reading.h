@@ -40,14 +40,25 @@ struct InpElement {
   int other_use = -1;  // one that does not fit its kind
   bool again = false;  // has two uses that fit, of which the later holds
   CellKind kind = CellKind::point;
+  bool axial = false;  // SPRINGA
 };
 
-/// An element set that a section, *MASS or the scene names.
+/// An element set that a section, *MASS, *SPRING or the scene names.
 struct InpUse {
-  enum Kind { shell, beam, mass, scene } kind;
+  enum Kind { shell, beam, mass, spring, scene } kind;
   std::string set;
   Where where;
-  double amount;  // of a mass
+  double amount;                        // a mass, or a stiffness
+  std::array<int, 2> directions{0, 0};  // of SPRING2
+};
+
+/// An element of *SPRING: SPRINGA acts along the line of its nodes, SPRING2 between a direction of each.
+struct InpSpring {
+  long long label;
+  std::array<long long, 2> nodes;
+  int use;
+  bool axial;  // SPRINGA
+  Where where;
 };
 
 struct InpLink {
@@ -134,6 +145,9 @@ struct InpReading {
   std::optional<Eigen::Isometry3d> motion;  // of the instance at work
   std::optional<InpLink> coupling;          // that waits for its *KINEMATIC or *DISTRIBUTING
   std::vector<std::pair<std::string, Where>> materials_used, orientations_used;
+  std::vector<InpSpring> springs;  // of this rank's share
+  std::vector<int> nodal;          // parts of sections with NODAL THICKNESS
+  int last_shell = -1;             // section of shells that was read last, if no section of beams came after it
 };
 
 /// The records of this rank among all nodes, or all elements, of the deck.
@@ -154,6 +168,9 @@ void read_elastic(const InpBlock& block, InpReading& reading);
 void read_density(const InpBlock& block, InpReading& reading);
 void read_orientation(const InpBlock& block, InpReading& reading);
 void read_shell_section(const InpBlock& block, InpReading& reading);
+void read_shell_general_section(const InpBlock& block, InpReading& reading);
+void read_transverse_shear(const InpBlock& block, InpReading& reading);
+void read_spring(const InpBlock& block, InpReading& reading);
 void read_beam_section(const InpBlock& block, InpReading& reading);
 void read_beam_general_section(const InpBlock& block, InpReading& reading);
 void read_mass(const InpBlock& block, InpReading& reading);
@@ -183,6 +200,9 @@ void assign_sections(MPI_Comm comm, InpReading& reading);
 
 /// The node sets become places. Rank-local.
 void add_places(InpReading& reading);
+
+/// Springs by node numbers; the nodes of reading.deck.springs are numbers of mentions. Collective.
+void resolve_springs(MPI_Comm comm, InpReading& reading);
 
 /// Links by node numbers; the nodes of reading.deck.links are numbers of mentions. Collective.
 void resolve_links(MPI_Comm comm, InpReading& reading);

@@ -87,11 +87,17 @@ void read_direction(const std::pair<Where, std::string_view>& line, BeamSection&
 
 BeamSection named_beam(const BeamSection& plain, const InpBlock& block, InpReading& reading) {
   BeamSection section = plain;
+  reading.last_shell = -1;
   section.part = set_of(block, InpUse::beam, reading);
   section.number = next_part(reading.deck);
   section.offset_1 = number_of(block, "OFFSET1", reading);
   section.offset_2 = number_of(block, "OFFSET2", reading);
   return section;
+}
+
+void add_section(const ShellSection& section, InpReading& reading) {
+  reading.last_shell = static_cast<int>(reading.deck.shell_sections.size());
+  reading.deck.shell_sections.push_back(section);
 }
 
 }  // namespace
@@ -103,6 +109,7 @@ void read_shell_section(const InpBlock& block, InpReading& reading) {
                        number_of(block, "OFFSET", reading),
                        {}};
   use_orientation(section.orientation, block.where, reading);
+  if (block.parameters.contains("NODALTHICKNESS")) reading.nodal.push_back(section.number);
   if (block.parameters.contains("COMPOSITE")) {
     constexpr std::size_t most_plies = 1000;
     for (const auto& [where, line] : data_lines(block, 1, most_plies, "a line for each ply", reading.faults))
@@ -118,7 +125,73 @@ void read_shell_section(const InpBlock& block, InpReading& reading) {
       if (values) section.plies.push_back({values->front(), material, "", 0});
     }
   }
-  reading.deck.shell_sections.push_back(section);
+  add_section(section, reading);
+}
+
+namespace {
+
+// The upper triangle of the stiffness, column by column, eight numbers on a line: 11 12 22 13 23 33 14 24, ...
+std::optional<Eigen::Matrix<double, 6, 6>> stiffness_of(const InpBlock& block, InpReading& reading) {
+  constexpr std::size_t lines_of_numbers = 3, on_line = 8, on_last = 5;
+  const char* what = "the 21 numbers of a stiffness: 8, 8 and 5 on three lines";
+  const auto lines = data_lines(block, lines_of_numbers, lines_of_numbers + 1, what, reading.faults);
+  if (lines.empty()) return std::nullopt;
+  std::vector<double> all;
+  for (std::size_t i = 0; i < lines_of_numbers; ++i) {
+    const std::size_t count = i + 1 < lines_of_numbers ? on_line : on_last;
+    auto values = numbers(lines[i].second, lines[i].first, 1, count, what, reading.faults);
+    if (!values) return std::nullopt;
+    values->resize(count);  // those at the end that are empty are 0
+    all.insert(all.end(), values->begin(), values->end());
+  }
+  if (lines.size() > lines_of_numbers)
+    reading.notices.push_back(reading.faults.text_of(lines.back().first) + ": " + block.name +
+                              ": thermal forces are ignored: heat and other fields do not concern the body");
+  Eigen::Matrix<double, 6, 6> S;
+  auto next = all.begin();
+  for (int j = 0; j < 6; ++j)
+    for (int i = 0; i <= j; ++i) S(i, j) = S(j, i) = *next++;
+  return S;
+}
+
+}  // namespace
+
+// By a material or plies as *SHELL SECTION, else by numbers.
+void read_shell_general_section(const InpBlock& block, InpReading& reading) {
+  if (block.parameters.contains("MATERIAL") || block.parameters.contains("COMPOSITE")) {
+    if (block.parameters.contains("DENSITY"))
+      reading.faults.add(block.where, block.name + " with a material is read without DENSITY=: expected *DENSITY");
+    return read_shell_section(block, reading);
+  }
+  ShellSection section{
+      set_of(block, InpUse::shell, reading), next_part(reading.deck), value_of(block, "ORIENTATION"), 0, {}};
+  use_orientation(section.orientation, block.where, reading);
+  if (block.parameters.contains("OFFSET"))
+    reading.faults.add(block.where, block.name + " by its stiffness has no thickness, and is read without OFFSET=");
+  const auto values = stiffness_of(block, reading);
+  section.stiffness = ShellStiffness{values.value_or(Eigen::Matrix<double, 6, 6>::Identity()), {}};
+  if (block.parameters.contains("DENSITY")) section.stiffness->density = number_of(block, "DENSITY", reading);
+  if (section.stiffness->density < 0.0)
+    reading.faults.add(block.where, block.name + " expects 0 or a positive mass per area after DENSITY=, found " +
+                                        in_quotes(value_of(block, "DENSITY")));
+  add_section(section, reading);
+}
+
+// Of the section before it: K11, K22, K12.
+void read_transverse_shear(const InpBlock& block, InpReading& reading) {
+  if (reading.last_shell < 0) return ignore(block, "beams have no shear deformation", reading);
+  const auto lines = data_lines(block, 1, 1, "K11, K22, K12", reading.faults);
+  if (lines.empty()) return;
+  const auto k = numbers(lines[0].second, lines[0].first, 1, 8, "K11, K22, K12", reading.faults);
+  if (!k) return;
+  const double first = (*k)[0], second = k->size() > 1 ? (*k)[1] : first, mixed = k->size() > 2 ? (*k)[2] : 0;
+  if (!(first > 0 && second > 0))
+    return reading.faults.add(lines[0].first, block.name + " expects K11 and K22 greater than 0");
+  const bool equal = std::abs(first - second) <= 1e-3 * first && mixed == 0;
+  reading.deck.shell_sections[static_cast<std::size_t>(reading.last_shell)].shear = (first + second) / 2;
+  reading.notices.push_back(reading.faults.text_of(lines[0].first) + ": " + block.name + ": elements of second order " +
+                            "shear by " + (equal ? "K11" : "the mean of K11 and K22, in all directions") +
+                            ", those of first order do not shear");
 }
 
 // Sections of a named shape, by *BEAM SECTION, or in CalculiX by *BEAM GENERAL SECTION.

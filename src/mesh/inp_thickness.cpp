@@ -52,6 +52,11 @@ struct Variant {
 
 void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
   if (reading.thicknesses.empty()) return;
+  if (reading.nodal.empty()) {
+    reading.notices.push_back(reading.faults.text_of(reading.thicknesses.front().where) +
+                              ": *NODAL THICKNESS is ignored: no *SHELL SECTION has NODAL THICKNESS");
+    return;
+  }
   const std::vector<Given> given = given_thicknesses(comm, reading);
   auto& mesh = reading.mesh;
   auto& sections = reading.deck.shell_sections;
@@ -62,7 +67,8 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const auto& cell = mesh.cells[c];
     const auto section = section_of(cell.part);
-    if (section == sections.end() || section->plies.size() != 1) continue;
+    const bool asked = std::count(reading.nodal.begin(), reading.nodal.end(), cell.part) > 0;
+    if (section == sections.end() || section->plies.size() != 1 || !asked) continue;
     double sum = 0;
     bool any = false;
     for (int i = 0; i < node_count(cell.kind); ++i) {

@@ -20,9 +20,22 @@ std::vector<long long> labels_of(const RawMesh& mesh, const std::vector<PetscInt
 
 bool before(const DependentNode& a, PetscInt node) { return a.node < node; }
 
-bool follows(const std::vector<DependentNode>& all, PetscInt node) {
-  const auto found = std::lower_bound(all.begin(), all.end(), node, before);
-  return found != all.end() && found->node == node;
+/// A node whose independent node depends on another one moves with that one: rigid links compose.
+/// @return  nodes that lead back to themselves
+std::vector<PetscInt> follow_chains(std::vector<DependentNode>& all) {
+  const std::vector<DependentNode> given = all;
+  std::vector<PetscInt> round;
+  for (DependentNode& link : all) {
+    for (std::size_t steps = 0; steps <= given.size(); ++steps) {
+      const PetscInt next = independent_node_of(given, link.independent_node);
+      if (next == link.independent_node) break;
+      link.independent_node = next;
+      if (next != link.node) continue;
+      round.push_back(link.node);
+      break;
+    }
+  }
+  return round;
 }
 
 }  // namespace
@@ -44,20 +57,16 @@ std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const std::vecto
   all.erase(std::unique(all.begin(), all.end(),
                         [&](const DependentNode& a, const DependentNode& b) { return order(a) == order(b); }),
             all.end());
-  std::vector<PetscInt> twice, chained;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (i > 0 && all[i].node == all[i - 1].node) twice.push_back(all[i].node);
-    if (follows(all, all[i].independent_node)) chained.push_back(all[i].independent_node);
-  }
+  std::vector<PetscInt> twice;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (all[i].node == all[i - 1].node) twice.push_back(all[i].node);
+  const std::vector<PetscInt> round = follow_chains(all);
   std::vector<std::string> faults;
   for (long long label : labels_of(mesh, twice))
     faults.push_back(fmt::format("{}: node {} is in rigid links to two nodes; expected one", mesh.source, label));
-  std::sort(chained.begin(), chained.end());
-  chained.erase(std::unique(chained.begin(), chained.end()), chained.end());
-  for (long long label : labels_of(mesh, chained))
-    faults.push_back(fmt::format(
-        "{}: node {} is the independent node of a rigid link and a dependent node of another one; expected one link",
-        mesh.source, label));
+  for (long long label : labels_of(mesh, round))
+    faults.push_back(fmt::format("{}: rigid links lead from node {} back to it; expected one that depends on no other",
+                                 mesh.source, label));
   if (!faults.empty()) throw InputError(faults);
   return all;
 }

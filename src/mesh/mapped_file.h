@@ -15,7 +15,8 @@ class MappedFile {
   ~MappedFile();
 
   const std::string& path() const { return path_; }
-  std::string_view text() const { return text_; }
+  /// Without the mark of UTF-8 at its beginning.
+  std::string_view text() const { return text_.substr(text_.starts_with("\xEF\xBB\xBF") ? 3 : 0); }
 
  private:
   std::string path_;

@@ -15,7 +15,9 @@ void NasBuild::build() {
   add_shells();
   add_beams();
   add_extra_grids();
+  add_springs();
   add_masses();
+  add_means();
   add_places();
   report_unused();
 }
@@ -100,6 +102,44 @@ void NasBuild::add_masses() {
   }
 }
 
+std::vector<long long> NasBuild::used_grids() const {
+  std::vector<long long> used;
+  const auto add = [&](const auto& grids) { used.insert(used.end(), grids.begin(), grids.end()); };
+  for (const NasShell& shell : model_.shells) add(shell.nodes), add(shell.middles);
+  for (const NasBeam& beam : model_.beams) add(beam.nodes);
+  for (const NasSpring& spring : model_.springs)
+    if (spring.grids[0] > 0 && spring.grids[1] > 0) add(spring.grids);
+  for (const NasMass& mass : model_.masses) used.push_back(mass.grid);
+  for (const NasLink& rigid : model_.links) used.push_back(rigid.reference), add(rigid.nodes);
+  for (const NasMean& mean : model_.means) add(mean.nodes);
+  std::sort(used.begin(), used.end());
+  return used;
+}
+
+/// A mean of grids carries nothing: where its reference grid has no more it is a place of the scene.
+void NasBuild::add_means() {
+  if (model_.means.empty()) return;
+  const std::vector<long long> used = used_grids();
+  std::vector<std::string> names;
+  for (const NasMean& mean : model_.means) {
+    const std::string name = "RBE3 " + std::to_string(mean.id);
+    if (std::binary_search(used.begin(), used.end(), mean.reference)) {
+      faults_.add(mean.where, name + ": reference grid " + std::to_string(mean.reference) +
+                                  " has an element, a mass or a link, which a mean of grids does not carry; expected "
+                                  "RBE2");
+      continue;
+    }
+    names.push_back("RBE3_" + std::to_string(mean.id));
+    FilePlace& place = mean_places_.emplace_back(FilePlace{names.back(), mean.where, {}});
+    if (rank_ == 0) place.labels = mean.nodes;
+  }
+  if (names.empty()) return;
+  notices.push_back(faults_.text_of(model_.means.front().where) + ": " +
+                    counted(static_cast<long long>(names.size()), "RBE3") +
+                    " without element at the reference grid: a place each of the grids whose mean it is (" +
+                    names.front() + (names.size() > 1 ? ", ...)" : ")"));
+}
+
 std::map<std::string, std::vector<std::pair<long long, Where>>> NasBuild::supports() const {
   std::map<std::string, std::vector<std::pair<long long, Where>>> all;
   for (const auto& [set, grids] : model_.supports) all["SPC" + std::to_string(set)] = grids;
@@ -133,6 +173,7 @@ void NasBuild::add_places() {
         support.labels.push_back(grid);
     }
   }
+  mesh.places.insert(mesh.places.end(), mean_places_.begin(), mean_places_.end());
   for (auto& one : mesh.places) {
     std::sort(one.labels.begin(), one.labels.end());
     one.labels.erase(std::unique(one.labels.begin(), one.labels.end()), one.labels.end());

@@ -35,6 +35,15 @@ class NasBuild {
   void add_shells();
   void add_beams();
   void add_extra_grids();
+  void add_means();
+  /// Labels of the grids that elements, springs, masses and links use, ascending.
+  std::vector<long long> used_grids() const;
+  void add_springs();
+  void report_grounded();
+  std::optional<NodeSpring> scalar_spring(const NasSpring& spring, const std::array<Eigen::Vector3d, 2>& x);
+  std::optional<NodeSpring> bush(const NasSpring& spring, const std::array<Eigen::Vector3d, 2>& x);
+  /// Diagonal of the box around all grids.
+  double extent();
   void add_masses();
   void add_places();
   /// Labels of the grids of supports, each with its card, by the name of their place.
@@ -53,10 +62,16 @@ class NasBuild {
   Eigen::Vector3d axis_of(const NasShell& shell);
   void add_shell_section(const NasShell& shell, const NasShellProperty& property, double thickness,
                          const Eigen::Vector3d& axis, int part);
-  long long end_of(const NasBeam& beam, int end, const NasGrid& grid, const Eigen::Vector3d& x);
-  Eigen::Vector3d orientation_of(const NasBeam& beam, const NasGrid& a, const Eigen::Vector3d& x_a,
-                                 const Eigen::Vector3d& axis);
-  void add_beam_section(const NasBeamProperty& own, const Eigen::Vector3d& orientation, int part);
+  long long end_of(const NasBeam& beam, const NasGrid& grid, const Eigen::Vector3d& offset, const Eigen::Vector3d& x);
+  /// The grids of a beam and where they are.
+  struct Ends {
+    std::array<const NasGrid*, 2> grids;
+    std::array<Eigen::Vector3d, 2> x;
+  };
+  Eigen::Vector3d offset_of(const NasBeam& beam, int end, const Ends& ends);
+  std::optional<Ends> ends_of(const NasBeam& beam);
+  Eigen::Vector3d orientation_of(const NasBeam& beam, const Ends& ends, const Eigen::Vector3d& axis);
+  void add_beam_section(const NasBeamProperty& own, const NasBeam& beam, const Eigen::Vector3d& orientation, int part);
 
   const NasModel& model_;
   Faults& faults_;
@@ -64,7 +79,9 @@ class NasBuild {
   NasFrames frames_;
   Share share_{0, 0};
   long long next_label_ = 1;
+  double extent_ = -1;
   std::map<std::pair<long long, Variant>, int> parts_;    // of beams by the negative number of the property
+  std::vector<FilePlace> mean_places_;                    // the grids of each RBE3
   std::unordered_map<long long, long long> independent_;  // of dependent grids
   std::vector<Extra> extra_;
   std::map<std::array<double, 4>, long long> extra_of_;

@@ -118,6 +118,12 @@ void NasBuild::add_shell_section(const NasShell& shell, const NasShellProperty& 
     section.orientation = orientation.name;
     deck.orientations.push_back(orientation);
   }
+  if (property.bends_apart()) {
+    const long long id = property.bending.value_or(property.plies.front().material);
+    const NasMaterial* bending = material(id, property.where, property.name);
+    if (!bending) return;
+    section.bending = ShellBending{named_material(*bending, 0, property.name), property.factor};
+  }
   deck.shell_sections.push_back(section);
 }
 
@@ -145,31 +151,37 @@ void NasBuild::add_shells() {
 }
 
 /// The node at the end of a beam, which an offset moves away from the grid.
-long long NasBuild::end_of(const NasBeam& beam, int end, const NasGrid& grid, const Eigen::Vector3d& x) {
-  const Eigen::Vector3d& offset = beam.offsets[end];
+long long NasBuild::end_of(const NasBeam& beam, const NasGrid& grid, const Eigen::Vector3d& offset,
+                           const Eigen::Vector3d& x) {
   if (offset.isZero(0)) return grid.id;
-  const Eigen::Vector3d moved = frames_.directions(frames_.displacement_axes(grid), x, beam.where) * offset;
   const auto [at, fresh] =
-      extra_of_.try_emplace({static_cast<double>(grid.id), moved[0], moved[1], moved[2]}, next_label_);
+      extra_of_.try_emplace({static_cast<double>(grid.id), offset[0], offset[1], offset[2]}, next_label_);
   if (fresh) {
-    extra_.push_back({next_label_++, x + moved, beam.where});
+    extra_.push_back({next_label_++, x + offset, beam.where});
     const auto found = independent_.find(grid.id);
     extra_links_[found == independent_.end() ? grid.id : found->second].push_back(extra_.size() - 1);
   }
   return at->second;
 }
 
-/// The orientation vector in basic axes; of G0 its part normal to the beam, which neighbours share.
-Eigen::Vector3d NasBuild::orientation_of(const NasBeam& beam, const NasGrid& a, const Eigen::Vector3d& x_a,
-                                         const Eigen::Vector3d& axis) {
-  Eigen::Vector3d v;
+/// A unit vector that is far from parallel to the axis: rods have no other orientation.
+static Eigen::Vector3d any_orientation(const Eigen::Vector3d& axis) {
+  Eigen::Index least = 0;
+  axis.cwiseAbs().minCoeff(&least);
+  return Eigen::Vector3d::Unit(least);
+}
+
+/// The orientation vector in basic axes; of G0 its part normal to the axis, which neighbours share.
+Eigen::Vector3d NasBuild::orientation_of(const NasBeam& beam, const Ends& ends, const Eigen::Vector3d& axis) {
+  if (beam.rod) return any_orientation(axis);
+  Eigen::Vector3d v = beam.orientation;
   if (beam.orientation_node > 0) {
     const auto x = frames_.position(beam.orientation_node, beam.where);
     if (!x) return Eigen::Vector3d::Zero();
-    v = *x - x_a;
+    v = *x - ends.x[0];
     v -= axis * axis.dot(v);
-  } else {
-    v = frames_.directions(frames_.displacement_axes(a), x_a, beam.where) * beam.orientation;
+  } else if (!beam.in_basic) {
+    v = frames_.directions(frames_.displacement_axes(*ends.grids[0]), ends.x[0], beam.where) * v;
   }
   constexpr double least = 1e-6;
   if (!(v.norm() > 0) || !(v.normalized().cross(axis).norm() > least)) {
@@ -179,7 +191,34 @@ Eigen::Vector3d NasBuild::orientation_of(const NasBeam& beam, const NasGrid& a, 
   return v.normalized().unaryExpr([](double c) { return rounded(c); });
 }
 
-void NasBuild::add_beam_section(const NasBeamProperty& own, const Eigen::Vector3d& orientation, int part) {
+/// In basic axes.
+Eigen::Vector3d NasBuild::offset_of(const NasBeam& beam, int end, const Ends& ends) {
+  const Eigen::Vector3d& offset = beam.offsets[end];
+  if (offset.isZero(0)) return offset;
+  if (!beam.own_axes[end])
+    return frames_.directions(frames_.displacement_axes(*ends.grids[end]), ends.x[end], beam.where) * offset;
+  Eigen::Matrix3d axes;
+  axes.col(0) = (ends.x[1] - ends.x[0]).normalized();
+  axes.col(2) = axes.col(0).cross(orientation_of(beam, ends, axes.col(0))).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes * offset;
+}
+
+std::optional<NasBuild::Ends> NasBuild::ends_of(const NasBeam& beam) {
+  Ends ends{{frames_.grid(beam.nodes[0]), frames_.grid(beam.nodes[1])}, {}};
+  for (int end : {0, 1}) {
+    if (ends.grids[end])
+      ends.x[end] = frames_.position_of(*ends.grids[end]);
+    else
+      faults_.add(beam.where, "beam " + std::to_string(beam.id) + " names grid " + std::to_string(beam.nodes[end]) +
+                                  ", which is not defined");
+  }
+  if (ends.grids[0] && ends.grids[1]) return ends;
+  return std::nullopt;
+}
+
+void NasBuild::add_beam_section(const NasBeamProperty& own, const NasBeam& beam, const Eigen::Vector3d& orientation,
+                                int part) {
   const NasMaterial* found = material(own.material, own.where, own.name);
   if (!found) return;
   if (found->material.elasticity != Elasticity::isotropic)
@@ -189,6 +228,7 @@ void NasBuild::add_beam_section(const NasBeamProperty& own, const Eigen::Vector3
   section.part = own.name;
   section.number = part;
   section.direction_1 = orientation;
+  section.releases = beam.releases;
   section.youngs = found->material.constants[0];
   section.shear = found->shear;
   const double density = (found->material.density + own.extra / own.area) * model_.mass_factor;
@@ -201,25 +241,23 @@ void NasBuild::add_beams() {
     const NasBeam& beam = model_.beams[i];
     const NasBeamProperty* own =
         property(model_.beam_properties, beam.property, beam.where, "beam " + std::to_string(beam.id));
-    const NasGrid *a = frames_.grid(beam.nodes[0]), *b = frames_.grid(beam.nodes[1]);
-    for (int end : {0, 1})
-      if (!(end ? b : a))
-        faults_.add(beam.where, "beam " + std::to_string(beam.id) + " names grid " + std::to_string(beam.nodes[end]) +
-                                    ", which is not defined");
-    if (!own || !a || !b) continue;
-    const Eigen::Vector3d x_a = frames_.position_of(*a), x_b = frames_.position_of(*b);
-    const std::array<long long, 4> nodes{end_of(beam, 0, *a, x_a), end_of(beam, 1, *b, x_b), -1, -1};
-    const auto place = [&](int end, const Eigen::Vector3d& x) {
-      return nodes[end] == beam.nodes[end] ? x : extra_[static_cast<std::size_t>(nodes[end] - extra_.front().label)].x;
-    };
-    const Eigen::Vector3d line = place(1, x_b) - place(0, x_a);
+    const std::optional<Ends> ends = ends_of(beam);
+    if (!own || !ends) continue;
+    std::array<long long, 4> nodes{-1, -1, -1, -1};
+    std::array<Eigen::Vector3d, 2> x;
+    for (int end : {0, 1}) {
+      const Eigen::Vector3d offset = offset_of(beam, end, *ends);
+      nodes[end] = end_of(beam, *ends->grids[end], offset, ends->x[end]);
+      x[end] = ends->x[end] + offset;
+    }
+    const Eigen::Vector3d line = x[1] - x[0];
     if (!(line.norm() > 0)) {
       faults_.add(beam.where, "beam " + std::to_string(beam.id) + " has no length");
       continue;
     }
-    const Eigen::Vector3d v = orientation_of(beam, *a, x_a, line.normalized());
-    const int part = part_of(-beam.property, {v[0], v[1], v[2], 0, 0}, own->name,
-                             [&](int number) { add_beam_section(*own, v, number); });
+    const Eigen::Vector3d v = orientation_of(beam, *ends, line.normalized());
+    const int part = part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases), 1}, own->name,
+                             [&](int number) { add_beam_section(*own, beam, v, number); });
     if (mine(model_.shells.size() + i)) mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
   }
 }

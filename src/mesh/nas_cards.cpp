@@ -69,7 +69,9 @@ std::vector<std::string_view> fields_of(std::string_view line, bool free, Where 
 
 bool begins_bulk(std::string_view line) {
   std::string_view rest = line;
-  if (upper(next_word(rest)) != "BEGIN") return false;
+  const std::string first = upper(next_word(rest));
+  if (first == "BEGIN_BULK") return true;
+  if (first != "BEGIN") return false;
   const std::string word = upper(next_word(rest));
   return word.empty() || word.starts_with("BULK") || word.starts_with("SUPER");
 }
@@ -144,8 +146,9 @@ class Walk {
 
   /// A line of a card. Lines with tabs are kept until the card is finished.
   void add(std::string_view line, Where where) {
-    const bool free = line.find(',') != std::string_view::npos;
-    const auto stop = std::min({line.find(','), line.find('\t'), free ? line.size() : width});
+    constexpr std::size_t last_of_free = 10;  // a comma after it belongs to a field, as of DEQATN
+    const bool free = line.find(',') < last_of_free;
+    const auto stop = std::min(line.find('\t'), free ? line.find(',') : width);
     const std::string_view head = trimmed(line.substr(0, stop));
     const bool continues = head.empty() || head.starts_with('+') || head.starts_with('*');
     if (!continues) {

@@ -74,6 +74,32 @@ void read_orientation_of(NasFields& card, NasBeam& beam) {
   for (int i = 0; i < 3; ++i) beam.orientation[i] = card.real(4 + i, "a component of the orientation vector", 0);
 }
 
+/// OFFT: three letters for the orientation vector (G: displacement axes of GA, B: basic) and the offsets of both ends
+/// (G, or O: axes of the element); or the flag F of older decks (1: a vector, 2: a grid).
+void read_axes_of(NasFields& card, const std::string& offt, const std::string& of, NasBeam& beam) {
+  const auto flag = number<double>(offt);
+  if (offt.empty() || (flag && (*flag == 0 || *flag == 1 || *flag == 2))) return;
+  const auto one_of = [&](std::size_t i, const char* letters) {
+    return std::string(letters).find(offt[i]) != std::string::npos;
+  };
+  if (offt.size() != 3 || !one_of(0, "GB") || !one_of(1, "GO") || !one_of(2, "GO"))
+    return card.refuse(7,
+                       "expects G or B, and twice G or O (OFFT: axes of the orientation vector and of the offsets), "
+                       "as GGG; found " +
+                           in_quotes(offt) + of);
+  beam.in_basic = offt[0] == 'B';
+  beam.own_axes = {offt[1] == 'O', offt[2] == 'O'};
+}
+
+/// PA or PB: digits from 1 to 6.
+void read_pin_flags(NasFields& card, int end, NasBeam& beam) {
+  const std::string_view flags = card.card.text(8 + end);
+  if (flags.empty() || flags == "0") return;
+  if (flags.find_first_not_of("123456") != std::string_view::npos)
+    return card.refuse(8 + end, "expects pin flags from 1 to 6, found " + in_quotes(flags));
+  for (const char digit : flags) beam.releases |= 1u << (6 * end + digit - '1');
+}
+
 }  // namespace
 
 void read_beam(NasReader& r) {
@@ -95,14 +121,8 @@ void read_beam(NasReader& r) {
     read_orientation_of(r.card, beam);
   }
   const bool own = !card.blank(7) || !otherwise;
-  const std::string offt = upper(own ? card.text(7) : otherwise->text(7));
-  if (!offt.empty() && offt != "GGG" && number<double>(offt).value_or(1) != 0)
-    r.card.refuse(7, "expects GGG (OFFT: offsets and orientation in displacement axes), found " + in_quotes(offt) +
-                         (own ? "" : " of " + otherwise->name));
-  for (int i : {8, 9})
-    if (!card.blank(i) && card.text(i) != "0")
-      r.card.refuse(i, "has pin flags " + in_quotes(card.text(i)) +
-                           ": they are not read; expected none (use a joint of the scene between two bodies)");
+  read_axes_of(r.card, upper(own ? card.text(7) : otherwise->text(7)), own ? "" : " of " + otherwise->name, beam);
+  for (int end : {0, 1}) read_pin_flags(r.card, end, beam);
   for (int end : {0, 1})
     for (int i = 0; i < 3; ++i) beam.offsets[end][i] = r.card.real(10 + 3 * end + i, "an offset", 0);
   if (card.name == "CBEAM" && !(card.blank(16) && card.blank(17))) r.count_ignored("CBEAM SA, SB");
@@ -145,6 +165,27 @@ void read_rbe2(NasReader& r) {
   for (std::size_t i = 3; i < last; ++i)
     if (!card.blank(i)) link.nodes.push_back(r.card.integer(i, "a dependent grid"));
   if (r.card.good()) r.model.links.push_back(link);
+}
+
+// Weights (real numbers), each with the directions and the grids that follow it.
+void read_rbe3(NasReader& r) {
+  const auto& card = r.card.card;
+  NasMean mean{r.card.integer(0, "the element's number"), r.card.integer(2, "the reference grid"), {}, r.where()};
+  bool directions = false;  // the next number
+  for (std::size_t i = 4; i < card.fields.size(); ++i) {
+    if (card.blank(i)) continue;
+    const std::string word = upper(card.text(i));
+    if (word == "UM" || word == "ALPHA") break;
+    if (card.text(i).find('.') != std::string_view::npos) {
+      directions = true;
+    } else if (directions) {
+      directions = false;
+    } else {
+      mean.nodes.push_back(r.card.integer(i, "a weight with its directions, or a grid"));
+    }
+  }
+  if (r.card.good() && mean.nodes.empty()) r.card.refuse_card("has no grids");
+  if (r.card.good()) r.model.means.push_back(mean);
 }
 
 void read_rbar(NasReader& r) {

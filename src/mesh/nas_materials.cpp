@@ -16,7 +16,7 @@ void read_mat1(NasReader& r) {
   if (card.blank(3) && !card.blank(2)) nu = e / (2 * g) - 1;
   if (card.blank(2)) g = e / (2 * (1 + nu));
   if (r.card.good() && !(e > 0 && g > 0)) r.card.refuse(1, "to 4 expect E and G greater than 0");
-  if (r.card.good() && !(nu > -1 && nu <= 0.5))
+  if (r.card.good() && !card.blank(3) && !(nu > -1 && nu <= 0.5))  // of E and G beams need no more
     r.card.refuse(3, "expects nu between -1 and 1/2, found " + std::to_string(nu));
   if (found.material.density < 0) r.card.refuse(4, "expects a density that is not negative");
   if (r.card.real(7, "GE", 0) != 0) r.count_ignored("GE");

@@ -9,11 +9,14 @@ void read_pshell(NasReader& r) {
   const long long id = r.card.integer(0, "the property's number"), material = r.card.integer(1, "a material (MID1)");
   NasShellProperty property{r.named("PSHELL", id), {}, {}, 0, r.where()};
   property.plies.push_back({material, r.card.positive(2, "a thickness"), 0});
-  if (r.card.integer(3, "a material (MID2)", 0) != material)
-    r.card.refuse(3, "(MID2) differs from MID1: shells have one material for membrane and bending; expected " +
-                         std::to_string(material));
-  if (std::abs(r.card.real(4, "12 I / T^3", 1) - 1) > 1e-9)
-    r.card.refuse(4, "(12 I / T^3) is not 1, which is not read");
+  const long long bending = r.card.integer(3, "a material (MID2)", 0);
+  if (bending <= 0)
+    r.card.refuse(3, bending < 0 ? "(MID2: -1, plane strain) is not read; expected a material"
+                                 : "(MID2) is blank: a membrane, which has no bending stiffness; expected a material");
+  if (bending > 0 && bending != material) property.bending = bending;
+  property.factor = r.card.real(4, "12 I / T^3", 1);
+  if (std::abs(property.factor - 1) <= 1e-9) property.factor = 1;
+  if (!(property.factor > 0)) r.card.refuse(4, "(12 I / T^3) expects a number greater than 0");
   if (!r.card.card.blank(5)) r.count_ignored("PSHELL MID3");
   if (!r.card.card.blank(10)) r.card.refuse(10, "(MID4: coupling of membrane and bending) is not read: use PCOMP");
   property.extra = r.card.real(7, "a mass by area (NSM)", 0);
@@ -55,8 +58,8 @@ void take_general(NasFields& card, NasBeamProperty& property, std::array<double,
   property.area = area;
   property.section.profile = Profile::general;
   property.section.dimensions = {area, i2, i12, i1, j};
-  if (card.good() && !(area > 0 && i1 > 0 && i2 > 0 && j > 0 && i1 * i2 > i12 * i12))
-    card.refuse_card("expects A, I1, I2, J and I1 I2 - I12^2 greater than 0");
+  if (card.good() && !(area > 0 && i1 >= 0 && i2 >= 0 && j >= 0 && (i12 == 0 || i1 * i2 > i12 * i12)))
+    card.refuse_card("expects A greater than 0, I1, I2 and J not negative, and I12^2 less than I1 I2");
 }
 
 }  // namespace
@@ -65,8 +68,8 @@ void read_pbar(NasReader& r) {
   const long long id = r.card.integer(0, "the property's number");
   NasBeamProperty property{r.named("PBAR", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
   take_general(r.card, property,
-               {r.card.real(2, "the area"), r.card.real(3, "I1"), r.card.real(4, "I2"), r.card.real(18, "I12", 0),
-                r.card.real(5, "J")});
+               {r.card.real(2, "the area"), r.card.real(3, "I1", 0), r.card.real(4, "I2", 0), r.card.real(18, "I12", 0),
+                r.card.real(5, "J", 0)});
   property.extra = r.card.real(6, "a mass by length (NSM)", 0);
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(16 + i, "a shear factor", 0));
   r.define(r.model.beam_properties, id, std::move(property), "property");
@@ -101,8 +104,7 @@ void read_pbeam(NasReader& r) {
   NasBeamProperty property{r.named("PBEAM", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
   constexpr const char* names[] = {"the area", "I1", "I2", "I12", "J", "a mass by length (NSM)"};
   std::array<double, 6> at_a;
-  for (int i = 0; i < 6; ++i)
-    at_a[i] = i == 3 || i == 5 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]);
+  for (int i = 0; i < 6; ++i) at_a[i] = i > 2 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]);
   take_general(r.card, property, {at_a[0], at_a[1], at_a[2], at_a[3], at_a[4]});
   property.extra = at_a[5];
   const auto station = [&](std::size_t i) {

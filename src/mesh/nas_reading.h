@@ -38,6 +38,25 @@ struct NasBeam {
   long long orientation_node;   // G0; 0: none
   std::array<Eigen::Vector3d, 2> offsets;
   Where where;
+  unsigned releases = 0;                       // PA, PB: bits 0 to 5 and 6 to 11
+  bool rod = false;                            // of no orientation
+  bool in_basic = false;                       // the orientation vector (OFFT: B)
+  std::array<bool, 2> own_axes{false, false};  // of the offsets: those of the element (OFFT: O)
+};
+
+/// CELAS1, CELAS2, CBUSH; grid 0: ground.
+struct NasSpring {
+  long long id;
+  std::array<long long, 2> grids;
+  std::array<int, 2> components{0, 0};  // 1 to 6 of a scalar spring
+  double stiffness = 0;                 // of CELAS2
+  long long property = 0;               // 0: none
+  long long axes = -1;                  // CID of CBUSH
+  Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
+  long long orientation_node = 0;
+  double at = 0.5;
+  Where where = {};
+  bool scalar() const { return components != std::array<int, 2>{0, 0}; }
 };
 
 struct NasPly {
@@ -51,6 +70,9 @@ struct NasShellProperty {
   std::optional<double> bottom;  // Z0
   double extra;                  // nonstructural mass by area
   Where where;
+  std::optional<long long> bending = {};  // MID2 where it is not MID1
+  double factor = 1;                      // 12 I / T^3
+  bool bends_apart() const { return bending || factor != 1; }
 };
 
 struct NasBeamProperty {
@@ -87,6 +109,13 @@ struct NasLink {
   Where where;
 };
 
+/// RBE3: the mean motion of grids.
+struct NasMean {
+  long long id, reference;
+  std::vector<long long> nodes;
+  Where where;
+};
+
 /// A card that is not read: how often, and where first.
 struct NasCount {
   Where where;
@@ -104,6 +133,10 @@ struct NasModel {
   std::map<long long, NasAxes> axes;
   std::vector<NasMass> masses;
   std::vector<NasLink> links;
+  std::vector<NasMean> means;
+  std::vector<NasSpring> springs;
+  std::map<long long, double> scalar_stiffness;                            // PELAS
+  std::map<long long, std::array<double, 6>> bush_stiffness;               // PBUSH
   std::map<long long, std::vector<std::pair<long long, Where>>> supports;  // of each set: grids
   struct SupportRange {
     long long set, first, last;

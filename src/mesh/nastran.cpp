@@ -11,22 +11,31 @@
 namespace floe::mesh {
 namespace {
 
+bool ignores(const DeckRequest& request, const std::string& name) {
+  return std::any_of(request.ignore.begin(), request.ignore.end(), [&](const auto& one) { return upper(one) == name; });
+}
+
+/// Elements that are read, and left out where the scene asks.
+bool left_out(const NasCard& card, const DeckRequest& request, NasModel& model) {
+  const char* kinds[] = {"CELAS1", "CELAS2", "CBUSH", "CROD", "CTUBE", "CONROD", "RBE3"};
+  if (std::find(std::begin(kinds), std::end(kinds), card.name) == std::end(kinds) || !ignores(request, card.name))
+    return false;
+  model.refused.try_emplace(card.name, NasCount{card.where(), 0}).first->second.times++;
+  return true;
+}
+
 void refuse_cards(const NasModel& model, const DeckRequest& request, std::vector<std::string>& notices,
                   Faults& faults) {
-  const auto ignores = [&](const std::string& name) {
-    return std::any_of(request.ignore.begin(), request.ignore.end(),
-                       [&](const auto& one) { return upper(one) == name; });
-  };
   for (const auto& [name, count] : model.refused) {
     const std::string many = counted(count.times, "card");
-    if (ignores(name))
+    if (ignores(request, name))
       notices.push_back(faults.text_of(count.where) + ": " + many + " " + name + " left out, as the scene asks");
     else
       faults.add(count.where, name + " (" + nas_refusal(name) + ", " + many +
                                   ") is not read; to leave them out: file: {ignore: [" + name + "]}");
   }
   for (const auto& [name, count] : model.unknown) {
-    if (ignores(name))
+    if (ignores(request, name))
       notices.push_back(faults.text_of(count.where) + ": " + counted(count.times, "card") + " " + name +
                         " left out, as the scene asks");
     else
@@ -63,8 +72,9 @@ DeckFile read_nastran(MPI_Comm comm, const std::string& path, const DeckRequest&
   std::vector<std::string> notices;
   petsc::agree(comm, [&] {
     NasModel model;
-    const NasControl control =
-        each_card(path, faults, [&](const NasCard& card) { read_nas_card(card, model, faults); });
+    const NasControl control = each_card(path, faults, [&](const NasCard& card) {
+      if (!left_out(card, request, model)) read_nas_card(card, model, faults);
+    });
     if (control.lines > 0)
       notices.push_back(faults.text_of(control.where) + ": " + counted(control.lines, "line") +
                         " before BEGIN BULK ignored: the scene says what is computed");

@@ -60,25 +60,76 @@ Eigen::Vector3d axis_of(const mesh::Orientation& o) {
   return Eigen::AngleAxisd(o.angle * M_PI / 180, axes.col(o.axis - 1)) * axes.col(0);
 }
 
+/// Of a section without an orientation the global x-axis, projected on each element, as in Abaqus and CalculiX.
+Eigen::Vector3d axis_named(const Reader& reader, const std::string& orientation) {
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  if (orientation.empty() && !reader.file.deck.nastran) axis = Eigen::Vector3d::UnitX();
+  for (const mesh::Orientation& o : reader.file.deck.orientations)
+    if (o.name == orientation) axis = axis_of(o);
+  return axis;
+}
+
+/// Thickness of a homogeneous shell of the same ratio of bending and membrane stiffness.
+double equivalent_thickness(const fem::ShellSection& section) { return std::sqrt(12.0) * section.mass_radius; }
+
+/// A section by its stiffness; its stresses are not known.
+void add_stiffness(Reader& reader, const mesh::ShellSection& section, DeckSections& deck) {
+  const auto& S = section.stiffness->values;
+  if (!section.stiffness->density) reader.add_massless("its section");
+  try {
+    fem::ShellSection shell =
+        fem::stiffness_section(S.topLeftCorner<3, 3>(), S.topRightCorner<3, 3>(), S.bottomRightCorner<3, 3>(),
+                               section.stiffness->density.value_or(0), axis_named(reader, section.orientation));
+    if (section.shear > 0) shell.shear = section.shear;
+    deck.parts[section.number] = shell;
+    deck.points[section.number] = {};
+    deck.described.push_back(
+        {section.number, section.part, std::exchange(reader.massless, {}), equivalent_thickness(shell)});
+  } catch (const InputError& error) {
+    reader.fault(section.part, error.what());
+  }
+}
+
+/// A ply whose bending is that of another material, or of other fibres.
+void bend(Reader& reader, const mesh::ShellSection& section, const std::vector<fem::Ply>& plies, DeckSections& deck) {
+  const mesh::Material* material = reader.material(section.part, section.bending->material);
+  if (!material || plies.size() != 1) return;
+  const double T = plies[0].thickness, offset = -section.offset * T;
+  const auto& own = std::get<fem::ShellSection>(deck.parts.at(section.number));
+  const Eigen::Matrix3d D =
+      section.bending->factor * std::pow(T, 3) / 12 * fem::plane_stress(shell_material(*material));
+  fem::ShellSection shell =
+      fem::stiffness_section(own.A, Eigen::Matrix3d::Zero(), D, own.mass, axis_named(reader, section.orientation));
+  shell.coupling = offset * Eigen::Matrix3d::Identity();
+  shell.mass_centre = offset, shell.mass_radius = own.mass_radius;
+  deck.parts[section.number] = shell;
+  deck.points[section.number] = {};
+}
+
 void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& deck) {
+  if (section.stiffness) return add_stiffness(reader, section, deck);
   std::vector<fem::Ply> plies;
   double thickness = 0;
   std::string orientation = section.orientation;
+  bool directed = false;
   for (const mesh::Ply& ply : section.plies) {
     if (orientation.empty()) orientation = ply.orientation;
     if (!ply.orientation.empty() && ply.orientation != orientation)
       return reader.fault(section.part, "its plies have orientations of different names; expected one, with angles");
     const mesh::Material* material = reader.material(section.part, ply.material);
     if (!material) return;
+    directed = directed || material->elasticity != mesh::Elasticity::isotropic;
     plies.push_back({shell_material(*material), ply.thickness, ply.angle * M_PI / 180});
     thickness += ply.thickness;
   }
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  for (const mesh::Orientation& o : reader.file.deck.orientations)
-    if (o.name == orientation) axis = axis_of(o);
   try {
-    deck.parts[section.number] = fem::shell_section(plies, -section.offset * thickness, axis);
+    fem::ShellSection shell = fem::shell_section(
+        plies, -section.offset * thickness,
+        directed || !orientation.empty() ? axis_named(reader, orientation) : Eigen::Vector3d::Zero());
+    if (section.shear > 0) shell.shear = section.shear;
+    deck.parts[section.number] = shell;
     deck.points[section.number] = {fem::shell_layers(plies, -section.offset * thickness)};
+    if (section.bending) bend(reader, section, plies, deck);
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), thickness});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());
@@ -117,6 +168,21 @@ fem::SectionShape shape_of(const mesh::BeamSection& section) {
   fem::SectionShape shape;
   shape.A = d[0], shape.Iy = d[1], shape.Iyz = d[2], shape.Iz = d[3], shape.J = d[4];
   return shape;
+}
+
+/// Of what a section does not carry, both ends are released, and the constant that is 0 becomes that of a square of
+/// this area: it is without effect.
+fem::BeamReleases without_stiffness(fem::SectionShape& shape) {
+  fem::BeamReleases releases;
+  const auto release = [&](double& constant, double square, std::size_t rotation) {
+    if (constant != 0) return;
+    constant = square;
+    releases.set(rotation).set(6 + rotation);
+  };
+  release(shape.J, shape.A * shape.A / 7, 3);
+  release(shape.Iy, shape.A * shape.A / 12, 4);
+  release(shape.Iz, shape.A * shape.A / 12, 5);
+  return releases;
 }
 
 /// Size of the profile along 1 and 2, for offsets.
@@ -179,7 +245,11 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
       std::swap(shape.Iy, shape.Iz);
       shape.Iyz = -shape.Iyz;
     }
-    fem::SpatialBeam beam{fem::spatial_section(shape, material, centroid), section.direction_1, {}};
+    const fem::SectionShape given = shape;
+    const fem::BeamReleases without = without_stiffness(shape);
+    fem::SpatialBeam beam{fem::spatial_section(shape, material, centroid), section.direction_1, {}, {}};
+    beam.releases = fem::BeamReleases(section.releases) | without;
+    beam.section.rhoIy = material.rho * given.Iy, beam.section.rhoIz = material.rho * given.Iz;
     for (int i : {0, 1})
       if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;
     deck.parts[section.number] = beam;

@@ -83,6 +83,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
     add_masses(read, deck.parts);
+    add_springs(read, deck.parts);
     std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck.links);
     source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(dependent_nodes),
               std::move(deck.points)};

@@ -3,6 +3,9 @@
 a curved panel and the frame of second order as .inp and .msh, the panel as .bdf. Where ccx is installed also within 1 % of CalculiX on the
 same nodes (2 % for triangles of second order).
 
+Plates by their stiffness (*SHELL GENERAL SECTION, MID2 of PSHELL) as by their thickness to 1e-10; two bars joined by a CBUSH against
+the closed form; a panel with a SPRINGA against CalculiX.
+
     tests/decks/formats.py FLOE"""
 import math
 import pathlib
@@ -258,6 +261,89 @@ def calculix(folder, text, count, rigid):
     return [float(r[2]) for r in rows][rigid:rigid + count]
 
 
+def by_stiffness(model):
+    """The plate by the 21 numbers of its stiffness, and by another material that bends."""
+    t = model["thickness"]
+    numbers = lambda c: [c, NU * c, c, 0.0, 0.0, (1 - NU) / 2 * c]
+    a, d = numbers(E * t / (1 - NU**2)), numbers(E * t**3 / 12 / (1 - NU**2))
+    values = a + [0.0, 0.0, 0.0, d[0], 0.0, 0.0, 0.0, d[1], d[2], 0.0, 0.0, 0.0, 0.0, 0.0, d[5]]
+    lines = "\n".join(", ".join(map(repr, values[i:i + 8])) for i in (0, 8, 16))
+    text = inp(model).replace(f"*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL\n{t}", f"*SHELL GENERAL SECTION, ELSET=SKIN, DENSITY={RHO * t!r}\n{lines}")
+    bends = bdf(model, "free").replace(card("free", "PSHELL", 3, 1, t, 1), card("free", "PSHELL", 3, 1, t, 2, 1.5) + card("free", "MAT1", 2, E / 1.5, None, NU))
+    assert "GENERAL" in text and "1.5" in bends
+    return text, bends
+
+
+def sprung_roots(length, stiffness, bending, count):
+    """beta of the symmetric modes of two equal bars, free at their outer ends, joined by a rotational spring:
+    w_xxx(0) = 0, EI w_xx(0) = 2 k w_x(0), w_xx(L) = w_xxx(L) = 0."""
+    def f(beta):
+        x, k = beta * length, 4 * stiffness / (bending * beta)
+        c, s, ch, sh = math.cos(x), math.sin(x), math.cosh(x), math.sinh(x)
+        return (ch - c) * (ch - c + k * sh) - (s + sh) * (sh - s + k * ch)
+    roots, step = [], 0.02 / length
+    at = step
+    while len(roots) < count:
+        low, high = at, at + step
+        if f(low) * f(high) < 0:
+            for _ in range(80):
+                middle = (low + high) / 2
+                low, high = (low, middle) if f(low) * f(middle) <= 0 else (middle, high)
+            roots.append(low)
+        at += step
+    return roots
+
+
+def sprung(floe):
+    """@return  whether two bars with a spring between them have the frequencies of the closed form"""
+    n, length, side, stiffness = 20, 1.0, 0.004, 13.0
+    bending, line = E * side**4 / 12, RHO * side**2
+    text = "BEGIN BULK\n" + card("free", "MAT1", 1, E, None, NU, RHO)
+    text += card("free", "PBAR", 5, 1, side**2, side**4 / 12, side**4 / 12, 0.1406 * side**4)
+    for half, first in ((-1, 1), (1, 101)):
+        for i in range(n + 1):
+            text += card("free", "GRID", first + i, None, half * length * i / n, 0.0, 0.0)
+        for i in range(n):
+            text += card("free", "CBAR", first + i, 5, first + i, first + i + 1, 0.0, 1.0, 0.0)
+    text += card("free", "CBUSH", 500, 7, 1, 101, None, None, None, 0)
+    text += card("free", "PBUSH", 7, "K", 1e10, 1e10, 1e10, 1e8, stiffness, stiffness) + "ENDDATA\n"
+    with tempfile.TemporaryDirectory() as scratch:
+        (pathlib.Path(scratch) / "bars.bdf").write_text(text)
+        done = subprocess.run([floe, "check", "bars.bdf", "--frequencies", "6"], cwd=scratch, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        own = [float(f) for f in re.findall(r"^body +\d+ +([-+.\de]+)$", done.stdout, re.M)][-6:]
+    symmetric = sprung_roots(length, stiffness, bending, 2)
+    betas = sorted(2 * [symmetric[0], symmetric[1], math.sqrt(61.672822868) / (2 * length)])
+    exact = [beta**2 * math.sqrt(bending / line) / (2 * math.pi) for beta in betas]
+    error = max(abs(a / b - 1) for a, b in zip(own, exact))
+    print(f"spring closed form {error:.1e} of 1e-04: " + " ".join(f"{a:.5g}/{b:.5g}" for a, b in zip(own, exact)))
+    return len(own) == 6 and error <= 1e-4
+
+
+def with_spring(model, nodes, stiffness):
+    """The deck with a SPRINGA between two nodes."""
+    more = f"*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n100000, {nodes[0]}, {nodes[1]}\n*SPRING, ELSET=SPRING\n\n{stiffness}\n"
+    return inp(model).replace("*STEP", more + "*STEP")
+
+
+def sprung_panel(floe):
+    """@return  whether a curved panel whose corners a spring joins is within 1 % of CalculiX, and the spring matters"""
+    model = panel(12, 8, False, 0.5)
+    corners = [min(model["nodes"], key=lambda k: (model["nodes"][k][0], sign * model["nodes"][k][1])) for sign in (1, -1)]
+    text = with_spring(model, corners, 2e5)
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        own, without = (frequencies(floe, folder, "part.inp", t, model) for t in (text, inp(model)))
+        shift = max(abs(a / b - 1) for a, b in zip(own, without))
+        print(f"SPRINGA moves a frequency by {shift:.1%}")
+        if not shutil.which("ccx"):
+            return shift > 0.03
+        reference = calculix(folder, text, 10, 6)
+        error = max(abs(a / b - 1) for a, b in zip(own, reference))
+        print(f"SPRINGA CalculiX  {error:.2%} of 1%: " + " ".join(f"{f:.4g}/{r:.4g}" for f, r in zip(own, reference)))
+        return shift > 0.03 and len(reference) == 10 and error <= 0.01
+
+
 def second_order(floe):
     """@return  whether all is within its limit"""
     good = True
@@ -291,6 +377,8 @@ def second_order(floe):
 def main():
     floe, failed = str(pathlib.Path(sys.argv[1]).resolve()), False
     failed |= not second_order(floe)
+    failed |= not sprung(floe)
+    failed |= not sprung_panel(floe)
     for name, model, tolerance in (("plate", plate(), 0.01), ("frame", frame(), 0.01)):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
@@ -302,6 +390,9 @@ def main():
             if model["shells"]:
                 found["inp tied"] = frequencies(floe, folder, "tied.inp", tied(model), model)
                 found["inp moved"] = frequencies(floe, folder, "moved.inp", moved(model), model)
+                text, bends = by_stiffness(model)
+                found["inp A, B, D"] = frequencies(floe, folder, "stiffness.inp", text, model)
+                found["bdf MID2"] = frequencies(floe, folder, "bends.bdf", bends, model)
             first = found["inp"]
             assert len(first) == 10, first
             for form, other in found.items():

@@ -38,13 +38,28 @@ struct Ply {
   double angle = 0;         // degrees, against the section's orientation
 };
 
-/// *SHELL SECTION of a part: one ply, or those of COMPOSITE from the bottom up.
+/// *SHELL GENERAL SECTION by numbers: (N11, N22, N12, M11, M22, M12) from the strains and changes of curvature.
+struct ShellStiffness {
+  Eigen::Matrix<double, 6, 6> values;
+  std::optional<double> density;  // mass per area; none where the deck gives none
+};
+
+/// PSHELL whose bending is not that of its one ply: D = factor T^3 / 12 Q of the material.
+struct ShellBending {
+  std::string material;
+  double factor = 1;  // 12 I / T^3
+};
+
+/// *SHELL SECTION of a part: one ply, or those of COMPOSITE from the bottom up; or none, where it has its stiffness.
 struct ShellSection {
   std::string part;
   int number = -1;  // of the part in RawMesh::parts, which may have several of one name: sections of the same set
   std::string orientation;  // of the section; "" where none is named
   double offset = 0;        // of the nodes from the mid-surface along the normal, in thicknesses
   std::vector<Ply> plies;
+  std::optional<ShellStiffness> stiffness = {};
+  std::optional<ShellBending> bending = {};
+  double shear = 0;  // transverse, of elements of second order; 0: as of a homogeneous shell
 };
 
 /// Dimensions: a b | radius, or half axes | outer radius, wall | a b t1 t2 t3 t4 | l h b1 b2 t1 t2 t3 | A I11 I12 I22
@@ -64,6 +79,16 @@ struct BeamSection {
   std::array<double, 2> shear_factors{};  // A_s / A for forces along 1 and 2; 0: no shear deformation
   double youngs = 0, shear = 0;           // where `material` is ""
   std::optional<double> density;          // likewise; none where the deck gives none
+  unsigned releases = 0;                  // bits: dofs of the ends without force, as fem::BeamReleases
+};
+
+/// A linear spring between two nodes, about the point that divides the way from the first to the second.
+struct NodeSpring {
+  std::array<PetscInt, 2> nodes;
+  std::array<double, 6> stiffness;
+  Eigen::Matrix3d axes;  // columns
+  double at = 0.5;
+  long long label = 0;
 };
 
 /// *MASS at a node.
@@ -87,7 +112,8 @@ struct RigidLink {
   std::vector<PetscInt> nodes;  // that this rank found (the union is the set)
 };
 
-/// What an input deck says about its mesh. Same on all ranks, but for `masses` (each is on one rank) and links' nodes.
+/// What an input deck says about its mesh. Same on all ranks, but for `masses` and `springs` (each is on one rank) and
+/// links' nodes.
 struct Deck {
   std::vector<Material> materials;
   std::vector<Orientation> orientations;
@@ -95,6 +121,7 @@ struct Deck {
   std::vector<BeamSection> beam_sections;
   std::vector<PointMass> masses;
   std::vector<RigidLink> links;
+  std::vector<NodeSpring> springs;
   bool nastran = false;  // of Nastran's cards, for messages
 };
 

@@ -9,7 +9,8 @@ namespace floe::mesh {
 /// those of the deck, compared without case. Elements: B31, B33, S3, S3R, STRI3, S4, S4R and MASS; B31H, B31R, B33H,
 /// S4R5, S4RS, S4RSW and S3RS as their twins, with a notice. Rigid links: *RIGID BODY (NSET= or TIE NSET=), *MPC BEAM,
 /// *COUPLING with *KINEMATIC of all six directions. Of two sections of an element the later holds, with a notice.
-/// *NODAL THICKNESS: a shell has the mean of its nodes, and elements of other thicknesses are parts of the same name.
+/// *SHELL GENERAL SECTION by 21 numbers, or as *SHELL SECTION. SPRINGA and SPRING2 are springs between two nodes.
+/// *NODAL THICKNESS, for sections that ask for it: a shell has the mean of its nodes, and elements of other thicknesses are parts of the same name.
 /// Left out with a notice: what stands between *STEP and *END STEP; loads, supports, contact, ties, equations, heat,
 /// plasticity, output and all that does not concern a linear elastic body, each keyword with its lines; nodes that
 /// nothing uses; materials that no section uses.

@@ -1,4 +1,5 @@
 #include "floe/mesh/inp.h"
+#include "floe/mesh/links.h"
 #include "mesh_files.h"
 
 using namespace floe;
@@ -49,6 +50,23 @@ TEST_CASE("*MPC BEAM, *COUPLING and *RIGID BODY are rigid links") {
              Contains("links.inp:21: *MPC expects BEAM or TIE") && Contains("use two bodies and a joint"));
   CHECK_THAT(said("*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=S\n*KINEMATIC\n"),
              Contains("there is no node set or surface 'S'"));
+}
+
+TEST_CASE("rigid links that hang on others compose, and none leads back to itself") {
+  const auto nodes_of = [](const mesh::DeckFile& file) {
+    const auto labels = testing::of_all_ranks(file.mesh.node_labels);
+    std::vector<std::array<long long, 2>> pairs;
+    for (const mesh::DependentNode& link : mesh::dependent_nodes(file.mesh, file.deck.links))
+      pairs.push_back({labels.at(link.node), labels.at(link.independent_node)});
+    return pairs;
+  };
+  using Pairs = std::vector<std::array<long long, 2>>;
+  CHECK(nodes_of(read("*NODE\n10, 5, 6\n11, 6, 6\n*MPC\nBEAM, 2, 10\nBEAM, 10, 11\nBEAM, 11, 1\n")) ==
+        Pairs{{2, 1}, {10, 1}, {11, 1}});
+  const auto round = read("*NODE\n10, 5, 6\n*MPC\nBEAM, 2, 10\nBEAM, 10, 2\n");
+  CHECK_THAT(testing::fault_of([&] { nodes_of(round); }), Contains("rigid links lead from node 2 back to it"));
+  const auto two = read("*NODE\n10, 5, 6\n*MPC\nBEAM, 2, 10\nBEAM, 2, 1\n");
+  CHECK_THAT(testing::fault_of([&] { nodes_of(two); }), Contains("node 2 is in rigid links to two nodes"));
 }
 
 TEST_CASE("surfaces of elements are places: faces and edges") {

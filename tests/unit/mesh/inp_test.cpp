@@ -173,10 +173,16 @@ TEST_CASE("a later section overrides an earlier one") {
   CHECK_THAT(all, Contains("has one dimension: it is read as a square"));
 }
 
-TEST_CASE("shells take the mean of nodal thicknesses") {
+TEST_CASE("shells whose section asks for it take the mean of nodal thicknesses") {
+  const std::string text = square(
+      "*NODE\n5, 2, 0\n6, 2, 1\n*ELEMENT, TYPE=S4, ELSET=E\n2, 2, 5, 6, 3\n*NSET, NSET=R\n5, 6\n"
+      "*NODAL THICKNESS\nR, 3\n6, 5\n");
+  const auto plain = read(testing::written("nodal.inp", text));  // as in CalculiX and Abaqus
+  CHECK(plain.deck.shell_sections.size() == 1);
+  CHECK_THAT(plain.notices.at(0), Contains("*NODAL THICKNESS is ignored: no *SHELL SECTION has NODAL THICKNESS"));
+  const std::string section = "*SHELL SECTION";
   const auto file = read(testing::written(
-      "nodal.inp", square("*NODE\n5, 2, 0\n6, 2, 1\n*ELEMENT, TYPE=S4, ELSET=E\n2, 2, 5, 6, 3\n*NSET, NSET=R\n5, 6\n"
-                          "*NODAL THICKNESS\nR, 3\n6, 5\n")));
+      "nodal.inp", std::string(text).replace(text.find(section), section.size(), section + ", NODAL THICKNESS")));
   CHECK(file.mesh.parts == std::vector<std::string>{"E", "E"});
   CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
   CHECK(testing::measure(file.mesh, 1) == Approx(1.0));

@@ -49,3 +49,68 @@ TEST_CASE("offsets of an ellipse are parts of its diameters") {
   own.offset_1 = 0.5, own.offset_2 = 0.25;
   CHECK((section(own).centroid - Eigen::Vector2d(-0.3, -0.1)).norm() < 1e-15);
 }
+
+TEST_CASE("a general section without I and J is released in bending and torsion, and has no rotary inertia") {
+  mesh::DeckFile file;
+  mesh::BeamSection rod = profile(mesh::Profile::general, {0.01, 0, 0, 0, 0});
+  rod.releases = 1;
+  file.deck.materials = {{"M", mesh::Elasticity::isotropic, {2.6, 0.3}, 1}};
+  file.deck.beam_sections = {rod};
+  const auto beam = std::get<fem::SpatialBeam>(plan::deck_sections(file).parts.at(0));
+  CHECK(beam.section.EA == Approx(0.026));
+  CHECK(beam.section.rhoA == Approx(0.01));
+  CHECK(beam.section.rhoIy + beam.section.rhoIz == 0);
+  CHECK(beam.releases.to_string() == "111000111001");
+}
+
+TEST_CASE("shells by their stiffness, and by materials that bend apart") {
+  mesh::DeckFile file;
+  file.deck.materials = {{"M", mesh::Elasticity::isotropic, {2.6, 0.3}, 1},
+                         {"N", mesh::Elasticity::isotropic, {5.2, 0.3}, 7}};
+  mesh::ShellSection numbers;
+  numbers.part = "A", numbers.number = 0;
+  Eigen::Matrix3d A;
+  A << 4, 1, 0, 1, 5, 0, 0, 0, 2;
+  Eigen::Matrix<double, 6, 6> S;
+  S << A, 0.1 * A, 0.1 * A, 3 * A;
+  numbers.stiffness = mesh::ShellStiffness{S, 6.0};
+  numbers.shear = 9;
+  mesh::ShellSection bends;
+  bends.part = "B", bends.number = 1, bends.plies = {{0.1, "M", "", 0}}, bends.offset = 0.5;
+  bends.bending = mesh::ShellBending{"N", 1.5};
+  file.deck.shell_sections = {numbers, bends};
+  const auto deck = plan::deck_sections(file);
+  const auto first = std::get<fem::ShellSection>(deck.parts.at(0));
+  CHECK((first.A - A).norm() < 1e-12);
+  CHECK((first.B() - 0.1 * A).norm() < 1e-12);
+  CHECK((first.D() - 3 * A).norm() < 1e-12);
+  CHECK(first.mass == 6);
+  CHECK(first.shear == 9);
+  CHECK(first.axis == Eigen::Vector3d::UnitX());
+  const auto second = std::get<fem::ShellSection>(deck.parts.at(1));
+  const double d = 2.6 * 0.1 / (1 - 0.09), t = 0.1;
+  CHECK(second.A(0, 0) == Approx(d));
+  CHECK(second.bending(0, 0) == Approx(2 * 1.5 * d * t * t / 12));
+  CHECK(second.coupling(1, 1) == Approx(-0.05));
+  CHECK(second.mass == Approx(0.1));
+  CHECK(second.mass_centre == Approx(-0.05));
+  CHECK(second.rotary_inertia() == Approx(t * t * t / 3));
+}
+
+TEST_CASE("springs of a deck are cells of two nodes, one part for each set of constants") {
+  mesh::DeckFile file;
+  file.mesh.comm = PETSC_COMM_SELF;
+  file.mesh.node_count = 3, file.mesh.positions.resize(3);
+  const mesh::NodeSpring one{{0, 1}, {1, 2, 3, 4, 5, 6}, Eigen::Matrix3d::Identity(), 0.5, 7};
+  mesh::NodeSpring two = one, other = one;
+  two.nodes = {1, 2}, other.stiffness[5] = 8;
+  file.deck.springs = {one, two, other};
+  std::map<int, fem::Section> parts;
+  plan::add_springs(file, parts);
+  REQUIRE(file.mesh.cells.size() == 3);
+  CHECK(file.mesh.cell_count == 3);
+  CHECK(file.mesh.cells[0].part == file.mesh.cells[1].part);
+  CHECK(file.mesh.cells[0].part != file.mesh.cells[2].part);
+  CHECK(file.mesh.cells[1].nodes[1] == 2);
+  CHECK(std::get<fem::NodeSpring>(parts.at(file.mesh.cells[2].part)).stiffness[5] == 8);
+}

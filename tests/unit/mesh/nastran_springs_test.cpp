@@ -1,0 +1,96 @@
+#include "nastran_text.h"
+
+using namespace floe;
+using namespace floe::testing::nastran;
+using Catch::Matchers::Contains;
+
+TEST_CASE("scalar springs of Nastran act along a direction of both grids") {
+  const auto file = read("celas.bdf", square +
+                                          "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n"  // x along y
+                                          "GRID,5,,1.,0.,0.,7\nGRID,6,,1.,0.,0.,7\n"
+                                          "RBE2,80,2,123456,5\nRBE2,81,3,123456,6\n"
+                                          "CELAS2,70,1.+5,1,1,2,1\nCELAS1,71,8,5,4,6,4\nPELAS,7,1.,,,8,3.+2\n"
+                                          "CELAS2,72,5.,3,2\nCELAS2,73,6.,,,4,3\n");
+  const auto springs = testing::of_all_ranks(file.deck.springs);
+  REQUIRE(springs.size() == 2);
+  CHECK(springs[0].stiffness == std::array<double, 6>{1e5, 0, 0, 0, 0, 0});
+  CHECK((springs[0].axes.col(0) - Eigen::Vector3d::UnitX()).norm() < 1e-12);
+  CHECK(springs[1].stiffness == std::array<double, 6>{0, 0, 0, 300, 0, 0});
+  CHECK((springs[1].axes.col(0) - Eigen::Vector3d::UnitY()).norm() < 1e-12);
+  CHECK_THAT(all_of(file.notices),
+             Contains("2 springs to ground left out (spring 72 at grid 3, direction 2, spring 73 at grid 4, direction "
+                      "3): a spring to ground resists rigid motion"));
+}
+
+TEST_CASE("bushes of Nastran have axes of their own, of their line, or given ones") {
+  const std::string property = "PBUSH,9,K,1.,2.,3.,4.,5.,6.\n,,B,7.\nPBUSH,10,K,1.,,,4.\n";
+  const auto file = read("cbush.bdf", square + property +
+                                          "CBUSH,70,9,1,2,0.,0.,1.\n,.25\nCBUSH,71,9,1,3,4\nCBUSH,72,10,1,3\n"
+                                          "CBUSH,73,9,2,,,,,0\nCBUSH,74,9,3,4,,,,0\n");
+  const auto springs = testing::of_all_ranks(file.deck.springs);
+  REQUIRE(springs.size() == 4);
+  Eigen::Matrix3d axes;
+  axes << 1, 0, 0, 0, 0, -1, 0, 1, 0;  // y along z
+  CHECK((springs[0].axes - axes).norm() < 1e-12);
+  CHECK(springs[0].at == 0.25);
+  CHECK(springs[0].stiffness == std::array<double, 6>{1, 2, 3, 4, 5, 6});
+  const double r = std::sqrt(0.5);
+  axes << r, -r, 0, r, r, 0, 0, 0, 1;  // from 1 to 3, y on the side of 4
+  CHECK((springs[1].axes - axes).norm() < 1e-12);
+  CHECK((springs[2].axes.col(0) - Eigen::Vector3d(r, r, 0)).norm() < 1e-12);
+  CHECK((springs[3].axes - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+  CHECK_THAT(all_of(file.notices), Contains("1 spring to ground left out (CBUSH 73 at grid 2)") &&
+                                       Contains("PBUSH B, GE is ignored: damping is that of the scene"));
+}
+
+TEST_CASE("rods and tubes of Nastran are beams without bending") {
+  const auto file = read("rods.bdf", square +
+                                         "CROD,70,9,1,3\nPROD,9,1,.01,2.-6,,3.\nCTUBE,71,10,2,4\nPTUBE,10,1,.1,.01\n"
+                                         "CONROD,72,1,2,1,.02\n");
+  REQUIRE(file.deck.beam_sections.size() == 3);
+  const auto& rod = file.deck.beam_sections[0];
+  CHECK(rod.dimensions == std::vector<double>{0.01, 0, 0, 0, 2e-6});
+  CHECK(*rod.density == Approx(7800 + 300));
+  const auto& tube = file.deck.beam_sections[1];
+  CHECK(tube.dimensions[0] == Approx(M_PI / 4 * (0.01 - 0.0064)));
+  CHECK(tube.dimensions[4] == Approx(M_PI / 32 * (1e-4 - 4.096e-5)));
+  CHECK(file.deck.beam_sections[2].dimensions[0] == 0.02);
+  CHECK(file.mesh.parts == std::vector<std::string>{"PSHELL3", "PROD9", "PTUBE10", "CONROD72"});
+}
+
+TEST_CASE("pin flags release the ends of a beam, and tell parts of one property apart") {
+  const std::string bar = "PBAR,5,1,.01,3.-6,2.-6,1.-6\n";
+  const auto file = read("pins.bdf", square + bar + "CBAR,9,5,1,2,0.,0.,1.\n,56\nCBAR,10,5,2,3,0.,0.,1.\n,,456\n");
+  REQUIRE(file.deck.beam_sections.size() == 2);
+  CHECK(file.deck.beam_sections[0].releases == (1u << 4 | 1u << 5));
+  CHECK(file.deck.beam_sections[1].releases == (1u << 9 | 1u << 10 | 1u << 11));
+  CHECK(file.mesh.parts == std::vector<std::string>{"PSHELL3", "PBAR5", "PBAR5"});
+}
+
+TEST_CASE("orientation vectors are in displacement axes or basic ones, offsets in these or those of the element") {
+  const std::string bar = "PBAR,5,1,.01,3.-6,2.-6,1.-6\nCORD2R,7,,0.,0.,0.,1.,0.,0.\n,0.,0.,1.\nGRID,5,,2.,0.,0.,7\n";
+  const auto file = read("offt.bdf", square + bar +
+                                         "CBAR,9,5,5,2,0.,0.,1.,BGG\nCBAR,10,5,5,3,0.,0.,1.\n"
+                                         "CBAR,11,5,1,2,0.,1.,0.,GOG\n,,,.1,.2,.3,0.,0.,1.\n");
+  REQUIRE(file.deck.beam_sections.size() == 3);
+  CHECK((file.deck.beam_sections[0].direction_1 - Eigen::Vector3d(0, 0, 1)).norm() < 1e-9);
+  CHECK((file.deck.beam_sections[1].direction_1 - Eigen::Vector3d(1, 0, 0)).norm() < 1e-9);
+  CHECK((position(file.mesh, 6) - Eigen::Vector3d(0.1, 0.2, 0.3)).norm() < 1e-12);  // axes of the beam: x, y, z
+  CHECK((position(file.mesh, 7) - Eigen::Vector3d(1, 0, 1)).norm() < 1e-12);
+}
+
+TEST_CASE("a PSHELL may bend by another material, or by other fibres") {
+  const auto file =
+      read("bends.bdf", grids + "CQUAD4,1,3,1,2,3,4\nPSHELL,3,1,.01,2,1.5\n" + steel + "MAT1,2,7.+10,,.3\n");
+  REQUIRE(file.deck.shell_sections.size() == 1);
+  REQUIRE(file.deck.shell_sections[0].bending);
+  CHECK(file.deck.shell_sections[0].bending->material == "MAT1_2");
+  CHECK(file.deck.shell_sections[0].bending->factor == 1.5);
+}
+
+TEST_CASE("an RBE3 whose reference grid carries nothing is a place") {
+  const auto file = read("mean.bdf", square + "GRID,5,,.5,.5,1.\nRBE3,70,,5,123456,1.,123,1,2,\n,3,2.,123456,4\n");
+  CHECK(testing::labels_at(file.mesh, "RBE3_70") == std::vector<long long>{1, 2, 3, 4});
+  CHECK(file.mesh.node_count == 4);
+  CHECK_THAT(all_of(file.notices), Contains("1 RBE3 without element at the reference grid"));
+}
