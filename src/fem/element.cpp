@@ -109,7 +109,9 @@ body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
 }
 
 body::Inertia inertia(const ElementMaps& maps, const Eigen::MatrixXd& V) {
-  const int d = maps.mass.empty() ? 2 : static_cast<int>(maps.mass.front().x.size());
+  // without mass points: a beam without density, in the plane of 6 dofs, in space of 12
+  const int without = maps.bending.rows() > 6 ? 3 : 2;
+  const int d = maps.mass.empty() ? without : static_cast<int>(maps.mass.front().x.size());
   body::Inertia sum(d, static_cast<int>(V.cols()));
   for (const body::MassPoint& point : maps.mass) sum.add(body::MassPoint{point.mass, point.x, point.N * V});
   for (const body::RotatingMass& mass : maps.rotary) sum.add(body::RotatingMass(mass, mass.rotation * V));

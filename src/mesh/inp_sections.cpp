@@ -171,7 +171,7 @@ void read_shell_general_section(const InpBlock& block, InpReading& reading) {
   const auto values = stiffness_of(block, reading);
   section.stiffness = ShellStiffness{values.value_or(Eigen::Matrix<double, 6, 6>::Identity()), {}};
   if (block.parameters.contains("DENSITY")) section.stiffness->density = number_of(block, "DENSITY", reading);
-  if (section.stiffness->density < 0.0)
+  if (section.stiffness->density.value_or(0) < 0)
     reading.faults.add(block.where, block.name + " expects 0 or a positive mass per area after DENSITY=, found " +
                                         in_quotes(value_of(block, "DENSITY")));
   add_section(section, reading);
@@ -243,7 +243,7 @@ void read_beam_general_section(const InpBlock& block, InpReading& reading) {
   section.material = value_of(block, "MATERIAL");
   if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
   if (block.parameters.contains("DENSITY")) section.density = number_of(block, "DENSITY", reading);
-  if (section.density < 0.0)
+  if (section.density.value_or(0) < 0)
     faults.add(block.where, block.name + " expects 0 or a positive number after DENSITY=, found " +
                                 in_quotes(value_of(block, "DENSITY")));
   const bool own = section.material.empty();

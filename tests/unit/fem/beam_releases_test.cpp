@@ -90,6 +90,15 @@ TEST_CASE("a rod has the mass, centre and second moments of a line, whatever its
   CHECK(M.block(3, 3, 3, 3).norm() + M.block(9, 9, 3, 3).norm() < 1e-12 * m);
 }
 
+TEST_CASE("a beam without density has the inertia constants of space, which are zero") {
+  fem::SpatialBeamSection light = section;
+  light.rhoA = 0;
+  const body::Inertia in = fem::inertia(fem::spatial_beam(along_x(), light), MatrixXd::Identity(12, 12));
+  CHECK(in.m == 0);
+  CHECK(in.s0.size() == 3);
+  CHECK(in.C0.rows() == 3);
+}
+
 TEST_CASE("frequencies of a clamped beam whose last element is hinged on a fixed node: beta^2 = 15.41821, 49.96486") {
   constexpr int n = 24;
   std::vector<int> constrained = testing::clamped_root;

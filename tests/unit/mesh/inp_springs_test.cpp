@@ -66,6 +66,12 @@ TEST_CASE("a shell section by its stiffness: 21 numbers in the order of Abaqus")
     }
   CHECK(section.stiffness->density == 7.0);
   CHECK(section.shear == 5);
+  const auto massless =
+      deck("*SHELL GENERAL SECTION, ELSET=E\n1., 0., 1.\n0., 1., 0., 0., 0., 0., 1.\n0., 0., 0., 0., 1.\n");
+  CHECK_FALSE(massless.deck.shell_sections[1].stiffness->density);
+  const auto bar = deck(
+      "*ELEMENT, TYPE=B31, ELSET=B\n9, 1, 3\n*BEAM GENERAL SECTION, ELSET=B\n1., 1., 0., 1., 1.\n0., 0., 1.\n1., 1.\n");
+  CHECK_FALSE(bar.deck.beam_sections.at(0).density);
   CHECK_THAT(said("*SHELL GENERAL SECTION, ELSET=E\n1, 2\n3\n"), Contains("the 21 numbers of a stiffness"));
   CHECK_THAT(said("*SHELL GENERAL SECTION, ELSET=E, OFFSET=0.5\n1, 2\n3\n4\n"), Contains("is read without OFFSET="));
   CHECK_THAT(said("*SHELL GENERAL SECTION, ELSET=E, DENSITY=-1\n1, 2\n3\n4\n"),
