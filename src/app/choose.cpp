@@ -60,6 +60,7 @@ class Search {
   RunResult moved(const Selection& selection, double step, bool estimate, bool keep_states) {
     RunPlan plan;
     plan.quiet = true, plan.check_range = false;
+    plan.energies = plan.balance = false;
     plan.estimate = estimate, plan.budget = false, plan.keep_states = keep_states;
     plan.estimate_seconds = 1e9;
     assembly::Model model = candidates_->model(selection, estimate);
@@ -340,6 +341,7 @@ class Search {
   double error_of(const scene::Scene& scene) {
     RunPlan plan;
     plan.quiet = true, plan.check_range = false;
+    plan.energies = plan.balance = false;
     ++trials_;
     const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
     const double error = worst_error(result.series, reference_motion_);

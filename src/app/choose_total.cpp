@@ -247,6 +247,7 @@ class TotalSearch {
     const double wanted = accuracy_ / 3;
     RunPlan plan;
     plan.quiet = true, plan.check_range = false;
+    plan.energies = plan.balance = false;
     double left = 0;
     try {
       std::clock_t begin = std::clock();

@@ -33,9 +33,11 @@ int elements_of(const scene::Scene& scene) {
 }
 
 /// RunResult::motion_seconds is processor time.
-RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm) {
+RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm,
+                bool energies = true) {
   RunPlan plan;
   plan.quiet = true, plan.check_range = false, plan.until = until;
+  plan.energies = energies, plan.balance = false;
   RunResult result;
   const std::clock_t begin = std::clock();
   const std::string why = petsc::failed_together(comm, [&] {
@@ -151,7 +153,7 @@ ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most
 }
 
 Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
-  return moved(at_equal_times(scene), formulation, std::nullopt, comm).series;
+  return moved(at_equal_times(scene), formulation, std::nullopt, comm, false).series;
 }
 
 }  // namespace floe::app

@@ -32,6 +32,8 @@ Recorder::Recorder(const scene::Scene& scene, const assembly::Model& model, MPI_
       folder_(folder),
       result_(result),
       checkpoint_every_(plan.checkpoints),
+      energies_(plan.energies),
+      checks_balance_(plan.balance),
       end_(plan.until.value_or(scene.motion.end)),
       alone_(scene::is_reduced(model.formulation)),
       kept_at_(MPI_Wtime()) {
@@ -243,13 +245,16 @@ Recorder::Measured Recorder::measured(double t, Vec U, Vec V) {
   const auto violation = [&](dynamics::ConstraintLevel level) {
     return solve::constraint_violation(*model_.system, t, U, V, level);
   };
-  const Measured all{model_.system->energy(t, U, V),
-                     {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)}};
+  Measured all{};
+  if (energies_) all.energy = model_.system->energy(t, U, V);
+  if (checks_balance_)
+    all.violations = {violation(dynamics::ConstraintLevel::position), violation(dynamics::ConstraintLevel::velocity)};
   seconds_ += MPI_Wtime() - begin;
   return all;
 }
 
 void Recorder::look_after(const solve::Instant& instant, const Measured& now) {
+  if (!checks_balance_) return;
   const dynamics::Energy& energy = now.energy;
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late

@@ -64,6 +64,7 @@ class Recorder {
   std::optional<output::ResultFolder> folder_;
   RunResult& result_;
   CheckpointEvery checkpoint_every_;
+  bool energies_, checks_balance_;
   double end_;  // [s]
   bool alone_;  // this rank moves a copy of its own
   nlohmann::ordered_json identity_;

@@ -127,6 +127,8 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   result.series.columns = assembly::probe_columns(model);
 
   assess::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);
+  const bool keeps =
+      (plan.estimate || plan.check_range || plan.keep_states) && model.formulation != scene::Formulation::cfr;
   Recorder recorder(scene, model, comm, folder, result, plan);
   solve::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
   how.events = assembly::events_of(scene, model, end);
@@ -151,7 +153,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     if (!plan.quiet) progress.emplace(comm, 0, end);
     const auto observe = [&](const solve::Instant& instant) {
       recorder.observe(instant);
-      if (model.formulation != scene::Formulation::cfr) kept.keep(instant);
+      if (keeps) kept.keep(instant);
       if (progress) progress->update(instant.t, instant.step);
       recorder.checkpoint_if_due(instant, [&] { return interruption.happened(reduced ? MPI_COMM_SELF : comm); });
       interruption.check(reduced ? MPI_COMM_SELF : comm);

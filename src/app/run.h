@@ -48,6 +48,8 @@ struct RunPlan {
   bool measured = false;                         ///< against full order: warns only of what full order errs in, too
   nlohmann::ordered_json choice = {};            ///< how the model was chosen, for the summary
   bool keep_states = false;                      ///< RunResult::states
+  bool energies = true;                          ///< of each stored instant (Series::energy); else zeros
+  bool balance = true;                           ///< violation of constraints, growth of energy without work
   std::optional<double> offline_processor = {};  ///< processor time of building the model [s]; else as it took
 };
 
