@@ -18,6 +18,9 @@ struct GeneralizedAlpha {
   Vec U1 = nullptr, V1 = nullptr, A1 = nullptr, a1 = nullptr;
   PetscReal h = 0;     // of the step under way, or of the last one
   PetscReal h_a0 = 0;  // of the step that a0 was made for
+  // Steps of the size h before the one under way whose a is known: a0 of the first, a1 (until this step ends) of the
+  // second.
+  PetscInt equal_steps = 0;
   PetscBool started = PETSC_FALSE;
 
   // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
@@ -113,7 +116,7 @@ PetscErrorCode rebase(TS ts);
 /// y += factor [a, b]; W is overwritten.
 PetscErrorCode add_bracket(TS ts, PetscReal factor, Vec a, Vec b, Vec W, Vec y);
 
-/// A Turn (simplified_newton.h) in scaled rows; context: the TS.
+/// A Rotate (simplified_newton.h) in scaled rows; context: the TS.
 PetscErrorCode rotation_kept(SNES snes, Vec U, PetscBool back, Vec y, void* context);
 
 // generalized_alpha_scaling.cpp
@@ -130,6 +133,11 @@ PetscErrorCode solve_scaled(TS ts, Vec b, Vec x);
 PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y);
 /// Lets SNES form a new Jacobian and a new factorisation at the given iteration, whatever the lags.
 void renew_jacobian(SNES snes, PetscInt iteration);
+
+// generalized_alpha_predict.cpp
+enum class Guess { extrapolated, plain, standing };
+/// Where Newton's method starts, into U1. Collective.
+PetscErrorCode predict(TS ts, Guess guess);
 
 // generalized_alpha_step.cpp
 PetscErrorCode step(TS ts);
