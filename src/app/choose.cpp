@@ -10,6 +10,7 @@
 #include <map>
 
 #include "compare_table.h"
+#include "exact_motion.h"
 #include "floe/math/rounded.h"
 #include "floe/output/progress.h"
 #include "interruption.h"
@@ -127,6 +128,7 @@ class Search {
       responses += added;
       known_.clear();
     }
+    whole_motion_ = std::move(poorer);
     if (candidates_->columns().empty()) return;
     std::size_t offered = candidates_->columns().size();
     decide("richest model", fmt::format("{} basis vectors", offered),
@@ -155,22 +157,32 @@ class Search {
     return worst;
   }
 
-  /// The step that stands for the truth: halved until it errs by less than a tenth of what is asked. Errors of second
-  /// order: of h by 4/3, of h/2 by 1/3 of what lies between the two.
+  /// What is left of the error of a step after a halving that changed `between`, the one before it `before`; r their
+  /// ratio. The changes to come, r/(1 - r) between, less the third of it that the extrapolation adds, or a twelfth of
+  /// it.
+  static double left_of(double between, double before) {
+    const double r = between / before;
+    return r < 0.4 ? between * std::max(1. / 12, std::abs(r / (1 - r) - 1. / 3)) : between;
+  }
+
+  /// The motion that stands for the truth: steps are halved, and the last two motions extrapolated (Richardson, order
+  /// 2) where three of them show the order, until what is left is less than a tenth of what is asked.
   void resolve_time() {
     constexpr int most_halvings = 5;
     double step = scene_.motion.step;
     double before = 0;  // what the halving before this one changed
-    Series coarse = moved(candidates_->whole(), step, false, false).series;
-    for (int halving = 0; halving < most_halvings; ++halving, step /= 2) {
-      reference_motion_ = moved(candidates_->whole(), step / 2, false, false).series;
-      const double between = worst_error(coarse, reference_motion_);
-      const bool second_order = before == 0 || before > 3 * between;
-      time_ = second_order ? between / 3 : between;
-      if (time_ <= 0.1 * accuracy_) break;
-      coarse = reference_motion_, before = between;
-    }
     finest_ = step;
+    for (int halving = 0; halving < most_halvings; ++halving) {
+      Series fine = moved(candidates_->whole(), step / 2, false, false).series;
+      const double between = worst_error(whole_motion_, fine);
+      const bool ordered = before > 0 && between < 0.4 * before;
+      reference_motion_ = fine;
+      if (ordered) add_difference(reference_motion_, 1. / 3, fine, whole_motion_);
+      time_ = before > 0 ? left_of(between, before) : between / 3;
+      finest_ = ordered && between > 0.2 * accuracy_ ? step / 2 : step;
+      if (time_ <= 0.1 * accuracy_) break;
+      whole_motion_ = std::move(fine), before = between, step /= 2;
+    }
     richest_ = reference_.series ? reference_.error : space_ + time_ + reference_.error;
     if (!reference_.series) return;
     known_.clear();
@@ -185,16 +197,27 @@ class Search {
     return selection;
   }
 
-  /// The fewest columns with at most this error; all of `order` where none will do.
+  /// The fewest columns with at most this error; all of `order` where none will do. Trials that are known count.
   std::size_t fewest(const std::vector<assess::EnergyContribution>& order, std::size_t most, double step, double error,
                      bool linear = false) {
+    const auto first = [&](std::size_t count) {
+      Selection selection = first_of(order, count);
+      selection.linear = linear;
+      return selection;
+    };
     std::size_t enough = most;
     long too_few = -1;
+    for (std::size_t count = 0; count < enough; ++count) {
+      const auto found = known_.find(std::tuple{first(count).taken, linear, step});
+      if (found == known_.end()) continue;
+      if (found->second.error <= error)
+        enough = count;
+      else
+        too_few = static_cast<long>(count);
+    }
     while (static_cast<long>(enough) - too_few > 1) {
       const std::size_t middle = static_cast<std::size_t>((static_cast<long>(enough) + too_few) / 2);
-      Selection selection = first_of(order, middle);
-      selection.linear = linear;
-      if (tried(selection, step).error <= error)
+      if (tried(first(middle), step).error <= error)
         enough = middle;
       else
         too_few = static_cast<long>(middle);
@@ -388,6 +411,7 @@ class Search {
   std::unique_ptr<assess::CandidateBasis> candidates_;
   double building_;                   // processor time [s]
   std::vector<solve::State> states_;  // of the richest model
+  Series whole_motion_;               // its motion, in steps that are halved
   Series reference_motion_;           // its motion, in fine steps
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   double least_ = 0;  // of the richest model against a reference of another formulation

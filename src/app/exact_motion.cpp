@@ -55,14 +55,6 @@ RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::
   return result;
 }
 
-/// y += factor (a - b)
-void add(Series& y, double factor, const Series& a, const Series& b) {
-  const std::size_t count = std::min({y.values.size(), a.values.size(), b.values.size()});
-  y.t.resize(count), y.values.resize(count), y.energy.resize(std::min(count, y.energy.size()));
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t c = 0; c < y.values[i].size(); ++c) y.values[i][c] += factor * (a.values[i][c] - b.values[i][c]);
-}
-
 class Refinement {
  public:
   Refinement(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm)
@@ -99,7 +91,7 @@ class Refinement {
     Series limit_of_steps;
     const double of_step = limit(own, false, limit_of_steps, exact);
     exact.series = exact.in_own_steps;
-    add(exact.series, 1, limit_of_steps, own.series);
+    add_difference(exact.series, 1, limit_of_steps, own.series);
     exact.error = std::hypot(of_mesh, of_step);
   }
 
@@ -124,7 +116,7 @@ class Refinement {
       const double change = worst_error(all.back(), one.series);
       const bool ordered = before > 0 && change < 0.4 * before;
       limit = one.series;
-      if (halving == 1 || ordered) add(limit, 1. / 3, one.series, all.back());
+      if (halving == 1 || ordered) add_difference(limit, 1. / 3, one.series, all.back());
       left = halving == 1 ? change / 3 : ordered ? change / 12 : change;
       all.push_back(one.series);
       if (!mesh) exact.halved_steps = halving;
@@ -147,6 +139,13 @@ class Refinement {
 };
 
 }  // namespace
+
+void add_difference(Series& y, double factor, const Series& a, const Series& b) {
+  const std::size_t count = std::min({y.values.size(), a.values.size(), b.values.size()});
+  y.t.resize(count), y.values.resize(count), y.energy.resize(std::min(count, y.energy.size()));
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t c = 0; c < y.values[i].size(); ++c) y.values[i][c] += factor * (a.values[i][c] - b.values[i][c]);
+}
 
 ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm) {
   return Refinement(scene, accuracy, most, comm).result();

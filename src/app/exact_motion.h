@@ -28,6 +28,9 @@ struct ExactMotion {
 /// Collective: up to 2000 elements every rank moves its own copy.
 ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm);
 
+/// y += factor (a - b), at the instants that all three have.
+void add_difference(Series& y, double factor, const Series& a, const Series& b);
+
 /// Simulates a full-order model quietly: @throws InputError, RunError on every rank. Collective.
 Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm);
 

@@ -73,6 +73,27 @@ TEST_CASE("accuracy: the selected model satisfies the required error, and report
   }
 }
 
+// Two halvings of the step and more: the reference solution is extrapolated from the last two.
+TEST_CASE("accuracy: the reference solution is accurate where the scene's step is too long") {
+  scene::Scene scene = scene::parse_scene(pendulum, "scene");
+  scene.motion.step = 1.5e-2, scene.motion.every = 1;
+  scene::Scene fine = scene;
+  fine.motion.step /= 16, fine.motion.every *= 16;
+  const app::Series full = reference_motion(fine);
+  for (const double accuracy : {0.01, 0.001}) {
+    app::Chosen chosen = app::choose(scene, {accuracy, false}, PETSC_COMM_WORLD);
+    const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
+    const double error = app::worst_error(result.series, full);
+    INFO("asked " << accuracy << ", supported " << chosen.supported << ", richest " << chosen.richest << ", true "
+                  << error << ", step " << chosen.scene.motion.step);
+    CHECK(chosen.within());
+    CHECK(chosen.scene.motion.step < scene.motion.step);
+    CHECK(error <= accuracy);
+    CHECK(chosen.supported > 0.5 * error);
+    CHECK(chosen.supported < 3 * error);
+  }
+}
+
 TEST_CASE("accuracy: a probe that is zero by symmetry has no effect") {
   const auto chosen = [](const std::string& probes) {
     return app::choose(scene::parse_scene(R"yaml(
