@@ -79,7 +79,7 @@ void tradeoff(const scene::Scene& as_written, MPI_Comm comm, const TradeoffReque
   j["probes"] = names;
   j["accuracy"] = request.accuracy;
   j["reference"] = to_json(reference);
-  for (const ModelVariant& variant : variants) j["rungs"].push_back(to_json(variant));
+  for (const ModelVariant& variant : variants) j["variants"].push_back(to_json(variant));
   j["pareto_front"] = pareto_front(variants);
   if (chosen) j["choice"] = *chosen;
   j["ranks"] = size;

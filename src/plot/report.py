@@ -349,8 +349,8 @@ def of_tradeoff(folder, description):
     reference = description["reference"]
     words = f"<p>Total errors are relative to {escaped(reference['words'])}.</p>"
     if "choice" in description:
-        rung = description["rungs"][description["choice"]]
-        words += (f"<p><b>{escaped(rung['name'])}</b> ({escaped(rung['formulation'])}) is the fastest model with a total error of at most "
+        variant = description["variants"][description["choice"]]
+        words += (f"<p><b>{escaped(variant['name'])}</b> ({escaped(variant['formulation'])}) is the fastest model with a total error of at most "
                   f"{100 * description['accuracy']:g} % in every probe.</p>")
     else:
         words += f"<p>No model has a total error of at most {100 * description['accuracy']:g} %.</p>"

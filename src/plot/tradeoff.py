@@ -27,10 +27,10 @@ GROUPS = {"the scene's own model": ("*", 13, COLOURS[0], ("scene",)),
           "selected by accuracy": ("o", 10, "black", ("accuracy",))}
 
 
-def worst(rung):
+def worst(variant):
     """Maximum error of the probes; None where the model stopped or has no number."""
-    errors = rung["total"]
-    if rung["stopped"] or not errors or any(error is None for error in errors):
+    errors = variant["total"]
+    if variant["stopped"] or not errors or any(error is None for error in errors):
         return None
     return max(errors)
 
@@ -39,10 +39,10 @@ def load(folder):
     path = os.path.join(folder, "tradeoff.json")
     description = read_json(path)
     try:
-        for rung in description["rungs"]:
-            rung["error"] = worst(rung)
-        description["front"] = [description["rungs"][i] for i in description["pareto_front"]]
-        shown = [rung for rung in description["rungs"] if rung["error"] and rung["motion"] > 0]
+        for variant in description["variants"]:
+            variant["error"] = worst(variant)
+        description["front"] = [description["variants"][i] for i in description["pareto_front"]]
+        shown = [variant for variant in description["variants"] if variant["error"] and variant["motion"] > 0]
         description["reference"]["error"], description["reference"]["words"]  # pylint: disable=pointless-statement
     except (KeyError, TypeError, IndexError) as error:
         raise Fault(f"{path}: has no {error}") from error
@@ -51,20 +51,20 @@ def load(folder):
     return description, shown
 
 
-def title_of(rung):
+def title_of(variant):
     """`selected for 1 %`: and what was selected."""
-    name = rung["name"] if rung["name"].startswith(rung["formulation"]) else f"{rung['name']} ({rung['formulation']})"
-    return f"{name}: {rung['selected']}" if rung.get("selected") else name
+    name = variant["name"] if variant["name"].startswith(variant["formulation"]) else f"{variant['name']} ({variant['formulation']})"
+    return f"{name}: {variant['selected']}" if variant.get("selected") else name
 
 
 def key_lines(description):
     lines = []
-    for number, rung in enumerate(description["front"], start=1):
-        words = f"{title_of(rung)}: {per_cent(rung['error'])}, {duration(rung['motion'])}"
-        lines.append((f"{number:>2}  {shortened(words, 124)}", bool(rung.get("required"))))
-    stopped = [rung for rung in description["rungs"] if rung["error"] is None]
-    lines += [(shortened(f" –  {title_of(rung)}: {rung['stopped'] or 'no number'}", 124), False)
-              for rung in stopped]
+    for number, variant in enumerate(description["front"], start=1):
+        words = f"{title_of(variant)}: {per_cent(variant['error'])}, {duration(variant['motion'])}"
+        lines.append((f"{number:>2}  {shortened(words, 124)}", bool(variant.get("required"))))
+    stopped = [variant for variant in description["variants"] if variant["error"] is None]
+    lines += [(shortened(f" –  {title_of(variant)}: {variant['stopped'] or 'no number'}", 124), False)
+              for variant in stopped]
     return lines
 
 
@@ -75,7 +75,7 @@ def shortened(words, most):
 def draw_models(axes, shown):
     """Each group in its own mark; those of the selected models are black, and lie above the others."""
     for group, (marker, size, colour, families) in GROUPS.items():
-        members = [rung for rung in shown if rung["family"] in families]
+        members = [variant for variant in shown if variant["family"] in families]
         if members:
             axes.plot([r["motion"] for r in members], [100 * r["error"] for r in members], linestyle="none", marker=marker,
                       markersize=size, color=colour, markeredgecolor="white", markeredgewidth=0.6,
@@ -102,10 +102,10 @@ def draw_front(axes, front):
 
 def draw_selected(axes, shown, front):
     """Each with its label, and its number on the front."""
-    for rung in shown:
-        if rung.get("required"):
-            number = f"{front.index(rung) + 1}  " if rung in front else ""
-            write_below(axes, f"{number}accuracy: {per_cent(rung['required'])}", (rung["motion"], 100 * rung["error"]), "bold")
+    for variant in shown:
+        if variant.get("required"):
+            number = f"{front.index(variant) + 1}  " if variant in front else ""
+            write_below(axes, f"{number}accuracy: {per_cent(variant['required'])}", (variant["motion"], 100 * variant["error"]), "bold")
 
 
 def write_below(axes, text, at, weight):

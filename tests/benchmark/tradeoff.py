@@ -25,15 +25,15 @@ def measure(floe, example, folder, limit):
     return None if done.returncode == 0 else done.stderr.strip().splitlines()[-1]
 
 
-def effectivity(rungs):
+def effectivity(variants):
     """Of every model with a whole estimate: estimated over true total of the worst probe, errors from 1e-4 % to 30 %."""
     ratios = []
-    for rung in rungs:
-        if rung["stopped"] or "required" in rung or rung["estimate_lacks"] or not rung["estimate"] or None in rung["total"] + rung["estimate"]:
+    for variant in variants:
+        if variant["stopped"] or "required" in variant or variant["estimate_lacks"] or not variant["estimate"] or None in variant["total"] + variant["estimate"]:
             continue
-        error = max(rung["total"])
+        error = max(variant["total"])
         if 1e-6 < error < 0.3:
-            ratios.append(max(rung["estimate"]) / error)
+            ratios.append(max(variant["estimate"]) / error)
     return ratios
 
 
@@ -54,7 +54,7 @@ def section(example, folder, out):
         lines += [f"![Total error versus computing time, {found['title']}](tradeoff_{example}.png)", ""]
     made = found["provenance"]["floe"]
     lines += [page, "", f"Measured with floe {made['version']} ({made['commit']}).", ""]
-    ratios = sorted(effectivity(found["rungs"]))
+    ratios = sorted(effectivity(found["variants"]))
     if ratios:
         inside = sum(0.3 <= ratio <= 3 for ratio in ratios)
         lines += [f"Ratio of estimated and true total (reduced models with errors from 1e-4 % to 30 %): {ratios[0]:.2g} to "

@@ -57,13 +57,13 @@ def of_several_runs(folder):
         (folder / kind / f"{kind}.png").unlink(missing_ok=True)
         assert floe(FLOE, folder, "plot", kind) == f"Picture: {kind}/{kind}.png\n"
         drawn(folder / kind / f"{kind}.png")
-    rung = {"name": "2 modes", "family": "modes", "formulation": "vm", "total": [0.02], "stopped": "", "motion": 1e-3}
+    variant = {"name": "2 modes", "family": "modes", "formulation": "vm", "total": [0.02], "stopped": "", "motion": 1e-3}
     (folder / "tradeoff").mkdir()
     (folder / "tradeoff/tradeoff.json").write_text(json.dumps(
         {"title": "Hierarchy", "accuracy": 0.01, "choice": 1, "pareto_front": [0, 1],
-         "rungs": [rung, {**rung, "name": "selected for 1 %", "family": "accuracy", "total": [0.004], "motion": 3e-3,
+         "variants": [variant, {**variant, "name": "selected for 1 %", "family": "accuracy", "total": [0.004], "motion": 3e-3,
                           "required": 0.01, "selected": "2 of 9 basis vectors"},
-                   {**rung, "name": "gone", "stopped": "diverged at t = 1 s", "total": []}],
+                   {**variant, "name": "gone", "stopped": "diverged at t = 1 s", "total": []}],
          "reference": {"name": "cfr", "words": "cfr, extrapolated", "error": 1e-4}}))
     floe(FLOE, folder, "plot", "tradeoff")
     drawn(folder / "tradeoff/tradeoff.png")
@@ -77,13 +77,13 @@ def of_a_tradeoff(folder):
     description, shown = tradeoff.load(folder / "measured")
     figure = kept(tradeoff, tradeoff.draw, description, shown, None, 100)
     axes = figure.axes[0]
-    front = [description["rungs"][i] for i in description["pareto_front"]]
+    front = [description["variants"][i] for i in description["pareto_front"]]
     line = next(one for one in axes.lines if one.get_label() == "Pareto front")
     assert np.allclose(line.get_xdata(), [one["motion"] for one in front])
     assert np.allclose(line.get_ydata(), [100 * max(one["total"]) for one in front])
     assert all(a > b for a, b in zip(line.get_ydata(), line.get_ydata()[1:])), "the front goes down"
     labels = {one.get_text().split("  ")[-1]: one.xy for one in axes.texts if "accuracy" in one.get_text()}
-    for one in description["rungs"]:
+    for one in description["variants"]:
         if one.get("required") and not one["stopped"]:
             at = labels[f"accuracy: {100 * one['required']:g} %"]
             assert np.allclose(at, (one["motion"], 100 * max(one["total"]))), (at, one)

@@ -56,14 +56,14 @@ TEST_CASE("trade-off: the front has nothing that is slower and worse, and nothin
   CHECK_FALSE(choice({all.back()}, 0.01));
 }
 
-TEST_CASE("trade-off: a rung with errors that are no numbers is on no front") {
+TEST_CASE("trade-off: a variant with errors that are no numbers is on no front") {
   std::vector<ModelVariant> all = variants();
   all[0].total[1] = NAN;
   CHECK(pareto_front(all) == std::vector<std::size_t>{3, 2});
   CHECK(std::isinf(all[0].worst()));
 }
 
-TEST_CASE("trade-off: rungs go between ranks as they are") {
+TEST_CASE("trade-off: variants go between ranks as they are") {
   std::vector<ModelVariant> all = variants();
   all[1].lacks = "model", all[2].required = 0.01, all[2].selected = "rigid";
   for (const ModelVariant& one : all) {
