@@ -3,7 +3,7 @@
 there are any.
 
 Groups of files: docs (pages of the manual, README.md, CONTRIBUTING.md: text without code, links' targets, formulas and
-quoted messages), headers (comments of include), strings (literals of src with more than one word, C++ and Python).
+quoted messages), headers (comments of include), strings (literals of src with more than one word, C++ and Python), names (code of include and src, C++, without these).
 """
 import argparse
 import io
@@ -18,6 +18,7 @@ GROUPS = {
     "docs": ["README.md", "CONTRIBUTING.md", "docs/**/*.md", "examples/**/*.md", "tests/**/*notes.md"],
     "headers": ["include/**/*.h"],
     "strings": ["src/**/*.cpp", "src/**/*.h", "src/**/*.py"],
+    "names": ["include/**/*.h", "src/**/*.cpp", "src/**/*.h"],
 }
 NO_TEXT = re.compile(r"^```.*?^```|`[^`\n]*`|\]\([^)\s]*\)|\$\$.*?\$\$|\$[^$\n]+\$|\"[^\"\n|]*\"", re.S | re.M)
 CPP = re.compile(r"(?P<comment>//[^\n]*|/\*.*?\*/)|R\"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)\"|"
@@ -45,6 +46,10 @@ def cpp_text(text, *groups):
     return "".join(parts)
 
 
+def code_text(text):
+    return CPP.sub(lambda found: blank(found.group()), text)
+
+
 def python_text(text):
     lines = [" " * len(line) for line in text.split("\n")]
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
@@ -60,6 +65,8 @@ def text_of(path, group):
     text = path.read_text(encoding="utf-8")
     if group == "docs":
         return page_text(text)
+    if group == "names":
+        return code_text(text)
     if path.suffix == ".py":
         return python_text(text)
     return cpp_text(text, "comment") if group == "headers" else cpp_text(text, "raw", "string")

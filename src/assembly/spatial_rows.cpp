@@ -143,7 +143,7 @@ void SpatialRows::check_left_out(const std::vector<Index>& kept) const {
 }
 
 /// Drives may begin late: through the whole motion, from one configuration that the kept rows allow to the next, as far
-/// as they can be followed. What nobody can foresee the motion finds (SpatialJoint::standing).
+/// as they can be followed. What nobody can foresee the motion finds (SpatialJoint::constraint_status).
 void SpatialRows::follow_drives(const VectorXd& start, double end, const std::vector<Index>& kept,
                                 const std::function<void(Index, const std::string&)>& complain) const {
   const auto driven = [&](const Entry& entry) {

@@ -119,9 +119,9 @@ void see_motion(const Marker& marker, const Eigen::VectorXd& q, const Eigen::Vec
 }  // namespace
 
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
-          EvaluationLevel extent) {
+          EvaluationLevel level) {
   see_place(marker, q, out);
-  if (extent == EvaluationLevel::velocity) see_motion(marker, q, v, a, out);
+  if (level == EvaluationLevel::velocity) see_motion(marker, q, v, a, out);
 }
 
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i) {

@@ -13,11 +13,11 @@ MarkerPair::MarkerPair(Marker one, Marker other) : first(std::move(one)), second
   where_second = place_all(second.coordinates, coordinates);
 }
 
-void MarkerPair::evaluate(const Motion& motion, EvaluationLevel extent) {
+void MarkerPair::evaluate(const Motion& motion, EvaluationLevel level) {
   const auto see = [&](const Marker& marker, const std::vector<int>& where, State& state, Pose& out) {
     pick(where, motion.q, state.q);
-    if (extent == EvaluationLevel::velocity) pick(where, motion.v, state.v), pick(where, motion.a, state.a);
-    pose(marker, state.q, state.v, state.a, out, extent);
+    if (level == EvaluationLevel::velocity) pick(where, motion.v, state.v), pick(where, motion.a, state.a);
+    pose(marker, state.q, state.v, state.a, out, level);
   };
   see(first, where_first, state_first, pose_first);
   see(second, where_second, state_second, pose_second);

@@ -101,10 +101,10 @@ SpatialMarker SpatialMarker::ground(const Vector3d& point, const Matrix3d& axes)
 }
 
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out, EvaluationLevel extent) {
+          SpatialPose& out, EvaluationLevel level) {
   see_place(marker, q, out);
-  if (extent != EvaluationLevel::position) fill_directions(marker, out);
-  if (extent == EvaluationLevel::velocity) see_motion(marker, v, a, out);
+  if (level != EvaluationLevel::position) fill_directions(marker, out);
+  if (level == EvaluationLevel::velocity) see_motion(marker, v, a, out);
 }
 
 void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, Eigen::VectorXd& rows) {

@@ -10,12 +10,12 @@ SpatialPair::SpatialPair(SpatialMarker first, SpatialMarker second) : marker{std
   for (int i = 0; i < 2; ++i) where[i] = place_all(marker[i].coordinates, coordinates);
 }
 
-void SpatialPair::evaluate(const Motion& motion, EvaluationLevel extent) {
+void SpatialPair::evaluate(const Motion& motion, EvaluationLevel level) {
   for (int i = 0; i < 2; ++i) {
     auto& [q, v, a] = state_[i];
     pick(where[i], motion.q, q);
-    if (extent == EvaluationLevel::velocity) pick(where[i], motion.v, v), pick(where[i], motion.a, a);
-    dynamics::pose(marker[i], q, v, a, pose[i], extent);
+    if (level == EvaluationLevel::velocity) pick(where[i], motion.v, v), pick(where[i], motion.a, a);
+    dynamics::pose(marker[i], q, v, a, pose[i], level);
   }
 }
 

@@ -199,7 +199,7 @@ System::FailedConstraint System::failed_constraint(double t, Vec U) const {
   gather(U, local_.q);
   local_.v.setZero(local_.q.size()), local_.a.setZero(local_.q.size());
   const auto& is_multiplier = coordinates_.multiplier();
-  int code = -1;  // of owner, whose number all ranks know, and standing
+  int code = -1;  // of owner, whose number all ranks know, and constraint status
   for (std::size_t term = 0; term < terms_.size() && code < 0; ++term) {
     if (!constrains_[term]) continue;
     const TermWork& w = pick(*terms_[term]);

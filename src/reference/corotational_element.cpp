@@ -106,8 +106,8 @@ bool CorotationalElement::measure(const Matrix3d& Q) const {
   return d_.allFinite() && R_.allFinite();
 }
 
-void CorotationalElement::see(const Motion& motion, EvaluationLevel extent) const {
-  places_.see(motion, extent);
+void CorotationalElement::see(const Motion& motion, EvaluationLevel level) const {
+  places_.see(motion, level);
   Eigen::Quaterniond Q = guess().normalized();
   double last = INFINITY;
   for (int iteration = 0; iteration < 40; ++iteration) {

@@ -13,12 +13,12 @@ SpatialPlaces::SpatialPlaces(std::vector<dynamics::SpatialMarker> markers)
   for (const dynamics::SpatialMarker& at : marker_) where_.push_back(dynamics::place_all(at.coordinates, coordinates_));
 }
 
-void SpatialPlaces::see(const dynamics::Motion& motion, dynamics::EvaluationLevel extent) {
+void SpatialPlaces::see(const dynamics::Motion& motion, dynamics::EvaluationLevel level) {
   for (std::size_t i = 0; i < marker_.size(); ++i) {
     dynamics::pick(where_[i], motion.q, q_);
-    if (extent == dynamics::EvaluationLevel::velocity)
+    if (level == dynamics::EvaluationLevel::velocity)
       dynamics::pick(where_[i], motion.v, v_), dynamics::pick(where_[i], motion.a, a_);
-    dynamics::pose(marker_[i], q_, v_, a_, pose_[i], extent);
+    dynamics::pose(marker_[i], q_, v_, a_, pose_[i], level);
   }
 }
 

@@ -86,7 +86,7 @@ Progress later_progress(GeneralizedAlpha* data, const Norms& norms) {
 // whose errors have the same sign step after step. What is left after a first update is told by all unknowns: q may be
 // predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small
 // and do not fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led
-// astray and solve() begins again without it.
+// away from the solution, and solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));

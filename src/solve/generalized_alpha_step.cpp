@@ -145,7 +145,7 @@ PetscErrorCode solve(TS ts) {
   if (reason < 0) {
     ts->snes->lagjacobian = 1;
     renew_jacobian(ts->snes, 0);
-    PetscCall(newton(ts, Guess::standing, &reason));
+    PetscCall(newton(ts, Guess::unmoved, &reason));
     if (reason < 0) PetscCall(newton(ts, Guess::plain, &reason));
     ts->snes->lagjacobian = lag;
   }

@@ -34,7 +34,7 @@ int rows(const Constraint& constraint);
 class Joint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
-  /// @param standing     rows of the constraint that stand, ascending; the others are left out
+  /// @param independent  rows of the constraint that are kept, ascending; the others are redundant
   /// @param constraint switch        if given, whether the rows hold
   /// @param captures     the constraint is that of the places as they are when the constraint switch closes (angle(t)
   /// is not used)

@@ -42,9 +42,9 @@ struct Pose {
 };
 
 /// @param q, v, a  the marker's coordinates and rates
-/// @param extent   place or directions: y, P and arm alone are filled
+/// @param level   position or jacobian: y, P and arm alone are filled
 void pose(const Marker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, Pose& out,
-          EvaluationLevel extent = EvaluationLevel::velocity);
+          EvaluationLevel level = EvaluationLevel::velocity);
 
 /// Entry i of d(P' w)/dq, w = (f, m) fixed, in the row and the column of the frame's angle; all others are zero.
 double geometric_stiffness(const Pose& at, const Eigen::Vector3d& wrench, Eigen::Index i);

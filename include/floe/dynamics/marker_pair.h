@@ -26,7 +26,7 @@ struct MarkerPair {
 
   MarkerPair(Marker first, Marker second);
   /// Evaluates both poses.
-  void evaluate(const Motion& motion, EvaluationLevel extent = EvaluationLevel::velocity);
+  void evaluate(const Motion& motion, EvaluationLevel level = EvaluationLevel::velocity);
   Vector6 y() const;
   Vector6 yd() const;
   Vector6 ydd() const;

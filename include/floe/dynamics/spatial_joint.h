@@ -33,7 +33,7 @@ using SpatialRow = std::variant<PointCoincidence, Along, Product, Separation>;
 ///
 /// Multipliers of Coincide, Along and Separation are forces, those of Product moments: where the constraint is met,
 /// Q_21, Q_32, Q_13 of fixed places go with moments about z, x, y; Q_31 and Q_32 with moments about -y and x of the
-/// second place. Products also vanish at rotations by 180 degrees: SpatialJoint::standing tells.
+/// second place. Products also vanish at rotations by 180 degrees: see SpatialJoint::constraint_status.
 struct SpatialConstraint {
   std::vector<SpatialRow> rows;
   TimeFunction angle = {};  ///< of E, of any size; empty: 0
@@ -66,7 +66,7 @@ SpatialConstraint lock_of(const SpatialConstraint& joint);
 class SpatialJoint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
-  /// @param standing     rows of the constraint that stand, ascending; the others are left out
+  /// @param independent  rows of the constraint that are kept, ascending; the others are redundant
   /// @param unit         of lengths in rows that are left out [m]
   SpatialJoint(SpatialMarker first, SpatialMarker second, const SpatialConstraint& constraint, int multipliers,
                const std::vector<int>& independent, double unit = 1,

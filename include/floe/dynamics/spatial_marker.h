@@ -53,10 +53,10 @@ struct SpatialPose {
 };
 
 /// @param q, v, a  the marker's coordinates and rates
-/// @param extent   place: P, velocities, spins and their rates are left as they are; directions: those but P
+/// @param level   position: P, velocities, spins and their rates are left as they are; jacobian: those but P
 /// Allocates only where `out` grows.
 void pose(const SpatialMarker& marker, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-          SpatialPose& out, EvaluationLevel extent = EvaluationLevel::velocity);
+          SpatialPose& out, EvaluationLevel level = EvaluationLevel::velocity);
 
 /// rows = P' w for a wrench in world axes: what it does on each of the n coordinates. P itself is not needed.
 void pull_back(const SpatialMarker& marker, const SpatialPose& at, const Wrench& wrench, Eigen::VectorXd& rows);

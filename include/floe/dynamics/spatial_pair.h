@@ -21,7 +21,7 @@ struct SpatialPair {
 
   SpatialPair(SpatialMarker first, SpatialMarker second);
   /// Evaluates both poses: add() needs their places, add_gradient() too, add_tangent() directions, with Yd the motion.
-  void evaluate(const Motion& motion, EvaluationLevel extent = EvaluationLevel::velocity);
+  void evaluate(const Motion& motion, EvaluationLevel level = EvaluationLevel::velocity);
   /// r += P' wrench: the rows of a wrench.
   void add(const Vector12& wrench, Eigen::VectorXd& r);
   /// r += the derivative by the coordinates of a number whose derivative by the virtual motions is `gradient`: as the

@@ -43,7 +43,8 @@ class System {
   /// Maximum |C(q, t)| of all constraint rows, or of a rate of them: only the terms that constrain are evaluated.
   /// Collective.
   double constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const;
-  /// A joint whose constraints are not met as they are meant to be (Term::standing), by name; empty: there is none.
+  /// A joint whose constraints are not met as they are meant to be (Term::constraint_status), by name; empty: there is
+  /// none.
   struct FailedConstraint {
     std::string joint;
     ConstraintStatus constraint_status = ConstraintStatus::satisfied;

@@ -59,7 +59,7 @@ class CorotationalElement final : public dynamics::Term {
   using Matrixx3 = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most, 3>;
   using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
   Eigen::Index size() const { return 6 * X_.cols(); }
-  void see(const dynamics::Motion& motion, dynamics::EvaluationLevel extent) const;
+  void see(const dynamics::Motion& motion, dynamics::EvaluationLevel level) const;
   Eigen::Quaterniond guess() const;
   bool measure(const Eigen::Matrix3d& Q) const;
   void see_rates() const;

@@ -16,7 +16,7 @@ class SpatialPlaces {
   Eigen::Index size() const { return static_cast<Eigen::Index>(pose_.size()); }
   const dynamics::SpatialPose& operator[](Eigen::Index i) const { return pose_[i]; }
   /// Poses at a motion; add() needs places, add_tangent() directions, with Yd the motion.
-  void see(const dynamics::Motion& motion, dynamics::EvaluationLevel extent);
+  void see(const dynamics::Motion& motion, dynamics::EvaluationLevel level);
   /// r += P' wrenches. @param wrenches  6n
   void add(const Eigen::VectorXd& wrenches, Eigen::VectorXd& r);
   /// J += derivative of add(wrenches, r).

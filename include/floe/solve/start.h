@@ -58,7 +58,7 @@ class LostInRoundOff : public RunError {
 /// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6
 /// of 1 rad in every rotation, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
 /// then further steps are taken.
-/// @throws RunError  not converged, joints not met as they are meant to be (System::astray), or constraints repeat;
+/// @throws RunError  not converged, joints not met as they are meant to be (System::failed_constraint), or constraints repeat;
 /// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend = false);
 
