@@ -80,10 +80,24 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
   return bodies;
 }
 
+/// The deviation at the start. A motion that begins in an equilibrium or a steady rotation begins in that of its model:
+/// from the reduced one the enriched model would vibrate, which the full-order model does not.
+solve::DeviationStart at_start(const Offline& offline, const Model& more) {
+  if (offline.plan.scene.motion.start == Motion::Start::given) return {};
+  const Model reduced = assemble(offline.plan, Formulation::vm_md, offline.reduced);
+  const auto start_of = [](const Model& model) {
+    const petsc::VecHandle none = model.system->create_vector();
+    return solve::state_of(*model.system, 0, model.U, model.V, none);
+  };
+  return solve::deviation_between(*more.system, lifted_to_more_columns(start_of(reduced), reduced, more),
+                                  start_of(more));
+}
+
 /// Follows the deviation, on every rank alike.
 void follow(const Model& reduced, const Model& more, const KeptMotion& motion, const TimeBudget& time,
             Estimate& estimate) {
   const dynamics::System& system = *more.system;
+  const solve::DeviationStart start = at_start(*reduced.offline, more);
   std::vector<State> states;
   for (const State& state : motion.states()) states.push_back(lifted_to_more_columns(state, reduced, more));
   const petsc::VecHandle U = system.create_vector(), V = system.create_vector(), A = system.create_vector();
@@ -95,7 +109,8 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
   const std::vector<State> first(states.begin(), states.begin() + std::min<std::ptrdiff_t>(8, std::ssize(states)));
   solve::deviation(
       system, motion.begin(), first,
-      [&](const State& state, const VectorXd&, const VectorXd&, const VectorXd&) { values(state), values(state); });
+      [&](const State& state, const VectorXd&, const VectorXd&, const VectorXd&) { values(state), values(state); },
+      start);
   const double each = (time.spent() - before) / static_cast<double>(first.size());
   const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
   if (count < states.size()) {
@@ -116,7 +131,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
     estimate.errors.push_back(std::move(gap));
     estimate.relative.push_back(std::sqrt(e));
   };
-  const solve::DeviationReport report = solve::deviation(system, motion.begin(), states, observe);
+  const solve::DeviationReport report = solve::deviation(system, motion.begin(), states, observe, start);
   if (report.steps == 0) throw RunError("the equations of the error cannot be integrated from the start");
   if (report.steps < std::ssize(states))
     estimate.notes.push_back(fmt::format("the equations of the error diverge at t = {:.6g} s", report.end));

@@ -47,6 +47,17 @@ State deviated(const System& system, const State& state, const VectorXd& d, cons
   return at;
 }
 
+DeviationStart deviation_between(const System& system, const State& from, const State& to) {
+  DeviationStart between{to.q - from.q, to.v - from.v};
+  for (std::size_t i = 0; i < from.bases.size(); ++i) {
+    const int first = system.attitudes()[i].first;
+    const Eigen::Vector3d x = math::rotation_vector(from.bases[i].conjugate() * to.bases[i]);
+    between.d.segment<3>(first) = x;
+    between.rate.segment<3>(first) -= Eigen::Vector3d(from.v.segment<3>(first)).cross(x);
+  }
+  return between;
+}
+
 namespace {
 
 /// d and what the scheme keeps of it at the end of a step: `mean` is the acceleration that positions and velocities
@@ -89,7 +100,7 @@ struct Scheme {
 
 class Follower {
  public:
-  explicit Follower(const System& system)
+  Follower(const System& system, const DeviationStart& start)
       : system_(system),
         multiplier_(system.coordinates().multiplier()),
         U_(system.create_vector()),
@@ -100,7 +111,8 @@ class Follower {
         J_(system.create_tangent()),
         ksp_(tangent_solver(J_, "estimate_")) {
     const VectorXd zero = VectorXd::Zero(system.coordinates().local_size());
-    last_ = {zero, zero, zero, zero};
+    last_ = {start.d.size() > 0 ? start.d : zero, start.d.size() > 0 ? start.rate : zero, zero, zero};
+    last_.rate = without_multipliers(std::move(last_.rate));
   }
 
   /// d of one more state. @return false  not converged
@@ -181,8 +193,9 @@ class Follower {
 
 DeviationReport deviation(const System& system, double begin, const std::vector<State>& known,
                           const std::function<void(const State&, const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                                   const Eigen::VectorXd&)>& observe) {
-  Follower follower(system);
+                                                   const Eigen::VectorXd&)>& observe,
+                          const DeviationStart& start) {
+  Follower follower(system, start);
   double before = begin;
   follower.report.end = begin;
   for (const State& state : known) {

@@ -28,9 +28,16 @@ struct DeviationReport {
   double end = 0;  ///< reached [s]; short of the last state where Newton's method did not converge
 };
 
+struct DeviationStart {
+  Eigen::VectorXd d, rate;
+};
+
+/// The deviation of one state from another of the same system, inverse of deviated() for these two.
+DeviationStart deviation_between(const System& system, const State& from, const State& to);
+
 /// How far the motion of a system is from one that satisfies only some of its equations: d(t) with
 ///
-///   F(t, q + d, v + d', a + d'') = 0,   d = d' = 0 at `begin`,   (q, v, a)(t) given
+///   F(t, q + d, v + d', a + d'') = 0,   d and d' given at `begin`,   (q, v, a)(t) given
 ///
 /// q + d is the system's own motion; only d is differenced in time, so that steps may be as long as d allows, however
 /// fast q moves. The generalized-alpha scheme with the steps of the given states and a spectral radius of 0.5: a
@@ -42,10 +49,12 @@ struct DeviationReport {
 ///
 /// @param system   on one rank, whose terms take their steps from state to state (Term::begin_step)
 /// @param known    in ascending order of t, all after `begin`
+/// @param start    d and d' at `begin`; empty: 0
 /// @param observe  called at each of them with the state, d, d' and d''
 DeviationReport deviation(const System& system, double begin, const std::vector<State>& known,
                           const std::function<void(const State&, const Eigen::VectorXd& d, const Eigen::VectorXd& rate,
-                                                   const Eigen::VectorXd& second_rate)>& observe);
+                                                   const Eigen::VectorXd& second_rate)>& observe,
+                          const DeviationStart& start = {});
 
 /// The state with a deviation and its rates, as above.
 State deviated(const System& system, const State& state, const Eigen::VectorXd& d, const Eigen::VectorXd& rate,
