@@ -113,7 +113,8 @@ class SpatialAssembly {
 
   dynamics::SpatialMarker marker(const Anchor& place);
   /// Places whose sum the mean of the place's nodes is, and the share of each in a moment. On the last rank.
-  std::vector<std::pair<dynamics::SpatialMarker, double>> corotated_parts(const Anchor& place) const;
+  std::vector<std::pair<dynamics::SpatialMarker, double>> corotated_parts(const Anchor& place,
+                                                                          bool deflection = false) const;
   /// Whether the place is, with formulation cfr, the mean of nodes that move by themselves. Collective.
   bool is_corotated_mean(const Anchor& place) const;
   dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;

@@ -22,9 +22,12 @@ namespace {
 
 bool leads(const AveragingWeight& weight) { return weight.share != 0; }
 
-/// a of an averaging weight, whose arm maps theta to theta x a normal to a shell, and to a multiple of it in its plane
-/// (cubic deflections, quadratic displacements by drilling rotations): a is that of the deflections, the smaller one.
-Vector3d arm_of(const AveragingWeight& weight) {
+/// a of an averaging weight's arm, which maps theta to theta x a in the plane of a shell.
+Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
+
+/// The same normal to the shell: arms of displacements in its plane are those of quadratic functions (drilling
+/// rotations), of deflections those of cubic ones, which are smaller.
+Vector3d deflection_arm(const AveragingWeight& weight) {
   const Eigen::Matrix3d odd = (weight.arm - weight.arm.transpose()) / 2;
   const Vector3d along(-odd(2, 1), -odd(0, 2), -odd(1, 0));
   if (along.norm() <= 1e-14 * weight.arm.norm() || along.norm() == 0) return Vector3d::Zero();
@@ -174,7 +177,8 @@ void SpatialAssembly::add_corotated(int b) {
                                    body.deformation_rate});
 }
 
-std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place) const {
+std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place,
+                                                                               bool deflection) const {
   const reference::CorotationalBody& body = *slots_[place.body].corotated;
   if (place.nodes.size() == 1 && body.has_frame(place.nodes.front())) return {{body.place(place.nodes.front()), 1.}};
   std::vector<std::pair<SpatialMarker, double>> parts;
@@ -187,7 +191,7 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
     piece = other;
     SpatialMarker at = body.place(weight.node);
     at.mass = weight.share;
-    at.x0 = weight.share * at.x0 + arm_of(weight);
+    at.x0 = weight.share * at.x0 + (deflection ? deflection_arm(weight) : arm_of(weight));
     parts.emplace_back(std::move(at), weight.share);
   }
   if (one) return {{body.place_on_piece(piece, place.x), 1.}};

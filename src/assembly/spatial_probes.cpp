@@ -75,7 +75,7 @@ void SpatialAssembly::add_probes(Model& model) {
     const Anchor place = has_place(spec) ? plan_.probes[p][0] : Anchor{};
     SpatialProbe probe{marker(place), {}};
     if (is_corotated_mean(place) && owner_)
-      for (auto& [at, share] : corotated_parts(place)) probe.mean.push_back(std::move(at));
+      for (auto& [at, share] : corotated_parts(place, true)) probe.mean.push_back(std::move(at));
     DrivenCoordinate drive;
     if (spec.quantity == Probe::Quantity::drive || spec.quantity == Probe::Quantity::power) {
       const std::size_t j = joint_index(plan_.scene, spec.joint);

@@ -24,7 +24,7 @@ const Anchor* place_at_frame(const Plan& plan, int b, std::size_t joint) {
   if (body.spec.rigid || body.spec.reduced || body.parent >= 0) return nullptr;
   const PetscInt node = node_of_frame(body);
   const auto& [first, second] = plan.joints[joint];
-  if (node < 0 || first.body < 0 || second.body < 0) return nullptr;
+  if (node < 0 || first.ground() || second.ground()) return nullptr;
   for (const Anchor* place : {&first, &second})
     if (place->body == b && place->moved_by(node) && holds_as_one(plan.scene.joints[joint], *place)) return place;
   return nullptr;

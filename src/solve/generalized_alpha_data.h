@@ -135,7 +135,7 @@ PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y);
 void renew_jacobian(SNES snes, PetscInt iteration);
 
 // generalized_alpha_predict.cpp
-enum class Guess { extrapolated, plain, unmoved };
+enum class Guess { extrapolated, plain };
 /// Where Newton's method starts, into U1. Collective.
 PetscErrorCode predict(TS ts, Guess guess);
 

@@ -63,9 +63,7 @@ PetscErrorCode choose_extrapolation(TS ts, Extrapolation* chosen) {
 }  // namespace
 
 // Where Newton starts, into U1. Extrapolated: a_1 from the accelerations that the step begins with and, of steps of one
-// size, from that of the step before. Plain: a_1 = a_0. Unmoved: q_1 = q_0. Motions that the step does not resolve
-// move by h^2 a_0 / 2 in the other two, (omega h)^2 / 2 times what the force does statically, which is beyond Newton's
-// reach after a sudden force at a node.
+// size, from that of the step before. Plain: a_1 = a_0.
 PetscErrorCode predict(TS ts, Guess guess) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal of_a = data->beta * data->h * data->h;
@@ -73,7 +71,6 @@ PetscErrorCode predict(TS ts, Guess guess) {
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(data->U1, of_a, data->a_used, data->base_q));
-  if (guess == Guess::unmoved) PetscCall(VecCopy(data->U0, data->U1));
   if (guess == Guess::extrapolated) PetscCall(choose_extrapolation(ts, &use));
   if (use.of_A == 0) PetscFunctionReturn(0);
   const Entries A(data->A0), a(data->a_used), before(data->a1);

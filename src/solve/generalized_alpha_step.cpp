@@ -142,11 +142,10 @@ PetscErrorCode solve(TS ts) {
   if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
   PetscCall(newton(ts, Guess::extrapolated, &reason));
   if (kept) ts->snes->lagjacobian = lag;
-  if (reason < 0) {
+  if (reason < 0 && lag != 1) {
     ts->snes->lagjacobian = 1;
     renew_jacobian(ts->snes, 0);
-    PetscCall(newton(ts, Guess::unmoved, &reason));
-    if (reason < 0) PetscCall(newton(ts, Guess::plain, &reason));
+    PetscCall(newton(ts, Guess::plain, &reason));
     ts->snes->lagjacobian = lag;
   }
   if (reason < 0) renew_jacobian(ts->snes, 0);

@@ -275,7 +275,7 @@ TEST_CASE("error budget: a fault of one rank is that of all ranks") {
   CHECK(mesh.until < 0.91);
   const assess::ErrorPart model = assess::estimate_model_error(one.motion(stopping), one.own, one.estimate, mesh, 100);
   CHECK(model.none == "");
-  CHECK(model.until == mesh.until);
+  CHECK(model.until == Approx(mesh.until).margin(0.0081));  // in one of the first steps of 4e-3 under the force
   CHECK_THAT(assess::estimate_model_error(one.motion(refusing), one.own, one.estimate, mesh, 100).none,
              Catch::Contains("modal damping"));
 }
