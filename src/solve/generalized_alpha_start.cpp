@@ -220,7 +220,6 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(mark_origin(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
-  data->equal_steps = 0;
   data->rate = 1;
   PetscFunctionReturn(0);
 }
@@ -240,7 +239,6 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(split_normal(ts));
   for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
   data->fresh = PETSC_TRUE;
-  data->equal_steps = 0;
   PetscFunctionReturn(0);
 }
 
