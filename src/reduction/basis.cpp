@@ -24,14 +24,6 @@ constexpr double weak = 1e-4;
 /// A pass that finds columns no further from orthogonal leaves them so to round-off.
 constexpr double nearly = 1e-3;
 
-/// Relative error of a candidate at least, in the norm of M.
-constexpr double candidate_error = 1e-15;
-
-/// The greatest relative error of a basis vector. Errors grow: v_i = (a_i - sum_j c_j v_j) / s_i has
-/// sqrt(e^2 + sum_j (c_j e_j)^2) / s_i. Where the candidates span all that there is (a straight beam has as many axial
-/// shapes as nodes), what is left of the next one is round-off, far above drop_tolerance, and may be a rigid motion.
-constexpr double most_error = 0.1;
-
 /// V'MV of all ranks, the same on all.
 Eigen::MatrixXd gram(const fem::Structure& structure, const fem::FieldRows& X) {
   Eigen::MatrixXd mine = mass_gram(structure, X), all = mine;
@@ -52,8 +44,6 @@ Eigen::MatrixXd scaled(const Eigen::MatrixXd& G, const Eigen::VectorXd& norms) {
 struct Column {
   double share = 1;  ///< that those before it lack
   bool kept = true;
-  double noise = candidate_error;                 ///< error of what is left, relative to the candidate
-  double error() const { return noise / share; }  ///< the same, relative to what is left
 };
 
 /// One pass: the columns of X T are orthonormal, but for weak ones, which are left as they are without their parts
@@ -72,16 +62,14 @@ Step orthogonalise(const Eigen::MatrixXd& S, double tolerance, std::vector<Colum
     Column& column = columns[i];
     if (!column.kept) continue;
     Eigen::VectorXd t = Eigen::VectorXd::Unit(k, i);
-    double common = 0, noise = 0;
+    double common = 0;
     for (Eigen::Index j : accepted) {
       const double along = step.T.col(j).dot(S.col(i));
       if (along == 0) continue;
       t -= along * step.T.col(j);
       common += along * along;
-      noise = std::hypot(noise, along * columns[j].error());
       step.done = step.done && std::abs(along) < nearly;
     }
-    column.noise = std::hypot(column.noise, column.share * noise);
     const double share = std::sqrt(std::max(0.0, 1 - common));
     if (share < weak) {
       step.done = false;
@@ -89,7 +77,7 @@ Step orthogonalise(const Eigen::MatrixXd& S, double tolerance, std::vector<Colum
       continue;
     }
     column.share *= share;
-    column.kept = column.share > tolerance && column.error() < most_error;
+    column.kept = column.share > tolerance;
     if (!column.kept) continue;
     step.T.col(i) = t / share;
     accepted.push_back(i);

@@ -63,25 +63,6 @@ TEST_CASE("columns that add nothing are dropped and named; the kept ones span al
   CHECK(Eigen::ColPivHouseholderQR<MatrixXd>(both).setThreshold(1e-10).rank() == 3);
 }
 
-// What b adds to a is 2e-9 of it, so that the second basis vector x is known to some 1e-7; c differs from x by less.
-TEST_CASE("a column whose new part is round-off of the vectors before it is dropped, whatever the tolerance") {
-  const fem::Structure s = testing::straight(PETSC_COMM_WORLD, 5, 1, {50, 1, 1, 0.1});
-  testing::Random random(61);
-  MatrixXd three = random.matrix(s.dofs(), 3);
-  for (Eigen::Index j = 0; j < 3; ++j) three.col(j) /= std::sqrt(mass_form(s, three.col(j))(0, 0));
-  const double c = GENERATE(2e-8, 2e-5);
-  MatrixXd given(s.dofs(), 3);
-  given << three.col(0), three.col(0) + 2e-9 * three.col(1), three.col(1) + c * three.col(2);
-  reduction::Columns candidates;
-  std::vector<reduction::ColumnOrigin> origins;
-  for (const char* label : {"a", "b", "c"}) origins.push_back(named(label));
-  for (int j = 0; j < 3; ++j) candidates.push_back(testing::field_of(s, given.col(j)));
-  const reduction::Basis basis = reduction::orthonormal_basis(s, candidates, origins, 1e-10);
-  CHECK(basis.origins[1].kept);
-  CHECK(basis.origins[2].kept == (c > 1e-6));
-  CHECK(basis.origins[2].new_part > 1e-10);
-}
-
 TEST_CASE("eight hinged modes have 36 derivatives, of which 17 are independent") {
   // sin((i - j) x) and sin((i + j) x) for i, j <= 8, with x for the movable end: 2 m + 1
   const PetscInt n = 64;
