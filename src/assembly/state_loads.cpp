@@ -148,9 +148,9 @@ void SpatialAssembly::add_state_loads(Model& model) {
       if (!owner_) continue;
       const auto j = static_cast<int>(joint_index(plan_.scene, load.joint));
       const Of of = of_dynamics(loaded_coordinate(load, plan_.scene.joints[j], 3));
-      connect(
-          j, std::make_unique<StateForce>(unit_load(coordinate_of(j, of, placed_[j]), own_switch(switches_, load.joint)),
-                                          StateFormula(load.on_joint, sensors(load.on_joint, model))));
+      connect(j, std::make_unique<StateForce>(
+                     unit_load(coordinate_of(j, of, placed_[j]), own_switch(switches_, load.joint)),
+                     StateFormula(load.on_joint, sensors(load.on_joint, model))));
       continue;
     }
     if (!load.has_sensors()) continue;

@@ -14,7 +14,7 @@ dynamics::FrictionLaw law_of(const FrictionSpec& friction) {
 }
 
 std::shared_ptr<const dynamics::ConstraintSwitch> own_switch(const std::map<std::string, JointSwitches>& all,
-                                                            const std::string& joint) {
+                                                             const std::string& joint) {
   const auto found = all.find(joint);
   return found == all.end() ? nullptr : found->second.joint;
 }

@@ -6,8 +6,8 @@
 
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
-#include "round_off.h"
 #include "rotations.h"
+#include "round_off.h"
 
 namespace floe::solve {
 namespace {

@@ -12,15 +12,15 @@ namespace floe::mesh {
 ///   nodes     GRID with CP and CD, GRDSET, CORD1R/C/S, CORD2R/C/S
 ///   shells    CQUAD4, CQUADR, CTRIA3, CTRIAR: PSHELL (MID2 may differ), PCOMP, PCOMPG; ZOFFS, T1..T4 as their mean
 ///   beams     CBAR, CBEAM: PBAR, PBARL and PBEAML (BAR, BOX, I, ROD, TUBE, TUBE2), PBEAM without taper, I1 about the
-///             z-axis of the element; offsets WA, WB are rigid links to nodes of their own; K1, K2 are shear factors; pin
-///             flags are releases
+///             z-axis of the element; offsets WA, WB are rigid links to nodes of their own; K1, K2 are shear factors;
+///             pin flags are releases
 ///   rods      CROD, CTUBE, CONROD: beams released in bending, as PBAR without I1 and I2
 ///   springs   CELAS1, CELAS2, CBUSH between two grids, where no rigid motion strains them; others are left out
 ///   material  MAT1, MAT8, MAT2 (orthotropic in its own axes)
 ///   rest      CONM2, RBE2 of all six directions, RBAR with one independent end, PARAM,WTMASS
 /// Nonstructural mass becomes density. Loads, supports, constraint equations, tables and output are left out, each card
-/// with its number; elements of other kinds (solids, shear panels) are refused, or left out on request. RBE3 is a place.
-/// Every rank reads the whole file and keeps its share.
+/// with its number; elements of other kinds (solids, shear panels) are refused, or left out on request. RBE3 is a
+/// place. Every rank reads the whole file and keeps its share.
 /// @throws InputError  the same on every rank, one line a fault, with file, line, card and field: what was found and
 ///   what was expected; cards that are not known; taper
 /// Collective.

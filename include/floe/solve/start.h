@@ -58,8 +58,8 @@ class LostInRoundOff : public RunError {
 /// What the search ends at is an equilibrium where the next step, by the tangent of that configuration, is below 1e-6
 /// of 1 rad in every rotation, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
 /// then further steps are taken.
-/// @throws RunError  not converged, joints not met as they are meant to be (System::failed_constraint), or constraints repeat;
-/// NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
+/// @throws RunError  not converged, joints not met as they are meant to be (System::failed_constraint), or constraints
+/// repeat; NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend = false);
 
 /// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for
