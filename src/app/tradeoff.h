@@ -42,7 +42,7 @@ struct ModelVariant {
   double worst() const;             ///< greatest total of all probes; infinity where there is none
 };
 
-/// Numbers of `model variants` such that no other one is both cheaper (motion) and more accurate; the cheapest first.
+/// Indices of variants such that no other one is both cheaper (motion) and more accurate; the cheapest first.
 std::vector<std::size_t> pareto_front(const std::vector<ModelVariant>& variants);
 
 /// The cheapest model variant with errors of at most `accuracy`, if there is one.

@@ -49,7 +49,7 @@ struct Source {
   BodyReport report;
   reduction::Columns columns;
   std::vector<ColumnOrigin> origins;
-  std::vector<std::size_t> group;  ///< of each column: its place among the candidate basis's
+  std::vector<std::size_t> group;  ///< of each column: its place in the candidate basis
   std::shared_ptr<const reduction::Statics> statics;
 };
 

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector2d;
 
-/// A displacement and a rotating.
+/// A displacement and a rotation.
 struct Rotated {
   Vector2d u = Vector2d::Zero();
   double rotation = 0;

@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 using math::rotation_tangent_derivative;
 using math::skew;
 
-/// Displacement and rotating of the place by the elastic coordinates, or rates of both by theirs.
+/// Displacement and rotation of the place by the elastic coordinates, or rates of both by theirs.
 struct Elastic {
   Vector3d u = Vector3d::Zero(), rotation = Vector3d::Zero();
 };

@@ -129,7 +129,7 @@ FrameChoice frame_of_parent(const Scene& scene, const Body& body, const SpatialM
           rotated * parent.attitude};
 }
 
-/// @param parent body  of a welded body
+/// @param parent  body to which the welded one is fixed
 PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
                          const PlannedBody* parent) {
   SpatialMesh mesh = spatial_mesh(scene, spec, comm);

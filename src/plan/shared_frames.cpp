@@ -52,7 +52,7 @@ bool clamped_by_default(const Body& body) { return body.rigid || body.mesh.plate
 std::vector<SharedFrame> shared_frames(const Scene& scene) {
   std::vector<SharedFrame> shared(scene.bodies.size());
   if (scene.dimension != 3 || !scene.share_frames) return shared;
-  std::vector<int> next(scene.bodies.size(), -1);  // the body that each is a welded body of
+  std::vector<int> next(scene.bodies.size(), -1);  // the body to which each is welded
   const auto first_of = [&](int b) {
     while (next[b] >= 0) b = next[b];
     return b;

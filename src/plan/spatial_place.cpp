@@ -71,7 +71,8 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
   return all;
 }
 
-/// Whether the nodes are those of a hinge line: led by one, and rotating about it by themselves. Collective.
+/// Whether the nodes are those of a hinge line: which follow one of them, and rotate about it by themselves.
+/// Collective.
 bool on_hinge_line(const fem::Mesh& mesh, const Anchor& place) {
   int mine = 0;
   for (const fem::Mesh::Spin& spin : mesh.spins)

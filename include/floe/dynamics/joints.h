@@ -35,7 +35,7 @@ class Joint final : public Connection {
  public:
   /// @param multipliers  local index of the first of as many multipliers as rows stand
   /// @param independent  rows of the constraint that are kept, ascending; the others are redundant
-  /// @param constraint switch        if given, whether the rows hold
+  /// @param constraint_switch        if given, whether the rows hold
   /// @param captures     the constraint is that of the places as they are when the constraint switch closes (angle(t)
   /// is not used)
   Joint(Marker first, Marker second, Constraint constraint, int multipliers, std::vector<int> independent,

@@ -11,7 +11,7 @@ namespace floe::dynamics {
 /// The moment works on the spin of the place: on elastic coordinates it acts by psi' T(beta).
 class SpatialForce final : public Term {
  public:
-  /// World axes; rotating with the body's frame A; or following the place with all its rotating, D.
+  /// World axes; rotating with the body's frame A; or following the rotation of the place, D.
   enum class Axes { world, body, place };
   /// @param wrench  (f, m)(t) in those axes [N, N m]
   SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, Axes axes);

@@ -72,7 +72,7 @@ class SpatialJoint final : public Connection {
                const std::vector<int>& independent, double unit = 1,
                std::shared_ptr<ConstraintSwitch> constraint_switch = {});
   /// All rows stand.
-  /// @param constraint switch     if given, whether the rows hold
+  /// @param constraint_switch     if given, whether the rows hold
   /// @param captures  the places as they are when the constraint switch closes are the undisplaced state: D1 = D2,
   /// offsets as found
   SpatialJoint(SpatialMarker first, SpatialMarker second, SpatialConstraint constraint, int multipliers,

@@ -130,7 +130,7 @@ struct NearestNode {
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point);
 
 /// The middle of the nodes, where the mesh's own origin is farther from it than ten times the mesh is long; else that
-/// origin. About a far one a body that rotates would also travel: its stiffness against rotating would stand beside the
+/// origin. About a far one a body that rotates would also travel: its stiffness against rotation would stand beside the
 /// arm squared times that of springs that hold it in place, and be round-off of it. Collective.
 Eigen::Vector3d near_origin(const Mesh& mesh);
 

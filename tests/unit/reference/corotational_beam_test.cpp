@@ -243,7 +243,7 @@ TEST_CASE("corotational beam: rigid motion by any angle strains nothing and has 
     CHECK(energy(beam, s).kinetic == Approx(mass * velocity.squaredNorm() / 2 + J * spin * spin / 2).epsilon(1e-12));
     CHECK(energy(beam, s).potential == Approx(-mass * gravity.dot(X1 + shift + rotated / 2)).epsilon(1e-12));
 
-    // steady rotating: each half is constrained by its centripetal force, and gravity by half the weight at each end
+    // steady rotation: each half is constrained by its centripetal force, and gravity by half the weight at each end
     s.a << spin * spin * rotated / 2, 0, -spin * spin * rotated / 2, 0;
     VectorXd expected = VectorXd::Zero(6);
     const Vector2d pull = mass * spin * spin * rotated / 12, weight = mass * gravity / 2;
