@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <limits>
-#include <map>
 
+#include "choose_trials.h"
 #include "compare_table.h"
 #include "exact_motion.h"
 #include "floe/math/rounded.h"
@@ -19,16 +18,7 @@ namespace floe::app {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::infinity();
-
-/// A model that was moved.
-struct Trial {
-  double error = none;    ///< of the worst probe, against the motion that stands for the truth
-  double seconds = none;  ///< of the motion
-  std::string failed;     ///< why there is no error
-};
-
-/// Tries models of a candidate basis, each once.
+/// The search for the cheapest model of a candidate basis.
 class Search {
  public:
   Search(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference)
@@ -38,7 +28,8 @@ class Search {
         reference_(reference),
         begin_(std::clock()),
         candidates_(std::make_unique<assess::CandidateBasis>(scene, comm)),
-        building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC) {}
+        building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC),
+        trials_(scene, *candidates_, comm) {}
 
   Chosen result() {
     enrich();
@@ -51,52 +42,6 @@ class Search {
  private:
   using Selection = assess::Selection;
 
-  scene::Scene with_step(double step) const {
-    scene::Scene other = scene_;
-    other.motion.step = step, other.motion.every = 1, other.motion.tolerance.reset();
-    other.motion.output = scene_.motion.output.value_or(scene_.motion.step * scene_.motion.every);
-    return other;
-  }
-
-  RunResult moved(const Selection& selection, double step, bool estimate, bool keep_states) {
-    RunPlan plan;
-    plan.quiet = true, plan.check_range = false;
-    plan.energies = plan.balance = false;
-    plan.estimate = estimate, plan.budget = false, plan.keep_states = keep_states;
-    plan.estimate_seconds = 1e9;
-    assembly::Model model = candidates_->model(selection, estimate);
-    ++trials_;
-    return move(with_step(step), model, 0, comm_, std::nullopt, plan);
-  }
-
-  Trial tried(const Selection& selection, double step) {
-    const auto key = std::tuple{selection.taken, selection.linear, step};
-    const auto found = known_.find(key);
-    if (found != known_.end()) return found->second;
-    Trial trial;
-    try {
-      const RunResult result = moved(selection, step, false, false);
-      trial.seconds = result.motion_seconds;
-      MPI_Bcast(&trial.seconds, 1, MPI_DOUBLE, 0, comm_);
-      if (std::abs(result.end - reference_motion_.t.back()) > 2 * step)
-        trial.failed = fmt::format("ends at t = {:.4g} s", result.end);
-      else
-        trial.error = worst_error(result.series, reference_motion_);
-    } catch (const InputError& error) {
-      trial.failed = first_line(error.what());
-    } catch (const RunError& error) {
-      if (Interruption::happened(comm_)) throw;
-      trial.failed = first_line(error.what());
-    }
-    if (!std::isfinite(trial.error)) trial.error = none;
-    known_.emplace(key, trial);
-    return trial;
-  }
-
-  static std::string first_line(const std::string& text) {
-    const std::string line = text.substr(0, text.find('\n'));
-    return line.size() > 90 ? line.substr(0, 87) + "..." : line;
-  }
   static std::string words(const Trial& trial) {
     return trial.failed.empty() ? math::percent(trial.error) : trial.failed;
   }
@@ -115,7 +60,7 @@ class Search {
     int responses = 0;
     Series poorer;
     for (int round = 0;; ++round) {
-      RunResult result = moved(candidates_->whole(), scene_.motion.step, !candidates_->columns().empty(), true);
+      RunResult result = trials_.moved(candidates_->whole(), scene_.motion.step, !candidates_->columns().empty(), true);
       states_ = std::move(result.states);
       const double estimate = estimate_of(result);
       if (round == 0) first = estimate;
@@ -126,7 +71,7 @@ class Search {
       const int added = candidates_->add_responses(result.estimate);
       if (added == 0) break;
       responses += added;
-      known_.clear();
+      trials_.forget();
     }
     whole_motion_ = std::move(poorer);
     if (candidates_->columns().empty()) return;
@@ -173,11 +118,11 @@ class Search {
     double before = 0;  // what the halving before this one changed
     finest_ = step;
     for (int halving = 0; halving < most_halvings; ++halving) {
-      Series fine = moved(candidates_->whole(), step / 2, false, false).series;
+      Series fine = trials_.moved(candidates_->whole(), step / 2, false, false).series;
       const double between = worst_error(whole_motion_, fine);
       const bool ordered = before > 0 && between < 0.4 * before;
-      reference_motion_ = fine;
-      if (ordered) add_difference(reference_motion_, 1. / 3, fine, whole_motion_);
+      trials_.reference = fine;
+      if (ordered) add_difference(trials_.reference, 1. / 3, fine, whole_motion_);
       time_ = before > 0 ? left_of(between, before) : between / 3;
       finest_ = ordered && between > 0.2 * accuracy_ ? step / 2 : step;
       if (time_ <= 0.1 * accuracy_) break;
@@ -185,44 +130,10 @@ class Search {
     }
     richest_ = reference_.series ? reference_.error : space_ + time_ + reference_.error;
     if (!reference_.series) return;
-    known_.clear();
-    reference_motion_ = *reference_.series;
-    least_ = tried(candidates_->whole(), finest_).error;
+    trials_.forget();
+    trials_.reference = *reference_.series;
+    least_ = trials_.tried(candidates_->whole(), finest_).error;
     decide("richest model", "against cfr", "error " + math::percent(least_));
-  }
-
-  Selection first_of(const std::vector<assess::EnergyContribution>& order, std::size_t count) const {
-    Selection selection{std::vector<char>(candidates_->columns().size(), 0), false};
-    for (std::size_t i = 0; i < count; ++i) selection.taken[order[i].column] = 1;
-    return selection;
-  }
-
-  /// The fewest columns with at most this error; all of `order` where none will do. Trials that are known count.
-  std::size_t fewest(const std::vector<assess::EnergyContribution>& order, std::size_t most, double step, double error,
-                     bool linear = false) {
-    const auto first = [&](std::size_t count) {
-      Selection selection = first_of(order, count);
-      selection.linear = linear;
-      return selection;
-    };
-    std::size_t enough = most;
-    long too_few = -1;
-    for (std::size_t count = 0; count < enough; ++count) {
-      const auto found = known_.find(std::tuple{first(count).taken, linear, step});
-      if (found == known_.end()) continue;
-      if (found->second.error <= error)
-        enough = count;
-      else
-        too_few = static_cast<long>(count);
-    }
-    while (static_cast<long>(enough) - too_few > 1) {
-      const std::size_t middle = static_cast<std::size_t>((static_cast<long>(enough) + too_few) / 2);
-      if (tried(first(middle), step).error <= error)
-        enough = middle;
-      else
-        too_few = static_cast<long>(middle);
-    }
-    return enough;
   }
 
   /// What the scene wants stored between steps is interpolated, and the error of that is seen; but some steps there
@@ -236,28 +147,18 @@ class Search {
     return std::min(least_, time_budget()) + 0.5 * std::max(0.0, time_budget() - least_);
   }
 
-  /// Of the motion, the least of five where one is too short to tell.
-  double seconds_of(const Selection& selection, double step) {
-    double least = tried(selection, step).seconds;
-    for (int again = 1; again < 5 && least < 0.05; ++again) {
-      double seconds = moved(selection, step, false, false).motion_seconds;
-      MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, comm_);
-      least = std::min(least, seconds);
-    }
-    return least;
-  }
-
   void choose_columns_and_step() {
     if (!candidates_->columns().empty())
       order_ = candidates_->energy_contribution(candidates_->model(candidates_->whole()), states_);
     step_ = finest_;
-    count_ = fewest(order_, order_.size(), step_, first_time_budget());
+    count_ = trials_.fewest(order_, order_.size(), step_, first_time_budget());
     for (double before = 0; step_ != before;) {
       before = step_;
-      while (longer_step() && tried(first_of(order_, count_), 2 * step_).error <= time_budget()) step_ *= 2;
-      count_ = fewest(order_, count_, step_, time_budget());
+      while (longer_step() && trials_.tried(trials_.first_of(order_, count_), 2 * step_).error <= time_budget())
+        step_ *= 2;
+      count_ = trials_.fewest(order_, count_, step_, time_budget());
     }
-    selection_ = first_of(order_, count_);
+    selection_ = trials_.first_of(order_, count_);
   }
 
   /// Linear, without derivatives: they would follow nothing.
@@ -266,18 +167,19 @@ class Search {
     std::vector<assess::EnergyContribution> plain;
     for (const assess::EnergyContribution& one : order_)
       if (!candidates_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
-    Selection all = first_of(plain, plain.size());
+    Selection all = trials_.first_of(plain, plain.size());
     all.linear = true;
-    const Trial linear = tried(all, step_);
+    const Trial linear = trials_.tried(all, step_);
     linear_ = words(linear);
     if (!(linear.error <= time_budget())) return;
-    Selection some = first_of(plain, fewest(plain, plain.size(), step_, time_budget(), true));
+    Selection some = trials_.first_of(plain, trials_.fewest(plain, plain.size(), step_, time_budget(), true));
     some.linear = true;
-    const Trial cheaper = tried(some, step_);
+    const Trial cheaper = trials_.tried(some, step_);
     linear_ = words(cheaper);
     if (!(cheaper.error <= time_budget())) return;
     // With no more columns the linear force is the cheaper one, whatever a clock says.
-    if (some.count() > selection_.count() && !(seconds_of(some, step_) < 0.9 * seconds_of(selection_, step_))) {
+    if (some.count() > selection_.count() &&
+        !(trials_.seconds_of(some, step_) < 0.9 * trials_.seconds_of(selection_, step_))) {
       linear_ += fmt::format(" with {} basis vectors, but not faster", some.count());
       return;
     }
@@ -295,16 +197,16 @@ class Search {
 
   void explain() {
     if (!candidates_->columns().empty()) {
-      const Trial rigid = tried(first_of(order_, 0), step_);
+      const Trial rigid = trials_.tried(trials_.first_of(order_, 0), step_);
       if (count_ == 0) {
         decide("bodies", "rigid", "error " + words(rigid));
       } else {
         decide("bodies", "flexible", "rigid: " + words(rigid));
-        Selection less = first_of(order_, count_ - 1);
+        Selection less = trials_.first_of(order_, count_ - 1);
         less.linear = selection_.linear;
         decide("basis vectors", fmt::format("{} of {}", count_, candidates_->columns().size()),
                fmt::format("without the last one, {}: {}", candidates_->columns()[order_[count_ - 1].column].label,
-                           words(tried(less, step_))));
+                           words(trials_.tried(less, step_))));
         std::vector<std::string> bodies;
         for (std::size_t i = 0; i < candidates_->columns().size(); ++i) {
           const std::string& body = candidates_->columns()[i].body;
@@ -318,11 +220,11 @@ class Search {
                  names(of_body));
         }
         decide("elastic force", selection_.linear ? "linear" : "von Karman",
-               "linear: " + (selection_.linear ? words(tried(selection_, step_)) : linear_));
+               "linear: " + (selection_.linear ? words(trials_.tried(selection_, step_)) : linear_));
       }
     }
     decide("step", fmt::format("{:.4g} s", step_),
-           longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(tried(selection_, 2 * step_)))
+           longer_step() ? fmt::format("{:.4g} s: {}", 2 * step_, words(trials_.tried(selection_, 2 * step_)))
                          : "a simulation has at least 32 steps");
   }
 
@@ -330,15 +232,16 @@ class Search {
   /// correction vectors of the estimate, which it cannot: up to half as many again, where their error is within what
   /// those leave. @return  the error; none: they are not as good
   std::optional<double> name_responses(Chosen& chosen) {
-    const double most = std::max(time_budget(), tried(selection_, step_).error);
+    const double most = std::max(time_budget(), trials_.tried(selection_, step_).error);
     std::vector<std::string> others;
     for (const double times : {1.0, 1.5}) {
       Selection named = selection_;
       named.responses = times;
       std::string result;
       try {
-        const scene::Scene scene = scene::parse_scene(candidates_->text(named, with_step(step_).motion), scene_.file);
-        const double error = error_of(scene);
+        const scene::Scene scene =
+            scene::parse_scene(candidates_->text(named, trials_.with_step(step_).motion), scene_.file);
+        const double error = trials_.error_of(scene, step_);
         result = fmt::format("{:g} times as many: {}", times, math::percent(error));
         if (error <= most) {
           decide("residual responses", fmt::format("{:g} times as many as correction vectors", times),
@@ -353,22 +256,12 @@ class Search {
         }
       } catch (const std::runtime_error& fault) {  // on all ranks
         if (Interruption::happened(comm_)) throw;
-        result = fmt::format("{:g} times as many: {}", times, first_line(fault.what()));
+        result = fmt::format("{:g} times as many: {}", times, shortened(fault.what()));
       }
       others.push_back(result);
     }
     decide("residual responses", "none", fmt::format("{}", fmt::join(others, "; ")));
     return {};
-  }
-
-  double error_of(const scene::Scene& scene) {
-    RunPlan plan;
-    plan.quiet = true, plan.check_range = false;
-    plan.energies = plan.balance = false;
-    ++trials_;
-    const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
-    const double error = worst_error(result.series, reference_motion_);
-    return std::abs(result.end - reference_motion_.t.back()) > 2 * step_ || !std::isfinite(error) ? none : error;
   }
 
   Chosen finished() {
@@ -377,7 +270,7 @@ class Search {
       if (body.reduced) decide("  " + body.name, "from a file", "assumed exact: its mesh is not available");
     Chosen chosen;
     chosen.asked = accuracy_, chosen.richest = richest_;
-    double of_choice = tried(selection_, step_).error;
+    double of_choice = trials_.tried(selection_, step_).error;
     if (candidates_->has_responses(selection_)) of_choice = name_responses(chosen).value_or(of_choice);
     chosen.supported = richest_ + of_choice;
     decide("estimated error", math::percent(chosen.supported),
@@ -390,7 +283,7 @@ class Search {
                      reference_.error > 0 ? fmt::format(", {} of its mesh", math::percent(reference_.error)) : ""));
     chosen.decisions = std::move(decisions_);
     if (chosen.selection.responses == 0) {
-      chosen.scene = with_step(step_);
+      chosen.scene = trials_.with_step(step_);
       if (!candidates_->has_responses(selection_)) {
         chosen.scene.text = candidates_->text(selection_, chosen.scene.motion);
         if (reference_.total) chosen.scene = scene::parse_scene(chosen.scene.text, scene_.file);
@@ -399,7 +292,7 @@ class Search {
       chosen.model = candidates_->model(selection_, true);
     }
     chosen.candidates = std::move(candidates_);
-    chosen.trials = trials_, chosen.building = building_;
+    chosen.trials = trials_.count(), chosen.building = building_;
     return chosen;
   }
 
@@ -410,19 +303,17 @@ class Search {
   std::clock_t begin_;
   std::unique_ptr<assess::CandidateBasis> candidates_;
   double building_;                   // processor time [s]
+  Trials trials_;                     // its reference: the richest model's motion in fine steps, or the given one
   std::vector<solve::State> states_;  // of the richest model
   Series whole_motion_;               // its motion, in steps that are halved
-  Series reference_motion_;           // its motion, in fine steps
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   double least_ = 0;  // of the richest model against a reference of another formulation
   std::vector<assess::EnergyContribution> order_;
-  std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
   std::size_t count_ = 0;
   double step_ = 0;
   Selection selection_;
   std::string linear_;  ///< what came of a linear elastic force
   std::vector<Decision> decisions_;
-  int trials_ = 0;
 };
 
 }  // namespace

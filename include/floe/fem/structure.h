@@ -35,7 +35,7 @@ struct SpatialBeam {
   SpatialBeamSection section;
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
   SpatialBeamStrain strain;
-  BeamReleases releases;  ///< of elements of two nodes
+  BeamReleases releases = {};  ///< of elements of two nodes
 };
 
 /// A rigid mass at a node, in body axes.
