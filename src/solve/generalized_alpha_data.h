@@ -105,6 +105,14 @@ PetscErrorCode start_consistently(TS ts);
 /// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
 PetscErrorCode smooth_rates(TS ts);
 
+/// U - U0, where a step may end, loses what the step does not resolve: of stiff motions h^2 a_0 / 2 is (omega h)^2 / 2
+/// times their amplitude. Multipliers become those of U0. Leaves J of the step's beginning in the solver. Collective.
+///
+/// @param reach  the distance of U before; 0: U stays, because J cannot be solved or because U has none of them
+PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach);
+/// sqrt((U - U0)' M (U - U0)). Collective.
+PetscErrorCode distance(TS ts, Vec U, PetscReal* far);
+
 // generalized_alpha_rotations.cpp
 /// Fills `attitude_rows`. Collective.
 PetscErrorCode mark_attitudes(TS ts);

@@ -144,32 +144,66 @@ PetscErrorCode split_normal(TS ts) {
   PetscFunctionReturn(0);
 }
 
-// jerk <- J^-1 (M shift_a jerk), with the constraint rows C_q jerk. h M jerk is F(.., A + h jerk) - F(.., A), for F is
-// linear in A. The operator acts on motions, not on coordinates: a frame that rotates and elastic coordinates that
-// rotate it back are one motion, whatever the stiffness of either coordinate by itself.
-PetscErrorCode leave_out_stiff(TS ts) {
+// y = M x at the step's beginning: M e x is F(.., A + e x) - F(.., A), for F is linear in A; e makes an acceleration of
+// x.
+PetscErrorCode multiply_inertia(TS ts, PetscReal e, Vec x, Vec y) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_A, e, x, data->A0));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, y));
+  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_A));
+  PetscCall(VecAXPY(y, -1, data->work_A));
+  PetscCall(VecScale(y, 1 / e));
+  PetscFunctionReturn(0);
+}
+
+// x <- J^-1 (M shift_a x), with the constraint rows C_q x. The operator acts on motions, not on coordinates: a frame
+// that rotates and elastic coordinates that rotate it back are one motion, whatever the stiffness of either coordinate
+// by itself.
+PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
-  KSPConvergedReason reason;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(ts->snes, &ksp));
-  PetscCall(VecWAXPY(data->work_A, data->h, data->jerk, data->A0));
-  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->work_A, data->work_F));
-  PetscCall(TSComputeI2Function(ts, ts->ptime, data->U0, data->V0, data->A0, data->work_V));
-  PetscCall(VecAXPY(data->work_F, -1, data->work_V));
-  PetscCall(multiply_scaled(ts, data->jerk, data->work_V));
+  PetscCall(multiply_inertia(ts, e, x, data->work_F));
+  PetscCall(multiply_scaled(ts, x, data->work_V));
   {
     const Entries dynamic(data->dynamic), scale(data->scale), seen(data->work_V);
     Changed rows(data->work_F);
     for (PetscInt i = 0, n = local_size(data->work_F); i < n; ++i)
-      rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a / data->h * rows[i] : seen[i];
+      rows[i] = dynamic[i] != 0 ? scale[i] * data->shift_a * rows[i] : seen[i];
   }
-  PetscCall(solve_scaled(ts, data->work_F, data->jerk));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
-             "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
-  PetscCall(VecPointwiseMult(data->jerk, data->jerk, data->dynamic));
+  PetscCall(solve_scaled(ts, data->work_F, x));
+  PetscCall(KSPGetConvergedReason(ksp, reason));
+  PetscCall(VecPointwiseMult(x, x, data->dynamic));
+  PetscFunctionReturn(0);
+}
+
+// A' of a start.
+PetscErrorCode resolve_jerk(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+
+  PetscFunctionBegin;
+  for (PetscInt twice = 0; twice < 2; ++twice) {
+    PetscCall(leave_out_stiff(ts, data->h, data->jerk, &reason));
+    PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+               "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  }
+  PetscFunctionReturn(0);
+}
+
+// J(shift_v = 0, shift_a) of the state that the step begins with.
+PetscErrorCode jacobian_of_beginning(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, data->shift_a, J, P));
+  PetscCall(take_jacobian(ts));
   PetscFunctionReturn(0);
 }
 
@@ -216,7 +250,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(differentiate(ts, inertia));
   PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
-  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
+  PetscCall(resolve_jerk(ts));
   PetscCall(mark_origin(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
@@ -226,19 +260,58 @@ PetscErrorCode start_consistently(TS ts) {
 
 PetscErrorCode smooth_rates(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
-  Mat J, P;
 
   PetscFunctionBegin;
   PetscCall(set_scales(ts));
-  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, data->shift_a, J, P));
-  PetscCall(take_jacobian(ts));
+  PetscCall(jacobian_of_beginning(ts));
   PetscCall(project_velocity(ts));
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
-  for (PetscInt twice = 0; twice < 2; ++twice) PetscCall(leave_out_stiff(ts));
+  PetscCall(resolve_jerk(ts));
   data->fresh = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+// x' M x at the state that the step begins with.
+static PetscErrorCode inertia_norm(TS ts, Vec x, PetscReal* square) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(multiply_inertia(ts, data->shift_a, x, data->work_F));
+  PetscCall(VecDot(x, data->work_F, square));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal squares[2];  // of U - U0 and of what it loses
+
+  PetscFunctionBegin;
+  *reach = 0;
+  PetscCall(jacobian_of_beginning(ts));
+  PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
+  PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
+  PetscCall(VecCopy(data->work_U, data->V1));
+  PetscCall(inertia_norm(ts, data->V1, &squares[0]));
+  PetscCall(leave_out_stiff(ts, data->shift_a, data->work_U, &reason));
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
+  PetscCall(inertia_norm(ts, data->V1, &squares[1]));
+  if (reason < 0 || !(squares[1] > 1e-6 * squares[0])) PetscFunctionReturn(0);
+  PetscCall(VecWAXPY(U, 1, data->U0, data->work_U));
+  *reach = PetscSqrtReal(squares[0]);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode distance(TS ts, Vec U, PetscReal* far) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
+  PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
+  PetscCall(inertia_norm(ts, data->work_U, far));
+  *far = PetscSqrtReal(*far);
   PetscFunctionReturn(0);
 }
 

@@ -152,11 +152,10 @@ PetscErrorCode refuse_not_finite(TS ts) {
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode newton(TS ts, PetscBool plain, SNESConvergedReason* reason) {
+PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
   PetscInt iterations, linear;
 
   PetscFunctionBegin;
-  PetscCall(predict(ts, plain));
   PetscCall(solve_again(ts->snes, generalized_alpha_data(ts)->U1));
   PetscCall(refuse_not_finite(ts));
   PetscCall(SNESGetIterationNumber(ts->snes, &iterations));
@@ -167,9 +166,29 @@ PetscErrorCode newton(TS ts, PetscBool plain, SNESConvergedReason* reason) {
   PetscFunctionReturn(0);
 }
 
+// From where the step would lead without motions that it does not resolve, which after a sudden force at a node are
+// beyond Newton's reach. A solution that is farther away than the plain start is another one than the motion's.
+PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  PetscReal reach, far;
+
+  PetscFunctionBegin;
+  PetscCall(predict(ts, PETSC_TRUE));
+  PetscCall(keep_resolved(ts, data->U1, &reach));
+  renew_jacobian(ts->snes, 0);
+  if (reach == 0) PetscFunctionReturn(0);
+  PetscCall(newton(ts, reason));
+  if (*reason < 0) PetscFunctionReturn(0);
+  PetscCall(distance(ts, data->U1, &far));
+  if (far <= reach) PetscFunctionReturn(0);
+  *reason = SNES_DIVERGED_DTOL;
+  PetscCall(SNESSetConvergedReason(ts->snes, *reason));
+  PetscFunctionReturn(0);
+}
+
 // Newton begins with a Jacobian whose lag has passed and does not run into the lag on the way: a new Jacobian at the
 // beginning makes two iterations of a step, one before the last saves none. What fails with a Jacobian kept from before
-// is tried again with a new one in every iteration.
+// is tried again with a new one in every iteration, and then without the motions that the step does not resolve.
 PetscErrorCode solve(TS ts) {
   const PetscInt lag = ts->snes->lagjacobian;
   const bool kept = lag > 1 && ts->snes->lagjac_persist;
@@ -180,14 +199,16 @@ PetscErrorCode solve(TS ts) {
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
   if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
   if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
-  PetscCall(newton(ts, PETSC_FALSE, &reason));
-  if (kept) ts->snes->lagjacobian = lag;
+  PetscCall(predict(ts, PETSC_FALSE));
+  PetscCall(newton(ts, &reason));
+  ts->snes->lagjacobian = reason < 0 ? 1 : lag;
   if (reason < 0 && lag != 1) {
-    ts->snes->lagjacobian = 1;
     renew_jacobian(ts->snes, 0);
-    PetscCall(newton(ts, PETSC_TRUE, &reason));
-    ts->snes->lagjacobian = lag;
+    PetscCall(predict(ts, PETSC_TRUE));
+    PetscCall(newton(ts, &reason));
   }
+  if (reason < 0) PetscCall(newton_from_resolved(ts, &reason));
+  ts->snes->lagjacobian = lag;
   if (reason < 0) renew_jacobian(ts->snes, 0);
   PetscFunctionReturn(0);
 }

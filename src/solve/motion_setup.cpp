@@ -80,8 +80,8 @@ void refuse_not_finite(Vec U, Vec V) {
   check(VecNorm(V, NORM_2, &sizes[1]));
   if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
     throw RunError(
-        "the state is not finite. Try a smaller motion.step, and remove options -motion_snes_... and -motion_ts_... "
-        "that stop Newton's method early");
+        "the state is not finite: the steps did not converge to a motion. Try a smaller motion.step, and remove options "
+        "-motion_snes_... and -motion_ts_... that stop Newton's method early");
 }
 
 PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) {
