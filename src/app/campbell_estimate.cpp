@@ -66,6 +66,8 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
   try {
     CampbellDiagram second{{}, diagram.axis, plan_rotation(*larger, scene::Formulation::vm_md, comm), {}};
     estimate.coordinates = second.model.coordinates;
+    if (estimate.coordinates <= diagram.model.coordinates)
+      throw InputError("the bodies have no larger basis: theirs is complete");
     visit_speed(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
     estimate.missing = point.fault;
   } catch (const InputError& error) {

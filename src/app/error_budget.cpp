@@ -244,7 +244,7 @@ std::string budget_words(const ordered_json& estimate, double end) {
     } else {
       const double until = part["until"];
       words +=
-          fmt::format("{}: {}{} ({:.2g} s)\n", name, part["by"].get<std::string>(),
+          fmt::format("{}: {}{} (computed in {:.2g} s)\n", name, part["by"].get<std::string>(),
                       until < 0.98 * end ? fmt::format(", to t = {:.3g} s", until) : "", part["seconds"].get<double>());
     }
     if (part.contains("notes"))

@@ -41,15 +41,16 @@ dynamics::Wrench exerted(const std::vector<const dynamics::Connection*>& connect
 }
 
 void refuse_undetermined(const scene::Scene& scene, const std::vector<int>& joints) {
+  const bool flexible = std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return !b.rigid; });
+  const char* remedy = flexible ? ", or formulation nlffr or cfr, where flexible bodies determine them" : "";
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(scene.joints[j].name);
   for (const scene::Probe& probe : scene.probes) {
     if (probe.joint.empty() || std::find(names.begin(), names.end(), probe.joint) == names.end()) continue;
     throw InputError(
         fmt::format("{}.joint: the reaction of joint {} is statically indeterminate in this model: the constraints of "
-                    "joints {} are redundant; expected joints that leave the redundant motions free, or formulation "
-                    "nlffr or cfr",
-                    probe.where.text(), probe.joint, fmt::join(names, ", ")));
+                    "joints {} are redundant; expected joints that leave the redundant motions free{}",
+                    probe.where.text(), probe.joint, fmt::join(names, ", "), remedy));
   }
 }
 

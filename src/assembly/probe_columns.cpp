@@ -55,7 +55,11 @@ Meaning meaning_of(const ModelProbe& probe, const Model& model) {
     case Probe::Quantity::kinetic_energy:
     case Probe::Quantity::strain_energy:
       return {"J", 1, Kind::energy};
-    case Probe::Quantity::formula:
+    case Probe::Quantity::formula:  // joints' coordinates, too
+      if (probe.unit == "rad") return {"rad", 1, Kind::place};
+      if (probe.unit == "m") return {"m", extent, Kind::place};
+      if (probe.unit == "rad/s") return {"rad/s", 1, Kind::rate};
+      if (probe.unit == "m/s") return {"m/s", extent, Kind::rate};
       return {"", 1, Kind::formula};
     default:
       return {"m", extent, Kind::place};

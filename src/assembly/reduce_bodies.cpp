@@ -91,10 +91,10 @@ constexpr int many_products = 300;
 
 void warn_of_products(const PlannedBody& body, const BodyReport& report, std::vector<std::string>& warnings) {
   if (body.spec.reduction.products || report.products <= many_products) return;
-  warnings.push_back(
-      fmt::format("body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
-                  "(reduction) omits those that hardly move the body, products: all keeps them without this warning",
-                  body.spec.name, report.products));
+  warnings.push_back(fmt::format(
+      "body {}: {} products of coordinates in its elastic force take most of a step; products: 3 % "
+      "(reduction) omits those that hardly move the body, products: all keeps them and silences this warning",
+      body.spec.name, report.products));
 }
 
 /// Loads that bend the body in ways that no column has: of the work f'K^-1 f that a load does on its own static

@@ -129,11 +129,16 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
   };
   for (std::size_t j = 0; j < plan_.joints.size(); ++j)
     for (const Anchor& place : plan_.joints[j])
-      if (mean(place))
-        faults.push_back(fmt::format(
-            "{}: holds the mean of {} nodes of body {}, which formulation cfr does not know; expected edges: rigid or "
-            "line, or a place of one node",
-            plan_.scene.joints[j].where.text(), place.nodes.size(), plan_.bodies[place.body].spec.name));
+      if (place.body >= 0 && corotated(place.body) && plan_.scene.joints[j].kind == Joint::Kind::support)
+        faults.push_back(plan_.scene.joints[j].where.text() +
+                         ": type support, which formulation cfr does not support; expected another formulation, or "
+                         "joints of type fixed at single nodes or clamped edges");
+      else if (mean(place))
+        faults.push_back(
+            fmt::format("{}: holds the mean of {} nodes of body {}, which formulation cfr does not support; expected "
+                        "edges: rigid or "
+                        "line, or a place of one node",
+                        plan_.scene.joints[j].where.text(), place.nodes.size(), plan_.bodies[place.body].spec.name));
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
     const Load& load = plan_.scene.loads[l];
     const Anchor& place = plan_.loads[l];
@@ -143,9 +148,10 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
                        ": axes: body turn with the floating frame, which formulation cfr does not "
                        "have; expected axes: world or place");
     if (load.axes == Load::Axes::place && mean(place))
-      faults.push_back(load.where.text() +
-                       ": axes: place of several nodes, which formulation cfr does not know; expected axes: world, or "
-                       "a place of one node");
+      faults.push_back(
+          load.where.text() +
+          ": axes: place of several nodes, which formulation cfr does not support; expected axes: world, or "
+          "a place of one node");
   }
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& probe = plan_.scene.probes[p];
@@ -158,8 +164,8 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
     if (mean(other) || (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
       faults.push_back(
           probe.where.text() +
-          ": looks at the mean of several nodes, of which formulation cfr has the position, displacement, velocity and "
-          "acceleration alone, and not in formulas; expected one of these, or places of one node");
+          ": formulation cfr records only the position, displacement, velocity and acceleration of the mean of several "
+          "nodes, and not in formulas; expected one of these, or a place of one node");
   }
 }
 

@@ -7,8 +7,9 @@
 namespace floe::plan {
 namespace {
 
-bool same_place(const Anchor& one, const Anchor& other) {
-  if (one.ground() || other.ground()) return one.ground() && other.ground();  // one body, wherever it is constrained
+/// The ground is one body, wherever it is constrained; but rods from several of its points may lead to one place.
+bool same_place(const Anchor& one, const Anchor& other, bool rods = false) {
+  if (one.ground() || other.ground()) return one.ground() && other.ground() && (!rods || one.x == other.x);
   return one.body == other.body && one.node == other.node && one.nodes == other.nodes && one.x == other.x;
 }
 
@@ -29,8 +30,9 @@ void check_pairs(const Plan& plan) {
       const auto& [one, other] = plan.joints[i];
       const Joint& before = plan.scene.joints[i];
       if (apart(before)) continue;
-      if (!(same_place(one, first) && same_place(other, second)) &&
-          !(same_place(one, second) && same_place(other, first)))
+      const bool rods = joint.kind == Joint::Kind::distance || before.kind == Joint::Kind::distance;
+      if (!(same_place(one, first, rods) && same_place(other, second, rods)) &&
+          !(same_place(one, second, rods) && same_place(other, first, rods)))
         continue;
       faults.push_back(
           fmt::format("{}: connects the same two places as joint {} (line {}); expected one joint for a pair of places "

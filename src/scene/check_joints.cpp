@@ -22,6 +22,14 @@ struct Spot {
   }
 };
 
+// Rods from several points of the ground may lead to one place.
+bool same_pair(const Joint& joint, const Spot& first, const Spot& second, const Joint& before, const Spot& one,
+               const Spot& other) {
+  const bool rods = joint.kind == Joint::Kind::distance || before.kind == Joint::Kind::distance;
+  const auto same = [&](const Spot& a, const Spot& b) { return a == b && (a.body || !rods || a.world == b.world); };
+  return (same(first, one) && same(second, other)) || (same(first, other) && same(second, one));
+}
+
 std::optional<Point> world_point(const Body& body, const Point& node, int dimension) {
   const InitialSpec& initial = body.initial;
   if (dimension == 3) {
@@ -111,9 +119,7 @@ void check_joints(Document& document, const Scene& scene) {
     check_distance(document, joint, first, second);
     if (joint.kind == Joint::Kind::spring || joint.kind == Joint::Kind::bushing) continue;  // beside a hinge
     for (const Held& other : constrained) {
-      const bool same =
-          (first == other.first && second == other.second) || (first == other.second && second == other.first);
-      if (!same) continue;
+      if (!same_pair(joint, first, second, *other.joint, other.first, other.second)) continue;
       document.fault(
           joint.where,
           fmt::format("connects the same two places as joint {} (line {})", other.joint->name, other.joint->where.line),

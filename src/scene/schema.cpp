@@ -68,13 +68,14 @@ const SchemaSection table_section{
     "table",
     "A function given at points, named by its key: either t and values, or file. Before the first point it has the "
     "first "
-    "value, behind the last point the last value.",
+    "value, after the last point the last value.",
     "file: gust.csv\ncolumn: 3\ninterpolation: cubic",
     {
         {"t", Type::numbers, "", "", "arguments of the points, ascending"},
         {"values", Type::numbers, "", "", "values of the points"},
         {"file", Type::text, "", "",
-         "text file (CSV) beside the scene: columns of numbers apart by commas, semicolons or blanks; lines that begin "
+         "text file (CSV) beside the scene: columns of numbers separated by commas, semicolons or blanks; lines that "
+         "begin "
          "with # and a header are skipped"},
         {"t_column", Type::integer, "", "1", "column of the arguments, from 1", counts},
         {"column", Type::integer, "", "2", "column of the values, from 1", counts},

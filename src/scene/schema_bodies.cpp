@@ -16,7 +16,7 @@ const SchemaSection body_section{
          "name of another body, all of whose keys this one has unless they are given here (a mapping or list as a "
          "whole). Bodies whose reduction is the same, also up to a rotation, are reduced once"},
         part("mesh", Type::section, "",
-             "the undeformed shape in mesh axes; required but for rigid bodies with given mass", "mesh"),
+             "the undeformed shape in mesh axes; required except for rigid bodies with given mass", "mesh"),
         {"reduced", Type::text, "", "",
          "instead of all other keys except initial: a file written by `floe reduce`, relative to the folder of the "
          "scene; its places are those stored in the file"},

@@ -213,7 +213,7 @@ const SchemaSection probe_section{
          "stops "
          "included (joint reactions, drive moments), or its coordinate"},
         {"body", Type::text, "", "", "instead: name of a body, whose energy is recorded"},
-        {"formula", Type::load_force, "", "",
+        {"formula", Type::formula_of_sensors, "", "",
          "instead: a formula of t and sensors (see `load`), as \"elbow.angle - ref(t)\"; its column is NAME.value"},
         {"unit", Type::text, "", "", "unit of the formula's value; absent: none"},
         choice(

@@ -68,7 +68,7 @@ const SchemaSection spatial_section_section{
     "shape: rectangle\nwidth: 0.02\nheight: 0.04\norientation: [0, 1, 0]",
     {
         {"thickness", Type::number, "m", "", "shells: thickness", positive},
-        {"plies", Type::points, "m, deg", "",
+        {"plies", Type::pairs, "m, deg", "",
          "shells: [thickness, angle] of each ply from the bottom; all of the same material"},
         {"offset", Type::number, "m", "0", "shells: offset of the midsurface from the nodes along the normal"},
         {"axis", Type::point, "", "",
@@ -90,7 +90,7 @@ const SchemaSection spatial_section_section{
         {"Iz", Type::number, "m4", "", "second moment of area, int y2 dA", positive},
         {"Iyz", Type::number, "m4", "0", "product moment of area, int y z dA"},
         {"J", Type::number, "m4", "", "torsion constant", positive},
-        {"fibres", Type::points, "m", "",
+        {"fibres", Type::pairs, "m", "",
          "beams without shape: [y, z] of the extreme fibres from the centroid, for stresses (floe stress)"},
         {"orientation", Type::point, "", "",
          "beams: the local y axis lies in the plane of the beam axis and this vector; required for beams"},

@@ -63,6 +63,8 @@ std::string describe(const Key& key, int dimension) {
       return fmt::format("{} numbers {}", count, coordinates);
     case Type::points:
       return "a list of points " + coordinates;
+    case Type::pairs:
+      return "a list of pairs of numbers";
     case Type::joins:
       return "a list of pairs of point numbers [i, j]";
     case Type::pair:
@@ -72,10 +74,12 @@ std::string describe(const Key& key, int dimension) {
     case Type::formulas:
       return fmt::format("{} formulas of t {}", count, coordinates);
     case Type::load_force:
-      return fmt::format("{} formulas of t and sensors {}, of a load on a joint one", count, coordinates);
+      return fmt::format("{} formulas of t and sensors {}; of a load on a joint, one", count, coordinates);
     case Type::load_moment:
-      return space ? "three formulas of t and sensors [x, y, z], of a load on a joint one"
+      return space ? "three formulas of t and sensors [x, y, z]; of a load on a joint, one"
                    : "a number or a formula of t and sensors";
+    case Type::formula_of_sensors:
+      return "a formula of t and sensors";
     case Type::rigid:
       return fmt::format("true or false, or a mapping with the keys of `{}`", key.section);
     case Type::inertia:

@@ -61,7 +61,8 @@ std::string in_quotes(const std::string& text) {
 
 math::Formula read_formula(Document& document, const Value& value, const Key& key,
                            const std::vector<std::string>& variables) {
-  const bool of_sensors = key.type == Type::load_force || key.type == Type::load_moment;
+  const bool of_sensors =
+      key.type == Type::load_force || key.type == Type::load_moment || key.type == Type::formula_of_sensors;
   const std::string expected =
       of_sensors          ? "a number or a formula of t, sensors and the parameters"
       : variables.empty() ? "a number or a formula of the parameters"

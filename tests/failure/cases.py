@@ -570,7 +570,7 @@ SPACE = [
          scene=space.body(space.PLATE, "c: {type: fixed, between: [ground, a.left]}",
                           probes="{edge: {at: a.right, quantity: displacement}}")),
     *(Case(f"space: the mean of an edge of corotational elements, {what}", run("cfr"), 2,
-           ("looks at the mean of several nodes, of which formulation cfr has the position",), lines=1, check=nothing,
+           ("formulation cfr records only the position, displacement, velocity and acceleration of the mean of several",), lines=1, check=nothing,
            scene=space.body(space.PLATE, "c: {type: fixed, between: [ground, a.left]}", probes=probes))
       for what, probes in (("rotated", "{edge: {at: a.right, quantity: rotation}}"),
                            ("in a formula", '{edge: {at: a.right, quantity: velocity}, f: {formula: "2*edge.z"}}'))),

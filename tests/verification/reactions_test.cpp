@@ -73,6 +73,23 @@ probes:
   }
 }
 
+TEST_CASE("a mass on two rods from two points of the ground: the tension m g / (2 cos 45)", "[verification]") {
+  const History history = move(R"yaml(
+gravity: [0, 0, -9.81]
+bodies: {b: {rigid: {mass: 2, centre: [0, 0, 0], inertia: [1, 1, 1]}}}
+joints:
+  left: {type: distance, between: [{body: ground, node: [-1, 0, 1]}, b.centre]}
+  right: {type: distance, between: [b.centre, {body: ground, node: [1, 0, 1]}]}
+motion: {end: 0.1, step: 1e-3}
+probes: {p: {at: b.centre}, f: {joint: left}}
+)yaml",
+                               Formulation::vm_md);
+  CHECK(std::abs(history["p.x"].back()) < 1e-12);
+  CHECK(std::abs(history["p.z"].back()) < 1e-12);
+  CHECK(history["f.x"].back() == Approx(-g).epsilon(1e-9));
+  CHECK(history["f.z"].back() == Approx(g).epsilon(1e-9));
+}
+
 TEST_CASE("reaction of a clamp balances weight and loads in every formulation and frame", "[verification]") {
   const double m = 0.05 * 0.02 * 2 * 2700;
   for (const char* frame : {"{type: clamped, at: start}", "{type: pinned, from: start, to: end}", "{type: mean-axis}"})

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include "building.h"
 #include "floe/solve/simulation.h"
@@ -44,6 +45,26 @@ TEST_CASE("columns of the probes with their units") {
   CHECK(columns == std::vector<std::string>{"bent.x m", "bent.y m", "gone.x m", "gone.y m", "moving.x m/s",
                                             "moving.y m/s", "position.x m", "position.y m", "seen.x m", "seen.y m",
                                             "turned.angle rad"});
+}
+
+TEST_CASE("coordinates of joints are measured beside places and their rates") {
+  const assembly::Model model = built(R"yaml(
+bodies:
+  hub: {rigid: true, mesh: {line: {from: [0, 0], to: [1, 0], elements: 1}}, section: {rhoA: 5}}
+joints: {pin: {type: revolute, between: [ground, hub.start]}}
+motion: {end: 0.1, step: 0.01}
+probes:
+  angle: {joint: pin, quantity: angle}
+  rate: {joint: pin, quantity: rate}
+  product: {formula: "pin.angle*pin.rate", unit: rad2/s}
+)yaml",
+                                      Formulation::vm);
+  std::map<std::string, assembly::ProbeColumn::Kind> kinds;
+  for (const auto& column : assembly::probe_columns(model)) kinds[column.name] = column.kind;
+  using Kind = assembly::ProbeColumn::Kind;
+  CHECK(kinds.at("angle.value") == Kind::place);
+  CHECK(kinds.at("rate.value") == Kind::rate);
+  CHECK(kinds.at("product.value") == Kind::formula);
 }
 
 TEST_CASE("a probe relative to a moving place is what an observer there sees") {
