@@ -18,6 +18,9 @@ struct GeneralizedAlpha {
   Vec U1 = nullptr, V1 = nullptr, A1 = nullptr, a1 = nullptr;
   PetscReal h = 0;     // of the step under way, or of the last one
   PetscReal h_a0 = 0;  // of the step that a0 was made for
+  // Steps of the size h before the one under way whose a is known: a0 of the first, a1 (until this step ends) of the
+  // second.
+  PetscInt equal_steps = 0;
   PetscBool started = PETSC_FALSE;
 
   // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
@@ -138,6 +141,11 @@ PetscErrorCode solve_scaled(TS ts, Vec b, Vec x);
 PetscErrorCode multiply_scaled(TS ts, Vec x, Vec y);
 /// Lets SNES form a new Jacobian and a new factorisation at the given iteration, whatever the lags.
 void renew_jacobian(SNES snes, PetscInt iteration);
+
+// generalized_alpha_predict.cpp
+enum class Guess { extrapolated, plain };
+/// Where Newton's method starts, into U1. Collective.
+PetscErrorCode predict(TS ts, Guess guess);
 
 // generalized_alpha_step.cpp
 PetscErrorCode step(TS ts);

@@ -254,6 +254,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(mark_origin(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
+  data->equal_steps = 0;
   data->rate = 1;
   PetscFunctionReturn(0);
 }
@@ -270,6 +271,7 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(split_normal(ts));
   PetscCall(resolve_jerk(ts));
   data->fresh = PETSC_TRUE;
+  data->equal_steps = 0;
   PetscFunctionReturn(0);
 }
 

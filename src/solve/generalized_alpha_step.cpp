@@ -22,6 +22,7 @@ PetscErrorCode begin(TS ts) {
   std::swap(data->A0, data->A1);
   std::swap(data->a0, data->a1);
   data->h_a0 = data->h;
+  ++data->equal_steps;
   data->fresh = data->from_rest = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -61,6 +62,7 @@ PetscErrorCode prepare(TS ts, PetscReal h) {
 
   PetscFunctionBegin;
   set_step(data, h);
+  if (PetscAbsReal(h - data->h_a0) > 1e-9 * data->h_a0) data->equal_steps = 0;
   if (!data->fresh && data->multipliers && PetscAbsReal(h - data->h_a0) > 1e-6 * data->h_a0)
     PetscCall(smooth_rates(ts));
   else if (PetscAbsReal(h - data->h_scale) > 0.05 * data->h_scale)
@@ -76,48 +78,6 @@ PetscErrorCode prepare(TS ts, PetscReal h) {
     base_v[i] = v[i] + h * (1 - gamma) * a[i];
     base_A[i] = (alpha_m * a[i] - alpha_f * A[i]) / (1 - alpha_f);
   }
-  PetscFunctionReturn(0);
-}
-
-// Whether factor (A_0 - a_0) is worth adding to a_0: less than a_0 or A_0 is, and more of q_1 than some hundred times
-// its round-off, in the norm sqrt(sum |J_ii| q_i^2) where an attitude counts as 1 rad. Collective.
-PetscErrorCode worth_adding(TS ts, PetscReal factor, PetscBool* yes) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
-  const PetscReal of_a = data->beta * data->h * data->h;
-  PetscMPIInt ranks;
-  double sums[4] = {0, 0, 0, 0};
-
-  PetscFunctionBegin;
-  const Entries A(data->A0), a(data->a_used), U(data->U0), weight(data->weight), attitude_rows(data->attitude_rows);
-  for (PetscInt i = 0, n = local_size(data->a_used); i < n; ++i) {
-    sums[0] += weight[i] * PetscSqr(factor * (A[i] - a[i]));
-    sums[1] += weight[i] * PetscSqr(a[i]);
-    sums[2] += weight[i] * PetscSqr(A[i]);
-    sums[3] += weight[i] * (PetscSqr(U[i]) + attitude_rows[i]);
-  }
-  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)ts), &ranks));
-  if (ranks > 1)
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
-  const bool seen = of_a * PetscSqrtReal(sums[0]) > 100 * PETSC_MACHINE_EPSILON * PetscSqrtReal(sums[3]);
-  *yes = seen && sums[0] <= PetscMax(sums[1], sums[2]) ? PETSC_TRUE : PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
-// Where Newton starts, into U1: a_1 = a_0 + h A' with A' from the two accelerations that the step begins with, whose
-// times are (af - am) h apart. That needs nothing from steps before. Plain, or where the difference is noise of stiff
-// motions or of round-off: a_1 = a_0.
-PetscErrorCode predict(TS ts, PetscBool plain) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
-  const PetscReal of_a = data->beta * data->h * data->h, factor = 1 / (data->alpha_f - data->alpha_m);
-  PetscBool extrapolates = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(VecWAXPY(data->U1, of_a, data->a_used, data->base_q));
-  if (!plain) PetscCall(worth_adding(ts, factor, &extrapolates));
-  if (!extrapolates) PetscFunctionReturn(0);
-  const Entries A(data->A0), a(data->a_used);
-  Changed U(data->U1);
-  for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) U[i] += of_a * factor * (A[i] - a[i]);
   PetscFunctionReturn(0);
 }
 
@@ -173,7 +133,7 @@ PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
   PetscReal reach, far;
 
   PetscFunctionBegin;
-  PetscCall(predict(ts, PETSC_TRUE));
+  PetscCall(predict(ts, Guess::plain));
   PetscCall(keep_resolved(ts, data->U1, &reach));
   renew_jacobian(ts->snes, 0);
   if (reach == 0) PetscFunctionReturn(0);
@@ -199,12 +159,12 @@ PetscErrorCode solve(TS ts) {
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
   if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
   if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
-  PetscCall(predict(ts, PETSC_FALSE));
+  PetscCall(predict(ts, Guess::extrapolated));
   PetscCall(newton(ts, &reason));
   ts->snes->lagjacobian = reason < 0 ? 1 : lag;
   if (reason < 0 && lag != 1) {
     renew_jacobian(ts->snes, 0);
-    PetscCall(predict(ts, PETSC_TRUE));
+    PetscCall(predict(ts, Guess::plain));
     PetscCall(newton(ts, &reason));
   }
   if (reason < 0) PetscCall(newton_from_resolved(ts, &reason));
@@ -296,6 +256,7 @@ PetscErrorCode roll_back(TS ts) {
   PetscCall(VecCopy(data->U0, ts->vec_sol));
   PetscCall(VecCopy(data->V0, ts->vec_dot));
   PetscCall(VecCopy(data->A0, data->A1));
+  data->equal_steps = 0;  // a1 is that of the step that was taken back
   PetscFunctionReturn(0);
 }
 

@@ -17,6 +17,7 @@ std::vector<std::pair<const char*, Vec>> vectors_of(TS ts) {
           {"V", ts->vec_dot},
           {"A", data->A1},
           {"a", data->a1},
+          {"a_before", data->a0},
           {"origin", data->origin},
           {"stiffness", data->stiffness},
           {"mass", data->mass},
@@ -35,6 +36,7 @@ void each_number(TS ts, Visit&& visit) {
   visit(ts->adapt->timestepjustdecreased);
   visit(snes->lagjacobian), visit(snes->lagpreconditioner), visit(snes->jac_iter), visit(snes->pre_iter);
   visit(data->h), visit(data->h_a0), visit(data->h_scale), visit(data->started);
+  visit(data->equal_steps);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
   visit(data->reach), visit(data->reach_tried);
   visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);
