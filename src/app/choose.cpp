@@ -33,6 +33,8 @@ class Search {
 
   Chosen result() {
     enrich();
+    if (!candidates_->columns().empty())
+      order_ = candidates_->energy_contribution(candidates_->model(candidates_->whole()), states_);
     resolve_time();
     choose_columns_and_step();
     choose_force();
@@ -110,29 +112,86 @@ class Search {
     return r < 0.4 ? between * std::max(1. / 12, std::abs(r / (1 - r) - 1. / 3)) : between;
   }
 
-  /// The motion that stands for the truth: steps are halved, and the last two motions extrapolated (Richardson, order
-  /// 2) where three of them show the order, until what is left is less than a tenth of what is asked.
-  void resolve_time() {
+  /// A motion in steps that were halved until what is left of its error is less than a tenth of what is asked.
+  struct Limit {
+    Series series;
+    double left;    ///< of its error
+    double finest;  ///< step of models that are compared with it
+  };
+
+  /// From `last` in steps of that size, which a halving before changed by `before` (0: there was none). The last two
+  /// motions are extrapolated (Richardson, order 2) where three of them show the order.
+  Limit halve(const Selection& model, Series last, double step, double before) {
     constexpr int most_halvings = 5;
-    double step = scene_.motion.step;
-    double before = 0;  // what the halving before this one changed
-    finest_ = step;
-    for (int halving = 0; halving < most_halvings; ++halving) {
-      Series fine = trials_.moved(candidates_->whole(), step / 2, false, false).series;
-      const double between = worst_error(whole_motion_, fine);
+    Limit limit{{}, 0, step};
+    for (int halving = before > 0; halving < most_halvings; ++halving) {
+      Series fine = trials_.series_of(model, step / 2);
+      const double between = worst_error(last, fine);
       const bool ordered = before > 0 && between < 0.4 * before;
-      trials_.reference = fine;
-      if (ordered) add_difference(trials_.reference, 1. / 3, fine, whole_motion_);
-      time_ = before > 0 ? left_of(between, before) : between / 3;
-      finest_ = ordered && between > 0.2 * accuracy_ ? step / 2 : step;
-      if (time_ <= 0.1 * accuracy_) break;
-      whole_motion_ = std::move(fine), before = between, step /= 2;
+      limit.series = fine;
+      if (ordered) add_difference(limit.series, 1. / 3, fine, last);
+      limit.left = before > 0 ? left_of(between, before) : between / 3;
+      limit.finest = ordered && between > 0.2 * accuracy_ ? step / 2 : step;
+      if (limit.left <= 0.1 * accuracy_) break;
+      last = std::move(fine), before = between, step /= 2;
     }
-    richest_ = reference_.series ? reference_.error : space_ + time_ + reference_.error;
-    if (!reference_.series) return;
-    trials_.forget();
-    trials_.reference = *reference_.series;
-    least_ = trials_.tried(candidates_->whole(), finest_).error;
+    return limit;
+  }
+
+  /// The motion that stands for the truth: of the richest model in steps that are halved,
+  ///
+  ///   y = y_whole(h/2) + [y_few(0) - y_few(h/2)]
+  ///
+  /// with the fewest columns that use half of what may be lost. A halving of both models shows how far the errors of
+  /// their steps are apart; a third of that is left of order 2.
+  void resolve_time() {
+    if (reference_.series) {
+      compare_with_given();
+      return;
+    }
+    const double h = scene_.motion.step;
+    const Series fine = trials_.series_of(candidates_->whole(), h / 2);
+    const double between = worst_error(whole_motion_, fine);
+    Limit limit{fine, between / 3, h};
+    if (limit.left > 0.1 * accuracy_ && !by_few(fine, limit)) limit = halve(candidates_->whole(), fine, h / 2, between);
+    trials_.compare_with(std::move(limit.series));
+    time_ = limit.left, finest_ = limit.finest;
+    richest_ = space_ + time_ + reference_.error;
+  }
+
+  /// @return  false: the errors of both models' steps are too different
+  bool by_few(const Series& fine, Limit& limit) {
+    if (order_.empty()) return false;
+    const double h = scene_.motion.step;
+    richest_ = space_ + 0.1 * accuracy_ + reference_.error;
+    trials_.compare_with(fine);
+    const std::size_t count = trials_.fewest(order_, order_.size(), h / 2, first_time_budget());
+    const Selection few = trials_.first_of(order_, count);
+    if (!trials_.tried(few, h).failed.empty() || !trials_.tried(few, h / 2).failed.empty()) return false;
+    const Series long_steps = trials_.series_of(few, h), short_steps = trials_.series_of(few, h / 2);
+    Series difference = whole_motion_;
+    add_difference(difference, 1, short_steps, long_steps);
+    const double apart = worst_error(difference, fine) / 3;
+    Limit of_few = halve(few, short_steps, h / 2, worst_error(long_steps, short_steps));
+    if (of_few.series.t.empty() || apart > std::max(0.2 * of_few.left, 0.1 * accuracy_ - of_few.left)) return false;
+    limit.series = fine;
+    add_difference(limit.series, 1, of_few.series, short_steps);
+    limit.left = of_few.left + apart;
+    limit.finest = h / 2;
+    few_ = count, shortest_ = of_few.finest;
+    return true;
+  }
+
+  /// The step is halved until its error in the formulation of the reference is less than a tenth of what is asked.
+  void compare_with_given() {
+    constexpr int most_halvings = 5;
+    richest_ = reference_.error;
+    finest_ = scene_.motion.step;
+    double of_step = reference_.of_step;
+    for (int halving = 0; halving < most_halvings && of_step > 0.1 * accuracy_; ++halving) of_step /= 4, finest_ /= 2;
+    trials_.compare_with(*reference_.series);
+    least_ = finest_ < scene_.motion.step ? trials_.tried(candidates_->whole(), finest_).error
+                                          : worst_error(whole_motion_, *reference_.series);
     decide("richest model", "against cfr", "error " + math::percent(least_));
   }
 
@@ -148,10 +207,11 @@ class Search {
   }
 
   void choose_columns_and_step() {
-    if (!candidates_->columns().empty())
-      order_ = candidates_->energy_contribution(candidates_->model(candidates_->whole()), states_);
     step_ = finest_;
-    count_ = trials_.fewest(order_, order_.size(), step_, first_time_budget());
+    count_ = few_.value_or(0);
+    const auto fails = [&] { return !(trials_.tried(trials_.first_of(order_, count_), step_).error <= time_budget()); };
+    while (few_ && fails() && step_ > shortest_) step_ /= 2;
+    if (!few_ || fails()) count_ = trials_.fewest(order_, order_.size(), step_, first_time_budget());
     for (double before = 0; step_ != before;) {
       before = step_;
       while (longer_step() && trials_.tried(trials_.first_of(order_, count_), 2 * step_).error <= time_budget())
@@ -169,12 +229,12 @@ class Search {
       if (!candidates_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
     Selection all = trials_.first_of(plain, plain.size());
     all.linear = true;
-    const Trial linear = trials_.tried(all, step_);
+    const Trial& linear = trials_.tried(all, step_);
     linear_ = words(linear);
     if (!(linear.error <= time_budget())) return;
     Selection some = trials_.first_of(plain, trials_.fewest(plain, plain.size(), step_, time_budget(), true));
     some.linear = true;
-    const Trial cheaper = trials_.tried(some, step_);
+    const Trial& cheaper = trials_.tried(some, step_);
     linear_ = words(cheaper);
     if (!(cheaper.error <= time_budget())) return;
     // With no more columns the linear force is the cheaper one, whatever a clock says.
@@ -197,7 +257,7 @@ class Search {
 
   void explain() {
     if (!candidates_->columns().empty()) {
-      const Trial rigid = trials_.tried(trials_.first_of(order_, 0), step_);
+      const Trial& rigid = trials_.tried(trials_.first_of(order_, 0), step_);
       if (count_ == 0) {
         decide("bodies", "rigid", "error " + words(rigid));
       } else {
@@ -307,6 +367,8 @@ class Search {
   std::vector<solve::State> states_;  // of the richest model
   Series whole_motion_;               // its motion, in steps that are halved
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
+  std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's
+  double shortest_ = 0;             // step that it needs
   double least_ = 0;  // of the richest model against a reference of another formulation
   std::vector<assess::EnergyContribution> order_;
   std::size_t count_ = 0;

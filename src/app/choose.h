@@ -55,6 +55,7 @@ struct Reference {
   bool total = false;
   const Series* series = nullptr;  ///< null: the richest model of the candidate basis in fine steps
   double error = 0;                ///< of it; without a series: to be added, of the mesh
+  double of_step = 0;              ///< error of the scene's step in the formulation of the series
 };
 /// The reduced model of a scene as it is discretised. Collective; as choose().
 Chosen choose_within(const scene::Scene& scene, double accuracy, MPI_Comm comm, const Reference& reference);

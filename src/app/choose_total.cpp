@@ -48,7 +48,7 @@ class TotalSearch {
     full_order() ? choose_frames_and_elements() : choose_elements();
     explain_discretisation();
     const scene::Scene scene = discretised(scene_, chosen_);
-    return finished(choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error}));
+    return finished(choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step}));
   }
 
  private:
@@ -239,7 +239,7 @@ class TotalSearch {
       note_imported();
     if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), generated)) of_mesh = refine_mesh();
     const scene::Scene scene = discretised(scene_, chosen_);
-    return finished(choose_within(scene, accuracy_, comm_, {true, nullptr, of_mesh}));
+    return finished(choose_within(scene, accuracy_, comm_, {true, nullptr, of_mesh, 0}));
   }
 
   /// Doubles elements until a third of the accuracy is left to the mesh. @return what is left

@@ -33,28 +33,51 @@ RunResult Trials::moved(const Selection& selection, double step, bool estimate, 
   return move(with_step(step), model, 0, comm_, std::nullopt, plan);
 }
 
-Trial Trials::tried(const Selection& selection, double step) {
+void Trials::compare(Trial& trial, double step) const {
+  if (!trial.failed.empty() || reference_.t.empty()) return;
+  trial.error = Trial::none;
+  if (std::abs(trial.series.t.back() - reference_.t.back()) > 2 * step)
+    trial.failed = fmt::format("ends at t = {:.4g} s", trial.series.t.back());
+  else
+    trial.error = worst_error(trial.series, reference_);
+  if (!std::isfinite(trial.error)) trial.error = Trial::none;
+}
+
+void Trials::compare_with(Series reference) {
+  reference_ = std::move(reference);
+  std::erase_if(known_, [](const auto& one) { return one.second.failed.empty() && one.second.series.t.empty(); });
+  for (auto& [key, trial] : known_) compare(trial, std::get<2>(key));
+}
+
+const Trial& Trials::tried(const Selection& selection, double step) {
+  constexpr std::size_t most_numbers = 20000000;  // 160 MB
   const auto key = std::tuple{selection.taken, selection.linear, step};
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
   Trial trial;
   try {
-    const RunResult result = moved(selection, step, false, false);
+    RunResult result = moved(selection, step, false, false);
     trial.seconds = result.motion_seconds;
     MPI_Bcast(&trial.seconds, 1, MPI_DOUBLE, 0, comm_);
-    if (std::abs(result.end - reference.t.back()) > 2 * step)
-      trial.failed = fmt::format("ends at t = {:.4g} s", result.end);
-    else
-      trial.error = worst_error(result.series, reference);
+    trial.series = std::move(result.series);
+    compare(trial, step);
   } catch (const InputError& error) {
     trial.failed = shortened(error.what());
   } catch (const RunError& error) {
     if (Interruption::happened(comm_)) throw;
     trial.failed = shortened(error.what());
   }
-  if (!std::isfinite(trial.error)) trial.error = Trial::none;
-  known_.emplace(key, trial);
-  return trial;
+  const std::size_t numbers = trial.series.t.size() * (1 + trial.series.columns.size());
+  if (numbers_ + numbers > most_numbers)
+    trial.series = {};
+  else
+    numbers_ += numbers;
+  return known_.emplace(key, std::move(trial)).first->second;
+}
+
+Series Trials::series_of(const Selection& selection, double step) {
+  const Trial& trial = tried(selection, step);
+  return trial.series.t.empty() ? moved(selection, step, false, false).series : trial.series;
 }
 
 double Trials::error_of(const scene::Scene& scene, double step) {
@@ -63,8 +86,8 @@ double Trials::error_of(const scene::Scene& scene, double step) {
   plan.energies = plan.balance = false;
   ++count_;
   const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
-  const double error = worst_error(result.series, reference);
-  return std::abs(result.end - reference.t.back()) > 2 * step || !std::isfinite(error) ? Trial::none : error;
+  const double error = worst_error(result.series, reference_);
+  return std::abs(result.end - reference_.t.back()) > 2 * step || !std::isfinite(error) ? Trial::none : error;
 }
 
 double Trials::seconds_of(const Selection& selection, double step) {
@@ -82,6 +105,18 @@ Trials::Selection Trials::first_of(const std::vector<assess::EnergyContribution>
   for (std::size_t i = 0; i < count; ++i) selection.taken[order[i].column] = 1;
   return selection;
 }
+
+namespace {
+
+/// How many leave out so little energy that its square root is the error.
+std::size_t guessed(const std::vector<assess::EnergyContribution>& order, double error) {
+  double left = 1;
+  std::size_t count = 0;
+  while (count < order.size() && left > error * error) left -= order[count++].share;
+  return count;
+}
+
+}  // namespace
 
 std::size_t Trials::fewest(const std::vector<assess::EnergyContribution>& order, std::size_t most, double step,
                            double error, bool linear) {
@@ -101,11 +136,15 @@ std::size_t Trials::fewest(const std::vector<assess::EnergyContribution>& order,
       too_few = static_cast<long>(count);
   }
   while (static_cast<long>(enough) - too_few > 1) {
-    const std::size_t middle = static_cast<std::size_t>((static_cast<long>(enough) + too_few) / 2);
-    if (tried(first(middle), step).error <= error)
-      enough = middle;
+    std::size_t count = static_cast<std::size_t>((static_cast<long>(enough) + too_few) / 2);
+    if (enough == most) {  // large models are expensive: not far beyond what was too few
+      const auto few = static_cast<std::size_t>(too_few + 1);
+      count = std::min(count, too_few < 0 ? guessed(order, error) : few + few / 2);
+    }
+    if (tried(first(count), step).error <= error)
+      enough = count;
     else
-      too_few = static_cast<long>(middle);
+      too_few = static_cast<long>(count);
   }
   return enough;
 }

@@ -15,6 +15,7 @@ struct Trial {
   double error = none;    ///< of the worst probe, against the reference
   double seconds = none;  ///< of the simulation
   std::string failed;     ///< why there is no error
+  Series series;          ///< the probes, where all of the trials' fit in memory
 };
 
 /// The first line of a message, cut to 90 characters.
@@ -29,30 +30,38 @@ class Trials {
   Trials(const scene::Scene& scene, assess::CandidateBasis& candidates, MPI_Comm comm)
       : scene_(scene), candidates_(candidates), comm_(comm) {}
 
-  Series reference;
+  /// What models are compared with; those that were simulated are compared again.
+  void compare_with(Series reference);
+  const Series& reference() const { return reference_; }
 
   /// The scene in fixed steps of another size, with the same instants of output.
   scene::Scene with_step(double step) const;
   RunResult moved(const Selection& selection, double step, bool estimate, bool keep_states);
-  Trial tried(const Selection& selection, double step);
+  const Trial& tried(const Selection& selection, double step);
+  /// Its probes. @throws as the simulation
+  Series series_of(const Selection& selection, double step);
   /// The same of a scene's own reduced model; Trial::none where it ends elsewhere than the reference, by two `step`s.
   double error_of(const scene::Scene& scene, double step);
   /// Of the simulation [s], the least of five where one is too short to tell.
   double seconds_of(const Selection& selection, double step);
   Selection first_of(const std::vector<assess::EnergyContribution>& order, std::size_t count) const;
-  /// The fewest basis vectors with at most this error; `most` of `order` where none will do. Trials that are known
-  /// count.
+  /// The fewest basis vectors with at most this error; `most` of `order` where none will do. Bisection, about where
+  /// the energy that is left out is as small as the error; trials that are known count.
   std::size_t fewest(const std::vector<assess::EnergyContribution>& order, std::size_t most, double step, double error,
                      bool linear = false);
-  /// The reference or the candidates are others.
-  void forget() { known_.clear(); }
+  /// The candidates are others.
+  void forget() { known_.clear(), numbers_ = 0; }
   int count() const { return count_; }
 
  private:
   const scene::Scene& scene_;
   assess::CandidateBasis& candidates_;
   MPI_Comm comm_;
+  void compare(Trial& trial, double step) const;
+
+  Series reference_;
   std::map<std::tuple<std::vector<char>, bool, double>, Trial> known_;
+  std::size_t numbers_ = 0;  ///< of the series of all trials
   int count_ = 0;
 };
 

@@ -89,10 +89,11 @@ class Refinement {
     const double of_mesh = exact.mesh_refined ? limit(own, true, exact.in_own_steps, exact) : 0;
     if (!exact.mesh_refined) exact.in_own_steps = own.series;
     Series limit_of_steps;
-    const double of_step = limit(own, false, limit_of_steps, exact);
+    const double left_of_step = limit(own, false, limit_of_steps, exact);
+    exact.of_step = worst_error(own.series, limit_of_steps);
     exact.series = exact.in_own_steps;
     add_difference(exact.series, 1, limit_of_steps, own.series);
-    exact.error = std::hypot(of_mesh, of_step);
+    exact.error = std::hypot(of_mesh, left_of_step);
   }
 
   /// y(0, dt) or y(h, 0). @return what is left of its error

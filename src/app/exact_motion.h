@@ -19,6 +19,7 @@ struct ExactMotion {
   Series in_own_steps;          ///< y(0, dt)
   double error = 0;             ///< of `series`, of the worst probe
   std::vector<double> of_mesh;  ///< what meshes do: of the scene's, and of each halved one, of the worst probe
+  double of_step = 0;           ///< error of the scene's step, of the worst probe
   int halved_steps = 0;         ///< how often
   bool mesh_refined = true;     ///< false: a mesh is imported, of which the error is not known
 };
