@@ -29,7 +29,7 @@ class Search {
         begin_(std::clock()),
         candidates_(std::make_unique<assess::CandidateBasis>(scene, comm)),
         building_(static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC),
-        trials_(scene, *candidates_, comm) {}
+        trials_(scene, *candidates_, accuracy, comm) {}
 
   Chosen result() {
     enrich();
@@ -369,7 +369,7 @@ class Search {
   double space_ = 0, time_ = 0, richest_ = 0, finest_ = 0;
   std::optional<std::size_t> few_;  // columns of a smaller model whose steps were halved instead of the richest one's
   double shortest_ = 0;             // step that it needs
-  double least_ = 0;  // of the richest model against a reference of another formulation
+  double least_ = 0;                // of the richest model against a reference of another formulation
   std::vector<assess::EnergyContribution> order_;
   std::size_t count_ = 0;
   double step_ = 0;

@@ -101,8 +101,8 @@ class TotalSearch {
       if (known.bodies == bodies) return known.error;
     Candidate one{bodies, impossible, "no finite numbers"};
     try {
-      one.error =
-          worst_error(quiet_motion(discretised(scene_, bodies), scene::Formulation::nlffr, comm_), exact_.in_own_steps);
+      one.error = worst_error(quiet_motion(discretised(scene_, bodies), scene::Formulation::nlffr, accuracy_, comm_),
+                              exact_.in_own_steps);
     } catch (const std::runtime_error& fault) {  // on all ranks
       if (Interruption::happened(comm_)) throw;
       one.failed = fault.what();

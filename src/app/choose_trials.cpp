@@ -28,6 +28,7 @@ RunResult Trials::moved(const Selection& selection, double step, bool estimate, 
   plan.energies = plan.balance = false;
   plan.estimate = estimate, plan.budget = false, plan.keep_states = keep_states;
   plan.estimate_seconds = 1e9;
+  if (!estimate) plan.newton_tolerance = newton_tolerance_;  // an estimate's residuals need accelerations
   assembly::Model model = candidates_.model(selection, estimate);
   ++count_;
   return move(with_step(step), model, 0, comm_, std::nullopt, plan);
@@ -84,6 +85,7 @@ double Trials::error_of(const scene::Scene& scene, double step) {
   RunPlan plan;
   plan.quiet = true, plan.check_range = false;
   plan.energies = plan.balance = false;
+  plan.newton_tolerance = newton_tolerance_;
   ++count_;
   const RunResult result = run(scene, scene::Formulation::vm_md, comm_, std::nullopt, plan);
   const double error = worst_error(result.series, reference_);

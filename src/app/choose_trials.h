@@ -27,8 +27,9 @@ class Trials {
   using Selection = assess::Selection;
 
   /// @param scene, candidates  borrowed
-  Trials(const scene::Scene& scene, assess::CandidateBasis& candidates, MPI_Comm comm)
-      : scene_(scene), candidates_(candidates), comm_(comm) {}
+  /// @param accuracy           that is asked for: equations of a step are solved to 1e-5 of it
+  Trials(const scene::Scene& scene, assess::CandidateBasis& candidates, double accuracy, MPI_Comm comm)
+      : scene_(scene), candidates_(candidates), newton_tolerance_(1e-5 * accuracy), comm_(comm) {}
 
   /// What models are compared with; those that were simulated are compared again.
   void compare_with(Series reference);
@@ -56,6 +57,7 @@ class Trials {
  private:
   const scene::Scene& scene_;
   assess::CandidateBasis& candidates_;
+  double newton_tolerance_;
   MPI_Comm comm_;
   void compare(Trial& trial, double step) const;
 

@@ -34,10 +34,11 @@ int elements_of(const scene::Scene& scene) {
 
 /// RunResult::motion_seconds is processor time.
 RunResult moved(const scene::Scene& scene, scene::Formulation formulation, std::optional<double> until, MPI_Comm comm,
-                bool energies = true) {
+                double accuracy, bool energies = true) {
   RunPlan plan;
   plan.quiet = true, plan.check_range = false, plan.until = until;
   plan.energies = energies, plan.balance = false;
+  plan.newton_tolerance = 1e-5 * accuracy;
   RunResult result;
   const std::clock_t begin = std::clock();
   const std::string why = petsc::failed_together(comm, [&] {
@@ -75,14 +76,15 @@ class Refinement {
   void refine(ExactMotion& exact) {
     const double steps = scene_.motion.end / scene_.motion.step;
     if (steps > 2 * first_steps) {
-      const RunResult first = moved(scene_, scene::Formulation::cfr, first_steps * scene_.motion.step, comm_);
+      const RunResult first =
+          moved(scene_, scene::Formulation::cfr, first_steps * scene_.motion.step, comm_, accuracy_);
       const double whole = first.motion_seconds * steps / first_steps;
       if (whole > most_) {
         exact.none = fmt::format("formulation cfr would take about {:.2g} s (limit {:.2g} s)", whole, most_);
         return;
       }
     }
-    const RunResult own = moved(scene_, scene::Formulation::cfr, std::nullopt, comm_);
+    const RunResult own = moved(scene_, scene::Formulation::cfr, std::nullopt, comm_, accuracy_);
     exact.mesh_refined = std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const scene::Body& body) {
       return body.mesh.file.has_value() && !body.rigid;
     });
@@ -112,7 +114,7 @@ class Refinement {
                                      mesh ? "its mesh" : "its step", growth * took, most_));
         break;
       }
-      const RunResult one = moved(finer, scene::Formulation::cfr, std::nullopt, comm_);
+      const RunResult one = moved(finer, scene::Formulation::cfr, std::nullopt, comm_, accuracy_);
       took = one.motion_seconds;
       const double change = worst_error(all.back(), one.series);
       const bool ordered = before > 0 && change < 0.4 * before;
@@ -152,8 +154,8 @@ ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most
   return Refinement(scene, accuracy, most, comm).result();
 }
 
-Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm) {
-  return moved(at_equal_times(scene), formulation, std::nullopt, comm, false).series;
+Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, double accuracy, MPI_Comm comm) {
+  return moved(at_equal_times(scene), formulation, std::nullopt, comm, accuracy, false).series;
 }
 
 }  // namespace floe::app

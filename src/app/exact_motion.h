@@ -32,7 +32,8 @@ ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most
 /// y += factor (a - b), at the instants that all three have.
 void add_difference(Series& y, double factor, const Series& a, const Series& b);
 
-/// Simulates a full-order model quietly: @throws InputError, RunError on every rank. Collective.
-Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, MPI_Comm comm);
+/// Simulates a full-order model quietly, the equations of a step solved to 1e-5 of the accuracy (0: as usual):
+/// @throws InputError, RunError on every rank. Collective.
+Series quiet_motion(const scene::Scene& scene, scene::Formulation formulation, double accuracy, MPI_Comm comm);
 
 }  // namespace floe::app

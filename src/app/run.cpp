@@ -131,6 +131,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
       (plan.estimate || plan.check_range || plan.keep_states) && model.formulation != scene::Formulation::cfr;
   Recorder recorder(scene, model, comm, folder, result, plan);
   solve::Integration how{end, scene.motion.step, scene.motion.spectral_radius, scene.motion.tolerance};
+  how.newton_tolerance = plan.newton_tolerance;
   how.events = assembly::events_of(scene, model, end);
   how.kinks = assembly::kinks_of(scene, end);
   how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };

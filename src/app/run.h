@@ -49,6 +49,7 @@ struct RunPlan {
   nlohmann::ordered_json choice = {};            ///< how the model was chosen, for the summary
   bool keep_states = false;                      ///< RunResult::states
   bool energies = true;                          ///< of each stored instant (Series::energy); else zeros
+  double newton_tolerance = 0;                   ///< solve::Integration::newton_tolerance
   bool balance = true;                           ///< violation of constraints, growth of energy without work
   std::optional<double> offline_processor = {};  ///< processor time of building the model [s]; else as it took
 };

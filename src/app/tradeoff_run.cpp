@@ -145,7 +145,7 @@ void TradeoffRun::compare_with_full_order(const Scene& scene, const Series& seri
   }
   if (scene.motion.tolerance || full_order_seconds(scene) > request_.most_seconds) return;
   try {
-    variant.reduction = vector_errors(series, quiet_motion(as_flexible(scene, scene_), Formulation::nlffr, comm));
+    variant.reduction = vector_errors(series, quiet_motion(as_flexible(scene, scene_), Formulation::nlffr, 0, comm));
   } catch (const std::runtime_error&) {  // the full-order model fails: there is no such part
     if (Interruption::happened(comm)) throw;
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "floe/petsc/options.h"
@@ -105,12 +106,12 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
 /// the step neglects is far more); full order of up to 10,000 unknowns to 1e-11, so that its motion does not depend on
 /// the number of ranks. On one rank KLU factors what fills in little several times faster than MUMPS: chains of beams,
 /// some 10 entries a row; and shells, some 45, of up to 1500 unknowns (with 6,700 MUMPS is 1.6 times faster).
-void save_factorisations(SNES snes, Mat J) {
+void save_factorisations(SNES snes, Mat J, double coarse) {
   PetscInt unknowns = 0;
   PetscBool sequential_dense = PETSC_FALSE;
   check(MatGetSize(J, &unknowns, nullptr));
   check(PetscObjectTypeCompare(reinterpret_cast<PetscObject>(J), MATSEQDENSE, &sequential_dense));
-  const double tolerance = sequential_dense ? 1e-10 : unknowns < 10000 ? 1e-11 : 1e-9;
+  const double tolerance = std::max(coarse, sequential_dense ? 1e-10 : unknowns < 10000 ? 1e-11 : 1e-9);
   check(SNESSetLagJacobian(snes, 20));
   check(SNESSetLagJacobianPersists(snes, PETSC_TRUE));
   check(SNESSetTolerances(snes, PETSC_DEFAULT, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -206,7 +207,7 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
   check(TSGetSNES(ts, &snes));
   check(SNESGetKSP(snes, &ksp));
   set_tangent_solver(ksp, J);
-  save_factorisations(snes, J);
+  save_factorisations(snes, J, how.newton_tolerance);
   petsc::check_options(TSSetFromOptions(ts), how.prefix);
   check(TSGetMaxTime(ts, &context.end));
   refuse_other_types(ts, system, how.prefix);

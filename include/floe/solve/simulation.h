@@ -16,6 +16,7 @@ struct Integration {
   double radius = 0.8;              ///< spectral radius at infinite frequency
   std::optional<double> tolerance;  ///< relative local error: adaptive steps
   std::string prefix = "motion_";
+  double newton_tolerance = 0;     ///< of Newton's updates, relative to a step's increment, where the usual one is less
   std::vector<Event> events = {};  ///< those that do not repeat happen once, in the order of their times
   std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
   std::vector<Kink> kinks = {};                           ///< ascending, none within another
