@@ -182,22 +182,24 @@ class Search {
     return true;
   }
 
-  /// The step is halved until its error in the formulation of the reference is less than a tenth of what is asked.
+  /// The longest step whose error in the formulation of the reference is less than a tenth of what is asked.
   void compare_with_given() {
     constexpr int most_halvings = 5;
     richest_ = reference_.error;
     finest_ = scene_.motion.step;
     double of_step = reference_.of_step;
     for (int halving = 0; halving < most_halvings && of_step > 0.1 * accuracy_; ++halving) of_step /= 4, finest_ /= 2;
+    for (; 4 * of_step <= 0.1 * accuracy_ && may_be(2 * finest_); of_step *= 4) finest_ *= 2;
     trials_.compare_with(*reference_.series);
-    least_ = finest_ < scene_.motion.step ? trials_.tried(candidates_->whole(), finest_).error
-                                          : worst_error(whole_motion_, *reference_.series);
+    least_ = finest_ == scene_.motion.step ? worst_error(whole_motion_, *reference_.series)
+                                           : trials_.tried(candidates_->whole(), finest_).error;
     decide("richest model", "against cfr", "error " + math::percent(least_));
   }
 
   /// What the scene wants stored between steps is interpolated, and the error of that is seen; but some steps there
   /// must be.
-  bool longer_step() const { return 2 * step_ <= scene_.motion.end / 32; }
+  bool may_be(double step) const { return step <= scene_.motion.end / 32; }
+  bool longer_step() const { return may_be(2 * step_); }
 
   /// What may be lost beside the richest model's own error.
   double time_budget() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
@@ -211,6 +213,8 @@ class Search {
     count_ = few_.value_or(0);
     const auto fails = [&] { return !(trials_.tried(trials_.first_of(order_, count_), step_).error <= time_budget()); };
     while (few_ && fails() && step_ > shortest_) step_ /= 2;
+    if (reference_.series)  // steps of the richest model are cheaper than columns of many models in short steps
+      while (longer_step() && trials_.tried(candidates_->whole(), 2 * step_).error <= first_time_budget()) step_ *= 2;
     if (!few_ || fails()) count_ = trials_.fewest(order_, order_.size(), step_, first_time_budget());
     for (double before = 0; step_ != before;) {
       before = step_;

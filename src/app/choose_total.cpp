@@ -45,7 +45,12 @@ class TotalSearch {
     decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
            fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
     if (!exact_.mesh_refined) note_imported();
-    full_order() ? choose_frames_and_elements() : choose_elements();
+    if (full_order()) {
+      lengthen_steps();
+      choose_frames_and_elements();
+    } else {
+      choose_elements();
+    }
     explain_discretisation();
     const scene::Scene scene = discretised(scene_, chosen_);
     return finished(choose_within(scene, accuracy_, comm_, {true, &exact_.series, exact_.error, exact_.of_step}));
@@ -95,14 +100,31 @@ class TotalSearch {
     return elements <= most_elements;
   }
 
-  /// Error of a full-order model, in the scene's own steps.
+  /// Full-order models and the reference are compared in steps as long as their error may be half of the accuracy: the
+  /// selected model is compared with the reference in fine steps.
+  void lengthen_steps() {
+    if (scene_.motion.tolerance) return;
+    int times = 1;
+    for (; times < 8 && 4 * times * times * exact_.of_step <= 0.5 * accuracy_; times *= 2)
+      if (2 * times * scene_.motion.step > scene_.motion.end / 64) break;
+    if (times == 1) return;
+    try {
+      exact_.in_own_steps = exact_in_steps(scene_, times, exact_, accuracy_, comm_);
+      times_ = times;
+    } catch (const std::runtime_error&) {  // on all ranks; the scene's own steps do
+      if (Interruption::happened(comm_)) throw;
+    }
+  }
+
+  /// Error of a full-order model, in the steps of exact_.in_own_steps.
   double error_of(const Discretisation& bodies) {
     for (const Candidate& known : tried_bodies_)
       if (known.bodies == bodies) return known.error;
     Candidate one{bodies, impossible, "no finite numbers"};
     try {
-      one.error = worst_error(quiet_motion(discretised(scene_, bodies), scene::Formulation::nlffr, accuracy_, comm_),
-                              exact_.in_own_steps);
+      one.error = worst_error(
+          quiet_motion(in_long_steps(discretised(scene_, bodies)), scene::Formulation::nlffr, accuracy_, comm_),
+          exact_.in_own_steps);
     } catch (const std::runtime_error& fault) {  // on all ranks
       if (Interruption::happened(comm_)) throw;
       one.failed = fault.what();
@@ -112,6 +134,12 @@ class TotalSearch {
     if (!std::isfinite(one.error)) one.error = impossible;
     tried_bodies_.push_back(one);
     return one.error;
+  }
+
+  scene::Scene in_long_steps(const scene::Scene& scene) const {
+    scene::Scene other = at_equal_times(scene);
+    other.motion.step *= times_;
+    return other;
   }
 
   /// What `more` makes of the chosen bodies; where that model fails, what it makes of that, until nothing changes.
@@ -299,6 +327,7 @@ class TotalSearch {
   ExactMotion exact_;
   nlohmann::ordered_json before_;
   std::vector<Candidate> tried_bodies_;
+  int times_ = 1;  // as long as the scene's are the steps of exact_.in_own_steps
   std::vector<std::string> tried_;
   std::vector<std::pair<std::string, std::string>> unbounded_;
   std::vector<Decision> decisions_;

@@ -120,6 +120,7 @@ class Refinement {
       const bool ordered = before > 0 && change < 0.4 * before;
       limit = one.series;
       if (halving == 1 || ordered) add_difference(limit, 1. / 3, one.series, all.back());
+      if (mesh) exact.mesh_ordered = halving == 1 || ordered;
       left = halving == 1 ? change / 3 : ordered ? change / 12 : change;
       all.push_back(one.series);
       if (!mesh) exact.halved_steps = halving;
@@ -148,6 +149,22 @@ void add_difference(Series& y, double factor, const Series& a, const Series& b) 
   y.t.resize(count), y.values.resize(count), y.energy.resize(std::min(count, y.energy.size()));
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t c = 0; c < y.values[i].size(); ++c) y.values[i][c] += factor * (a.values[i][c] - b.values[i][c]);
+}
+
+Series exact_in_steps(const scene::Scene& scene, int n, const ExactMotion& exact, double accuracy, MPI_Comm comm) {
+  scene::Scene other = at_equal_times(scene);
+  other.motion.step *= n;
+  const int halvings = std::max(0, static_cast<int>(exact.of_mesh.size()) - 1);
+  const auto on_mesh = [&](int halving) {
+    scene::Scene finer = other;
+    assess::scale_meshes(finer, 1 << halving);
+    return moved(finer, scene::Formulation::cfr, std::nullopt, comm, accuracy, false).series;
+  };
+  Series limit = on_mesh(halvings);
+  if (halvings == 0 || !exact.mesh_ordered) return limit;
+  const Series fine = limit;
+  add_difference(limit, 1. / 3, fine, on_mesh(halvings - 1));
+  return limit;
 }
 
 ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm) {

@@ -21,6 +21,7 @@ struct ExactMotion {
   std::vector<double> of_mesh;  ///< what meshes do: of the scene's, and of each halved one, of the worst probe
   double of_step = 0;           ///< error of the scene's step, of the worst probe
   int halved_steps = 0;         ///< how often
+  bool mesh_ordered = true;     ///< `series` is extrapolated from the last two meshes
   bool mesh_refined = true;     ///< false: a mesh is imported, of which the error is not known
 };
 
@@ -28,6 +29,10 @@ struct ExactMotion {
 /// @param most      processor time of one simulation [s]
 /// Collective: up to 2000 elements every rank moves its own copy.
 ExactMotion exact_motion(const scene::Scene& scene, double accuracy, double most, MPI_Comm comm);
+
+/// y(0, n dt), on the meshes of `exact`, which has the motion in the scene's own steps.
+/// @throws InputError, RunError on every rank. Collective.
+Series exact_in_steps(const scene::Scene& scene, int n, const ExactMotion& exact, double accuracy, MPI_Comm comm);
 
 /// y += factor (a - b), at the instants that all three have.
 void add_difference(Series& y, double factor, const Series& a, const Series& b);
