@@ -182,14 +182,15 @@ class Search {
     return true;
   }
 
-  /// The longest step whose error in the formulation of the reference is less than a tenth of what is asked.
+  /// The longest step whose error in the formulation of the reference is less than a quarter of what is asked.
   void compare_with_given() {
     constexpr int most_halvings = 5;
     richest_ = reference_.error;
     finest_ = scene_.motion.step;
+    const double most = 0.25 * accuracy_;
     double of_step = reference_.of_step;
-    for (int halving = 0; halving < most_halvings && of_step > 0.1 * accuracy_; ++halving) of_step /= 4, finest_ /= 2;
-    for (; 4 * of_step <= 0.1 * accuracy_ && may_be(2 * finest_); of_step *= 4) finest_ *= 2;
+    for (int halving = 0; halving < most_halvings && of_step > most; ++halving) of_step /= 4, finest_ /= 2;
+    for (; 4 * of_step <= most && may_be(2 * finest_); of_step *= 4) finest_ *= 2;
     trials_.compare_with(*reference_.series);
     least_ = finest_ == scene_.motion.step ? worst_error(whole_motion_, *reference_.series)
                                            : trials_.tried(candidates_->whole(), finest_).error;
@@ -216,8 +217,9 @@ class Search {
     if (reference_.series)  // steps of the richest model are cheaper than columns of many models in short steps
       while (longer_step() && trials_.tried(candidates_->whole(), 2 * step_).error <= first_time_budget()) step_ *= 2;
     if (!few_ || fails()) count_ = trials_.fewest(order_, order_.size(), step_, first_time_budget());
-    for (double before = 0; step_ != before;) {
-      before = step_;
+    std::size_t before = order_.size() + 1;
+    for (double step = 0; step_ != step || count_ != before;) {
+      step = step_, before = count_;
       while (longer_step() && trials_.tried(trials_.first_of(order_, count_), 2 * step_).error <= time_budget())
         step_ *= 2;
       count_ = trials_.fewest(order_, count_, step_, time_budget());

@@ -151,7 +151,7 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
       how.end = load.at, how.step = scene.motion.step;
       if (scene::is_reduced(formulation))
         budget = error_budget({scene, model, {}, how, report.steps, report.processor_seconds, offline, comm, true},
-                              kept, result);
+                              kept, "", result);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());

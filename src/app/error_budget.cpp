@@ -161,7 +161,8 @@ output::Cell cell_of(const ordered_json& part, const std::string& probe) {
 
 }  // namespace
 
-ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept, RunResult& result) {
+ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
+                          const std::string& no_model, RunResult& result) {
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
@@ -169,7 +170,10 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;
   mesh = assess::estimate_mesh_error(motion, own, allowed);
-  model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed);
+  if (no_model.empty())
+    model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed);
+  else
+    model.none = no_model;
   ordered_json j;
   j["model"] = part_of(motion, model);
   j["mesh"] = part_of(motion, mesh);

@@ -11,8 +11,9 @@ namespace floe::app {
 /// the total, for the summary's `estimate`: step, model, mesh, total; each with the relative errors of the probes, or
 /// why there is none; `largest`: where a part is above 1 %, the largest one, and what makes it smaller, also as a
 /// warning of the result. Collective; a fault within a part only leaves that part out.
+/// @param no_model  why the error of the model is not to be estimated; empty: it is
 nlohmann::ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
-                                    RunResult& result);
+                                    const std::string& no_model, RunResult& result);
 
 /// `total 7.2 %: reduction 0.053 %, model 7.3 %, mesh 0.16 %, step 0.021 %`, of the probe with the largest total; or
 /// why there is none.
