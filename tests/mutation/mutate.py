@@ -29,7 +29,7 @@ import mutants
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GIB = 1 << 30
 FAILED = re.compile(r"^FAIL|\| FAIL", re.M)  # a line of a test of many cases, which need not come to its end
-NOT_TESTS_OF_SRC = ("rooms", "manual", "package", "pictures/paraview", "pictures/browser", "mutants")
+NOT_TESTS_OF_SRC = ("rooms", "manual", "package", "pictures/paraview", "pictures/browser", "mutants", "references", "table", "words")
 AFTER_UNITS = ("worked.np1", "verification.np1", "convergence.np1", "exchange", "pictures/", "extremes", "examples/",
                "failure.np1", "restart.np1")
 
