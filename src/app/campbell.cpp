@@ -79,8 +79,8 @@ void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
   if (point.jump.ratio == 0) return;
   diagram.model.warnings.push_back(
       fmt::format("between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is {:.2g} "
-                  "times that predicted by the tangents (limit {:.2g}). The results above that speed belong to the "
-                  "other branch; start from a speed or a shape (`initial`) on the intended branch",
+                  "times that predicted by the tangents (limit {:.2g}). The results from there on belong to the other "
+                  "branch; start from a speed or a shape (`initial`) on the intended branch",
                   point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
 }
 

@@ -35,6 +35,14 @@ double visit_speed(const solve::RotatingSystem& rotating, double from, int modes
 
 namespace {
 
+/// A model at the last of the speeds, by way of the others, as the diagram came there.
+void follow(const solve::RotatingSystem& rotating, const std::vector<double>& before, int modes, Vec U,
+            CampbellPoint& point) {
+  double from = 0;
+  for (const double speed : before) solve::steady_rotation(rotating, from, speed, U), from = speed;
+  visit_speed(rotating, from, modes, U, point);
+}
+
 bool is_unstable(const CampbellPoint& point) {
   return std::any_of(point.vibrations.begin(), point.vibrations.end(),
                      [](const solve::Vibration& v) { return v.unstable(); });
@@ -45,7 +53,13 @@ bool is_unstable(const CampbellPoint& point) {
 void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,
                        CampbellDiagram& diagram) {
   const auto unstable = std::find_if(diagram.points.begin(), diagram.points.end(), is_unstable);
-  if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation)) return;
+  const auto& bodies = diagram.model.bodies;
+  if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation) ||
+      std::all_of(bodies.begin(), bodies.end(), [](const assembly::BodyReport& body) { return body.rigid; }))
+    return;
+  std::vector<double> before;
+  for (auto point = diagram.points.begin(); point != unstable; ++point)
+    if (point->steady) before.push_back(point->speed);
   const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
   CampbellPoint point{unstable->speed, {}, 0, {}};
   try {
@@ -54,7 +68,7 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
     if (unknowns > solve::largest_rotating_system)
       point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
     else
-      visit_speed(assembly::rotating_system(given, full.model, full.axis), 0, modes, full.model.U, point);
+      follow(assembly::rotating_system(given, full.model, full.axis), before, modes, full.model.U, point);
   } catch (const InputError& error) {
     point.fault = error.what();
   } catch (const RunError& error) {

@@ -164,9 +164,10 @@ std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, 
   const double noise = std::clamp(noise_of(problem), 1e-6 * scale, 1e-2 * scale);
   constexpr Index small = 150;
   Eigen::MatrixXcd vectors;
+  const double shift = 0.8 * scale;  // the typical frequency itself may be a growth: s^2 M + s C + K would be singular
   const Exponents found = allowed.size() <= small && !petsc::user_sets("campbell_")
-                              ? all_exponents(problem, scale)
-                              : first_exponents(problem, scale, count, vectors);
+                              ? all_exponents(problem, shift)
+                              : first_exponents(problem, shift, count, vectors);
   std::vector<Vibration> slowest = slowest_vibrations(problem, found, noise, 1e-6 * scale, count);
   const Eigen::MatrixXcd y = vectors.size() > 0 ? shapes(problem, slowest, found, vectors) : shapes(problem, slowest);
   for (std::size_t i = 0; i < slowest.size(); ++i) {

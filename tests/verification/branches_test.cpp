@@ -98,15 +98,21 @@ probes: {middle: {at: strut.middle, quantity: position}}
   }
 }
 
-// A rigid rod of length L, hinged at the distance e from a vertical axis, hangs outwards at all speeds; inwards it can
-// stand, too, unstably.
-TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
-  constexpr double L = 0.75, e = 0.02, g = 9.81;
-  const auto points = [&](const std::string& speeds) {
+namespace {
+
+/// A rigid rod of length L, hinged at the distance e from a vertical axis, which begins at the angle `turned` below the
+/// horizontal outwards. Its angle b from the downward vertical, outwards, is an equilibrium at the speed W where
+/// f(b) = W^2 cos b (e/2 + L sin b/3) - g sin b/2 = 0, and small motions have -3 f'(b)/L = omega^2.
+struct HingedRod {
+  double e, turned;
+  static constexpr double L = 0.75, g = 9.81;
+
+  app::CampbellDiagram at(const std::string& speeds) const {
     app::CampbellRequest request;
     request.speeds = speeds, request.modes = 1;
     std::exception_ptr fault;
-    app::CampbellDiagram found = app::campbell(scene::parse_scene(fill(R"yaml(
+    app::CampbellDiagram found =
+        app::campbell(scene::parse_scene(fill(R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
   hub:
@@ -119,36 +125,132 @@ bodies:
     mesh: {line: {from: [0, 0, 0], to: [$L, 0, 0], elements: 6}}
     section: {A: 1e-4, Iy: 1e-20, Iz: 1e-20, J: 1e-20, orientation: [0, 1, 0]}
     material: {E: 7e10, nu: 0.3, rho: 2700}
-    initial: {rotation: [0, 0.5, 0], position: [$e, 0, 0]}
+    initial: {rotation: [0, $turned, 0], position: [$e, 0, 0]}
 joints:
   drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
   hinge: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
 )yaml",
-                                                                       {{"e", number(e)}, {"L", number(L)}}),
-                                                                  "scene"),
-                                               Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
+                                              {{"e", number(e)}, {"turned", number(turned)}, {"L", number(L)}}),
+                                         "scene"),
+                      Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
     if (fault) std::rethrow_exception(fault);
     return found;
-  };
-  // b from the downward vertical, outwards: f(b) = W^2 cos b (e/2 + L sin b/3) - g sin b/2 = 0, omega^2 = -3 f'(b)/L
-  const auto closed_form = [&](double W) {
-    double low = 0.01, high = M_PI / 2;
-    const auto f = [&](double b) { return W * W * std::cos(b) * (e / 2 + L * std::sin(b) / 3) - g * std::sin(b) / 2; };
-    for (int i = 0; i < 60; ++i) (f((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
-    return std::sqrt(-3 / L * (f(low + 1e-6) - f(low - 1e-6)) / 2e-6);
-  };
+  }
+  double torque(double W, double b) const {
+    return W * W * std::cos(b) * (e / 2 + L * std::sin(b) / 3) - g * std::sin(b) / 2;
+  }
+  /// omega^2 of the equilibrium between two angles of torques of opposite sign.
+  double square(double W, double low, double high) const {
+    const bool rises = torque(W, high) > 0;
+    REQUIRE(rises != torque(W, low) > 0);
+    for (int i = 0; i < 60; ++i) ((torque(W, (low + high) / 2) > 0) == rises ? high : low) = (low + high) / 2;
+    return -3 / L * (torque(W, low + 1e-6) - torque(W, low - 1e-6)) / 2e-6;
+  }
+};
+
+int warnings_of(const app::CampbellDiagram& diagram, const std::string& words) {
+  return static_cast<int>(
+      std::count_if(diagram.model.warnings.begin(), diagram.model.warnings.end(),
+                    [&](const std::string& text) { return text.find(words) != std::string::npos; }));
+}
+
+}  // namespace
+
+// It hangs outwards at all speeds; inwards it can stand, too, unstably.
+TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
+  const HingedRod rod{0.02, 0.5};
   for (const std::string speeds : {"4,5,6", "4,6", "3,4,4.2,4.4,4.6,4.8,5,6"}) {
-    const auto found = points(speeds);
+    const auto found = rod.at(speeds);
     INFO(speeds);
-    CHECK(std::none_of(found.model.warnings.begin(), found.model.warnings.end(),
-                       [](const std::string& words) { return words.find("another branch") != std::string::npos; }));
+    CHECK(warnings_of(found, "another branch") == 0);
     for (const app::CampbellPoint& point : found.points) {
       REQUIRE(point.fault == "");
       CHECK(point.jump.ratio == 0);
       CHECK(point.vibrations.at(0).growth == 0);
-      CHECK(point.vibrations.at(0).omega == Approx(closed_form(point.speed)).epsilon(1e-4));
+      CHECK(point.vibrations.at(0).omega == Approx(std::sqrt(rod.square(point.speed, 0.01, M_PI / 2))).epsilon(1e-4));
     }
   }
+}
+
+// Across the axis it hangs above a speed only: where the greatest torque towards the horizontal, over all angles, is 0.
+TEST_CASE("campbell: a branch that ends is left with a warning that says where") {
+  const HingedRod rod{0.05, 2.9};
+  const auto steepest = [&](double W) {  // the angle of the greatest torque
+    double at = 0;
+    for (double b = 0; b > -M_PI / 2; b -= 1e-4)
+      if (-rod.torque(W, b) > -rod.torque(W, at) || at == 0) at = b;
+    return at;
+  };
+  double end = 4, above = 8;
+  while (above - end > 1e-6)
+    (-rod.torque((end + above) / 2, steepest((end + above) / 2)) > 0 ? above : end) = (end + above) / 2;
+  const auto found = rod.at("10,8,6,3");
+  REQUIRE(found.points.size() == 4);
+  for (int i = 0; i < 3; ++i) {
+    const app::CampbellPoint& point = found.points[i];
+    CHECK(point.jump.ratio == 0);
+    CHECK(point.vibrations.at(0).omega ==
+          Approx(std::sqrt(rod.square(point.speed, -M_PI / 2, steepest(point.speed)))).epsilon(1e-4));
+  }
+  const solve::BranchJump& jump = found.points[3].jump;
+  CHECK(jump.ratio > 3);
+  CHECK(jump.from > end);
+  CHECK(jump.to < end);
+  CHECK(jump.from - jump.to < 0.05);
+  CHECK(warnings_of(found, "the steady rotation jumps to another branch") == 1);
+}
+
+// Upright it falls at one rate, the only exponents being +- that rate. Rigid bodies have no reduced model to blame.
+TEST_CASE("campbell: an upright rod falls at the rate of its closed form") {
+  const HingedRod rod{0.05, 1.5 * M_PI + 0.1};
+  const auto found = rod.at("0.5,1,1.5,2,2.5,3,3.5,4,4.5,5");
+  for (const app::CampbellPoint& point : found.points) {
+    INFO(point.speed);
+    REQUIRE(point.fault == "");
+    REQUIRE(point.vibrations.size() == 1);
+    CHECK(point.vibrations[0].growth ==
+          Approx(std::sqrt(-rod.square(point.speed, -M_PI - 0.2, -M_PI + 0.2))).epsilon(1e-4));
+  }
+  CHECK(warnings_of(found, "reduced model") == 0);
+}
+
+// Two hinged bars on a hub, bent towards the axis by the rise h, snap through where the centrifugal force of the mass
+// at their apex is the limit load of von Mises' truss.
+TEST_CASE("a motion that starts in a steady rotation says that the branch was left on the way") {
+  const double h = 0.05, R = 10, limit = 1e3 * 2 * std::pow(h, 3) / (3 * std::sqrt(3.)),
+               end = std::sqrt(limit / (R - h / std::sqrt(3.)));
+  const auto jumps = [&](double speed) {
+    const assembly::Model model =
+        assembly::build(scene::parse_scene(fill(R"yaml(
+bodies:
+  hub:
+    rigid: true
+    mesh: {polyline: {points: [[0, 0], [$R, -1], [$R, 1]], elements: 1}}
+    section: {EA: 1, EI: 1, rhoA: 1}
+  a:
+    mesh: {line: {from: [$R, -1], to: [$r, 0], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1e-6}
+  b:
+    mesh: {line: {from: [$r, 0], to: [$R, 1], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1e-6}
+  mass: {rigid: {mass: 1, centre: [$r, 0], inertia: 1e-3}}
+joints:
+  drive: {type: driven, between: [ground, hub.p1], angle: "$speed*t"}
+  left: {type: revolute, between: [hub.p2, a.start]}
+  apex: {type: revolute, between: [a.end, b.start]}
+  grip: {type: fixed, between: [a.end, mass.centre]}
+  right: {type: revolute, between: [hub.p3, b.end]}
+motion: {end: 0.01, step: 1e-3, start: steady_rotation}
+)yaml",
+                                                {{"R", number(R)}, {"r", number(R - h)}, {"speed", number(speed)}}),
+                                           "scene"),
+                        Formulation::vm_md, PETSC_COMM_WORLD, true);
+    return std::count_if(model.warnings.begin(), model.warnings.end(), [](const std::string& text) {
+      return text.find("the steady rotation jumps to another branch") != std::string::npos;
+    });
+  };
+  CHECK(jumps(0.98 * end) == 0);
+  CHECK(jumps(1.08 * end) == 1);
 }
 
 // A strip of shells, swept by 0.5 rad: its sixth mode is in its plane. At full order it is stable, and with strains of
