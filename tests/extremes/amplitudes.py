@@ -67,7 +67,7 @@ def overloaded(floe: Floe, load, formulation, frame):
     kinetic, elastic, potential = moved.energy.T
     greatest = max(kinetic.max(), elastic.max())
     assert kinetic.min() >= 0 and elastic.min() >= 0, "an energy is negative"
-    words = [w for w in moved.warnings if "slopes of up to" in w or "membrane energy is" in w]
+    words = [w for w in moved.warnings if "slopes of up to" in w or "membrane energy of quadratic strains" in w]
     assert words, f"no warning of slopes or stretching: {moved.warnings}"
     total = kinetic + elastic + potential
     slopes = words[0]

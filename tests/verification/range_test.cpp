@@ -92,6 +92,16 @@ TEST_CASE("validity: a linear elastic force has no foreshortening, and modes alo
   CHECK_FALSE(said(judged(bent("{type: clamped, at: start}", "1.6"), Formulation::vm_md)).count("membrane"));
 }
 
+// Tension strains a bar linearly: no locking, whatever its ratio to the bending energy.
+TEST_CASE("validity: tension of a body of modes alone is no membrane locking") {
+  std::string text = bent("pinned", "100");
+  const std::string across = "force: [0, \"100*(1 - cos(pi*t/2))/2\"]";
+  REQUIRE(text.find(across) != std::string::npos);
+  text.replace(text.find(across), across.size(), "force: [\"100*(1 - cos(pi*t/2))/2\", 1e-3]");
+  const auto lines = said(judged(text, Formulation::vm));
+  CHECK_FALSE(lines.count("membrane"));
+}
+
 TEST_CASE("validity: load frequencies relative to those of the modes, and the step relative to the periods") {
   const auto fast =
       said(judged(text_of({.end = "0.5", .reduction = "{modes: 2, derivatives: all}"}), Formulation::vm_md));
