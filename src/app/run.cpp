@@ -196,8 +196,9 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   result.steps = report.steps;
   result.end = report.end;
   result.motion_seconds = report.seconds - recorder.seconds();
-  if (report.seconds > 0)  // recording has the same share of the processor
-    result.motion_processor = result.motion_seconds * report.processor_seconds / report.seconds;
+  result.motion_processor = result.motion_seconds;
+  if (report.processor_seconds > 0 && report.seconds > 0)  // zero: a virtual machine's clock has stood still
+    result.motion_processor *= report.processor_seconds / report.seconds;  // recording has the same share
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
   if (const std::string warning = recorder.growth_warning(); !warning.empty()) result.warnings.push_back(warning);
