@@ -113,6 +113,16 @@ def of_type(text, tokens, i):
             and tokens[i - 3].text not in ("return", "case", "throw"))
 
 
+def overwritten(text, mutant):
+    """Whether it changes the initial value of a variable that a getter of MPI or PETSc sets before it is used."""
+    name = re.search(r"(\w+) = $", text[:mutant.start])
+    if mutant.what != "constant" or not name or text[mutant.end] not in ",;":
+        return False
+    use = re.compile(rf"\b{name[1]}\b").search(text, mutant.end)
+    call = text[text.rfind(";", 0, use.start()) + 1:use.start()] if use else ""
+    return re.search(r"\b(MPI_Comm_(rank|size)|[A-Z]\w*Get[A-Z]\w*|PetscObjectTypeCompare\w*)\([^;()]*(\([^;()]*\)[^;()]*)*&$", call) is not None
+
+
 def blank(text):
     return re.sub(r"[^\n]", " ", text)
 

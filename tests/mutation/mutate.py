@@ -4,10 +4,10 @@
 mutate.py --count N --seed S [--room R...] [--files GLOB...] [--tests REGEX] [--retry] [--fresh]
 
 Everything happens in a copy of the working tree (FOLDER/tree) with its own build folder. Each mutant: it does not compile
--> another one is drawn; its object file is the original's -> equivalent; else the tests run, those first that are near
-and fast, until one fails. FOLDER/results.jsonl has a line for each mutant: a stopped campaign goes on where it was, with the
-tree that it began with (--fresh: begins anew). --retry takes the tree as it is now and runs the tests on the survivors
-again, wherever their lines have gone.
+-> another one is drawn; its object file is the original's, or it is the initial value of an output argument -> equivalent;
+else the tests run, those first that are near and fast, until one fails. FOLDER/results.jsonl has a line for each mutant: a
+stopped campaign goes on where it was, with the tree that it began with (--fresh: begins anew). --retry takes the tree as it
+is now and runs the tests on the survivors again, wherever their lines have gone.
 """
 import argparse
 import fnmatch
@@ -203,6 +203,8 @@ class Campaign:
         file = self.tree / found["file"]
         text = file.read_text()
         mutant = mutants.Mutant(found["start"], found["end"], found["put"], found["what"])
+        if mutants.overwritten(text, mutant):
+            return {"fate": "equivalent"}
         (target,) = self.objects_of(found["file"])
         kept = target.read_bytes()
         self.place(found["file"], mutant.of(text))
@@ -316,7 +318,7 @@ def report(entries, arguments):
     killed, survived, equivalent = (len(fates[f]) for f in ("killed", "survived", "equivalent"))
     rate = 100 * (killed + equivalent) / max(killed + survived + equivalent, 1)
     print(f"\nseed {arguments.seed}: {killed + survived + equivalent} mutants compiled ({len(fates['does not compile'])} did "
-          f"not): {killed} killed, {equivalent} equivalent (same object file), {survived} survived: {rate:.1f} % killed or "
+          f"not): {killed} killed, {equivalent} equivalent (same object file, or initial value of an output argument), {survived} survived: {rate:.1f} % killed or "
           "equivalent")
     return 0
 

@@ -110,6 +110,34 @@ TEST_CASE("series grow over their room, replicated and distributed, and end with
   CHECK_FALSE(std::filesystem::exists(scratch / ".result.h5.partial"));
 }
 
+TEST_CASE("rows that wait are in the file once it is saved, for a run that is killed then") {
+  Scratch scratch;
+  const bool alone = GENERATE(false, true);
+  const Part mine = part();
+  ResultFile file(PETSC_COMM_WORLD, scratch / "result.h5");
+  file.add_series("t", 1, {}, 8);
+  if (!alone) file.add_series("motion/u", mine.global, {}, 8);
+  file.publish();
+  std::vector<double> expected, expected_u;
+  for (int i = 0; i < 3; ++i) {
+    file.append("t", std::vector<double>{i + 0.5});
+    expected.push_back(i + 0.5);
+    if (alone) continue;
+    std::vector<double> u(mine.rows, 100.0 + i);
+    file.append_distributed("motion/u", mine.first, u);
+    expected_u.insert(expected_u.end(), mine.global, 100.0 + i);
+  }
+  file.save(alone);
+  meet();
+  const auto begin_of = [](const std::vector<double>& all, const std::vector<double>& part) {
+    return std::vector<double>(all.begin(),
+                               all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), part.size())));
+  };
+  const Hid plain = open_plain(scratch / "result.h5");
+  CHECK(begin_of(read_back(plain, "t").data, expected) == expected);
+  if (!alone) CHECK(begin_of(read_back(plain, "motion/u").data, expected_u) == expected_u);
+}
+
 TEST_CASE("a reader that holds the file open does not stop the run") {
   Scratch scratch;
   ResultFile file(PETSC_COMM_WORLD, scratch / "result.h5");
