@@ -1,5 +1,7 @@
 #include "nas_build.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
@@ -59,13 +61,20 @@ void NasBuild::add_links() {
 }
 
 void NasBuild::add_extra_grids() {
-  if (extra_.empty()) return;
   if (rank_ == ranks_ - 1)
-    for (const Extra& extra : extra_) {
-      mesh.node_labels.push_back(extra.label);
-      mesh.positions.push_back(extra.x);
-      mesh.node_where.push_back(extra.where);
-    }
+    for (const auto* all : {&extra_, &between_})
+      for (const Extra& extra : *all) {
+        mesh.node_labels.push_back(extra.label);
+        mesh.positions.push_back(extra.x);
+        mesh.node_where.push_back(extra.where);
+      }
+  if (!between_.empty())
+    notices.push_back(
+        fmt::format("{}: beams with taper are divided into pieces of uniform section, with {} between "
+                    "them, from {} on",
+                    faults_.text_of(between_.front().where), counted(static_cast<long long>(between_.size()), "node"),
+                    between_.front().label));
+  if (extra_.empty()) return;
   for (const auto& [reference, which] : extra_links_) {
     std::vector<long long> nodes;
     for (const std::size_t i : which) nodes.push_back(extra_[i].label);
@@ -74,6 +83,28 @@ void NasBuild::add_extra_grids() {
   notices.push_back(faults_.text_of(extra_.front().where) + ": " +
                     counted(static_cast<long long>(extra_.size()), "node") + " of beams with offsets, from " +
                     std::to_string(extra_.front().label) + " on, rigidly linked to their grids");
+}
+
+/// Moments of inertia of which one exceeds the sum of the others are those of no body, as where a card has one alone:
+/// the body of least extent that has the greatest of them is taken. With J = tr(S) 1 - S, S the integral of r r^T,
+/// negative roots of S become 0.
+void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
+  constexpr double rounding = 1e-9;
+  const double scale = inertia.cwiseAbs().maxCoeff();
+  const auto refuse = [&] {
+    faults_.add(where, "CONM2: its moments of inertia are not those of a mass: one is negative about some axis");
+  };
+  if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] < -rounding * scale) return refuse();
+  const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(second);
+  if (!(principal.eigenvalues()[0] < -rounding * scale)) return;
+  const Eigen::Vector3d kept = principal.eigenvalues().cwiseMax(0);
+  const Eigen::Matrix3d &e = principal.eigenvectors(), was = inertia;
+  inertia = kept.sum() * Eigen::Matrix3d::Identity() - Eigen::Matrix3d(e * kept.asDiagonal() * e.transpose());
+  notices.push_back(fmt::format(
+      "{}: CONM2: its moments of inertia are those of no body (one exceeds the sum of the "
+      "others); taken as {:.6g}, {:.6g}, {:.6g} instead of {:.6g}, {:.6g}, {:.6g}",
+      faults_.text_of(where), inertia(0, 0), inertia(1, 1), inertia(2, 2), was(0, 0), was(1, 1), was(2, 2)));
 }
 
 void NasBuild::add_masses() {
@@ -90,11 +121,7 @@ void NasBuild::add_masses() {
     }
     mass.mass *= model_.mass_factor;
     mass.inertia *= model_.mass_factor;
-    const Eigen::Vector3d roots = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mass.inertia).eigenvalues();
-    constexpr double rounding = 1e-9;
-    if (roots[0] < -rounding * roots[2] || roots[0] + roots[1] < roots[2] * (1 - 1e-6))
-      notices.push_back(faults_.text_of(given.where) + ": CONM2: its moments of inertia are those of no body (" +
-                        "one is negative or greater than the sum of the others)");
+    complete_inertia(mass.inertia, given.where);
     if (rank_ != 0) continue;
     mass.node = static_cast<PetscInt>(mesh.mentions.size());
     mesh.mentions.push_back({given.grid, given.where});

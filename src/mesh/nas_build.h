@@ -45,6 +45,7 @@ class NasBuild {
   /// Diagonal of the box around all grids.
   double extent();
   void add_masses();
+  void complete_inertia(Eigen::Matrix3d& inertia, Where where);
   void add_places();
   /// Labels of the grids of supports, each with its card, by the name of their place.
   std::map<std::string, std::vector<std::pair<long long, Where>>> supports() const;
@@ -73,17 +74,20 @@ class NasBuild {
   Eigen::Vector3d orientation_of(const NasBeam& beam, const Ends& ends, const Eigen::Vector3d& axis);
   void add_beam_section(const NasBeamProperty& own, const NasBeam& beam, const Eigen::Vector3d& orientation, int part);
 
+  void add_pieces(const NasBeamProperty& own, NasBeam beam, const std::array<long long, 4>& ends,
+                  const std::array<Eigen::Vector3d, 2>& x, const Eigen::Vector3d& v, bool mine);
+
   const NasModel& model_;
   Faults& faults_;
   int rank_, ranks_;
   NasFrames frames_;
   Share share_{0, 0};
-  long long next_label_ = 1;
+  long long next_label_ = 1, next_element_ = 1;
   double extent_ = -1;
   std::map<std::pair<long long, Variant>, int> parts_;    // of beams by the negative number of the property
   std::vector<FilePlace> mean_places_;                    // the grids of each RBE3
   std::unordered_map<long long, long long> independent_;  // of dependent grids
-  std::vector<Extra> extra_;
+  std::vector<Extra> extra_, between_;                    // at the ends of beams with offsets; inside beams with taper
   std::map<std::array<double, 4>, long long> extra_of_;
   std::map<long long, std::vector<std::size_t>> extra_links_;
   std::vector<long long> used_materials_, used_properties_;

@@ -34,6 +34,11 @@ const NasMaterial* NasBuild::material(long long id, Where where, const std::stri
     used_materials_.push_back(id);
     return &found->second;
   }
+  if (const auto other = model_.other_materials.find(id); other != model_.other_materials.end()) {
+    faults_.add(where, user + " names material " + std::to_string(id) + ", a " + other->second +
+                           ", which is not read; use MAT1, MAT8 or MAT2");
+    return nullptr;
+  }
   std::vector<std::string> known;
   for (const auto& [number, unused] : model_.materials) known.push_back(std::to_string(number));
   faults_.add(where, user + " names material " + std::to_string(id) + ", which is not defined" +
@@ -237,6 +242,8 @@ void NasBuild::add_beam_section(const NasBeamProperty& own, const NasBeam& beam,
 }
 
 void NasBuild::add_beams() {
+  for (const NasShell& shell : model_.shells) next_element_ = std::max(next_element_, shell.id + 1);
+  for (const NasBeam& beam : model_.beams) next_element_ = std::max(next_element_, beam.id + 1);
   for (std::size_t i = 0; i < model_.beams.size(); ++i) {
     const NasBeam& beam = model_.beams[i];
     const NasBeamProperty* own =
@@ -256,9 +263,34 @@ void NasBuild::add_beams() {
       continue;
     }
     const Eigen::Vector3d v = orientation_of(beam, *ends, line.normalized());
+    if (!own->pieces.empty()) {
+      add_pieces(*own, beam, nodes, x, v, mine(model_.shells.size() + i));
+      continue;
+    }
     const int part = part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases), 1}, own->name,
                              [&](int number) { add_beam_section(*own, beam, v, number); });
     if (mine(model_.shells.size() + i)) mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
+  }
+}
+
+/// A beam with taper as pieces between nodes of their own, the first with its number.
+void NasBuild::add_pieces(const NasBeamProperty& own, NasBeam beam, const std::array<long long, 4>& ends,
+                          const std::array<Eigen::Vector3d, 2>& x, const Eigen::Vector3d& v, bool mine) {
+  const std::size_t count = own.pieces.size();
+  const unsigned releases = beam.releases, of_a = 0x3f;
+  std::array<long long, 4> nodes{ends[0], -1, -1, -1};
+  for (std::size_t k = 0; k < count; ++k) {
+    const bool last = k + 1 == count;
+    if (!last)
+      between_.push_back({next_label_, x[0] + (x[1] - x[0]) * (static_cast<double>(k + 1) / count), beam.where});
+    nodes[1] = last ? ends[1] : next_label_++;
+    beam.releases = (k == 0 ? releases & of_a : 0) | (last ? releases & ~of_a : 0);
+    const int part =
+        part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases), static_cast<double>(1 + k)},
+                own.name, [&](int number) { add_beam_section(own.pieces[k], beam, v, number); });
+    const long long label = k == 0 ? beam.id : next_element_++;
+    if (mine) mesh.cells.push_back({label, CellKind::line, part, nodes, beam.where});
+    nodes[0] = nodes[1];
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "floe/error.h"
+#include "nas_replicate.h"
 #include "text.h"
 
 namespace floe::mesh {
@@ -39,7 +40,7 @@ std::string_view columns(std::string_view line, std::size_t first, std::size_t c
 }
 
 /// The fields after the first: eight, or four of a large line, whose first field has a *.
-std::vector<std::string_view> fields_of(std::string_view line, bool free, Where where, Faults& faults) {
+std::vector<std::string_view> fields_of(std::string_view line, bool free, Where where, NasCard& card) {
   std::vector<std::string_view> fields;
   const auto is_large = [](std::string_view head) { return head.ends_with('*') || head.starts_with('*'); };
   if (!free) {
@@ -58,8 +59,8 @@ std::vector<std::string_view> fields_of(std::string_view line, bool free, Where 
   const std::size_t most = is_large(all[0]) ? large_fields_of_line : fields_of_line;
   for (std::size_t i = most + 1; i < all.size(); ++i)
     if (!all[i].empty() && !all[i].starts_with('+') && !all[i].starts_with('*')) {
-      faults.add(where, "expected at most " + std::to_string(most) + " fields after the name, found " +
-                            in_quotes(all[i]) + " after them: continue on the next line");
+      card.beyond.emplace_back(where, "expected at most " + std::to_string(most) + " fields after the name, found " +
+                                          in_quotes(all[i]) + " after them: continue on the next line");
       break;
     }
   fields.assign(all.begin() + 1, all.end());
@@ -104,16 +105,24 @@ class Walk {
         if (before) ++control.lines;
       } else if (upper(trimmed(line).substr(0, 7)) == "INCLUDE") {
         finish();
+        replicate_.forget();
         include(whole_name(line.substr(line.find_first_not_of(" \t") + 7), at, end, count), path, where, depth);
       } else {
         add(line, where);
       }
     }
     finish();  // the fields point into this file
+    replicate_.forget();
   }
 
+  /// The card that has ended. It is kept for those that replicate it.
   void finish() {
-    if (!card_.name.empty()) visit_(card_);
+    if (card_.name.starts_with('=')) {
+      replicate_.apply(card_, visit_);
+    } else if (!card_.name.empty()) {
+      visit_(card_);
+      replicate_.keep(card_, kept_);
+    }
     card_.name.clear();
     kept_.clear();
   }
@@ -153,12 +162,13 @@ class Walk {
     const bool continues = head.empty() || head.starts_with('+') || head.starts_with('*');
     if (!continues) {
       finish();
-      const std::string name = upper(head.substr(0, head.find('*')));
+      const std::string name = upper(trimmed(head.substr(0, head.find('*'))));
       if (name.starts_with("ENDDATA")) ended_ = true;
       if (ended_ || begins_bulk(line)) return;
       card_.name = name;
       card_.fields.clear();
       card_.lines.clear();
+      card_.beyond.clear();
     } else if (card_.name.empty()) {
       return faults_.add(where, "a continuation without a card before it: " + in_quotes(trimmed(line)));
     }
@@ -166,12 +176,13 @@ class Walk {
     constexpr std::size_t most = 1000000;
     if (card_.fields.size() > most) return;
     if (card_.fields.size() % fields_of_line == 0) card_.lines.push_back(where);
-    const auto fields = fields_of(line, free, where, faults_);
+    const auto fields = fields_of(line, free, where, card_);
     card_.fields.insert(card_.fields.end(), fields.begin(), fields.end());
   }
 
   Faults& faults_;
   const std::function<void(const NasCard&)>& visit_;
+  NasReplicate replicate_{faults_};
   NasCard card_;
   std::deque<std::string> kept_;  // lines of the card whose tabs are blanks
   bool ended_ = false;

@@ -14,6 +14,7 @@ struct NasCard {
   std::string name;                      // upper case, without *
   std::vector<std::string_view> fields;  // field 2, 3, ... of the first line, then 12, 13, ... of the second
   std::vector<Where> lines;              // of each eight fields
+  std::vector<std::pair<Where, std::string>> beyond;  // of lines with more fields: what is wrong
 
   std::string_view text(std::size_t i) const { return i < fields.size() ? fields[i] : std::string_view(); }
   bool blank(std::size_t i) const { return text(i).empty(); }

@@ -54,4 +54,11 @@ void read_mat2(NasReader& r) {
   r.define(r.model.materials, id, std::move(found), "material");
 }
 
+/// MAT3, MAT9 and others: of solids, which a deck may have beside.
+void read_other_material(NasReader& r) {
+  const long long id = r.card.integer(0, "the material's number");
+  r.define(r.model.other_materials, id, r.card.card.name, "material");
+  r.count_ignored(r.card.card.name);
+}
+
 }  // namespace floe::mesh

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "nas_reader.h"
+#include "nas_shapes.h"
+#include "nas_taper.h"
 #include "text.h"
 
 namespace floe::mesh {
@@ -10,9 +12,8 @@ void read_pshell(NasReader& r) {
   NasShellProperty property{r.named("PSHELL", id), {}, {}, 0, r.where()};
   property.plies.push_back({material, r.card.positive(2, "a thickness"), 0});
   const long long bending = r.card.integer(3, "a material (MID2)", 0);
-  if (bending <= 0)
-    r.card.refuse(3, bending < 0 ? "(MID2: -1, plane strain) is not read; expected a material"
-                                 : "(MID2) is blank: a membrane, which has no bending stiffness; expected a material");
+  if (bending < 0) r.card.refuse(3, "(MID2: -1, plane strain) is not read; expected a material");
+  if (bending == 0) r.count_ignored("PSHELL without MID2");
   if (bending > 0 && bending != material) property.bending = bending;
   property.factor = r.card.real(4, "12 I / T^3", 1);
   if (std::abs(property.factor - 1) <= 1e-9) property.factor = 1;
@@ -77,8 +78,6 @@ void read_pbar(NasReader& r) {
 
 namespace {
 
-bool equal(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
-
 /// The line after the stations of PBEAM: K1 K2 S1 S2 NSI(A) NSI(B) CW(A) CW(B), and the offsets after it.
 void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property) {
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(at + i, "a shear factor", 1));
@@ -103,98 +102,65 @@ void read_pbeam(NasReader& r) {
   const long long id = r.card.integer(0, "the property's number");
   NasBeamProperty property{r.named("PBEAM", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
   constexpr const char* names[] = {"the area", "I1", "I2", "I12", "J", "a mass by length (NSM)"};
-  std::array<double, 6> at_a;
-  for (int i = 0; i < 6; ++i) at_a[i] = i > 2 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]);
-  take_general(r.card, property, {at_a[0], at_a[1], at_a[2], at_a[3], at_a[4]});
-  property.extra = at_a[5];
+  std::vector<double> at_a;
+  for (int i = 0; i < 6; ++i) at_a.push_back(i > 2 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]));
+  const auto take = [&](const std::vector<double>& d, NasBeamProperty& of) {
+    take_general(r.card, of, {d[0], d[1], d[2], d[3], d[4]});
+    of.extra = d[5];
+  };
+  take(at_a, property);
+  NasTaper taper(at_a);
   const auto station = [&](std::size_t i) {
     const std::string word = upper(card.text(i));
     return word == "YES" || word == "YESA" || word == "NO";
   };
   std::size_t next = station(8) ? 8 : 16;
   while (station(next)) {
+    std::vector<std::optional<double>> values(at_a.size());
     for (int i = 0; i < 6; ++i)
-      if (!equal(r.card.real(next + 2 + i, names[i], at_a[i]), at_a[i]))
-        r.card.refuse(next + 2 + i, "differs from end A: beams with taper are not read; expected the same section");
+      if (!card.blank(next + 2 + i)) values[i] = r.card.real(next + 2 + i, names[i]);
+    taper.add(r.card.real(next + 1, "a place of the length (X/XB)", 1), values);
     next += upper(card.text(next)) == "YES" ? 16 : 8;
   }
   read_after_stations(r, next, property);
+  taper.complete(r.card);
+  if (r.card.good() && taper.varies()) taper.divide(property, take);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
-
-namespace {
-
-struct NasShape {
-  const char* name;
-  int count;
-};
-constexpr NasShape nas_shapes[] = {{"BAR", 2}, {"BOX", 4}, {"I", 6}, {"ROD", 1}, {"TUBE", 2}, {"TUBE2", 2}};
-
-// Dimensions of PBARL and PBEAML in those of BeamSection: direction 1 is y of the element, 2 is z.
-void take_shape(NasFields& card, const std::string& shape, const std::vector<double>& d, NasBeamProperty& property) {
-  auto& section = property.section;
-  constexpr double whole = 1 - 1e-12;  // of a wall that leaves nothing
-  if (shape == "BAR") {
-    section.profile = Profile::rectangle;
-    section.dimensions = {d[1], d[0]};
-    property.area = d[0] * d[1];
-  } else if (shape == "ROD") {
-    section.profile = Profile::circle;
-    section.dimensions = {d[0]};
-    property.area = M_PI * d[0] * d[0];
-  } else if (shape == "TUBE" || shape == "TUBE2") {
-    const double inner = shape == "TUBE" ? d[1] : d[0] - d[1];
-    if (!(inner >= 0 && inner < d[0])) return card.refuse(9, "expects a wall inside the outer radius");
-    section.profile = inner > 0 ? Profile::pipe : Profile::circle;
-    section.dimensions = {d[0]};
-    if (inner > 0) section.dimensions.push_back(d[0] - inner);
-    property.area = M_PI * (d[0] * d[0] - inner * inner);
-  } else if (shape == "BOX") {
-    if (!(2 * d[3] < whole * d[0] && 2 * d[2] < whole * d[1]))
-      return card.refuse(10, "expects walls thinner than the box");
-    section.profile = Profile::box;
-    section.dimensions = {d[1], d[0], d[2], d[3], d[2], d[3]};
-    property.area = d[0] * d[1] - (d[0] - 2 * d[3]) * (d[1] - 2 * d[2]);
-  } else {
-    if (!equal(d[1], d[2]) || !equal(d[4], d[5]))
-      return card.refuse(9, "to 17: an I that is not symmetric is not read; expected DIM2 = DIM3, DIM5 = DIM6");
-    if (!(d[4] + d[5] < whole * d[0] && d[3] < whole * d[1]))
-      return card.refuse(11, "expects walls thinner than the section");
-    section.profile = Profile::i_section;
-    section.dimensions = {d[0] / 2, d[0], d[1], d[2], d[4], d[5], d[3]};
-    section.quarter_turn = true;
-    property.area = d[1] * d[4] + d[2] * d[5] + (d[0] - d[4] - d[5]) * d[3];
-  }
-}
-
-}  // namespace
 
 void read_pbarl(NasReader& r) {
   const auto& card = r.card.card;
   const long long id = r.card.integer(0, "the property's number");
   NasBeamProperty property{r.named(card.name.c_str(), id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
   const std::string shape = upper(card.text(3));
-  const auto* found =
-      std::find_if(std::begin(nas_shapes), std::end(nas_shapes), [&](const auto& s) { return shape == s.name; });
-  if (found == std::end(nas_shapes)) {
-    std::vector<std::string> known;
-    for (const auto& one : nas_shapes) known.push_back(one.name);
+  const std::size_t count = nas_shape_dimensions(shape);
+  if (count == 0) {
+    const std::vector<std::string> known = nas_shape_names();
     return r.card.refuse(3,
                          "expects one of " + listed(known) + ", found " + in_quotes(shape) + suggestion(shape, known));
   }
   std::vector<double> d;
-  for (int i = 0; i < found->count; ++i) d.push_back(r.card.positive(8 + i, "a dimension"));
+  for (std::size_t i = 0; i < count; ++i) d.push_back(r.card.positive(8 + i, "a dimension"));
+  d.push_back(r.card.real(8 + count, "a mass by length (NSM)", 0));
   if (!r.card.good()) return;
-  take_shape(r.card, shape, d, property);
-  const std::size_t after = 8 + found->count;
-  property.extra = r.card.real(after, "a mass by length (NSM)", 0);
-  if (card.name == "PBEAML") {
-    d.push_back(property.extra);
-    for (std::size_t i = after + 1; i < card.fields.size() && !card.blank_from(i); i += 2 + d.size())
-      for (std::size_t k = 0; k < d.size(); ++k)
-        if (!equal(r.card.real(i + 2 + k, "a dimension or NSM", d[k]), d[k]))
-          r.card.refuse(i + 2 + k, "differs from end A: beams with taper are not read; expected the same section");
-  }
+  const auto take = [&](const std::vector<double>& values, NasBeamProperty& of) {
+    take_nas_shape(r.card, shape, {values.begin(), values.end() - 1}, of);
+    of.extra = values.back();
+  };
+  take(d, property);
+  NasTaper taper(d);
+  if (card.name == "PBEAML")
+    for (std::size_t i = 9 + count; i < card.fields.size() && !card.blank_from(i); i += 2 + d.size()) {
+      std::vector<std::optional<double>> values(d.size());
+      for (std::size_t k = 0; k < d.size(); ++k) {
+        const std::size_t field = i + 2 + k;
+        if (!card.blank(field))
+          values[k] = k < count ? r.card.positive(field, "a dimension") : r.card.real(field, "a mass by length (NSM)");
+      }
+      taper.add(r.card.real(i + 1, "a place of the length (X/XB)", 1), values);
+    }
+  taper.complete(r.card);
+  if (r.card.good() && taper.varies()) taper.divide(property, take);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 

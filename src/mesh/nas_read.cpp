@@ -40,19 +40,55 @@ void read_defaults(NasReader& r) {
 
 using Read = void (*)(NasReader&);
 const std::map<std::string, Read>& nas_readers() {
-  static const std::map<std::string, Read> all{
-      {"GRID", read_grid},    {"GRDSET", read_defaults}, {"BAROR", read_defaults}, {"BEAMOR", read_defaults},
-      {"CORD1R", read_axes},  {"CORD1C", read_axes},     {"CORD1S", read_axes},    {"CORD2R", read_axes},
-      {"CORD2C", read_axes},  {"CORD2S", read_axes},     {"CQUAD4", read_shell},   {"CQUADR", read_shell},
-      {"CTRIA3", read_shell}, {"CTRIAR", read_shell},    {"CQUAD8", read_shell},   {"CTRIA6", read_shell},
-      {"CBAR", read_beam},    {"CBEAM", read_beam},      {"PSHELL", read_pshell},  {"PCOMP", read_pcomp},
-      {"PCOMPG", read_pcomp}, {"PBAR", read_pbar},       {"PBARL", read_pbarl},    {"PBEAM", read_pbeam},
-      {"PBEAML", read_pbarl}, {"MAT1", read_mat1},       {"MAT2", read_mat2},      {"MAT8", read_mat8},
-      {"CROD", read_rod},     {"CTUBE", read_rod},       {"CONROD", read_conrod},  {"PROD", read_prod},
-      {"PTUBE", read_prod},   {"CELAS1", read_celas},    {"CELAS2", read_celas},   {"PELAS", read_pelas},
-      {"CBUSH", read_cbush},  {"PBUSH", read_pbush},     {"CONM2", read_conm2},    {"RBE2", read_rbe2},
-      {"RBE3", read_rbe3},    {"RBAR", read_rbar},       {"SPC", read_spc},        {"SPC1", read_spc},
-      {"PARAM", read_param}};
+  static const std::map<std::string, Read> all{{"GRID", read_grid},
+                                               {"GRDSET", read_defaults},
+                                               {"BAROR", read_defaults},
+                                               {"BEAMOR", read_defaults},
+                                               {"CORD1R", read_axes},
+                                               {"CORD1C", read_axes},
+                                               {"CORD1S", read_axes},
+                                               {"CORD2R", read_axes},
+                                               {"CORD2C", read_axes},
+                                               {"CORD2S", read_axes},
+                                               {"CQUAD4", read_shell},
+                                               {"CQUADR", read_shell},
+                                               {"CTRIA3", read_shell},
+                                               {"CTRIAR", read_shell},
+                                               {"CQUAD8", read_shell},
+                                               {"CTRIA6", read_shell},
+                                               {"CBAR", read_beam},
+                                               {"CBEAM", read_beam},
+                                               {"PSHELL", read_pshell},
+                                               {"PCOMP", read_pcomp},
+                                               {"PCOMPG", read_pcomp},
+                                               {"PBAR", read_pbar},
+                                               {"PBARL", read_pbarl},
+                                               {"PBEAM", read_pbeam},
+                                               {"PBEAML", read_pbarl},
+                                               {"MAT1", read_mat1},
+                                               {"MAT2", read_mat2},
+                                               {"MAT8", read_mat8},
+                                               {"MAT3", read_other_material},
+                                               {"MAT9", read_other_material},
+                                               {"MAT10", read_other_material},
+                                               {"MAT11", read_other_material},
+                                               {"CROD", read_rod},
+                                               {"CTUBE", read_rod},
+                                               {"CONROD", read_conrod},
+                                               {"PROD", read_prod},
+                                               {"PTUBE", read_prod},
+                                               {"CELAS1", read_celas},
+                                               {"CELAS2", read_celas},
+                                               {"PELAS", read_pelas},
+                                               {"CBUSH", read_cbush},
+                                               {"PBUSH", read_pbush},
+                                               {"CONM2", read_conm2},
+                                               {"RBE2", read_rbe2},
+                                               {"RBE3", read_rbe3},
+                                               {"RBAR", read_rbar},
+                                               {"SPC", read_spc},
+                                               {"SPC1", read_spc},
+                                               {"PARAM", read_param}};
   return all;
 }
 
@@ -78,14 +114,18 @@ const std::map<std::string, std::string>& nas_ignored() {
          "PVISC",   "PSHEAR",  "PGAP",    "PLSOLID", "PBUSH1D", "PFAST",   "PWELD",   "PMASS",   "TABLEM2", "TABLEM3",
          "TABLEM4", "RANDT1",  "TABRNDG", "PLPLANE", "CBARAO",  "DTABLE",  "DVGRID",  "NLCNTL2", "NLCNTLG", "TABLED5",
          "PDAMPT",  "PFASTT",  "SURF",    "PANEL",   "SWLDPRM", "DRESP3",  "DSCONS",  "DVCREL1", "DVCREL2", "DVMREL2",
-         "DVSET",   "TOMVAR",  "BMFACE",  "GROUP",   "MONPNT3", "MONDSP1", "TSTEPE"}},
+         "DVSET",   "TOMVAR",  "BMFACE",  "GROUP",   "MONPNT3", "MONDSP1", "TSTEPE",  "SEQSET",  "SEQSET1", "SEBSET",
+         "SEBSET1", "SECSET",  "SECSET1", "SEUSET",  "SEUSET1", "SESUP",   "SELABEL", "SEBNDRY", "SETREE",  "SELOAD",
+         "SEEXCLD", "RVDOF",   "RVDOF1",  "BNDFREE", "BNDFRE1", "BNDFIX",  "BNDFIX1", "MASSSET", "SET2",    "OUTPUT",
+         "OUTRCV",  "GMBC",    "GMLOAD",  "PRESPT",  "FREQ5",   "RCROSS",  "RCROSSC", "DYNRED",  "TEMPAX",  "POINT",
+         "ADAPT",   "EIGRAL"}},
        {"loads are those of the scene",
         {"FORCE",  "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "PLOAD", "PLOAD1", "PLOAD2", "PLOAD4", "PLOADB3",
          "GRAV",   "ACCEL",  "ACCEL1", "RFORCE", "LOAD",    "TEMP",    "TEMPD", "TEMPP1", "TEMPRB", "SLOAD",  "DAREA",
          "TLOAD1", "TLOAD2", "RLOAD1", "RLOAD2", "DLOAD",   "LSEQ",    "DELAY", "DPHASE", "DEFORM", "TIC",    "NOLIN1",
          "NOLIN2", "NOLIN3", "NOLIN4", "CLOAD",  "PLOADX1", "TEMPP3",  "TF",    "BOLT",   "BOLTFOR"}},
        {"supports are joints of the scene", {"SPC", "SPC1", "SPCADD", "SPCD", "SPCOFF", "SUPORT", "SUPORT1", "SPCR"}},
-       {"the nodes are not tied by it", {"MPC", "MPCADD", "MPCY"}},
+       {"the nodes are not tied by it", {"MPC", "MPCADD", "MPCY", "CYJOIN", "CYSYM"}},
        {"damping is that of the scene",
         {"TABDMP1", "DAMPING", "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "CDAMP5", "CVISC"}},
        {"the material is linear elastic, at one temperature",
@@ -98,13 +138,18 @@ const std::map<std::string, std::string>& nas_ignored() {
         {"ACMODL", "AMLREG", "ACORDER", "ACADAPT", "ACSRCE", "ACPLNW", "MICPNT", "PMIC", "BEDGE"}},
        {"rotors rotate by joints of the scene",
         {"ROTORG", "ROTORD", "ROTORSE", "RGYRO", "RSPINR", "RSPINT", "UNBALNC"}},
-       {"contact is not represented", {"BCTABLE", "BCBODY",  "BCONP",   "BSURF",  "BSURFS", "BCTSET",  "BCTADD",
-                                       "BCTPARM", "BCPARA",  "BCBDPRP", "BCPROP", "BLSEG",  "BFRIC",   "BCTPARA",
-                                       "BCRPARA", "CONTACT", "BGSET",   "BGADD",  "BGPARM", "BCONPRG", "BCONPRP"}},
+       {"a point without coordinates is no node of the body", {"SPOINT", "EPOINT"}},
+       {"contact is not represented",
+        {"CGAP",    "BCTABLE", "BCBODY",  "BCONP",  "BSURF",   "BSURFS", "BCTSET",  "BCTADD",
+         "BCTPARM", "BCPARA",  "BCBDPRP", "BCPROP", "BLSEG",   "BFRIC",  "BCTPARA", "BCRPARA",
+         "CONTACT", "BGSET",   "BGADD",   "BGPARM", "BCONPRG", "BCONPRP"}},
        {"matrices of a file are not added", {"DMIG", "DMI", "DMIK", "DMIJ"}},
        {"aerodynamic forces are those of the scene",
-        {"AERO",   "AEROS",  "CAERO1", "CAERO2", "PAERO1",  "PAERO2",  "SPLINE1", "SPLINE2", "AEFACT", "AESTAT",
-         "AESURF", "AELIST", "AELINK", "TRIM",   "MKAERO1", "MKAERO2", "FLFACT",  "FLUTTER", "GUST",   "DIVERG"}},
+        {"AERO",    "AEROS",   "CAERO1",  "CAERO2",  "PAERO1",  "PAERO2",  "SPLINE1", "SPLINE2", "AEFACT",
+         "AESTAT",  "AESURF",  "AELIST",  "AELINK",  "TRIM",    "AECOMP",  "AECOMPL", "AEDW",    "AEFORCE",
+         "AEPARM",  "AEPRESS", "AESCALE", "AESURFS", "CAERO3",  "CAERO4",  "CAERO5",  "CSSCHD",  "FLUTTER",
+         "MKAERO2", "PAERO3",  "PAERO4",  "PAERO5",  "SPLINE3", "SPLINE4", "SPLINE5", "SPLINE6", "SPLINE7",
+         "SPBLND1", "SPBLND2", "UXVEC",   "MONPNT2", "AELISTC", "MKAERO1", "FLFACT",  "GUST",    "DIVERG"}},
        {"a density, NSM or CONM2 is expected instead", {"NSM", "NSM1", "NSML", "NSML1", "NSMADD"}}});
   return all;
 }
@@ -117,14 +162,13 @@ const std::map<std::string, std::string>& nas_others() {
        {"a shear panel", {"CSHEAR"}},
        {"a spring of another kind; use CBUSH or CELAS2 between grids",
         {"CELAS3", "CELAS4", "CBUSH1D", "CBUSH2D", "GENEL"}},
-       {"a gap or a connector", {"CGAP", "CFAST", "CWELD", "CSEAM"}},
+       {"a connector", {"CFAST", "CWELD", "CSEAM"}},
        {"a mass by directions; use CONM2", {"CONM1", "CMASS1", "CMASS2", "CMASS3", "CMASS4"}},
-       {"a point without coordinates", {"SPOINT", "EPOINT"}},
        {"a rigid element of another kind; use RBE2 or RBAR",
         {"RBE1", "RBAR1", "RROD", "RTRPLT", "RTRPLT1", "RSPLINE", "RSSCON", "RJOINT"}},
        {"axes by another rule; use CORD2R", {"CORD3G", "CORD3R", "CORD3C", "CORD3S"}},
        {"a section that is not read; use PBAR, PBARL or PBEAM", {"PBRSECT", "PBMSECT", "PBCOMP", "PBEND", "PBEAM3"}},
-       {"a material that is not read; use MAT1, MAT8 or MAT2", {"MAT3", "MAT9", "MAT10", "MAT11"}}});
+       {"a part of the model that a matrix or other points join", {"SECONCT", "SELOC", "SEMPLN", "CSUPEXT", "SEELT"}}});
   return all;
 }
 
@@ -147,6 +191,7 @@ std::string nas_reason(const std::string& name) {
   static const std::map<std::string, std::string> of_fields{
       {"GRID PS", "supports are joints of the scene"},
       {"GRDSET PS", "supports are joints of the scene"},
+      {"PSHELL without MID2", "a membrane bends as a shell of its material and thickness"},
       {"PSHELL MID3", "shells have no transverse shear deformation"},
       {"MAT1 G", "shells take E and nu, beams E and G, which differ by more than 1 % from E = 2 G (1 + nu)"},
       {"GE", "damping is that of the scene"},
@@ -155,6 +200,10 @@ std::string nas_reason(const std::string& name) {
       {"PBEAM NSI", "the nonstructural mass is spread over the section"},
       {"PBEAM CW", "beams have no warping stiffness"},
       {"CBEAM SA, SB", "beams have no warping stiffness"},
+      {"MAT3", "no shell or beam has it"},
+      {"MAT9", "no shell or beam has it"},
+      {"MAT10", "no shell or beam has it"},
+      {"MAT11", "no shell or beam has it"},
       {"PBUSH B, GE", "damping is that of the scene"},
       {"PBUSH M", "a spring has no mass; use CONM2"}};
   if (const auto found = of_fields.find(name); found != of_fields.end()) return found->second;
@@ -169,9 +218,10 @@ void read_nas_card(const NasCard& card, NasModel& model, Faults& faults) {
   const auto count = [&](std::map<std::string, NasCount>& in) {
     in.try_emplace(card.name, NasCount{card.where(), 0}).first->second.times++;
   };
-  if (const auto read = readers.find(card.name); read != readers.end())
+  if (const auto read = readers.find(card.name); read != readers.end()) {
+    for (const auto& [where, text] : card.beyond) faults.add(where, text);
     read->second(reader);
-  else if (nas_ignored().contains(card.name))
+  } else if (nas_ignored().contains(card.name))
     count(model.ignored);
   else if (nas_others().contains(card.name))
     count(model.refused);

@@ -47,5 +47,6 @@ void read_pbarl(NasReader& r);
 void read_mat1(NasReader& r);
 void read_mat2(NasReader& r);
 void read_mat8(NasReader& r);
+void read_other_material(NasReader& r);
 
 }  // namespace floe::mesh

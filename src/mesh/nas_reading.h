@@ -81,6 +81,7 @@ struct NasBeamProperty {
   BeamSection section;  // without material and orientation
   double area, extra;   // nonstructural mass by length
   Where where;
+  std::vector<NasBeamProperty> pieces = {};  // of a beam with taper, from end A, of equal length
 };
 
 struct NasMaterial {
@@ -130,6 +131,7 @@ struct NasModel {
   std::map<long long, NasShellProperty> shell_properties;
   std::map<long long, NasBeamProperty> beam_properties;
   std::map<long long, NasMaterial> materials;
+  std::map<long long, std::string> other_materials;  // names of those that shells and beams do not have
   std::map<long long, NasAxes> axes;
   std::vector<NasMass> masses;
   std::vector<NasLink> links;

@@ -1,0 +1,234 @@
+#include "nas_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "text.h"
+
+namespace floe::mesh {
+namespace {
+
+/// A rectangle of a section: its centre, and its sides along y and z of the element.
+struct Rectangle {
+  double y, z, height, width;
+};
+
+/// A thin wall of an open section, whose length goes to the middle of the walls that it meets.
+struct Wall {
+  double length, thickness;
+};
+
+struct Outline {
+  std::vector<Rectangle> parts;
+  std::vector<Wall> walls;
+};
+
+using Dimensions = const std::vector<double>&;
+
+// d of the shapes as in the guides, y up, z to the right.
+Outline shape_i(Dimensions d) {
+  return {{{d[4] / 2, 0, d[4], d[1]},
+           {(d[0] + d[4] - d[5]) / 2, 0, d[0] - d[4] - d[5], d[3]},
+           {d[0] - d[5] / 2, 0, d[5], d[2]}},
+          {{d[1], d[4]}, {d[0] - (d[4] + d[5]) / 2, d[3]}, {d[2], d[5]}}};
+}
+Outline shape_i1(Dimensions d) {
+  const double flange = (d[3] - d[2]) / 2;
+  return shape_i({d[3], d[0] + d[1], d[0] + d[1], d[1], flange, flange});
+}
+Outline shape_t(Dimensions d) {
+  return {{{-d[2] / 2, 0, d[2], d[0]}, {-(d[1] + d[2]) / 2, 0, d[1] - d[2], d[3]}},
+          {{d[0], d[2]}, {d[1] - d[2] / 2, d[3]}}};
+}
+Outline shape_t1(Dimensions d) {
+  return {{{0, d[2] / 2, d[0], d[2]}, {0, -d[1] / 2, d[3], d[1]}}, {{d[0], d[2]}, {d[1] + d[2] / 2, d[3]}}};
+}
+Outline shape_chan(Dimensions d) {
+  const double y = (d[1] - d[3]) / 2, inner = d[1] - 2 * d[3], half = d[0] - d[2] / 2;
+  return {{{0, d[2] / 2, inner, d[2]}, {y, d[0] / 2, d[3], d[0]}, {-y, d[0] / 2, d[3], d[0]}},
+          {{2 * y, d[2]}, {half, d[3]}, {half, d[3]}}};
+}
+Outline shape_chan1(Dimensions d) { return shape_chan({d[0] + d[1], d[3], d[1], (d[3] - d[2]) / 2}); }
+Outline shape_chan2(Dimensions d) {
+  const double y = (d[2] + d[1]) / 2, z = (d[3] - d[0]) / 2, up = d[2] - d[1] / 2;
+  return {{{d[1] / 2, 0, d[1], d[3]}, {y, z, d[2] - d[1], d[0]}, {y, -z, d[2] - d[1], d[0]}},
+          {{2 * z, d[1]}, {up, d[0]}, {up, d[0]}}};
+}
+Outline shape_cross(Dimensions d) {
+  const double z = d[1] / 2 + d[0] / 4;
+  return {{{0, 0, d[2], d[1]}, {0, z, d[3], d[0] / 2}, {0, -z, d[3], d[0] / 2}}, {{d[2], d[1]}, {d[0], d[3]}}};
+}
+Outline shape_h(Dimensions d) {
+  const double z = d[0] / 2 + d[1] / 4;
+  return {{{0, 0, d[3], d[0]}, {0, z, d[2], d[1] / 2}, {0, -z, d[2], d[1] / 2}},
+          {{d[0] + d[1] / 2, d[3]}, {d[2], d[1] / 2}, {d[2], d[1] / 2}}};
+}
+Outline shape_z(Dimensions d) {
+  const double flange = (d[3] - d[2]) / 2, y = (d[3] - flange) / 2, z = (d[0] + d[1]) / 2, half = d[0] + d[1] / 2;
+  return {{{0, 0, d[3], d[1]}, {y, -z, flange, d[0]}, {-y, z, flange, d[0]}},
+          {{2 * y, d[1]}, {half, flange}, {half, flange}}};
+}
+Outline shape_hat(Dimensions d) {
+  const double t = d[1], side = (d[2] - t) / 2, brim = d[3] + t, z = d[2] / 2 - t + brim / 2;
+  return {{{d[0] - t / 2, 0, t, d[2]},
+           {d[0] / 2, side, d[0] - 2 * t, t},
+           {d[0] / 2, -side, d[0] - 2 * t, t},
+           {t / 2, z, t, brim},
+           {t / 2, -z, t, brim}},
+          {{2 * side, t}, {d[0] - t, t}, {d[0] - t, t}, {d[3] + t / 2, t}, {d[3] + t / 2, t}}};
+}
+Outline shape_box1(Dimensions d) {
+  const double inner = d[1] - d[2] - d[3], y = d[3] + inner / 2;
+  return {{{d[1] - d[2] / 2, d[0] / 2, d[2], d[0]},
+           {d[3] / 2, d[0] / 2, d[3], d[0]},
+           {y, d[4] / 2, inner, d[4]},
+           {y, d[0] - d[5] / 2, inner, d[5]}},
+          {}};
+}
+
+/// Closed, of four thin walls: J = 4 A^2 / sum(s / t), A and s to the middle of the walls (Bredt).
+double torsion_of_box1(Dimensions d) {
+  const double w = d[0] - (d[4] + d[5]) / 2, h = d[1] - (d[2] + d[3]) / 2;
+  return 4 * w * w * h * h / (w / d[2] + w / d[3] + h / d[4] + h / d[5]);
+}
+
+/// A hexagon, DIM1 from its rectangle to its points; J = A^4 / (40 (I1 + I2)), as Saint-Venant's of compact sections.
+std::array<double, 5> hexagon(Dimensions d) {
+  const double w = d[1] - 2 * d[0], h = d[2], area = h * (w + d[0]);
+  const double i1 = w * std::pow(h, 3) / 12 + d[0] * std::pow(h, 3) / 24,
+               i2 = h * std::pow(w, 3) / 12 +
+                    2 * (h * std::pow(d[0], 3) / 36 + h * d[0] / 2 * std::pow(w / 2 + d[0] / 3, 2));
+  return {area, i1, i2, 0, std::pow(area, 4) / (40 * (i1 + i2))};
+}
+
+/// A, I1, I2, I12 about the centre of the area, and J of thin walls, sum(s t^3) / 3.
+std::array<double, 5> constants_of(const Outline& outline) {
+  double area = 0, y = 0, z = 0, i1 = 0, i2 = 0, i12 = 0, j = 0;
+  for (const auto& p : outline.parts) {
+    const double a = p.height * p.width;
+    area += a, y += a * p.y, z += a * p.z;
+  }
+  y /= area, z /= area;
+  for (const auto& p : outline.parts) {
+    const double a = p.height * p.width;
+    i1 += a * (p.height * p.height / 12 + (p.y - y) * (p.y - y));
+    i2 += a * (p.width * p.width / 12 + (p.z - z) * (p.z - z));
+    i12 += a * (p.y - y) * (p.z - z);
+  }
+  for (const auto& wall : outline.walls) j += wall.length * std::pow(wall.thickness, 3) / 3;
+  return {area, i1, i2, std::abs(i12) > 1e-12 * std::sqrt(i1 * i2) ? i12 : 0, j};
+}
+
+struct Shape {
+  const char* name;
+  std::size_t count;
+  Outline (*outline)(Dimensions);  // none: a profile of its own
+  bool point_symmetric = true;     // its shear centre is the centre of its area
+};
+
+constexpr Shape shapes[] = {{"BAR", 2, nullptr},
+                            {"BOX", 4, nullptr},
+                            {"BOX1", 6, shape_box1, false},
+                            {"CHAN", 4, shape_chan, false},
+                            {"CHAN1", 4, shape_chan1, false},
+                            {"CHAN2", 4, shape_chan2, false},
+                            {"CROSS", 4, shape_cross},
+                            {"H", 4, shape_h},
+                            {"HAT", 4, shape_hat, false},
+                            {"HEXA", 3, nullptr},
+                            {"I", 6, shape_i},
+                            {"I1", 4, shape_i1},
+                            {"ROD", 1, nullptr},
+                            {"T", 4, shape_t, false},
+                            {"T1", 4, shape_t1, false},
+                            {"T2", 4, shape_t, false},
+                            {"TUBE", 2, nullptr},
+                            {"TUBE2", 2, nullptr},
+                            {"Z", 4, shape_z}};
+
+const Shape* shape_named(const std::string& name) {
+  const auto* found = std::find_if(std::begin(shapes), std::end(shapes), [&](const auto& s) { return name == s.name; });
+  return found == std::end(shapes) ? nullptr : found;
+}
+
+void take_constants(const std::array<double, 5>& c, NasBeamProperty& property) {
+  property.area = c[0];
+  property.section.profile = Profile::general;
+  property.section.dimensions = {c[0], c[2], c[3], c[1], c[4]};
+}
+
+void take_round(NasFields& card, const std::string& shape, Dimensions d, NasBeamProperty& property) {
+  const double inner = shape == "ROD" ? 0 : shape == "TUBE" ? d[1] : d[0] - d[1];
+  if (!(inner >= 0 && inner < d[0])) return card.refuse(9, "expects a wall inside the outer radius");
+  property.section.profile = inner > 0 ? Profile::pipe : Profile::circle;
+  property.section.dimensions = {d[0]};
+  if (inner > 0) property.section.dimensions.push_back(d[0] - inner);
+  property.area = M_PI * (d[0] * d[0] - inner * inner);
+}
+
+void take_box(NasFields& card, Dimensions d, NasBeamProperty& property) {
+  constexpr double whole = 1 - 1e-12;  // of a wall that leaves nothing
+  if (!(2 * d[3] < whole * d[0] && 2 * d[2] < whole * d[1]))
+    return card.refuse(10, "expects walls thinner than the box");
+  property.section.profile = Profile::box;
+  property.section.dimensions = {d[1], d[0], d[2], d[3], d[2], d[3]};
+  property.area = d[0] * d[1] - (d[0] - 2 * d[3]) * (d[1] - 2 * d[2]);
+}
+
+void take_outline(NasFields& card, const Shape& shape, Dimensions d, NasBeamProperty& property) {
+  const Outline outline = shape.outline(d);
+  constexpr double least = 1e-12;
+  const double size = *std::max_element(d.begin(), d.end());
+  for (const auto& part : outline.parts)
+    if (!(part.height > least * size && part.width > least * size))
+      return card.refuse(
+          9, std::string("and after: the walls of ") + shape.name + " expect to be thinner than the section");
+  std::array<double, 5> constants = constants_of(outline);
+  if (outline.walls.empty()) constants[4] = torsion_of_box1(d);
+  take_constants(constants, property);
+}
+
+}  // namespace
+
+bool equal_lengths(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+std::vector<std::string> nas_shape_names() {
+  std::vector<std::string> names;
+  for (const auto& one : shapes) names.push_back(one.name);
+  return names;
+}
+
+std::size_t nas_shape_dimensions(const std::string& shape) {
+  const Shape* found = shape_named(shape);
+  return found ? found->count : 0;
+}
+
+// Dimensions of PBARL and PBEAML in those of BeamSection: direction 1 is y of the element, 2 is z.
+void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasBeamProperty& property) {
+  const Shape& shape = *shape_named(name);
+  const bool even = name != "I" || (equal_lengths(d[1], d[2]) && equal_lengths(d[4], d[5]));
+  if (card.card.name == "PBEAML" && !(shape.point_symmetric && even))
+    return card.refuse(3, "(" + name +
+                              "): beams of CBEAM go along the shear centre, whose distance from the centre of " +
+                              "this section is not read; expected a section that is symmetric, or CBAR with PBARL");
+  if (name == "BAR") {
+    property.section.profile = Profile::rectangle;
+    property.section.dimensions = {d[1], d[0]};
+    property.area = d[0] * d[1];
+  } else if (name == "BOX") {
+    take_box(card, d, property);
+  } else if (name == "HEXA") {
+    if (!(2 * d[0] < d[1])) return card.refuse(9, "expects DIM1 less than half of DIM2");
+    take_constants(hexagon(d), property);
+  } else if (!shape.outline) {
+    take_round(card, name, d, property);
+  } else {
+    take_outline(card, shape, d, property);
+    if (name != "I" || !even || !card.good()) return;
+    property.section.profile = Profile::i_section;
+    property.section.dimensions = {d[0] / 2, d[0], d[1], d[2], d[4], d[5], d[3]};
+    property.section.quarter_turn = true;
+  }
+}
+
+}  // namespace floe::mesh

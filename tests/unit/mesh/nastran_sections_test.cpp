@@ -1,0 +1,124 @@
+#include "nastran_text.h"
+
+using namespace floe;
+using namespace floe::testing::nastran;
+using Catch::Matchers::Contains;
+
+TEST_CASE("shapes of PBARL have the constants of their outlines") {
+  struct Case {
+    const char* card;  // shape and dimensions
+    double area, i1, i2, i12, j;
+  };
+  // A, I1, I2, I12 by integrals along the outline (Green's theorem); J of thin walls by hand, to the middle of the
+  // walls.
+  const Case cases[] = {{"T\n,40.,30.,3.,2.", 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
+                        {"T2\n,40.,30.,3.,2.", 174, 11749.81034, 16018, 0, (40 * 27 + 28.5 * 8) / 3},
+                        {"T1\n,30.,20.,3.,2.", 130, 6763.333333, 5063.141026, 0, (30 * 27 + 21.5 * 8) / 3},
+                        {"CHAN\n,20.,30.,2.,3.", 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
+                        {"CHAN1\n,18.,2.,24.,30.", 168, 24264, 6793.142857, 0, (27 * 8 + 2 * 19 * 27) / 3.},
+                        {"CHAN2\n,2.,3.,20.,30.", 158, 5578.584388, 20100.66667, 0, (28 * 27 + 2 * 18.5 * 8) / 3},
+                        {"CROSS\n,20.,3.,30.,2.", 130, 6763.333333, 2090.833333, 0, (30 * 27 + 20 * 8) / 3.},
+                        {"H\n,20.,4.,30.,3.", 180, 9045, 16560, 0, (22 * 27 + 60 * 8) / 3.},
+                        {"I\n,40.,20.,30.,2.,3.,4.", 246, 61421.57317, 11022, 0, (20 * 27 + 36.5 * 8 + 30 * 64) / 3},
+                        {"I1\n,18.,2.,24.,30.", 168, 24264, 4016, 0, (2 * 20 * 27 + 27 * 8) / 3.},
+                        {"Z\n,20.,2.,24.,30.", 180, 26460, 18540, -17820, (27 * 8 + 2 * 21 * 27) / 3.},
+                        {"HAT\n,30.,2.,25.,10.", 202, 25095.45215, 30036.83333, 0, 8 * (23 + 2 * 28 + 2 * 11) / 3.},
+                        {"BOX1\n,40.,30.,2.,3.,4.,5.", 425, 49088.35784, 97388.35784, 547.0588235,
+                         4 * 35.5 * 35.5 * 27.5 * 27.5 / (35.5 / 2 + 35.5 / 3 + 27.5 / 4 + 27.5 / 5)},
+                        {"HEXA\n,10.,40.,30.", 900, 56250, 75000, 0, 900. * 900 * 900 * 900 / (40 * 131250.)}};
+  for (const auto& c : cases) {
+    INFO(c.card);
+    const auto file = read("shape.bdf", with_beam(std::string("PBARL,5,1,,") + c.card + "\n"));
+    REQUIRE(file.deck.beam_sections.size() == 1);
+    const auto& section = file.deck.beam_sections[0];
+    REQUIRE(section.profile == mesh::Profile::general);
+    const double given[] = {c.area, c.i2, c.i12, c.i1, c.j};
+    for (int i = 0; i < 5; ++i) CHECK(section.dimensions.at(i) == Approx(given[i]).epsilon(1e-8).margin(1e-6));
+    CHECK(section.density.value() == Approx(7800));
+  }
+  CHECK_THAT(said(with_beam("PBEAML,5,1,,T\n,40.,30.,3.,2.\n")), Contains("along the shear centre"));
+  CHECK_THAT(said(with_beam("PBARL,5,1,,T\n,40.,3.,3.,2.\n")), Contains("the walls of T expect to be thinner"));
+  CHECK_THAT(said(with_beam("PBARL,5,1,,HEXA\n,20.,40.,3.\n")), Contains("DIM1 less than half of DIM2"));
+}
+
+TEST_CASE("a beam with taper is pieces of the sections in their middles") {
+  const auto file = read("taper.bdf", square +
+                                          "CBEAM,9,5,1,2,0.,0.,1.,,\n,45,6\nPBEAM,5,1,.04,3.-6,2.-6,,1.-6,2.\n"
+                                          ",YES,1.,.02,1.-6,,,,6.\n");
+  const auto& sections = file.deck.beam_sections;
+  REQUIRE(sections.size() == 4);
+  for (int k = 0; k < 4; ++k) {
+    const double x = (k + 0.5) / 4;
+    const std::vector<double> given{.04 - .02 * x, 2e-6, 0, 3e-6 - 2e-6 * x, 1e-6};  // blank at end B: as at end A
+    for (int i = 0; i < 5; ++i) CHECK(sections[k].dimensions[i] == Approx(given[i]));
+    CHECK(sections[k].density.value() == Approx(7800 + (2 + 4 * x) / (.04 - .02 * x)));
+    CHECK(sections[k].shear_factors == std::array<double, 2>{1, 1});
+    CHECK(sections[k].releases == (k == 0 ? 0x18u : k == 3 ? 0x800u : 0u));  // PA: 45, PB: 6
+  }
+  CHECK(file.mesh.node_count == 7);
+  CHECK((position(file.mesh, 6) - Eigen::Vector3d(.5, 0, 0)).norm() < 1e-12);
+  CHECK_THAT(all_of(file.notices),
+             Contains("divided into pieces of uniform section, with 3 nodes between them, from 5"));
+  const auto shaped = read("taper.bdf", with_beam("PBEAML,5,1,,BAR\n,.02,.03,,,1.,.04\n")).deck.beam_sections;
+  REQUIRE(shaped.size() == 4);
+  CHECK(shaped[3].dimensions == std::vector<double>{.03, .02 + .02 * .875});
+  // a station between: missing values lie between the ends
+  const auto more = read("taper.bdf", with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.,.02\n,NO,.5,,5.-6\n"));
+  REQUIRE(more.deck.beam_sections.size() == 8);
+  CHECK(more.deck.beam_sections[3].dimensions[0] == Approx(.04 - .02 * .4375));
+  CHECK(more.deck.beam_sections[3].dimensions[3] == Approx(3e-6 + 2e-6 * .875));
+  CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,.5,.02\n")), Contains("expects a station at end B"));
+  CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.5,.02\n")), Contains("between 0 and 1"));
+  CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.,-.02\n")), Contains("expects A greater than 0"));
+}
+
+TEST_CASE("a PSHELL without MID2 bends by its material") {
+  const auto file = read("membrane.bdf", grids + "CQUAD4,1,3,1,2,3,4\nPSHELL,3,1,.01\n" + steel);
+  REQUIRE(file.deck.shell_sections.size() == 1);
+  CHECK(!file.deck.shell_sections[0].bending);
+  CHECK_THAT(all_of(file.notices), Contains("PSHELL without MID2 is ignored: a membrane bends as a shell of its "
+                                            "material and thickness (1 card)"));
+}
+
+TEST_CASE("moments of inertia of no body become those of the least one with the greatest") {
+  const auto file = read("inertia.bdf", square + "CONM2,50,3,,4.,,,,,\n,,,2.\n");
+  const auto masses = testing::of_all_ranks(file.deck.masses);
+  REQUIRE(masses.size() == 1);
+  CHECK((masses[0].inertia - Eigen::Vector3d(1, 2, 1).asDiagonal().toDenseMatrix()).norm() < 1e-12);
+  CHECK_THAT(all_of(file.notices), Contains("taken as 1, 2, 1 instead of 0, 2, 0"));
+  CHECK_THAT(said(square + "CONM2,50,3,,4.,,,,,\n,-1.,,2.,,,2.\n"), Contains("negative about some axis"));
+}
+
+TEST_CASE("materials of solids matter only where shells or beams name them") {
+  const auto file = read("mat9.bdf", square + "MAT9,7,1.\nMAT10,8,1.\n");
+  CHECK_THAT(all_of(file.notices), Contains("MAT9 is ignored: no shell or beam has it (1 card)"));
+  CHECK_THAT(said(grids + "CTRIA3,2,3,1,2,3\nPSHELL,3,7,.01,7\nMAT9,7,1.\n"),
+             Contains("PSHELL3 names material 7, a MAT9, which is not read; use MAT1, MAT8 or MAT2"));
+}
+
+TEST_CASE("scalar points, gaps and the reduction of superelements are no part of a body") {
+  const auto notices = all_of(read("points.bdf", square + "SPOINT,101,102\nQSET1,,101,102\nCGAP,70,7,1,2\nPGAP,7\n"
+                                                          "RVDOF1,123,1,2,3,4,5,6,7,8\n")
+                                  .notices);
+  CHECK_THAT(notices, Contains("SPOINT is ignored: a point without coordinates is no node of the body (1 card)"));
+  CHECK_THAT(notices, Contains("CGAP is ignored: contact is not represented (1 card)"));
+  CHECK_THAT(said(square + "CELAS2,70,1.+5,101,0,1,3\nSPOINT,101\n"), Contains("scalar points are not read"));
+}
+
+TEST_CASE("cards replicate the one before") {
+  const auto file = read("equal.bdf",
+                         "GRID,1,,0.,0.,0.\n=,*1,=,*.5,==\n=1\nGRID,11,,0.,1.,0.\n=,*(1),=,*(.5),==\n=(1)\n"
+                         "CQUAD4,1,3,1,2,12,11\n=,*1,=,*1,*1,*1,*1\n" +
+                             skin);
+  CHECK(file.mesh.node_count == 6);
+  CHECK((position(file.mesh, 13) - Eigen::Vector3d(1, 1, 0)).norm() < 1e-15);
+  CHECK(testing::labels_at(file.mesh, "PSHELL3") == std::vector<long long>{1, 2, 3, 11, 12, 13});
+  const std::pair<std::string, const char*> wrong[] = {
+      {"=,*1\n" + square, "bad.bdf:1: card '=' replicates a card, but there is none before it"},
+      {square + "GRID,9,,0.,0.,0.\n=3\n", "bad.bdf:9: =3 repeats steps of a card with =, but there is none"},
+      {square + "GRID,9,,0.,0.,0.\n=,*x,==\n", "GRID: expected a number to which '*x' adds, found '9'"},
+      {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=99999999\n", "replication makes more than 1000000 cards"},
+      {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=0\n", "expects = or =n"},
+      {square + "CONM2,70,1,,1.\n,1.,,1.,,,1.\n=,*1,==\n", "CONM2: replication of cards with continuations"}};
+  for (const auto& [text, message] : wrong) CHECK_THAT(said(text), Contains(message));
+}
