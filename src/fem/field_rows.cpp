@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "clones.h"
+#include "floe/math/clones.h"
 
 namespace floe::fem {
 

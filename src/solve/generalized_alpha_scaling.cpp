@@ -159,9 +159,12 @@ PetscErrorCode scale_jacobian(TS ts, Mat P) {
 PetscErrorCode solve_scaled(TS ts, Vec b, Vec x) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSP ksp;
+  Mat J, P;
 
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(ts->snes, &ksp));
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(KSPSetOperators(ksp, J, P));  // simplified-newton solves with small dense matrices without the KSP
   PetscCall(KSPSolve(ksp, b, x));
   if (data->two_sided) PetscCall(VecPointwiseMult(x, x, data->column));
   PetscFunctionReturn(0);

@@ -2,6 +2,7 @@
 
 #include <petsc/private/snesimpl.h>
 
+#include "dense_factor.h"
 #include "floe/petsc/error.h"
 
 namespace floe::solve {
@@ -10,12 +11,34 @@ namespace {
 struct Data {
   PetscBool quiet = PETSC_FALSE;       // no option asks for a view or a test in each solve
   PetscBool applies_pc = PETSC_FALSE;  // the KSP does nothing but apply its PC
+  PetscBool dense = PETSC_FALSE;       // which is the LU factorisation of a small dense matrix
+  DenseFactor factor;
   Rotate rotate = nullptr;
   void* rotation_context = nullptr;
   Vec rotated = nullptr;
 };
 
 Data* data_of(SNES snes) { return static_cast<Data*>(snes->data); }
+
+// Whether DenseFactor does the same as KSP, PC and Mat. Above some hundred unknowns the calls around do not matter.
+PetscErrorCode find_dense(SNES snes, PetscBool* dense) {
+  constexpr PetscInt most = 400;
+  PetscBool only = PETSC_FALSE, lu = PETSC_FALSE, sequential = PETSC_FALSE, own = PETSC_TRUE;
+  PetscInt n;
+  PC pc;
+  MatSolverType type = nullptr;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)snes->ksp, KSPPREONLY, &only));
+  PetscCall(KSPGetPC(snes->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
+  PetscCall(PetscObjectTypeCompare((PetscObject)snes->jacobian_pre, MATSEQDENSE, &sequential));
+  PetscCall(MatGetSize(snes->jacobian_pre, &n, nullptr));
+  if (lu) PetscCall(PCFactorGetMatSolverType(pc, &type));
+  if (type) PetscCall(PetscStrcmp(type, MATSOLVERPETSC, &own));
+  *dense = only && lu && sequential && own && n <= most ? PETSC_TRUE : PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
 
 PetscErrorCode set_up(SNES snes) {
   PetscBool only = PETSC_FALSE;
@@ -24,6 +47,7 @@ PetscErrorCode set_up(SNES snes) {
   PetscCall(SNESSetUpMatrices(snes));
   PetscCall(PetscObjectTypeCompare((PetscObject)snes->ksp, KSPPREONLY, &only));
   data_of(snes)->applies_pc = only;
+  PetscCall(find_dense(snes, &data_of(snes)->dense));
   PetscFunctionReturn(0);
 }
 
@@ -82,8 +106,13 @@ PetscErrorCode solve_linear(SNES snes, Vec F, Vec Y, PetscBool* failed) {
   PetscFunctionBegin;
   *failed = PETSC_FALSE;
   if (data_of(snes)->rotate) PetscCall(rotate_back(snes, &F));
-  PetscCall(KSPSetOperators(snes->ksp, snes->jacobian, snes->jacobian_pre));
-  if (data_of(snes)->applies_pc) {
+  PetscBool factored = PETSC_FALSE;
+  if (data_of(snes)->dense && snes->lagpreconditioner == 1)
+    PetscCall(data_of(snes)->factor.factor(snes->jacobian_pre, &factored));
+  if (!factored) PetscCall(KSPSetOperators(snes->ksp, snes->jacobian, snes->jacobian_pre));
+  if (factored) {
+    PetscCall(data_of(snes)->factor.solve(F, Y));
+  } else if (data_of(snes)->applies_pc) {
     PC pc;
     PCFailedReason why;
     PetscCall(KSPSetUp(snes->ksp));
