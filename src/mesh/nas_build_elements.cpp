@@ -277,7 +277,7 @@ void NasBuild::add_beams() {
 void NasBuild::add_pieces(const NasBeamProperty& own, NasBeam beam, const std::array<long long, 4>& ends,
                           const std::array<Eigen::Vector3d, 2>& x, const Eigen::Vector3d& v, bool mine) {
   const std::size_t count = own.pieces.size();
-  const unsigned releases = beam.releases, of_a = 0x3f;
+  const unsigned releases = beam.releases | own.releases, of_a = 0x3f;
   std::array<long long, 4> nodes{ends[0], -1, -1, -1};
   for (std::size_t k = 0; k < count; ++k) {
     const bool last = k + 1 == count;

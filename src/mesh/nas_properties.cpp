@@ -95,6 +95,21 @@ void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property
       r.card.refuse(at + i, "is an offset of the neutral axis, which is not read");
 }
 
+// Of what no piece carries the ends of the whole are released (torsion at A alone), and the constant that is 0 becomes
+// that of a square of this area: releases of every piece would leave the nodes between them without stiffness.
+void release_whole(NasBeamProperty& property) {
+  const auto release = [&](std::size_t constant, double square, unsigned ends) {
+    auto& pieces = property.pieces;
+    if (std::any_of(pieces.begin(), pieces.end(), [&](const auto& p) { return p.section.dimensions[constant] != 0; }))
+      return;
+    for (NasBeamProperty& piece : pieces) piece.section.dimensions[constant] = piece.area * piece.area * square;
+    property.releases |= ends;
+  };
+  release(4, 1. / 7, 1u << 3);
+  release(1, 1. / 12, 1u << 4 | 1u << 10);
+  release(3, 1. / 12, 1u << 5 | 1u << 11);
+}
+
 }  // namespace
 
 void read_pbeam(NasReader& r) {
@@ -124,7 +139,7 @@ void read_pbeam(NasReader& r) {
   }
   read_after_stations(r, next, property);
   taper.complete(r.card);
-  if (r.card.good() && taper.varies()) taper.divide(property, take);
+  if (r.card.good() && taper.varies()) taper.divide(property, take), release_whole(property);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 

@@ -82,6 +82,7 @@ struct NasBeamProperty {
   double area, extra;   // nonstructural mass by length
   Where where;
   std::vector<NasBeamProperty> pieces = {};  // of a beam with taper, from end A, of equal length
+  unsigned releases = 0;                     // of the ends of such a beam, for constants that are 0
 };
 
 struct NasMaterial {

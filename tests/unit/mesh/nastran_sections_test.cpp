@@ -67,6 +67,14 @@ TEST_CASE("a beam with taper is pieces of the sections in their middles") {
   REQUIRE(more.deck.beam_sections.size() == 8);
   CHECK(more.deck.beam_sections[3].dimensions[0] == Approx(.04 - .02 * .4375));
   CHECK(more.deck.beam_sections[3].dimensions[3] == Approx(3e-6 + 2e-6 * .875));
+  // without torsional stiffness: end A is released, once; without I2, both ends: the nodes between have stiffness
+  const auto without = read("taper.bdf", with_beam("PBEAM,5,1,.04,3.-6,0.\n,YES,1.,.02\n")).deck.beam_sections;
+  REQUIRE(without.size() == 4);
+  for (int k = 0; k < 4; ++k) {
+    CHECK(without[k].dimensions[1] > 0);
+    CHECK(without[k].dimensions[4] > 0);
+    CHECK(without[k].releases == (k == 0 ? 0x18u : k == 3 ? 0x400u : 0u));
+  }
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,.5,.02\n")), Contains("expects a station at end B"));
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.5,.02\n")), Contains("between 0 and 1"));
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.,-.02\n")), Contains("expects A greater than 0"));
