@@ -173,7 +173,7 @@ TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
 }
 
 // Across the axis it hangs above a speed only: where the greatest torque towards the horizontal, over all angles, is 0.
-TEST_CASE("campbell: a branch that ends is left with a warning that says where") {
+TEST_CASE("campbell: a branch that ends is left with a warning that gives the speed") {
   const HingedRod rod{0.05, 2.9};
   const auto steepest = [&](double W) {  // the angle of the greatest torque
     double at = 0;
@@ -216,7 +216,7 @@ TEST_CASE("campbell: an upright rod falls at the rate of its closed form") {
 
 // Two hinged bars on a hub, bent towards the axis by the rise h, snap through where the centrifugal force of the mass
 // at their apex is the limit load of von Mises' truss.
-TEST_CASE("a motion that starts in a steady rotation says that the branch was left on the way") {
+TEST_CASE("a motion that starts in a steady rotation reports that the branch was left on the way") {
   const double h = 0.05, R = 10, limit = 1e3 * 2 * std::pow(h, 3) / (3 * std::sqrt(3.)),
                end = std::sqrt(limit / (R - h / std::sqrt(3.)));
   const auto jumps = [&](double speed) {

@@ -313,7 +313,7 @@ probes: {tip: {at: b.end}}
 }
 
 // The floating frames and the elements' own frames say the same of a beam that deflects little.
-TEST_CASE("cfr in space: a beam that turns and deflects little, against full order in a floating frame") {
+TEST_CASE("cfr in space: a beam that rotates and deflects little, against the full-order model in a floating frame") {
   const std::string scene = R"yaml(
 gravity: [0, 0, -9.81]
 bodies:

@@ -84,7 +84,7 @@ TEST_CASE("joint modes: a warning of modes that cannot represent the moment of t
 // In a frame that is clamped at a place nothing deforms there, so that a force or moment at this place has no static
 // response: modes of a body that is free there had no root moment (23 % too stiff). Expected: P L^3 / (3 E I), and the
 // same deflection whether or not a probe of the joint's moment keeps the body from sharing the hub's frame.
-TEST_CASE("joint modes: held by a joint to another body where the frame is clamped") {
+TEST_CASE("joint modes: fixed by a joint to another body where the frame is clamped") {
   const bool space = GENERATE(false, true), probed = GENERATE(false, true);
   const std::string joint = GENERATE("fixed", "driven");
   INFO((space ? "in space, " : "in the plane, ") << joint << (probed ? ", probed" : ""));

@@ -28,7 +28,9 @@ probes: {tip: {at: strip.right}}
 
 }  // namespace
 
-TEST_CASE("products: fewer of them leave the error against full order as it is, and the estimate sees those omitted") {
+TEST_CASE(
+    "products: fewer of them leave the error against the full-order model as it is, and the estimate sees those "
+    "omitted") {
   const History full = move(strip("all"), Formulation::nlffr);
   double before = 0;
   for (const std::string products : {"all", "1 %", "3 %", "30 %"}) {

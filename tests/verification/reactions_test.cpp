@@ -160,7 +160,7 @@ probes:
   CHECK(full["f.x"].back() == Approx(reduced["f.x"].back()).epsilon(0.02));
 }
 
-TEST_CASE("springs, bushings and end stops tell their forces", "[verification]") {
+TEST_CASE("springs, bushings and end stops report their forces", "[verification]") {
   const std::string text = R"yaml(
 gravity: [0, 0, -10]
 bodies:
@@ -259,7 +259,7 @@ probes:
   }
 }
 
-TEST_CASE("a beam between two clamps: q L / 2, q L^2 / 12, or the refusal of a basis that cannot tell",
+TEST_CASE("a beam between two clamps: q L / 2, q L^2 / 12, or the refusal of a basis that does not determine them",
           "[verification]") {
   const std::string text = R"yaml(
 gravity: [0, 0, -10]

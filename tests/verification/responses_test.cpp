@@ -47,7 +47,7 @@ std::string fast(const char* more) {
 
 // Under a slow load of its tip the residual of one mode is what that mode lacks of the static deflection P L^3/(3 EI),
 // of which it has 12/beta_1^4 = 0.9707.
-TEST_CASE("residual responses: one of them has the static deflection that the mode lacks") {
+TEST_CASE("residual responses: one of them has the static deflection that is missing in the mode") {
   const double exact = 1e-3 / 3;
   const double mode = moved(slow(""), Formulation::vm_md).series.values.back()[1];
   CHECK(mode == Approx(12 / std::pow(1.875104069, 4) * exact).epsilon(2e-3));

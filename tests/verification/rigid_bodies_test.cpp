@@ -45,7 +45,7 @@ probes: {pendulum: {formula: -hinge.angle}}
 
 // Euler's equations without moment, J1 < J2 < J3 and L^2 > 2 T J2 (Whittaker, Analytical Dynamics, 69): w = (a1 cn, a2
 // sn, a3 dn)(s t | k^2), up to signs.
-TEST_CASE("rigid bodies by their mass: a free asymmetric top turns as Jacobi's functions say") {
+TEST_CASE("rigid bodies by their mass: a free asymmetric top rotates by Jacobi's functions") {
   const Vector3d J(1.0, 1.6, 2.2), w0(1.2, 0, 1.5);
   const double twice_T = w0.dot(J.cwiseProduct(w0)), L2 = J.cwiseProduct(w0).squaredNorm();
   REQUIRE(L2 > twice_T * J[1]);

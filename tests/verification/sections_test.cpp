@@ -292,7 +292,8 @@ probes:
   }
 }
 
-TEST_CASE("sections of a driven beam of three modes: error against full order, and its estimate", "[verification]") {
+TEST_CASE("sections of a driven beam of three modes: error against the full-order model, and its estimate",
+          "[verification]") {
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 bodies:

@@ -50,7 +50,7 @@ TEST_CASE("adaptive steps about an equilibrium do not shrink to resolve round-of
     CHECK(move(text, formulation).report.steps < 100);
 }
 
-TEST_CASE("small vibrations about the sagged shape do not depend on how it was reached", "[verification]") {
+TEST_CASE("small vibrations about the shape under gravity do not depend on how it was reached", "[verification]") {
   // the same force about the equilibrium: cfr and vm+md differ by what their models do, not by a start out of balance
   const std::string text = fill(sagging, {{"F", "0.01"}, {"start", "equilibrium"}});
   const History exact = move(text, Formulation::cfr), reduced = move(text, Formulation::vm_md);

@@ -38,7 +38,7 @@ joints: {hinge: {type: revolute, between: [ground, rod.start], axis: $z}}
 
 // I phi.. = -k (phi - ref) - d phi.: the step response of an oscillator with omega = sqrt(k/I), zeta = d / (2 omega I).
 // The work of the moment is the kinetic energy.
-TEST_CASE("state loads: a link with PD control answers a step as the closed form says") {
+TEST_CASE("state loads: a link with PD control has the closed form's step response") {
   const double omega = 5, zeta = 0.1, ref = 0.3, od = omega * std::sqrt(1 - zeta * zeta);
   for (const bool space : {false, true}) {
     const History at = move(rod(space, R"yaml(

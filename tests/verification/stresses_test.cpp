@@ -98,7 +98,7 @@ TEST_CASE("moments of a clamped square plate under pressure", "[verification]") 
   CHECK(std::abs(coarse["edge.xx"].back()) == Approx(0.0513 * q).epsilon(0.06));
 }
 
-TEST_CASE("stresses of a reduced plate converge to those of full order", "[verification]") {
+TEST_CASE("stresses of a reduced plate converge to those of the full-order model", "[verification]") {
   const History full = rest(clamped_plate(12, 3, ""), Formulation::nlffr);
   const auto error = [&](int modes) {
     const History reduced = rest(clamped_plate(12, modes, ", derivatives: none"), Formulation::vm_md);

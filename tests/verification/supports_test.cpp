@@ -43,7 +43,7 @@ const double D = 1e10 * 1e-6 / (12 * 0.91), unit = std::sqrt(D / (1000 * 0.01));
 }  // namespace
 
 // Navier: omega_mn = pi^2 (m^2 + n^2) sqrt(D / rho h) / a^2.
-TEST_CASE("supports: edges that are held laterally only, Navier's plate") {
+TEST_CASE("supports: edges that are supported laterally only, Navier's plate") {
   const std::vector<double> omega = omega_of(plate(lateral + centre));
   const double pi2 = M_PI * M_PI * unit;
   CHECK(omega[0] == Approx(2 * pi2).epsilon(5e-3));

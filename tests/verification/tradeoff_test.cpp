@@ -114,7 +114,8 @@ TEST_CASE("trade-off: totals are those against geometrically exact beams on a fi
   CHECK(variants.at("selected for 1 %").selected.find("frames") != std::string::npos);
 }
 
-TEST_CASE("trade-off: where cfr is not supported, the reference is full order on a finer mesh, and says why") {
+TEST_CASE(
+    "trade-off: where cfr is not supported, the reference is the full-order model on a finer mesh, with the reason") {
   const scene::Scene scene = scene_of("8", "4e-3", modal);
   const app::RunResult own = moved(scene, Formulation::nlffr);
   const app::TradeoffReference reference = app::tradeoff_reference(scene, {}, own.series, PETSC_COMM_WORLD);
@@ -132,7 +133,7 @@ TEST_CASE("trade-off: where cfr is not supported, the reference is full order on
                     Catch::Contains("--reference cfr: formulation cfr"));
 }
 
-TEST_CASE("trade-off: the time budget decides between cfr and full order") {
+TEST_CASE("trade-off: the time budget decides between cfr and the full-order model") {
   const scene::Scene scene = scene_of("8", "4e-3");
   const app::RunResult own = moved(scene, Formulation::nlffr);
   const app::TradeoffRequest request{std::nullopt, 0.01, 1e-6};
