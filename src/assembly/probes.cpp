@@ -311,29 +311,6 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
   }
 }
 
-}  // namespace
-
-int moving_frames(const Model& model) {
-  return static_cast<int>(std::count_if(model.bodies.begin(), model.bodies.end(),
-                                        [](const BodyReport& body) { return body.attitude != nullptr; }));
-}
-
-std::vector<double> attitudes(const Model& model, Vec U) {
-  std::vector<double> all;
-  if (moving_frames(model) == 0) return all;
-  Eigen::VectorXd q;
-  model.system->gather(U, q);
-  for (const BodyReport& body : model.bodies) {
-    if (!body.attitude) continue;
-    Eigen::Quaterniond at = body.attitude->base * math::quaternion(q.segment<3>(body.first_coordinate + 3));
-    if (at.w() < 0) at.coeffs() *= -1;
-    all.insert(all.end(), {at.w(), at.x(), at.y(), at.z()});
-  }
-  return all;
-}
-
-namespace {
-
 /// Unknowns and accelerations at an instant: given ones, or those that are consistent with U and V. Collective.
 void find_accelerations(const Model& model, double t, Vec U, Vec V, Vec A, Eigen::VectorXd& q, Eigen::VectorXd& a) {
   if (A) return model.system->gather(A, a);
