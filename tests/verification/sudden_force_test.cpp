@@ -28,61 +28,39 @@ std::string cantilever_deck() {
 // 0.8 % smaller.
 TEST_CASE("sudden force at a node of elements of second order") {
   const Scratch scratch;
-  write_text((scratch.path / "model.inp").string(), cantilever_deck());
-  const std::string text = R"yaml(
+  const std::string deck = (scratch.path / "model.inp").string();
+  write_text(deck, cantilever_deck());
+  const std::string text = fill(R"yaml(
 bodies:
   body:
-    mesh: {file: {path: model.inp}}
+    mesh: {file: {path: $deck}}
     frame: {type: pinned, from: ROOT, to: TIP}
     reduction: {modes: 5, derivatives: all}
 joints: {root: {type: fixed, between: [ground, body.ROOT]}}
 loads: {push: {type: force, at: body.TIP, force: [0, 0, 29.16666666666667]}}
 motion: {end: 0.06, step: 1e-3}
 probes: {tip: {at: body.TIP}}
-)yaml";
+)yaml",
+                                {{"deck", deck}});
   for (const auto formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
     INFO(scene::name_of(formulation));
-    assembly::Model model = assembly::build(scene::parse_scene(text, (scratch.path / "scene.yaml").string()),
-                                            formulation, PETSC_COMM_WORLD);
-    std::vector<double> tip;
-    solve::simulate(*model.system, {0.06, 1e-3, 0.8, {}, "motion_"}, model.U, model.V,
-                    [&](const solve::Instant& instant) {
-                      tip.push_back(assembly::probe_values(model, instant.t, instant.U, instant.V)[2]);
-                    });
-    REQUIRE(tip.size() == 61);
-    CHECK(tip[20] == Approx(0.03984).epsilon(0.025));
-    CHECK(tip[40] == Approx(0.11892).epsilon(0.025));
-    CHECK(tip[60] == Approx(0.15794).epsilon(0.025));
+    const History history = move(text, formulation);
+    CHECK(history.at("tip.z", 0.02) == Approx(0.03984).epsilon(0.025));
+    CHECK(history.at("tip.z", 0.04) == Approx(0.11892).epsilon(0.025));
+    CHECK(history.at("tip.z", 0.06) == Approx(0.15794).epsilon(0.025));
   }
 }
 
-// The shape is inextensible to second order; what is left excites stretching of many times the frequencies that the
-// steps resolve. The shape is that of a force at the tip, and its motion is nearly the first vibration: f = 0.5596
-// sqrt(E t^2 / (12 rho)) / L^2 = 2.47 Hz, a period of 0.405 s.
+// Its motion is nearly the first vibration: f = 0.5596 sqrt(E t^2 / (12 rho)) / L^2 = 2.47 Hz, a period of 0.405 s.
 TEST_CASE("release of a strip of shells from a bent shape as a full-order model") {
-  const std::string text = R"yaml(
-bodies:
-  strip:
-    mesh: {plate: {along: [1, 0, 0], across: [0, 0.1, 0], elements: [12, 2], cells: quadrilaterals}}
-    section: {thickness: 0.003}
-    material: {E: 7e10, nu: 0.3, rho: 2700}
-    initial: {deformation: ["-1.125*0.06^2*(4*x^3/3 - x^4 + x^5/5)", 0, "0.06*x^2*(3-x)/2"]}
-joints: {root: {type: fixed, between: [ground, strip.left]}}
-motion: {end: 0.4, step: 2e-3}
-probes: {tip: {at: strip.p3, quantity: position}}
-)yaml";
   for (const auto formulation : {Formulation::nlffr, Formulation::cfr}) {
     INFO(scene::name_of(formulation));
-    assembly::Model model = assembly::build(scene::parse_scene(text, "strip.yaml"), formulation, PETSC_COMM_WORLD);
-    std::vector<double> tip;
-    solve::simulate(*model.system, {0.4, 2e-3, 0.8, {}, "motion_"}, model.U, model.V,
-                    [&](const solve::Instant& instant) {
-                      tip.push_back(assembly::probe_values(model, instant.t, instant.U, instant.V)[2]);
-                    });
-    REQUIRE(tip.size() == 201);
+    const History history = move(released_strip, formulation);
+    const std::vector<double>& tip = history["tip.z"];
     CHECK(*std::min_element(tip.begin(), tip.end()) == Approx(-0.06).epsilon(0.05));
-    const auto crossing = std::find_if(tip.begin(), tip.end(), [](double z) { return z < 0; });
-    CHECK((crossing - tip.begin()) * 2e-3 == Approx(0.1).epsilon(0.05));
+    REQUIRE(history.crossings("tip.z").size() == 2);
+    CHECK(history.crossings("tip.z")[0] == Approx(0.405 / 4).epsilon(0.05));
+    CHECK(history.crossings("tip.z")[1] == Approx(0.405 * 3 / 4).epsilon(0.05));
     CHECK(tip.back() == Approx(0.06).epsilon(0.05));
   }
 }
