@@ -42,7 +42,7 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
   return rates - unbalanced;
 }
 
-void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy) {
+void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double greatest) {
   if (count_ == 0) start_ = energy;
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
@@ -52,6 +52,9 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
     growth_ = std::max(growth_, energy - start_ - work_);
     power_ = power, known_ = 1;
   }
+  const double exchanged = std::max(turnover_, greatest);
+  if (growth_ <= 0.5 * exchanged) accounted_ = exchanged;
+  beyond_ = growth_ > most_growth * accounted_ ? beyond_ + 1 : 0;
   ++count_, t_ = t;
 }
 
@@ -61,12 +64,13 @@ void EnergyBalance::add_impulse(double energy) {
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_, t_, power_, known_, start_, work_, turnover_, growth_};
+  return {count_, t_, power_, known_, start_, work_, turnover_, growth_, accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], power_ = saved[2], known_ = saved[3];
   start_ = saved[4], work_ = saved[5], turnover_ = saved[6], growth_ = saved[7];
+  accounted_ = saved[8], beyond_ = saved[9];
 }
 
 }  // namespace floe::solve

@@ -78,6 +78,14 @@ Progress later_progress(GeneralizedAlpha* data, const Norms& norms) {
   return least;
 }
 
+// Whether Newton has left what its start is near, so that what it finds is another solution than the motion's: an
+// update of ten times the first one and of the step's own size, or, with new Jacobians, a residual of a hundred times
+// the first.
+bool has_left(const GeneralizedAlpha* data, const Norms& norms, PetscInt lag, PetscReal residual) {
+  return (norms.update > 10 * data->first_update && norms.update > 0.1 * norms.increment) ||
+         (lag == 1 && residual > 100 * data->first_residual);
+}
+
 }  // namespace
 
 // Converged when the error that is left is under rtol min(|q_1 - q_0|, |q_1 - q_0 - h v_0|) and slack, in the norm
@@ -98,6 +106,7 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
   *reason = SNES_CONVERGED_ITERATING;
   if (iteration == 0) {
     data->new_jacobian = data->formed = PETSC_FALSE;
+    data->first_residual = residual;
     if (residual == 0) *reason = SNES_CONVERGED_FNORM_ABS;
     if (PetscIsInfOrNanReal(residual)) *reason = SNES_DIVERGED_FNORM_NAN;
     PetscFunctionReturn(0);
@@ -120,7 +129,7 @@ PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscR
     data->idle = data->growing = 0;
   } else if (data->idle >= 3 && norms.update <= PetscMax(0.1 * norms.increment, 1e3 * floor)) {
     *reason = SNES_CONVERGED_SNORM_RELATIVE;
-  } else if (data->growing >= 2 && norms.update > 1e3 * floor) {
+  } else if (norms.update > 1e3 * floor && (data->growing >= 2 || has_left(data, norms, lag, residual))) {
     *reason = SNES_DIVERGED_DTOL;
   }
   data->update = norms.update;

@@ -23,6 +23,10 @@ struct GeneralizedAlpha {
   PetscInt equal_steps = 0;
   PetscBool started = PETSC_FALSE;
 
+  // A step needed a start of Newton's method without motions that it does not resolve; so do those that follow, as long
+  // as there are any.
+  PetscBool unresolved = PETSC_FALSE;
+
   // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
   // is away from v(t_n) normal to the constraints.
   PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
@@ -41,7 +45,7 @@ struct GeneralizedAlpha {
   PetscBool two_sided = PETSC_FALSE;
 
   // Newton's updates in the step under way, and what earlier steps taught about their rate.
-  PetscReal update = 0, best = 0, first_update = 0;
+  PetscReal update = 0, best = 0, first_update = 0, first_residual = 0;
   PetscReal whole_update = 0;  // multipliers included
   PetscInt idle = 0, growing = 0;
   PetscReal rate = 1, rate_update = 0;  // the rate seen last, and the first update of that solve
@@ -111,7 +115,8 @@ PetscErrorCode smooth_rates(TS ts);
 /// U - U0, where a step may end, loses what the step does not resolve: of stiff motions h^2 a_0 / 2 is (omega h)^2 / 2
 /// times their amplitude. Multipliers become those of U0. Leaves J of the step's beginning in the solver. Collective.
 ///
-/// @param reach  the distance of U before; 0: U stays, because J cannot be solved or because U has none of them
+/// @param reach  how far the step's end can be: twice the distance of what is kept, and h |V0|; 0: U stays, because J
+///               cannot be solved or because U has none of them
 PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach);
 /// sqrt((U - U0)' M (U - U0)). Collective.
 PetscErrorCode distance(TS ts, Vec U, PetscReal* far);

@@ -255,6 +255,7 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
   data->equal_steps = 0;
+  data->unresolved = PETSC_FALSE;
   data->rate = 1;
   PetscFunctionReturn(0);
 }
@@ -275,20 +276,21 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscFunctionReturn(0);
 }
 
-// x' M x at the state that the step begins with.
-static PetscErrorCode inertia_norm(TS ts, Vec x, PetscReal* square) {
+// sqrt(x' M x) at the state that the step begins with.
+static PetscErrorCode inertia_norm(TS ts, Vec x, PetscReal* norm) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
   PetscCall(multiply_inertia(ts, data->shift_a, x, data->work_F));
-  PetscCall(VecDot(x, data->work_F, square));
+  PetscCall(VecDot(x, data->work_F, norm));
+  *norm = PetscSqrtReal(PetscMax(*norm, 0));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason reason;
-  PetscReal squares[2];  // of U - U0 and of what it loses
+  PetscReal whole, lost, kept, coasting;
 
   PetscFunctionBegin;
   *reach = 0;
@@ -296,13 +298,15 @@ PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
   PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
   PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
   PetscCall(VecCopy(data->work_U, data->V1));
-  PetscCall(inertia_norm(ts, data->V1, &squares[0]));
+  PetscCall(inertia_norm(ts, data->V1, &whole));
   PetscCall(leave_out_stiff(ts, data->shift_a, data->work_U, &reason));
   PetscCall(VecAXPY(data->V1, -1, data->work_U));
-  PetscCall(inertia_norm(ts, data->V1, &squares[1]));
-  if (reason < 0 || !(squares[1] > 1e-6 * squares[0])) PetscFunctionReturn(0);
+  PetscCall(inertia_norm(ts, data->V1, &lost));
+  if (reason < 0 || !(lost > 1e-3 * whole)) PetscFunctionReturn(0);
+  PetscCall(inertia_norm(ts, data->work_U, &kept));
+  PetscCall(inertia_norm(ts, data->V0, &coasting));
   PetscCall(VecWAXPY(U, 1, data->U0, data->work_U));
-  *reach = PetscSqrtReal(squares[0]);
+  *reach = 2 * kept + data->h * coasting;
   PetscFunctionReturn(0);
 }
 
@@ -313,7 +317,6 @@ PetscErrorCode distance(TS ts, Vec U, PetscReal* far) {
   PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
   PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
   PetscCall(inertia_norm(ts, data->work_U, far));
-  *far = PetscSqrtReal(*far);
   PetscFunctionReturn(0);
 }
 

@@ -127,7 +127,7 @@ PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
 }
 
 // From where the step would lead without motions that it does not resolve, which after a sudden force at a node are
-// beyond Newton's reach. A solution that is farther away than the plain start is another one than the motion's.
+// beyond Newton's reach. A solution that is farther away is another one than the motion's.
 PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   PetscReal reach, far;
@@ -136,10 +136,12 @@ PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
   PetscCall(predict(ts, Guess::plain));
   PetscCall(keep_resolved(ts, data->U1, &reach));
   renew_jacobian(ts->snes, 0);
+  if (reach == 0) data->unresolved = PETSC_FALSE;
   if (reach == 0) PetscFunctionReturn(0);
   PetscCall(newton(ts, reason));
   if (*reason < 0) PetscFunctionReturn(0);
   PetscCall(distance(ts, data->U1, &far));
+  if (far <= reach) data->unresolved = PETSC_TRUE;
   if (far <= reach) PetscFunctionReturn(0);
   *reason = SNES_DIVERGED_DTOL;
   PetscCall(SNESSetConvergedReason(ts->snes, *reason));
@@ -148,26 +150,45 @@ PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
 
 // Newton begins with a Jacobian whose lag has passed and does not run into the lag on the way: a new Jacobian at the
 // beginning makes two iterations of a step, one before the last saves none. What fails with a Jacobian kept from before
-// is tried again with a new one in every iteration, and then without the motions that the step does not resolve.
-PetscErrorCode solve(TS ts) {
-  const PetscInt lag = ts->snes->lagjacobian;
+// is tried again with a new one in every iteration.
+PetscErrorCode newton_from_extrapolated(TS ts, PetscInt lag, SNESConvergedReason* reason) {
   const bool kept = lag > 1 && ts->snes->lagjac_persist;
-  SNESConvergedReason reason;
+
+  PetscFunctionBegin;
+  if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
+  if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
+  PetscCall(predict(ts, Guess::extrapolated));
+  PetscCall(newton(ts, reason));
+  ts->snes->lagjacobian = lag;
+  if (*reason >= 0 || lag == 1) PetscFunctionReturn(0);
+  ts->snes->lagjacobian = 1;
+  renew_jacobian(ts->snes, 0);
+  PetscCall(predict(ts, Guess::plain));
+  PetscCall(newton(ts, reason));
+  PetscFunctionReturn(0);
+}
+
+// While there are motions that the step does not resolve, and from where Newton fails because of them, solutions are
+// those near what it resolves.
+PetscErrorCode solve(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  const PetscInt lag = ts->snes->lagjacobian;
+  SNESConvergedReason reason = SNES_DIVERGED_DTOL;
 
   PetscFunctionBegin;
   if (!ts->snes->lagjac_persist) ts->snes->jac_iter = 0;
   if (!ts->snes->lagpre_persist) ts->snes->pre_iter = 0;
-  if (kept && ts->snes->jac_iter >= lag) renew_jacobian(ts->snes, 0);
-  if (kept) ts->snes->lagjacobian = PETSC_MAX_INT;
-  PetscCall(predict(ts, Guess::extrapolated));
-  PetscCall(newton(ts, &reason));
-  ts->snes->lagjacobian = reason < 0 ? 1 : lag;
-  if (reason < 0 && lag != 1) {
-    renew_jacobian(ts->snes, 0);
-    PetscCall(predict(ts, Guess::plain));
-    PetscCall(newton(ts, &reason));
+  const PetscBool before = data->unresolved;
+  if (before) {
+    ts->snes->lagjacobian = 1;
+    PetscCall(newton_from_resolved(ts, &reason));
+    ts->snes->lagjacobian = lag;
   }
-  if (reason < 0) PetscCall(newton_from_resolved(ts, &reason));
+  if (!data->unresolved) PetscCall(newton_from_extrapolated(ts, lag, &reason));
+  if (!before && reason < 0) {
+    ts->snes->lagjacobian = 1;
+    PetscCall(newton_from_resolved(ts, &reason));
+  }
   ts->snes->lagjacobian = lag;
   if (reason < 0) renew_jacobian(ts->snes, 0);
   PetscFunctionReturn(0);

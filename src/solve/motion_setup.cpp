@@ -74,14 +74,15 @@ PetscErrorCode check_constraints(TS ts, PetscReal t, Vec U, PetscBool* accept) {
   });
 }
 
-/// A state that is not finite, or whose energy soon will not be, is none to go on from, or to end with.
+/// Stops at a state that is not finite, or whose energy would overflow.
 void refuse_not_finite(Vec U, Vec V) {
   double sizes[2] = {0, 0};
   check(VecNorm(U, NORM_2, &sizes[0]));
   check(VecNorm(V, NORM_2, &sizes[1]));
   if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
     throw RunError(
-        "the state is not finite: the steps did not converge to a motion. Try a smaller motion.step, and remove options "
+        "the state is not finite: the steps did not converge (unstable time integration). Try a smaller motion.step, "
+        "and remove options "
         "-motion_snes_... and -motion_ts_... that stop Newton's method early");
 }
 

@@ -36,7 +36,7 @@ void each_number(TS ts, Visit&& visit) {
   visit(ts->adapt->timestepjustdecreased);
   visit(snes->lagjacobian), visit(snes->lagpreconditioner), visit(snes->jac_iter), visit(snes->pre_iter);
   visit(data->h), visit(data->h_a0), visit(data->h_scale), visit(data->started);
-  visit(data->equal_steps);
+  visit(data->equal_steps), visit(data->unresolved);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
   visit(data->reach), visit(data->reach_tried);
   visit(data->tangent_t), visit(data->tangent_shift_v), visit(data->tangent_shift_a);

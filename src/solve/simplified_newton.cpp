@@ -2,8 +2,11 @@
 
 #include <petsc/private/snesimpl.h>
 
+#include <string>
+
 #include "dense_factor.h"
 #include "floe/petsc/error.h"
+#include "floe/petsc/options.h"
 
 namespace floe::solve {
 namespace {
@@ -20,7 +23,8 @@ struct Data {
 
 Data* data_of(SNES snes) { return static_cast<Data*>(snes->data); }
 
-// Whether DenseFactor does the same as KSP, PC and Mat. Above some hundred unknowns the calls around do not matter.
+// Whether DenseFactor does the same as KSP, PC and Mat: no option of the factor is given. Above some hundred unknowns
+// the calls around do not matter.
 PetscErrorCode find_dense(SNES snes, PetscBool* dense) {
   constexpr PetscInt most = 400;
   PetscBool only = PETSC_FALSE, lu = PETSC_FALSE, sequential = PETSC_FALSE, own = PETSC_TRUE;
@@ -36,7 +40,9 @@ PetscErrorCode find_dense(SNES snes, PetscBool* dense) {
   PetscCall(MatGetSize(snes->jacobian_pre, &n, nullptr));
   if (lu) PetscCall(PCFactorGetMatSolverType(pc, &type));
   if (type) PetscCall(PetscStrcmp(type, MATSOLVERPETSC, &own));
-  *dense = only && lu && sequential && own && n <= most ? PETSC_TRUE : PETSC_FALSE;
+  const char* prefix = ((PetscObject)snes)->prefix;
+  const bool plain = !petsc::user_sets(std::string(prefix ? prefix : "") + "pc_factor_");
+  *dense = only && lu && sequential && own && plain && n <= most ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 

@@ -9,6 +9,8 @@ using namespace floe::test;
 
 namespace {
 
+constexpr double EI = 7e10 * 0.02 * 1e-6 / 12;  // [N m2]; L = 1 m
+
 /// A cantilever of 1 m, 20 mm wide and 10 mm thick, of ten B32R.
 std::string cantilever_deck() {
   std::string text = "*NODE\n";
@@ -30,24 +32,39 @@ TEST_CASE("sudden force at a node of elements of second order") {
   const Scratch scratch;
   const std::string deck = (scratch.path / "model.inp").string();
   write_text(deck, cantilever_deck());
-  const std::string text = fill(R"yaml(
+  const std::string pushed = fill(R"yaml(
 bodies:
   body:
     mesh: {file: {path: $deck}}
     frame: {type: pinned, from: ROOT, to: TIP}
     reduction: {modes: 5, derivatives: all}
 joints: {root: {type: fixed, between: [ground, body.ROOT]}}
-loads: {push: {type: force, at: body.TIP, force: [0, 0, 29.16666666666667]}}
-motion: {end: 0.06, step: 1e-3}
+loads: {push: {type: force, at: body.TIP, force: [0, 0, $F]}}
+motion: {end: 0.06, step: $h}
 probes: {tip: {at: body.TIP}}
 )yaml",
-                                {{"deck", deck}});
+                                  {{"deck", deck}});
+  const std::string text = fill(pushed, {{"F", number(0.25 * EI)}, {"h", "1e-3"}});
   for (const auto formulation : {Formulation::nlffr, Formulation::cfr, Formulation::vm_md}) {
     INFO(scene::name_of(formulation));
     const History history = move(text, formulation);
     CHECK(history.at("tip.z", 0.02) == Approx(0.03984).epsilon(0.025));
     CHECK(history.at("tip.z", 0.04) == Approx(0.11892).epsilon(0.025));
     CHECK(history.at("tip.z", 0.06) == Approx(0.15794).epsilon(0.025));
+  }
+  // other forces: as in steps that are five times shorter, or, where they are great, refused
+  for (const double times : {0.4, 0.7, 1.1, 1.5, 1.9}) {
+    const Words shorter{{"F", number(times * EI)}, {"h", "2e-4"}}, longer{{"F", number(times * EI)}, {"h", "1e-3"}};
+    const double expected = move(fill(pushed, shorter), Formulation::nlffr).at("tip.z", 0.06);
+    for (const auto formulation : {Formulation::nlffr, Formulation::cfr}) {
+      INFO(times << " " << scene::name_of(formulation));
+      try {
+        const double found = move(fill(pushed, longer), formulation).at("tip.z", 0.06);
+        CHECK(found == Approx(expected).epsilon(0.01));
+      } catch (const RunError&) {
+        CHECK(times > 0.75);
+      }
+    }
   }
 }
 

@@ -22,22 +22,29 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 /// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
-  /// An instant. @param energy  total, of U, V; A null: not known yet (at the start). Collective.
-  void add(const System& system, double t, Vec U, Vec V, Vec A, double energy);
+  /// An instant. A null: not known yet (at the start). Collective.
+  /// @param energy    total, of U, V
+  /// @param greatest  of its parts, so far
+  void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double greatest);
   /// Energy that the impulses of drives bring at an instant, which belongs to W; the power behind it is another one.
   void add_impulse(double energy);
   double work() const { return work_; }          ///< W [J]
   double growth() const { return growth_; }      ///< [J]
   double turnover() const { return turnover_; }  ///< int |P| dt [J]
+  /// Whether the growth was more than `most_growth` times what the motion had and exchanged while its balance held, at
+  /// two instants in a row (one alone may be round-off of a motion that begins from rest), and more than `floor` [J].
+  bool runs_away(double floor) const { return beyond_ >= 2 && growth_ > floor; }
+  static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 8;
+  static constexpr int numbers = 10;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
  private:
   double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
+  double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 
 }  // namespace floe::solve
