@@ -85,11 +85,11 @@ void NasBuild::add_extra_grids() {
                     std::to_string(extra_.front().label) + " on, rigidly linked to their grids");
 }
 
-/// Moments of inertia of which one exceeds the sum of the others are those of no body, as where a card has one alone:
-/// the body of least extent that has the greatest of them is taken. With J = tr(S) 1 - S, S the integral of r r^T,
-/// negative roots of S become 0.
+/// Moments of inertia of which one exceeds the sum of the others (by 0.1 %: rounded fields) are physically impossible,
+/// as where a card has one alone: the body of least extent that has the greatest of them is taken. With J = tr(S) 1 -
+/// S, S the integral of r r^T, negative roots of S become 0.
 void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-9, fields = 1e-3;
   const double scale = inertia.cwiseAbs().maxCoeff();
   const auto refuse = [&] {
     faults_.add(where, "CONM2: its moments of inertia are not those of a mass: one is negative about some axis");
@@ -98,11 +98,13 @@ void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
   const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(second);
   if (!(principal.eigenvalues()[0] < -rounding * scale)) return;
+  const bool reports = principal.eigenvalues()[0] < -fields * scale;
   const Eigen::Vector3d kept = principal.eigenvalues().cwiseMax(0);
   const Eigen::Matrix3d &e = principal.eigenvectors(), was = inertia;
   inertia = kept.sum() * Eigen::Matrix3d::Identity() - Eigen::Matrix3d(e * kept.asDiagonal() * e.transpose());
+  if (!reports) return;
   notices.push_back(fmt::format(
-      "{}: CONM2: its moments of inertia are those of no body (one exceeds the sum of the "
+      "{}: CONM2: its moments of inertia are physically impossible (one exceeds the sum of the "
       "others); taken as {:.6g}, {:.6g}, {:.6g} instead of {:.6g}, {:.6g}, {:.6g}",
       faults_.text_of(where), inertia(0, 0), inertia(1, 1), inertia(2, 2), was(0, 0), was(1, 1), was(2, 2)));
 }

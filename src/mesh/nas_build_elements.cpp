@@ -21,8 +21,11 @@ int NasBuild::part_of(long long property, const Variant& variant, const std::str
   if (!fresh) return at->second;
   constexpr std::size_t most = 20000;
   if (mesh.parts.size() == most)
-    faults_.add({0, 1}, "the elements have more than " + std::to_string(most) +
-                            " different sections: give material axes by MCID, orientations by vectors");
+    faults_.add(
+        {0, 1},
+        "the elements have more than " + std::to_string(most) +
+            " different sections (of tapered beams, each piece for each orientation): give material axes by MCID, "
+            "orientations by equal vectors");
   mesh.parts.push_back(name);
   make(at->second);
   return at->second;

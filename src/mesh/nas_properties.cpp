@@ -13,7 +13,7 @@ void read_pshell(NasReader& r) {
   property.plies.push_back({material, r.card.positive(2, "a thickness"), 0});
   const long long bending = r.card.integer(3, "a material (MID2)", 0);
   if (bending < 0) r.card.refuse(3, "(MID2: -1, plane strain) is not read; expected a material");
-  if (bending == 0) r.count_ignored("PSHELL without MID2");
+  if (bending == 0) r.count_ignored("PSHELL without MID2 (membranes)");
   if (bending > 0 && bending != material) property.bending = bending;
   property.factor = r.card.real(4, "12 I / T^3", 1);
   if (std::abs(property.factor - 1) <= 1e-9) property.factor = 1;
@@ -97,11 +97,13 @@ void read_after_stations(NasReader& r, std::size_t at, NasBeamProperty& property
 
 // Of what no piece carries the ends of the whole are released (torsion at A alone), and the constant that is 0 becomes
 // that of a square of this area: releases of every piece would leave the nodes between them without stiffness.
-void release_whole(NasBeamProperty& property) {
+void release_whole(NasFields& card, NasBeamProperty& property) {
   const auto release = [&](std::size_t constant, double square, unsigned ends) {
     auto& pieces = property.pieces;
-    if (std::any_of(pieces.begin(), pieces.end(), [&](const auto& p) { return p.section.dimensions[constant] != 0; }))
-      return;
+    const auto zero = [&](const NasBeamProperty& piece) { return piece.section.dimensions[constant] == 0; };
+    if (std::none_of(pieces.begin(), pieces.end(), zero)) return;
+    if (!std::all_of(pieces.begin(), pieces.end(), zero))
+      return card.refuse_card("expects I1, I2 and J greater than 0 along the whole beam, or 0 along all of it");
     for (NasBeamProperty& piece : pieces) piece.section.dimensions[constant] = piece.area * piece.area * square;
     property.releases |= ends;
   };
@@ -139,7 +141,7 @@ void read_pbeam(NasReader& r) {
   }
   read_after_stations(r, next, property);
   taper.complete(r.card);
-  if (r.card.good() && taper.varies()) taper.divide(property, take), release_whole(property);
+  if (r.card.good() && taper.varies()) taper.divide(property, take), release_whole(r.card, property);
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
 

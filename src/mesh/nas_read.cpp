@@ -191,7 +191,7 @@ std::string nas_reason(const std::string& name) {
   static const std::map<std::string, std::string> of_fields{
       {"GRID PS", "supports are joints of the scene"},
       {"GRDSET PS", "supports are joints of the scene"},
-      {"PSHELL without MID2", "a membrane bends as a shell of its material and thickness"},
+      {"PSHELL without MID2 (membranes)", "these shells have the bending stiffness of MID1 and the thickness"},
       {"PSHELL MID3", "shells have no transverse shear deformation"},
       {"MAT1 G", "shells take E and nu, beams E and G, which differ by more than 1 % from E = 2 G (1 + nu)"},
       {"GE", "damping is that of the scene"},

@@ -181,8 +181,8 @@ void take_outline(NasFields& card, const Shape& shape, Dimensions d, NasBeamProp
   const double size = *std::max_element(d.begin(), d.end());
   for (const auto& part : outline.parts)
     if (!(part.height > least * size && part.width > least * size))
-      return card.refuse(
-          9, std::string("and after: the walls of ") + shape.name + " expect to be thinner than the section");
+      return card.refuse(9, std::string("to the last dimension: expects walls of ") + shape.name +
+                                " that are thinner than the section");
   std::array<double, 5> constants = constants_of(outline);
   if (outline.walls.empty()) constants[4] = torsion_of_box1(d);
   take_constants(constants, property);
@@ -208,9 +208,9 @@ void take_nas_shape(NasFields& card, const std::string& name, Dimensions d, NasB
   const Shape& shape = *shape_named(name);
   const bool even = name != "I" || (equal_lengths(d[1], d[2]) && equal_lengths(d[4], d[5]));
   if (card.card.name == "PBEAML" && !(shape.point_symmetric && even))
-    return card.refuse(3, "(" + name +
-                              "): beams of CBEAM go along the shear centre, whose distance from the centre of " +
-                              "this section is not read; expected a section that is symmetric, or CBAR with PBARL");
+    return card.refuse(
+        3, "(" + name + "): the axis of a CBEAM is its line of shear centres, whose distance from the centroid is " +
+               "not read for this shape; expected a symmetric section, or CBAR with PBARL");
   if (name == "BAR") {
     property.section.profile = Profile::rectangle;
     property.section.dimensions = {d[1], d[0]};

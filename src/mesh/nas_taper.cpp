@@ -14,6 +14,7 @@ constexpr int pieces_between_two = 4, pieces_with_more = 8;
 
 void NasTaper::complete(NasFields& card) {
   std::stable_sort(stations_.begin(), stations_.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  if (stations_.front().x < 0) return card.refuse_card("expects stations (X/XB) between 0 and 1");
   for (std::size_t i = 1; i < stations_.size(); ++i)
     if (!(stations_[i].x > stations_[i - 1].x && stations_[i].x <= 1))
       return card.refuse_card("expects stations (X/XB) between 0 and 1, each at a place of its own");

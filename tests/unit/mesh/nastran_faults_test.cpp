@@ -67,7 +67,7 @@ TEST_CASE("wrong beams of Nastran are refused with line and field") {
       {"PBEAML,5,1,,BAR\n,.02,.03,,,1.,.02,x\n", "PBEAML: field 18 expects a dimension (a real number), found 'x'"},
       {"PBEAML,5,1,,BAR\n,.02,.03,2.,,.5,,,3.\n", "PBEAML 5 expects a station at end B (X/XB = 1)"},
       {"PBARL,5,1,,BXO\n,.02,.03,.001,.002\n", "found 'BXO', did you mean BOX?"},
-      {"PBEAML,5,1,,I\n,.04,.02,.03,.001,.002,.002\n", "expected a section that is symmetric"},
+      {"PBEAML,5,1,,I\n,.04,.02,.03,.001,.002,.002\n", "expected a symmetric section"},
       {"PBARL,5,1,,BOX\n,.02,.03,.02,.002\n", "walls thinner"},
       {"PBAR,5,1,.01,3.-6,2.-6,-1.\n", "PBAR 5 expects A greater than 0, I1, I2 and J not negative"},
       {"PBAR,5,1,.01,0.,2.-6,1.\n,,,,,,,,\n,,,1.-6\n", "PBAR 5 expects A greater than 0"}};

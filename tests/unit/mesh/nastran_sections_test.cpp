@@ -36,8 +36,8 @@ TEST_CASE("shapes of PBARL have the constants of their outlines") {
     for (int i = 0; i < 5; ++i) CHECK(section.dimensions.at(i) == Approx(given[i]).epsilon(1e-8).margin(1e-6));
     CHECK(section.density.value() == Approx(7800));
   }
-  CHECK_THAT(said(with_beam("PBEAML,5,1,,T\n,40.,30.,3.,2.\n")), Contains("along the shear centre"));
-  CHECK_THAT(said(with_beam("PBARL,5,1,,T\n,40.,3.,3.,2.\n")), Contains("the walls of T expect to be thinner"));
+  CHECK_THAT(said(with_beam("PBEAML,5,1,,T\n,40.,30.,3.,2.\n")), Contains("line of shear centres"));
+  CHECK_THAT(said(with_beam("PBARL,5,1,,T\n,40.,3.,3.,2.\n")), Contains("expects walls of T that are thinner"));
   CHECK_THAT(said(with_beam("PBARL,5,1,,HEXA\n,20.,40.,3.\n")), Contains("DIM1 less than half of DIM2"));
 }
 
@@ -77,6 +77,11 @@ TEST_CASE("a beam with taper is pieces of the sections in their middles") {
   }
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,.5,.02\n")), Contains("expects a station at end B"));
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.5,.02\n")), Contains("between 0 and 1"));
+  for (const std::string values : {".02,1.-6,1.-6,,1.-6", ""})
+    CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,-.5," + values + "\n,NO,1.,.02\n")),
+               Contains("between 0 and 1"));
+  CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,.5,.03,,,,0.\n,NO,1.,.02,,,,0.\n")),
+             Contains("or 0 along all of it"));
   CHECK_THAT(said(with_beam("PBEAM,5,1,.04,3.-6,2.-6,,1.-6\n,NO,1.,-.02\n")), Contains("expects A greater than 0"));
 }
 
@@ -84,8 +89,8 @@ TEST_CASE("a PSHELL without MID2 bends by its material") {
   const auto file = read("membrane.bdf", grids + "CQUAD4,1,3,1,2,3,4\nPSHELL,3,1,.01\n" + steel);
   REQUIRE(file.deck.shell_sections.size() == 1);
   CHECK(!file.deck.shell_sections[0].bending);
-  CHECK_THAT(all_of(file.notices), Contains("PSHELL without MID2 is ignored: a membrane bends as a shell of its "
-                                            "material and thickness (1 card)"));
+  CHECK_THAT(all_of(file.notices), Contains("PSHELL without MID2 (membranes) is ignored: these shells have the bending "
+                                            "stiffness of MID1 and the thickness (1 card)"));
 }
 
 TEST_CASE("moments of inertia of no body become those of the least one with the greatest") {
