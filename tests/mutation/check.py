@@ -25,7 +25,8 @@ def main():
            "for (int i = 3; i != n; --i) a[i] = {};", "for (int i = 3; i != n; ++i)          ;")
     for text, wanted in (("int n = 1;\n  MPI_Comm_size(comm, &n);", True), ("PetscInt a = 0, n = 1;\n  check(VecGetSize(x.get(), &n));", True),
                          ("int n = 1;\n  f(n, g(&n));", False), ("int n = 1;\n  MPI_Allreduce(MPI_IN_PLACE, &n, 1, t, op, comm);", False),
-                         ("int n = 1;\n  for (; n < 3;) MPI_Comm_size(comm, &n);", False)):
+                         ("int n = 1;\n  for (; n < 3;) MPI_Comm_size(comm, &n);", False),
+                         ("int n = 1;\n  if (some) MPI_Comm_size(comm, &n);", False)):
         number = text.index("n = 1") + 4
         assert mutants.overwritten(text, mutants.Mutant(number, number + 1, "2", "constant")) == wanted, text
     # not: comments, strings, includes, types, messages, what deletes files or starts programs, a function's body

@@ -120,7 +120,7 @@ def overwritten(text, mutant):
         return False
     use = re.compile(rf"\b{name[1]}\b").search(text, mutant.end)
     call = text[text.rfind(";", 0, use.start()) + 1:use.start()] if use else ""
-    return re.search(r"\b(MPI_Comm_(rank|size)|[A-Z]\w*Get[A-Z]\w*|PetscObjectTypeCompare\w*)\([^;()]*(\([^;()]*\)[^;()]*)*&$", call) is not None
+    return re.match(r"\s*(check\(|PetscCall(MPI)?\()?\b(MPI_Comm_(rank|size)|[A-Z]\w*Get[A-Z]\w*|PetscObjectTypeCompare\w*)\([^;()]*(\([^;()]*\)[^;()]*)*&$", call) is not None
 
 
 def blank(text):
