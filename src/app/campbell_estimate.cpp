@@ -67,7 +67,7 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     CampbellDiagram second{{}, diagram.axis, plan_rotation(*larger, scene::Formulation::vm_md, comm), {}};
     estimate.coordinates = second.model.coordinates;
     if (estimate.coordinates <= diagram.model.coordinates)
-      throw InputError("the bodies have no larger basis: theirs is complete");
+      throw InputError("the larger bases have no more coordinates than the model");
     visit_speed(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
     estimate.missing = point.fault;
   } catch (const InputError& error) {

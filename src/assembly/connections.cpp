@@ -49,7 +49,7 @@ void refuse_undetermined(const scene::Scene& scene, const std::vector<int>& join
     if (probe.joint.empty() || std::find(names.begin(), names.end(), probe.joint) == names.end()) continue;
     throw InputError(
         fmt::format("{}.joint: the reaction of joint {} is statically indeterminate in this model: the constraints of "
-                    "joints {} are redundant; expected joints that leave the redundant motions free{}",
+                    "joints {} are redundant; expected joints that release the redundant constraints{}",
                     probe.where.text(), probe.joint, fmt::join(names, ", "), remedy));
   }
 }

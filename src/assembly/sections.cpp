@@ -89,10 +89,11 @@ BodyPart part_of(const Plan& plan, std::size_t p, const BeamSide& side, const st
     std::vector<std::string> names;
     for (const int j : there) names.push_back(plan.scene.joints[j].name);
     for (const int j : here) names.push_back(plan.scene.joints[j].name);
-    refuse(probe, fmt::format("the forces there are statically indeterminate in this model: the constraints of joints "
-                              "{} are redundant; expected joints that leave the redundant motions free, or formulation "
-                              "cfr",
-                              fmt::join(names, ", ")));
+    refuse(probe,
+           fmt::format("the forces there are statically indeterminate in this model: the constraints of joints "
+                       "{} are redundant; expected joints that release the redundant constraints, or formulation "
+                       "cfr",
+                       fmt::join(names, ", ")));
   }
   if (open[0] > 0) return rest;
   return open[1] > 0 || there.size() <= here.size() ? beyond : rest;

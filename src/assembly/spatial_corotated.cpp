@@ -128,24 +128,27 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
     return place.body >= 0 && corotated(place.body) && is_mean(place, pieces[place.body]);
   };
   for (std::size_t j = 0; j < plan_.joints.size(); ++j)
-    for (const Anchor& place : plan_.joints[j])
-      if (place.body >= 0 && corotated(place.body) && plan_.scene.joints[j].kind == Joint::Kind::support)
-        faults.push_back(plan_.scene.joints[j].where.text() +
-                         ": type support, which formulation cfr does not support; expected another formulation, or "
-                         "joints of type fixed at single nodes or clamped edges");
-      else if (mean(place))
-        faults.push_back(
-            fmt::format("{}: holds the mean of {} nodes of body {}, which formulation cfr does not support; expected "
-                        "edges: rigid or "
-                        "line, or a place of one node",
-                        plan_.scene.joints[j].where.text(), place.nodes.size(), plan_.bodies[place.body].spec.name));
+    for (const Anchor& place : plan_.joints[j]) {
+      const bool supports =
+          place.body >= 0 && corotated(place.body) && plan_.scene.joints[j].kind == Joint::Kind::support;
+      if (!supports && !mean(place)) continue;
+      const std::string where = plan_.scene.joints[j].where.text();
+      faults.push_back(
+          supports ? where +
+                         ": type support, which formulation cfr does not support; expected another "
+                         "formulation, or joints of type fixed at single nodes or clamped edges"
+                   : fmt::format("{}: constrains the mean displacement of {} nodes of body {}, which formulation "
+                                 "cfr does not support; expected edges: rigid or line, or a place of one node",
+                                 where, place.nodes.size(), plan_.bodies[place.body].spec.name));
+      break;
+    }
   for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
     const Load& load = plan_.scene.loads[l];
     const Anchor& place = plan_.loads[l];
     if (place.body < 0 || !corotated(place.body)) continue;
     if (load.axes == Load::Axes::body && load.kind != Load::Kind::pressure)
       faults.push_back(load.where.text() +
-                       ": axes: body turn with the floating frame, which formulation cfr does not "
+                       ": axes: body rotate with the floating frame, which formulation cfr does not "
                        "have; expected axes: world or place");
     if (load.axes == Load::Axes::place && mean(place))
       faults.push_back(

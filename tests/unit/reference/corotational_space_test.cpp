@@ -139,7 +139,7 @@ $rest
   using Catch::Matchers::Contains;
   CHECK(refused("", "").empty());
   CHECK_THAT(refused("", "joints: {j: {type: fixed, edges: mean, between: [b.left, b.right]}}"),
-             Contains("mean of 3 nodes"));
+             Contains("mean displacement of 3 nodes"));
   CHECK_THAT(refused("", "loads: {f: {type: force, at: b.p1, force: [1, 0, 0], axes: body}}"), Contains("axes: body"));
   CHECK_THAT(refused("", "probes: {d: {at: b.p1, quantity: deflection}}"), Contains("deflection"));
 }
