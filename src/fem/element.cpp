@@ -77,9 +77,13 @@ Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
     const Eigen::Index s = g.L.rows();
     auto rows = H.middleRows(row, s);
     rows.leftCols(k).noalias() = g.L * V;
-    const Eigen::MatrixXd slopes = g.G * V;
-    for (std::size_t p = 0; p < pairs.size(); ++p)
-      rows.col(k + p) = g.bilinear(slopes.col(pairs[p].first), slopes.col(pairs[p].second));
+    if (!pairs.empty()) {
+      const Eigen::MatrixXd slopes = g.G * V;
+      for (Eigen::Index i = 0; i < s; ++i) {
+        const Eigen::MatrixXd e = slopes.transpose() * g.P[static_cast<std::size_t>(i)].lazyProduct(slopes);
+        for (std::size_t p = 0; p < pairs.size(); ++p) rows(i, k + p) = e(pairs[p].first, pairs[p].second);
+      }
+    }
     rows = (std::sqrt(g.weight) * root(g.D) * rows).eval();
     row += s;
   }
@@ -87,12 +91,14 @@ Eigen::MatrixXd strain_rows(const ElementMaps& maps, const Eigen::MatrixXd& V,
 }
 
 body::Elasticity elasticity(const ElementMaps& maps, const Eigen::MatrixXd& V) {
-  std::vector<int> sloped;
-  for (int a = 0; a < V.cols(); ++a) {
-    bool slope = false;
-    for (const StrainPoint& g : maps.membrane) slope = slope || !(g.G * V.col(a)).isZero(0);
-    if (slope) sloped.push_back(a);
+  std::vector<char> slope(V.cols(), 0);
+  for (const StrainPoint& g : maps.membrane) {
+    const Eigen::MatrixXd slopes = g.G * V;
+    for (Eigen::Index a = 0; a < V.cols(); ++a) slope[a] |= !slopes.col(a).isZero(0);
   }
+  std::vector<int> sloped;
+  for (int a = 0; a < V.cols(); ++a)
+    if (slope[a]) sloped.push_back(a);
   body::Elasticity e;
   e.bending = V.transpose() * maps.bending * V;
   const std::vector<std::pair<int, int>> all = pairs_of(sloped);
