@@ -28,8 +28,8 @@ const char* name_of_kind(Joint::Kind kind) {
 
 }  // namespace
 
-Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced) {
-  Model model = plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced).model()
+Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, bool apart) {
+  Model model = plan.scene.dimension == 3 ? SpatialAssembly(plan, formulation, reduced, apart).model()
                                           : PlanarAssembly(plan, formulation, reduced).model();
   model.force = force_of(plan);
   for (std::size_t j = 0; j < plan.joints.size(); ++j) {

@@ -7,6 +7,8 @@
 #include "floe/assembly/combination.h"
 #include "floe/assembly/damping.h"
 #include "floe/assembly/lift.h"
+#include "floe/petsc/together.h"
+#include "floe/reference/spatial_full_order.h"
 #include "floe/petsc/values.h"
 
 namespace floe::assembly {
@@ -15,7 +17,14 @@ using Eigen::VectorXd;
 using petsc::check;
 using solve::State;
 
-Model full_order(Offline& offline) {
+PetscInt elements_of(const Offline& offline) {
+  PetscInt count = 0;
+  for (const PlannedBody& body : offline.plan.bodies)
+    if (has_structure(body)) count += body.structure.mesh.cell_count;
+  return count;
+}
+
+Model full_order(Offline& offline, bool apart) {
   std::vector<ReducedBody> compact(offline.reduced.size());
   std::vector<std::vector<double>> modal;
   std::vector<double> mass;
@@ -32,7 +41,7 @@ Model full_order(Offline& offline) {
     }
   };
   try {
-    Model model = assemble(offline.plan, Formulation::nlffr, compact);
+    Model model = assemble(offline.plan, Formulation::nlffr, compact, apart);
     restore();
     return model;
   } catch (...) {
@@ -52,31 +61,74 @@ VectorXd products(const reduction::Basis& basis, Vec r) {
   return all;
 }
 
-Residuals::Residuals(const Model& reduced, Offline& offline, Model full)
+Residuals::Residuals(const Model& reduced, Offline& offline, PetscInt apart_from)
     : reduced_(reduced),
       offline_(offline),
-      full_(std::move(full)),
+      full_(full_order(offline, elements_of(offline) >= apart_from)),
       U_(full_.system->create_vector()),
       V_(full_.system->create_vector()),
       A_(full_.system->create_vector()),
-      F_(full_.system->create_vector()),
       loads_(reduced.bodies.size()) {}
 
-void Residuals::add(const State& state) {
-  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
-  full_.system->rebase(U_);
-  full_.system->residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, F_);
-  for (std::size_t b = 0; b < loads_.size(); ++b)
-    if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), state);
-  ++samples;
+void Residuals::add(const std::vector<State>& states) {
+  std::vector<Lifted> all;
+  for (const State& state : states) all.push_back(lifted(state));
+  if (apart()) add_elements(all);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    for (std::size_t b = 0; b < loads_.size(); ++b)
+      if (has_structure(offline_.plan.bodies[b])) take(static_cast<int>(b), states[i], all[i].F);
+  samples += static_cast<int>(states.size());
 }
 
-void Residuals::take(int b, const State& state) {
+/// With the rows of the system's terms.
+Residuals::Lifted Residuals::lifted(const State& state) {
+  const dynamics::System& system = *full_.system;
+  Lifted one{state.t, {}, {}, {}, {}, system.create_vector()};
+  lift_to_full_order(state, reduced_, offline_, full_, U_, V_, A_);
+  system.rebase(U_);
+  system.residual(state.t, U_, V_, A_, dynamics::ConstraintLevel::position, one.F);
+  if (!apart()) return one;
+  system.gather(U_, one.q), system.gather(V_, one.v), system.gather(A_, one.a);
+  for (const auto& attitude : system.attitudes()) one.bases.push_back(attitude.second->base);
+  return one;
+}
+
+/// The rows of elements: of each at all states, then of the next.
+void Residuals::add_elements(std::vector<Lifted>& all) {
+  const dynamics::System& system = *full_.system;
+  const dynamics::Attitudes& attitudes = system.attitudes();
+  std::vector<VectorXd> sums(all.size(), VectorXd::Zero(system.coordinates().local_size()));
+  petsc::agree(system.comm(), [&] {
+    double stiffest = 0;
+    for (const auto& elements : full_.elements)
+      for (std::size_t c = 0; c < elements->count(); ++c) {
+        const auto terms = elements->terms(c, stiffest);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          const Lifted& one = all[i];
+          for (std::size_t k = 0; k < attitudes.size(); ++k) attitudes[k].second->base = one.bases[k];
+          for (const auto& term : terms) {
+            const std::vector<int>& at = term->coordinates();
+            const VectorXd q = one.q(at), v = one.v(at), a = one.a(at);
+            VectorXd r = VectorXd::Zero(q.size());
+            term->residual({one.t, q, v, a}, r);
+            sums[i](at) += r;
+          }
+        }
+      }
+  });
+  const petsc::VecHandle rows = system.create_vector();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    system.give(sums[i], rows);
+    check(VecAXPY(all[i].F, 1, rows));
+  }
+}
+
+void Residuals::take(int b, const State& state, Vec F) {
   const PlannedBody& body = offline_.plan.bodies[b];
   const ReducedBody& reduced = offline_.reduced[b];
   petsc::VecHandle load = fem::field(body.structure);
   {
-    petsc::Values all(F_), own(load);
+    petsc::Values all(F), own(load);
     const std::vector<PetscInt>& global = full_.system->coordinates().global();
     const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
     for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];

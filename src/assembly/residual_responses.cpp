@@ -35,10 +35,10 @@ void simulate_reduced(const Plan& plan, Model& model, KeptMotion& motion) {
 
 /// Where the motion deforms most, and some instants along it.
 void take_residuals(const Model& model, const KeptMotion& motion, Residuals& residuals) {
-  const solve::State& greatest = most_deformed(model, motion.states());
-  residuals.add(greatest);
+  std::vector<solve::State> all{most_deformed(model, motion.states())};
   for (const solve::State& state : spread(motion.states(), most_samples - 1))
-    if (state.t != greatest.t) residuals.add(state);
+    if (state.t != all.front().t) all.push_back(state);
+  residuals.add(all);
 }
 
 /// The body on V and W, with the origins of both. @param number  of responses that it has
@@ -82,7 +82,7 @@ void add_residual_responses(Offline& offline, std::vector<std::string>& warnings
     Model model = assemble(plan, Formulation::vm_md, offline.reduced);
     KeptMotion motion(model);
     simulate_reduced(plan, model, motion);
-    Residuals residuals(model, offline, full_order(offline));
+    Residuals residuals(model, offline);
     take_residuals(model, motion, residuals);
     for (std::size_t b = 0; b < has.size(); ++b) {
       const int most = std::min(wanted(b) - has[b], most_vectors);

@@ -41,11 +41,13 @@ Eigen::Vector3d start_of_mesh(const Body& body, const Eigen::Vector3d& x) {
 
 }  // namespace
 
-SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced)
+SpatialAssembly::SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced,
+                                 bool apart)
     : plan_(plan),
       formulation_(formulation),
       reduced_(reduced),
       owner_(last_rank(comm_of(plan, formulation))),
+      apart_(apart),
       coordinates_(comm_of(plan, formulation)),
       slots_(plan.bodies.size()),
       switches_(switches_of(plan.scene)) {
@@ -216,39 +218,12 @@ void SpatialAssembly::add_body(int b) {
   if (slot.modal)
     for (auto& term : reference::modal_damping_terms(body.structure, *slot.modal, *slot.nodes))
       terms_.push_back(std::move(term));
-  if (slot.still) return add_still_cells(b);
   const auto force =
       formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
-  for (auto& term : reference::spatial_full_order_terms(body.structure, body.frame, constrained(b), *slot.nodes,
-                                                        frame_of(b), force, body.spec.damping.stiffness))
-    terms_.push_back(std::move(term));
-}
-
-/// Each element on those of its dofs that are not constrained.
-void SpatialAssembly::add_still_cells(int b) {
-  const PlannedBody& body = plan_.bodies[b];
-  const fem::Structure& structure = body.structure;
-  const double beta = body.spec.damping.stiffness;
-  double stiffest = 1e-300;
-  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
-    const fem::ElementMaps maps = structure.maps(cell);
-    stiffest = std::max(stiffest, reference::stiffest(maps));
-    const reference::FreeDofs free = reference::free_dofs(structure, constrained(b), cell, *slots_[b].nodes);
-    if (free.coordinates.empty()) continue;
-    body::Elasticity elasticity = fem::elasticity(maps, free.V);
-    if (formulation_ == Formulation::lffr) elasticity = body::linearised(elasticity);
-    const Eigen::MatrixXd M =
-        free.V.transpose() * reference::with_drilling_inertia(structure, cell, maps.mass_matrix()) * free.V;
-    if (beta != 0) terms_.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, beta));
-    terms_.push_back(std::make_unique<dynamics::FixedFrameBody>(free.coordinates, M, std::move(elasticity)));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  for (PetscInt dof : constrained(b)) {
-    const PetscInt local = dof - 6 * structure.mesh.first_node;
-    if (local >= 0 && local < structure.owned_dofs())
-      terms_.push_back(
-          std::make_unique<reference::ConstrainedDof>(slots_[b].nodes->first() + static_cast<int>(local), stiffest));
-  }
+  const auto elements = std::make_shared<reference::SpatialElements>(
+      body.structure, body.frame, constrained(b), *slot.nodes, frame_of(b), force, body.spec.damping.stiffness);
+  for (auto& term : apart_ ? elements->held(1) : elements->all()) terms_.push_back(std::move(term));
+  if (apart_) elements_.push_back(elements);
 }
 
 /// What the body's deformation at the start makes of its elastic coordinates; those that are constrained stay zero.
@@ -375,6 +350,7 @@ Model SpatialAssembly::model() {
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
+  model.elements = std::move(elements_);
   begin_motion(plan_, model);
   return model;
 }

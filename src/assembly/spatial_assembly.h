@@ -23,7 +23,9 @@ namespace floe::assembly {
 class SpatialAssembly {
  public:
   /// @param reduced  one for each body: full for reduced formulations; rigid bodies and those from files else
-  SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced);
+  /// @param apart    elements of full-order bodies are not among the system's terms, but Model::elements
+  SpatialAssembly(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced,
+                  bool apart = false);
   /// @throws InputError  joints whose places are apart, that contradict one another, or that a full-order formulation
   /// does not know. Collective.
   Model model();
@@ -64,7 +66,6 @@ class SpatialAssembly {
   void add_frame(int body);
   void add_coordinates();
   void add_body(int body);
-  void add_still_cells(int body);
   void add_damping_axes();
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
@@ -126,6 +127,7 @@ class SpatialAssembly {
   Formulation formulation_;
   const std::vector<ReducedBody>& reduced_;
   bool owner_;  // this rank has the shared terms
+  bool apart_;
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
@@ -135,6 +137,7 @@ class SpatialAssembly {
   std::map<std::pair<int, PetscInt>, int> uses_;                       // of a body's node, by rows of joints
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
+  std::vector<std::shared_ptr<const reference::SpatialElements>> elements_;  // that are apart
   std::vector<std::vector<const dynamics::Term*>> body_terms_;    // of each body, among terms_
   Connections connections_;                                       // of the joints, among terms_
   std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_

@@ -19,7 +19,7 @@ using solve::State;
 
 namespace {
 
-constexpr int most_samples = 16;                    // of the full-order residual
+constexpr int most_samples = 16, least_samples = 4;  // of the full-order residual
 constexpr int most_columns = 8, least_columns = 3;  // for each body
 constexpr int most_tangents = 2;
 
@@ -34,13 +34,19 @@ void sample(const Model& model, const KeptMotion& motion, const TimeBudget& time
             Estimate& estimate) {
   const std::vector<State> states = spread(motion.states(), most_samples - 1);
   const State& greatest = most_deformed(model, motion.states());
-  const double before = time.spent();
-  residuals.add(greatest);
-  const double each = time.spent() - before;
-  const auto count = std::min<std::size_t>(
-      states.size(), static_cast<std::size_t>(std::max(4.0, 0.3 * time.left() / std::max(each, 1e-9))));
+  std::size_t count = std::min<std::size_t>(states.size(), least_samples);
+  std::vector<State> all{greatest};
+  if (!residuals.apart()) {
+    const double before = time.spent();
+    residuals.add(all);
+    all.clear();
+    const double each = time.spent() - before;
+    count = std::min<std::size_t>(
+        states.size(), static_cast<std::size_t>(std::max(1.0 * least_samples, 0.3 * time.left() / std::max(each, 1e-9))));
+  }
   for (const State& state : spread(states, count))
-    if (state.t != greatest.t) residuals.add(state);
+    if (state.t != greatest.t) all.push_back(state);
+  residuals.add(all);
   estimate.samples = residuals.samples, estimate.unbalanced = residuals.unbalanced();
   if (count < states.size())
     estimate.notes.push_back(fmt::format("{} residuals instead of {}, to save time", count, states.size()));
@@ -112,7 +118,8 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
       [&](const State& state, const VectorXd&, const VectorXd&, const VectorXd&) { values(state), values(state); },
       start);
   const double each = (time.spent() - before) / static_cast<double>(first.size());
-  const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, time.left() / std::max(each, 1e-9))));
+  const double most = std::max(time.left(), 0.2 * time.spent());  // few steps save little of what is spent already
+  const auto count = static_cast<std::size_t>(time.of_first(std::max(50.0, most / std::max(each, 1e-9))));
   if (count < states.size()) {
     estimate.notes.push_back(fmt::format("{} steps instead of {}, to save time", count, states.size()));
     states = spread(states, count);
@@ -144,7 +151,7 @@ void follow(const Model& reduced, const Model& more, const KeptMotion& motion, c
 
 void make(const Model& model, const KeptMotion& motion, const TimeBudget& time, Estimate& estimate) {
   Offline& offline = *model.offline;
-  Residuals residuals(model, offline, full_order(offline));
+  Residuals residuals(model, offline);
   sample(model, motion, time, residuals, estimate);
   const std::vector<ReducedBody> bodies = enriched(offline, residuals, time, estimate);
   for (const ReducedBody& body : bodies) estimate.bases.push_back(body.basis);

@@ -257,6 +257,9 @@ Estimate estimate_error_at_rest(const Model& model, const std::vector<State>& st
   }
   const TimeBudget time(model.offline->plan.comm, seconds);
   estimate.none = states.empty() ? "there is no equilibrium" : without_estimate(*model.offline);
+  if (const PetscInt elements = assembly::elements_of(*model.offline); elements >= assembly::many_elements)
+    estimate.none = fmt::format("the tangent of the full-order model has {} elements (limit {})", elements,
+                                assembly::many_elements);
   if (!estimate.none.empty()) return estimate;
   note_files(*model.offline, estimate);
   fill_in(estimate, model.offline->plan.comm, time, seconds, [&] { make(model, states, time, estimate); });

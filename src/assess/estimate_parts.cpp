@@ -9,25 +9,9 @@ namespace floe::assess {
 using Eigen::VectorXd;
 using petsc::check;
 
-namespace {
-
-/// From so many elements on the terms of full order would take seconds and gigabytes (floe check stops there, too).
-constexpr PetscInt most_elements = 20000;
-
-}  // namespace
-
-PetscInt elements_of(const Offline& offline) {
-  PetscInt count = 0;
-  for (const PlannedBody& body : offline.plan.bodies)
-    if (has_structure(body)) count += body.structure.mesh.cell_count;
-  return count;
-}
-
 std::string without_estimate(const Offline& offline) {
   if (std::none_of(offline.plan.bodies.begin(), offline.plan.bodies.end(), has_structure))
     return "no body has a mesh; bodies from files and rigid bodies have no full-order model to compare with";
-  if (const PetscInt elements = elements_of(offline); elements >= most_elements)
-    return fmt::format("the full-order model has {} elements (limit {})", elements, most_elements);
   return "";
 }
 

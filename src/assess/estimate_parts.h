@@ -33,9 +33,6 @@ class TimeBudget {
   double begin_, allowed_;
 };
 
-/// Of all bodies with a mesh.
-PetscInt elements_of(const Offline& offline);
-
 /// Why there can be no estimate for bodies like these; empty: there can.
 std::string without_estimate(const Offline& offline);
 

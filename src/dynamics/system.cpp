@@ -136,14 +136,14 @@ void System::gather(Vec global, Eigen::VectorXd& local) const {
   check(VecRestoreArrayRead(global, &values));
 }
 
-void System::give(Vec global) const {
+void System::give(const Eigen::VectorXd& local, Vec global) const {
   using petsc::check;
   double* values = nullptr;
   const bool permuted = whole_ && !identity_, scattered = !whole_ && !identity_;
   const Vec target = scattered ? static_cast<Vec>(staging_) : global;
   check(VecGetArrayWrite(target, &values));
   const auto& where = coordinates_.global();
-  for (Eigen::Index i = 0; i < sum_.size(); ++i) values[permuted ? where[i] : i] = sum_[i];
+  for (Eigen::Index i = 0; i < local.size(); ++i) values[permuted ? where[i] : i] = local[i];
   check(VecRestoreArrayWrite(target, &values));
   if (!scattered) return;
   check(VecSet(global, 0));
@@ -168,7 +168,7 @@ void System::add_rows(double t, ConstraintLevel level, Which which) const {
 void System::residual(double t, Vec U, Vec V, Vec A, ConstraintLevel level, Vec F) const {
   gather(U, local_.q), gather(V, local_.v), gather(A, local_.a);
   add_rows(t, level, Which::all);
-  give(F);
+  give(sum_, F);
 }
 
 double System::constraint_violation(double t, Vec U, Vec V, ConstraintLevel level) const {
@@ -184,7 +184,7 @@ double System::constraint_violation(double t, Vec U, Vec V, ConstraintLevel leve
     return greatest;
   }
   const petsc::VecHandle rows = create_vector();  // a row may have its parts on several ranks
-  give(rows);
+  give(sum_, rows);
   const double* values = nullptr;
   PetscInt first = 0;
   check(VecGetOwnershipRange(rows, &first, nullptr));

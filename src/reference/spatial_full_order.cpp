@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "floe/dynamics/damping.h"
+#include "floe/dynamics/fixed_frame_body.h"
 
 namespace floe::reference {
 namespace {
@@ -82,43 +83,69 @@ Eigen::MatrixXd with_drilling_inertia(const fem::Structure& structure, const fem
   return M;
 }
 
-std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
-    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& constrained,
-    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity) {
-  std::vector<std::unique_ptr<dynamics::Term>> terms;
-  const bool mean_axis = reference.kind == fem::ReferenceFrame::Kind::mean_axis;
-  std::vector<Eigen::VectorXd> rigid;
-  for (const auto& motion : reference.rigid) rigid.push_back(structure.exchange.gather(motion));
-  double stiffest = 0;
-  for (const auto& cell : structure.mesh.cells) {
-    const fem::ElementMaps maps = structure.maps(cell);
-    stiffest = std::max(stiffest, reference::stiffest(maps));
-    const FreeDofs free = free_dofs(structure, constrained, cell, nodes);
-    body::Elasticity elasticity = fem::elasticity(maps, free.V);
-    if (force == ElasticForce::linear) elasticity = body::linearised(elasticity);
-    const body::Inertia inertia = inertia_of(structure, cell, maps, free.V);
-    if (viscosity != 0)
-      terms.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, viscosity));
-    if (mean_axis) {
-      const std::vector<int> all = structure.cell_dofs(cell);
-      Eigen::MatrixXd rows(6, free.V.cols());
-      for (int motion = 0; motion < 6; ++motion)
-        rows.row(motion) = rigid[motion](all).transpose() * maps.mass_matrix() * free.V;
-      std::vector<int> coordinates = free.coordinates;
-      for (int i = 0; i < 6; ++i) coordinates.push_back(frame.multipliers + i);
-      terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
-    }
-    terms.push_back(std::make_unique<dynamics::SpatialBody>(behind_frame(frame, free.coordinates), frame.attitude,
-                                                            body::spatial(inertia), std::move(elasticity)));
+SpatialElements::SpatialElements(const fem::Structure& structure, const fem::ReferenceFrame& reference,
+                                 fem::Conditions constrained, const NodeCoordinates& nodes, SpatialFrame frame,
+                                 ElasticForce force, double viscosity)
+    : structure_(structure),
+      constrained_(std::move(constrained)),
+      nodes_(nodes),
+      frame_(std::move(frame)),
+      force_(force),
+      viscosity_(viscosity) {
+  if (!frame_.attitude || reference.kind != fem::ReferenceFrame::Kind::mean_axis) return;
+  for (const auto& motion : reference.rigid) rigid_.push_back(structure.exchange.gather(motion));
+}
+
+SpatialElements::Terms SpatialElements::terms(std::size_t c, double& stiffest) const {
+  Terms terms;
+  const fem::Mesh::Cell& cell = structure_.mesh.cells[c];
+  const FreeDofs free = free_dofs(structure_, constrained_, cell, nodes_);
+  if (!frame_.attitude && free.coordinates.empty()) return terms;
+  const fem::ElementMaps maps = structure_.maps(cell);
+  stiffest = std::max(stiffest, reference::stiffest(maps));
+  body::Elasticity elasticity = fem::elasticity(maps, free.V);
+  if (force_ == ElasticForce::linear) elasticity = body::linearised(elasticity);
+  if (viscosity_ != 0)
+    terms.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, viscosity_));
+  if (!frame_.attitude) {
+    const Eigen::MatrixXd M =
+        free.V.transpose() * with_drilling_inertia(structure_, cell, maps.mass_matrix()) * free.V;
+    terms.push_back(std::make_unique<dynamics::FixedFrameBody>(free.coordinates, M, std::move(elasticity)));
+    return terms;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
-  for (PetscInt dof : constrained) {
-    const PetscInt local = dof - dofs * structure.mesh.first_node;
-    if (local >= 0 && local < structure.owned_dofs())
-      terms.push_back(
-          std::make_unique<ConstrainedDof>(nodes.first() + static_cast<int>(local), stiffest > 0 ? stiffest : 1));
+  if (!rigid_.empty()) {
+    const std::vector<int> all = structure_.cell_dofs(cell);
+    Eigen::MatrixXd rows(6, free.V.cols());
+    for (int motion = 0; motion < 6; ++motion)
+      rows.row(motion) = rigid_[motion](all).transpose() * maps.mass_matrix() * free.V;
+    std::vector<int> coordinates = free.coordinates;
+    for (int i = 0; i < 6; ++i) coordinates.push_back(frame_.multipliers + i);
+    terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
+  }
+  terms.push_back(std::make_unique<dynamics::SpatialBody>(
+      behind_frame(frame_, free.coordinates), frame_.attitude,
+      body::spatial(inertia_of(structure_, cell, maps, free.V)), std::move(elasticity)));
+  return terms;
+}
+
+SpatialElements::Terms SpatialElements::held(double scale) const {
+  Terms terms;
+  for (const PetscInt dof : constrained_) {
+    const PetscInt local = dof - dofs * structure_.mesh.first_node;
+    if (local >= 0 && local < structure_.owned_dofs())
+      terms.push_back(std::make_unique<ConstrainedDof>(nodes_.first() + static_cast<int>(local), scale));
   }
   return terms;
+}
+
+SpatialElements::Terms SpatialElements::all() const {
+  Terms all;
+  double stiffest = 0;
+  for (std::size_t c = 0; c < count(); ++c)
+    for (auto& term : terms(c, stiffest)) all.push_back(std::move(term));
+  MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure_.mesh.comm);
+  for (auto& term : held(stiffest > 0 ? stiffest : 1)) all.push_back(std::move(term));
+  return all;
 }
 
 std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,

@@ -25,6 +25,9 @@ struct BodyMesh;
 namespace floe::dynamics {
 class StateFormula;
 }
+namespace floe::reference {
+class SpatialElements;
+}
 
 namespace floe::assembly {
 using namespace plan;
@@ -172,6 +175,8 @@ struct Model {
   std::vector<JointMultipliers> joints;
   std::vector<JointPlaces> joint_places = {};
   std::shared_ptr<Offline> offline = {};  ///< if it was to be kept
+  /// Of full-order bodies in space whose elements are not among the system's terms (residual_loads.h).
+  std::vector<std::shared_ptr<const reference::SpatialElements>> elements = {};
 };
 
 /// Full-order formulations live on `comm`; reduced ones are assembled and reduced on `comm` and then live on every rank

@@ -19,8 +19,10 @@ struct ReducedBody {
 /// How a place of a reduced body moves with the body's coordinates. Collective; replicated.
 body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place);
 
-/// The planned scene on its bodies in a formulation. @param reduced  as PlanarAssembly, SpatialAssembly. Collective.
-Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced);
+/// The planned scene on its bodies in a formulation. @param reduced  as PlanarAssembly, SpatialAssembly
+/// @param apart  in space: elements of full-order bodies are not among the system's terms, but Model::elements.
+/// Collective.
+Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, bool apart = false);
 
 /// Runs linear and reads off int |eta_i eta_j| dt of each body's generators, eta = of_fields q: needed for derivatives
 /// chosen by count.

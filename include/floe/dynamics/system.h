@@ -82,6 +82,8 @@ class System {
 
   /// This rank's local coordinates (Coordinates). Collective.
   void gather(Vec global, Eigen::VectorXd& local) const;
+  /// Its transpose: local rows of all ranks, added up where ranks share them. Collective.
+  void give(const Eigen::VectorXd& local, Vec global) const;
 
  private:
   struct Local {
@@ -99,8 +101,6 @@ class System {
   enum class Which { all, constraining };
   /// Rows of local_'s motion into sum_. Collective.
   void add_rows(double t, ConstraintLevel level, Which which) const;
-  /// sum_ into a global vector, adding what ranks share. Collective.
-  void give(Vec global) const;
 
   Coordinates coordinates_;
   std::vector<std::unique_ptr<Term>> terms_;

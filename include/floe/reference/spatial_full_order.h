@@ -32,15 +32,40 @@ struct SpatialFrame {
   std::shared_ptr<const dynamics::Attitude> attitude;
 };
 
-/// Terms of one full-order body that floats in space (formulations nlffr and lffr): a SpatialBody for each element, the
-/// equations that hold the dofs of `constrained` at zero, and for mean_axis the constraints Phi_r' M q = 0.
+/// The elements of one full-order body in space (formulations nlffr and lffr): of each a SpatialBody, or a
+/// FixedFrameBody where the frame stands still; before it the damping of its strain rates and for mean_axis its part of
+/// the constraints Phi_r' M q = 0, where there are any.
 ///
-/// @param constrained       dofs that the frame holds, and those of nodes that follow others
-/// @param viscosity  beta of Kelvin-Voigt damping on the strain rates [s]
-/// Each rank gets the terms of its own elements. Collective.
-std::vector<std::unique_ptr<dynamics::Term>> spatial_full_order_terms(
-    const fem::Structure& structure, const fem::ReferenceFrame& reference, const fem::Conditions& constrained,
-    const NodeCoordinates& nodes, const SpatialFrame& frame, ElasticForce force, double viscosity = 0);
+/// Terms are made when they are asked for: those of a triangle of shells take 31 kB, those of a body may not fit in
+/// memory.
+class SpatialElements {
+ public:
+  using Terms = std::vector<std::unique_ptr<dynamics::Term>>;
+  /// @param structure    borrowed
+  /// @param constrained  dofs that the frame holds, and those of nodes that follow others
+  /// @param frame        without attitude: it stands still
+  /// @param viscosity    beta of Kelvin-Voigt damping on the strain rates [s]
+  /// Collective.
+  SpatialElements(const fem::Structure& structure, const fem::ReferenceFrame& reference, fem::Conditions constrained,
+                  const NodeCoordinates& nodes, SpatialFrame frame, ElasticForce force, double viscosity = 0);
+  /// Of this rank.
+  std::size_t count() const { return structure_.mesh.cells.size(); }
+  /// @param stiffest  raised to that of the element. Rank-local.
+  Terms terms(std::size_t cell, double& stiffest) const;
+  /// The equations that hold the constrained dofs at zero, scaled. Rank-local.
+  Terms held(double scale) const;
+  /// All of them. Collective.
+  Terms all() const;
+
+ private:
+  const fem::Structure& structure_;
+  fem::Conditions constrained_;
+  NodeCoordinates nodes_;
+  SpatialFrame frame_;
+  ElasticForce force_;
+  double viscosity_;
+  std::vector<Eigen::VectorXd> rigid_;  // of mean axes, at this rank's dofs
+};
 
 /// The inertia alone of the elements, each as a SpatialBody without elasticity. Rank-local.
 std::vector<std::unique_ptr<dynamics::Term>> spatial_inertia_terms(const fem::Structure& structure,
