@@ -10,6 +10,7 @@ namespace floe::assess {
 
 namespace {
 
+constexpr double least_of_step = 2e-6;  // processor time of a step of formulation cfr, for each element [s]
 constexpr PetscInt slow_steps = 5;  // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
@@ -69,6 +70,10 @@ class ModelError {
   void estimate() {
     if (scene_.probes.empty()) {
       part_.none = "no probe can be compared with formulation cfr";
+      return;
+    }
+    if (const double least = least_seconds(); least_share * least / most_times_faster() > allowed_) {
+      part_.none = fmt::format("formulation cfr would take more than {:.2g} s (limit {:.2g} s)", least, allowed_);
       return;
     }
     Thinning used;
@@ -188,6 +193,13 @@ class ModelError {
     return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
                        [](const Body& body) { return body.mesh.plate.has_value(); });
   }
+
+  /// Of the whole motion, on no machine less: whether it is worth to build a large model at all.
+  double least_seconds() const {
+    return least_of_step * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline);
+  }
+  /// By thinning (affordable()).
+  double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (plates() ? 1 : 4); }
 
   /// Processor time of both models [s].
   double needs(Thinning thinning) const {
