@@ -208,6 +208,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     plan.choice = to_json(chosen);
     plan.measured = true;
     plan.estimate = chosen.total;
+    if (chosen.total) plan.required = chosen.asked;
     plan.budget = !chosen.candidates->has_responses(chosen.selection);  // no scene on another mesh names them
     plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);

@@ -162,7 +162,7 @@ output::Cell cell_of(const ordered_json& part, const std::string& probe) {
 }  // namespace
 
 ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
-                          const std::string& no_model, RunResult& result) {
+                          const std::string& no_model, RunResult& result, std::optional<double> required) {
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
@@ -189,8 +189,10 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
     names.push_back(parts[i]);
   }
   if (known.empty() || motion.model.probes.empty()) return j;
-  put_largest(motion, all, j, result);
-  put_probes(assess::total_error(own, known, beside), motion.model, j["total"]);
+  const std::vector<double> total = assess::total_error(own, known, beside);
+  const bool within = required && std::none_of(total.begin(), total.end(), [&](double e) { return e > *required; });
+  if (!within) put_largest(motion, all, j, result);
+  put_probes(total, motion.model, j["total"]);
   j["total"]["parts"] = names;
   for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
     ordered_json lacks = ordered_json::array();

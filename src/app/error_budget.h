@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "floe/assess/budget.h"
@@ -12,8 +13,10 @@ namespace floe::app {
 /// why there is none; `largest`: where a part is above 1 %, the largest one, and what makes it smaller, also as a
 /// warning of the result. Collective; a fault within a part only leaves that part out.
 /// @param no_model  why the error of the model is not to be estimated; empty: it is
+/// @param required  total that the model was selected for: no part is the largest where it is met
 nlohmann::ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
-                                    const std::string& no_model, RunResult& result);
+                                    const std::string& no_model, RunResult& result,
+                                    std::optional<double> required = {});
 
 /// `total 7.2 %: reduction 0.053 %, model 7.3 %, mesh 0.16 %, step 0.021 %`, of the probe with the largest total; or
 /// why there is none.

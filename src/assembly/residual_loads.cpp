@@ -8,8 +8,8 @@
 #include "floe/assembly/damping.h"
 #include "floe/assembly/lift.h"
 #include "floe/petsc/together.h"
-#include "floe/reference/spatial_full_order.h"
 #include "floe/petsc/values.h"
+#include "floe/reference/spatial_full_order.h"
 
 namespace floe::assembly {
 

@@ -20,7 +20,7 @@ using solve::State;
 namespace {
 
 constexpr int most_samples = 16, least_samples = 4;  // of the full-order residual
-constexpr int most_columns = 8, least_columns = 3;  // for each body
+constexpr int most_columns = 8, least_columns = 3;   // for each body
 constexpr int most_tangents = 2;
 
 bool keeps_factors(const Offline& offline) {
@@ -41,8 +41,8 @@ void sample(const Model& model, const KeptMotion& motion, const TimeBudget& time
     residuals.add(all);
     all.clear();
     const double each = time.spent() - before;
-    count = std::min<std::size_t>(
-        states.size(), static_cast<std::size_t>(std::max(1.0 * least_samples, 0.3 * time.left() / std::max(each, 1e-9))));
+    count = std::min<std::size_t>(states.size(), static_cast<std::size_t>(std::max(
+                                                     1.0 * least_samples, 0.3 * time.left() / std::max(each, 1e-9))));
   }
   for (const State& state : spread(states, count))
     if (state.t != greatest.t) all.push_back(state);

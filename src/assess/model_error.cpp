@@ -11,7 +11,7 @@ namespace floe::assess {
 namespace {
 
 constexpr double least_of_step = 2e-6;  // processor time of a step of formulation cfr, for each element [s]
-constexpr PetscInt slow_steps = 5;  // at the start, which take longer; looked_at of them show how long one takes
+constexpr PetscInt slow_steps = 5;      // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
 struct Thinning {

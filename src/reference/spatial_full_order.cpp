@@ -108,8 +108,7 @@ SpatialElements::Terms SpatialElements::terms(std::size_t c, double& stiffest) c
   if (viscosity_ != 0)
     terms.push_back(std::make_unique<dynamics::StrainRateDamping>(free.coordinates, elasticity, viscosity_));
   if (!frame_.attitude) {
-    const Eigen::MatrixXd M =
-        free.V.transpose() * with_drilling_inertia(structure_, cell, maps.mass_matrix()) * free.V;
+    const Eigen::MatrixXd M = free.V.transpose() * with_drilling_inertia(structure_, cell, maps.mass_matrix()) * free.V;
     terms.push_back(std::make_unique<dynamics::FixedFrameBody>(free.coordinates, M, std::move(elasticity)));
     return terms;
   }
@@ -122,9 +121,9 @@ SpatialElements::Terms SpatialElements::terms(std::size_t c, double& stiffest) c
     for (int i = 0; i < 6; ++i) coordinates.push_back(frame_.multipliers + i);
     terms.push_back(std::make_unique<LinearConstraint>(coordinates, rows));
   }
-  terms.push_back(std::make_unique<dynamics::SpatialBody>(
-      behind_frame(frame_, free.coordinates), frame_.attitude,
-      body::spatial(inertia_of(structure_, cell, maps, free.V)), std::move(elasticity)));
+  terms.push_back(std::make_unique<dynamics::SpatialBody>(behind_frame(frame_, free.coordinates), frame_.attitude,
+                                                          body::spatial(inertia_of(structure_, cell, maps, free.V)),
+                                                          std::move(elasticity)));
   return terms;
 }
 

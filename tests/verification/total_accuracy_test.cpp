@@ -43,6 +43,19 @@ app::RunResult moved(const scene::Scene& scene, Formulation formulation) {
 
 }  // namespace
 
+TEST_CASE("total accuracy: a selected model whose total is as required has no largest part") {
+  app::RunPlan plan;
+  plan.quiet = true, plan.check_range = false, plan.estimate = true;
+  for (const double required : {1., 1e-4}) {
+    plan.required = required;
+    const app::RunResult result = app::run(scene_of({}), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, plan);
+    const auto& estimate = result.summary["estimate"];
+    REQUIRE(estimate["total"]["probes"]["tip"] > 0.01);
+    CHECK(estimate.contains("largest") == (required < 0.01));
+    CHECK(result.warnings.empty() == (required > 0.01));
+  }
+}
+
 TEST_CASE("total accuracy: the selected model is as close to geometrically exact beams as required") {
   const app::Series exact = moved(scene_of({{"elements", "48"}, {"step", "1e-3"}}), Formulation::cfr).series;
   const double own = app::worst_error(moved(scene_of({}), Formulation::vm_md).series, exact);

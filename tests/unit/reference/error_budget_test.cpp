@@ -160,8 +160,9 @@ TEST_CASE("error budget: what cannot be estimated says why") {
   CHECK(deflection.model.none == "no probe can be compared with formulation cfr");
   REQUIRE(deflection.model.notes.size() == 1);
   CHECK_THAT(deflection.model.notes[0], Catch::Contains("probe tip"));
-  const Budget late = budget_of(plate("displacement"), 1e-6);
+  const Budget late = budget_of(plate("displacement"), 1e-3), at_once = budget_of(plate("displacement"), 1e-6);
   CHECK_THAT(late.model.none, Catch::Contains("formulation cfr would take about"));
+  CHECK_THAT(at_once.model.none, Catch::Contains("formulation cfr would take more than"));  // not even built
 }
 
 TEST_CASE("error budget: parts of a beginning are added by size") {
