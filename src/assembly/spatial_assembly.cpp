@@ -128,9 +128,20 @@ std::vector<PetscInt> SpatialAssembly::visited(int body) const {
   for (std::size_t l = 0; l < plan_.loads.size(); ++l)
     if (!plan_.scene.loads[l].spread()) visit(plan_.loads[l]);
   for (const auto& probe : plan_.probes) visit(probe[0]), visit(probe[1]);
-  for (const auto& frame : plan_.probe_frames)
-    for (const Anchor& place : frame) visit(place);
+  for (std::size_t p = 0; p < plan_.probes.size(); ++p)
+    for (const Anchor& place : places_of_frame(p)) visit(place);
   return nodes;
+}
+
+std::vector<Anchor> SpatialAssembly::places_of_frame(std::size_t probe) const {
+  std::vector<Anchor> places = plan_.probe_frames[probe];
+  const int b = plan_.probes[probe][0].body;
+  if (!places.empty() || plan_.scene.probes[probe].quantity != Probe::Quantity::deflection || b < 0 || !corotated(b))
+    return places;
+  const PlannedBody& body = plan_.bodies[b];
+  if (body.frame.kind != FrameKind::mean_axis)
+    for (Anchor place : body.frame_places) place.body = b, places.push_back(place);
+  return places;
 }
 
 void SpatialAssembly::add_frame(int b) {

@@ -55,6 +55,8 @@ class SpatialAssembly {
   const fem::Conditions& constrained(int body) const;
   int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
+  /// Of a deflection: the places that its frame follows from; none: it has a frame of its own.
+  std::vector<Anchor> places_of_frame(std::size_t probe) const;
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
   reference::SpatialFrame frame_of(int body) const;
 

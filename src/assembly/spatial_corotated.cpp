@@ -159,12 +159,14 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
   for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
     const Probe& probe = plan_.scene.probes[p];
     const auto& [place, other] = plan_.probes[p];
-    if (place.body >= 0 && corotated(place.body) && probe.quantity == Probe::Quantity::deflection)
+    const bool deflection = place.body >= 0 && corotated(place.body) && probe.quantity == Probe::Quantity::deflection;
+    if (deflection && places_of_frame(p).empty())
       faults.push_back(
           probe.where.text() +
-          ": deflection is from the floating frame, which formulation cfr does not have in space; expected "
-          "displacement, with relative_to a place that stands for the frame");
-    if (mean(other) || (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
+          ": deflection is from a mean-axis frame, which formulation cfr does not have in space; expected a frame that "
+          "is clamped or pinned, or displacement, with relative_to a place that stands for the frame");
+    else if (mean(other) ||
+             (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
       faults.push_back(
           probe.where.text() +
           ": formulation cfr records only the position, displacement, velocity and acceleration of the mean of several "

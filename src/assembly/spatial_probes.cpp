@@ -84,7 +84,7 @@ void SpatialAssembly::add_probes(Model& model) {
       if (owner_) probe.other->D0 = probe.other->D0 * start_of(*probe.other).D.transpose();
     }
     const int b = place.body;
-    const std::vector<Anchor>& whole = plan_.probe_frames[p];
+    const std::vector<Anchor> whole = places_of_frame(p);
     if (spec.quantity == Probe::Quantity::deflection && b >= 0 && compact(b) && whole.empty())
       if (probe.marker.S.size() == 0 ||
           probe.marker.S.cwiseAbs().maxCoeff() * std::sqrt(reduced_[b].body.inertia.m) < 1e-9)

@@ -129,6 +129,16 @@ FrameChoice frame_of_parent(const Scene& scene, const Body& body, const SpatialM
           rotated * parent.attitude};
 }
 
+/// Collective.
+Anchor node_of_frame(const fem::Structure& structure, PetscInt node) {
+  Anchor at{Anchor::elsewhere, node, Eigen::Vector3d::Zero(), {node}};
+  const fem::Mesh& m = structure.mesh;
+  if (const PetscInt local = node - m.first_node; local >= 0 && local < m.owned_nodes) at.x = m.positions[local];
+  MPI_Allreduce(MPI_IN_PLACE, at.x.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
+  at.averaging_weights = {{node, 1, Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Identity()}};
+  return at;
+}
+
 /// @param parent  body to which the welded one is fixed
 PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, const SharedFrame& shared,
                          const PlannedBody* parent) {
@@ -155,6 +165,8 @@ PlannedBody prepare_body(const Scene& scene, const Body& spec, MPI_Comm comm, co
   body.points = std::move(mesh.points);
   body.origin = choice.origin;
   body.axes = choice.axes;
+  if (choice.kind != fem::ReferenceFrame::Kind::mean_axis)
+    body.frame_places = {node_of_frame(body.structure, choice.a), node_of_frame(body.structure, choice.b)};
   if (parent) body.parent = shared.parent, body.parent_joint = shared.joint;
   for (const Place& place : spec.reduction.interface)
     body.interface.push_back(spatial_place(spec, body.structure, body.places, place, {choice.origin, choice.axes}));

@@ -57,7 +57,7 @@ struct PlannedBody {
   fem::ReferenceFrame frame;
   Eigen::Vector2d frame_origin;                              ///< in mesh axes
   double frame_angle = 0;                                    ///< of the frame in mesh axes
-  std::array<Anchor, 2> frame_places;                        ///< pinned: a, b; clamped: a, a
+  std::array<Anchor, 2> frame_places;                        ///< pinned: a, b; clamped: a, a; mean-axis: none
   Eigen::Vector3d pose;                                      ///< of the frame at the start, world: (R_x, R_y, theta)
   Eigen::Vector3d velocity;                                  ///< likewise
   petsc::VecHandle deformation, deformation_rate;            ///< at the start, in the frame; null if none

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "floe/error.h"
+#include "floe/math/rotation.h"
 #include "floe/reference/facet_pressure.h"
 #include "floe/solve/branch.h"
 #include "scene_motion.h"
@@ -58,7 +59,53 @@ motion: {end: 0.1, step: 2e-3}
 probes: {tip: {at: rod.end}, corner: {at: plate.p3}}
 )yaml";
 
+/// A rod on a driven hinge, its mesh rotated at the start, bent by gravity and rotation.
+const char* const boom = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  boom:
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 6}}
+    section: {shape: rectangle, width: 0.02, height: 0.005, orientation: [0, 0, 1]}
+    material: {E: 2e9, nu: 0.3, rho: 1200}
+    frame: $frame
+    initial: {position: [0.1, 0.2, 0.3], rotation: [0.3, -0.2, 0.5]}
+joints: {root: {type: driven, between: [ground, boom.start], axis: [0, 0, 1], angle: "4*t^2"}}
+motion: {end: 0.3, step: 5e-3}
+probes:
+  middle: {at: boom.middle, quantity: deflection}
+  a: {at: boom.start, quantity: position}
+  m: {at: boom.middle, quantity: position}
+  b: {at: boom.end, quantity: position}
+)yaml";
+
+Eigen::Vector3d vector_of(const History& history, const std::string& probe, std::size_t i) {
+  return {history[probe + ".x"][i], history[probe + ".y"][i], history[probe + ".z"][i]};
+}
+
 }  // namespace
+
+TEST_CASE("corotational in space: deflections are from the clamped or pinned frame that follows from places") {
+  using Eigen::Vector3d;
+  const Vector3d X = Vector3d(0.5, 0, 0);
+  const History clamped = move(fill(boom, {{"frame", "{type: clamped, at: start}"}}), Formulation::cfr);
+  const History pinned = move(fill(boom, {{"frame", "{type: pinned, from: start, to: end}"}}), Formulation::cfr);
+  const Eigen::Matrix3d start = math::rotation(Vector3d(0.3, -0.2, 0.5));
+  REQUIRE(clamped.t.size() > 30);
+  double greatest = 0;
+  for (std::size_t i = 0; i < clamped.t.size(); ++i) {
+    const Eigen::Matrix3d driven = math::rotation(Vector3d(0, 0, 4 * clamped.t[i] * clamped.t[i]));
+    const Vector3d m = vector_of(clamped, "m", i) - vector_of(clamped, "a", i), d = vector_of(clamped, "middle", i);
+    CHECK((start.transpose() * driven.transpose() * m - X - d).norm() < 1e-9);
+    greatest = std::max(greatest, d.norm());
+    const Vector3d a = vector_of(pinned, "a", i), chord = (vector_of(pinned, "b", i) - a).normalized(),
+                   other = vector_of(pinned, "m", i) - a, e = vector_of(pinned, "middle", i);
+    CHECK(e.x() == Approx(chord.dot(other) - 0.5).margin(1e-12));
+    CHECK(e.tail<2>().norm() == Approx((other - chord.dot(other) * chord).norm()).margin(1e-12));
+  }
+  CHECK(greatest > 0.01);
+  CHECK_THROWS_WITH(move(fill(boom, {{"frame", "mean-axis"}}), Formulation::cfr),
+                    Catch::Contains("deflection is from a mean-axis frame"));
+}
 
 TEST_CASE("pressure on a facet: the tangent is the difference of the residual; follower and dead",
           "[corotational-space]") {

@@ -131,20 +131,22 @@ motion: {end: 0.4, step: $step}
 probes: {tip: {at: rod.end}}
 )yaml";
 
-std::string plate(const std::string& quantity) {
+std::string plate(const std::string& quantity, const std::string& frame = "{type: clamped, at: left}",
+                  const std::string& root = "left") {
   return fill(R"yaml(
 bodies:
   plate:
     mesh: {plate: {along: [2, 0, 0], across: [0, 1, 0], elements: [4, 2]}}
     section: {thickness: 0.02}
     material: {E: 7e10, nu: 0.3, rho: 2700}
+    frame: $frame
     reduction: {modes: 3}
-joints: {root: {type: fixed, between: [ground, plate.left]}}
+joints: {root: {type: fixed, between: [ground, plate.$root]}}
 loads: {corner: {type: force, at: plate.p3, force: [0, 0, "600*sin(24*t)"]}}
 motion: {end: 0.1, step: 2e-3}
 probes: {tip: {at: plate.p3, quantity: $quantity}}
 )yaml",
-              {{"quantity", quantity}});
+              {{"quantity", quantity}, {"frame", frame}, {"root", root}});
 }
 
 }  // namespace
@@ -155,11 +157,14 @@ TEST_CASE("error budget: the total is that of the answer, in the plane and in sp
 }
 
 TEST_CASE("error budget: what cannot be estimated says why") {
-  const Budget deflection = budget_of(plate("deflection"), 100);
+  const Budget deflection = budget_of(plate("deflection", "mean-axis", "p1"), 100);
   CHECK(deflection.mesh.none == "");
   CHECK(deflection.model.none == "no probe can be compared with formulation cfr");
   REQUIRE(deflection.model.notes.size() == 1);
   CHECK_THAT(deflection.model.notes[0], Catch::Contains("probe tip"));
+  const Budget fixed = budget_of(plate("deflection"), 100), moved = budget_of(plate("displacement"), 100);
+  CHECK(fixed.model.none == "");  // the ground holds the frame: both probes are the same
+  CHECK(fixed.model.probes.at(0) == Approx(moved.model.probes.at(0)).epsilon(1e-6));
   const Budget late = budget_of(plate("displacement"), 1e-3), at_once = budget_of(plate("displacement"), 1e-6);
   CHECK_THAT(late.model.none, Catch::Contains("formulation cfr would take about"));
   CHECK_THAT(at_once.model.none, Catch::Contains("formulation cfr would take more than"));  // not even built
