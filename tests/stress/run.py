@@ -99,6 +99,25 @@ def beams(folder):
         close(found["section_force"], np.tile([100, 2, 3], (12, 1)), 0.01, f"{formulation} forces")
 
 
+def round_bars(folder):
+    """N / A and |M| r / I of bars and tubes bent about two axes, read from decks."""
+    deck = "*NODE\n" + "".join(f"{i + 1}, {i / 10}, 0, 0\n" for i in range(11)) + "*ELEMENT, TYPE=B31, ELSET=bar\n" + "".join(
+        f"{i + 1}, {i + 1}, {i + 2}\n" for i in range(10)) + "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n"
+    for shape, area, inertia in (("CIRC\n0.02", np.pi * 0.02**2, np.pi * 0.02**4 / 4),
+                                 ("PIPE\n0.02, 0.005", np.pi * (0.02**2 - 0.015**2), np.pi * (0.02**4 - 0.015**4) / 4)):
+        (folder / "bar.inp").write_text(deck + f"*BEAM SECTION, ELSET=bar, MATERIAL=steel, SECTION={shape}\n0, 1, 0\n")
+        path, _ = recovered(FLOE, folder, """
+bodies: {bar: {mesh: {file: {path: bar.inp}}, reduction: {modes: 4, attachment: all}}}
+joints: {root: {type: fixed, between: [ground, {body: bar, node: [0, 0, 0]}]}}
+loads: {tip: {type: force, at: {body: bar, node: [1, 0, 0]}, force: [500, 3, 4]}}
+motion: {end: 1, step: 0.1}
+""", formulation="lffr")
+        found = Fields(path, "bar")
+        bend = 5 * (1.05 - found.x[:, 0]) * 0.02 / inertia  # at the start of the element
+        close(found["stress_max"], 500 / area + bend, 0.01, f"{shape} in tension")
+        close(found["stress_min"], 500 / area - bend, 0.01, f"{shape} in compression")
+
+
 def large_rotations(folder):
     """Pure bending: M t / 2 I everywhere, at any rotation."""
     moment = 7e10 * 0.05 * 2e-3**3 / 12 * np.pi / 3
@@ -117,6 +136,13 @@ def large_rotations(folder):
     found = Fields(path, "strip")
     close(found["stress_max"], stress + np.zeros(12), 1e-3, "fibres of a beam")
     close(np.abs(found["section_moment_end"][:, 1]), moment + np.zeros(12), 1e-3, "its moment")
+    flat = line.replace(", nu: 0", "").replace("[0, 0, 0]", "[0, 0]").replace("[1, 0, 0]", "[1, 0]").replace('[0, "-t*', '"t*').replace('", 0]', '"').replace(
+        "{shape: rectangle, width: 0.05, height: 2e-3, orientation: [0, 1, 0]}", "{A: 1e-4, I: 0.05*2e-3^3/12, fibre: 1e-3}")
+    path, _ = recovered(FLOE, folder, flat, formulation="cfr")
+    found = Fields(path, "strip")
+    close(found["stress_max"], stress + np.zeros(12), 1e-3, "fibres of a beam in the plane")
+    close(found["section_moment_end"][:, 2], moment + np.zeros(12), 1e-3, "its moment")
+    close(found["section_force"], np.zeros((12, 3)) + 1e-6 * moment, 1.5, "no section forces")
 
 
 def reduced_against_full_order(folder):
@@ -264,7 +290,7 @@ def refusals(folder):
 
 
 def main():
-    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, large_rotations, reduced_against_full_order, body_from_a_file,
+    tests = [strip_under_force, plate_under_pressure, navier, layers, beams, round_bars, large_rotations, reduced_against_full_order, body_from_a_file,
              the_same_on_ranks, singular_places, refusals]
     if shutil.which("ccx"):
         tests.append(lambda folder: calculix.plate_of_second_order(FLOE, folder))

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// A clamped strip, nu = 0, pulled and bent at its end.
+/// A clamped strip, nu = 0, under a force and a moment at its end.
 const char* strip = R"yaml(
 bodies:
   strip:
@@ -26,8 +26,8 @@ bodies:
 joints:
   clamp: {type: fixed, between: [ground, strip.left]}
 loads:
-  pull: {type: force, at: strip.right, force: [3, 0, 0]}
-  bend: {type: moment, at: strip.right, moment: [0, -0.06, 0]}
+  pull: {type: force, at: strip.right, force: [$pull, 0, 0]}
+  end: {type: moment, at: strip.right, moment: $moment}
 motion: {end: 0.1, step: 1e-3}
 probes:
   top: {at: {body: strip, node: $node}, quantity: stress, surface: top}
@@ -35,6 +35,8 @@ probes:
   across: {at: {body: strip, node: $node}, quantity: stress, surface: top, axis: [0, 1, 0]}
   oblique: {at: {body: strip, node: $node}, quantity: principal_stress, surface: top, axis: [1, 1, 0]}
   mises: {at: {body: strip, node: $node}, quantity: von_mises_stress, surface: top}
+  diagonal: {at: {body: strip, node: $node}, quantity: stress, surface: top, axis: [1, 1, 0]}
+  diagonal_mises: {at: {body: strip, node: $node}, quantity: von_mises_stress, surface: top, axis: [1, 1, 0]}
   n: {at: {body: strip, node: $node}, quantity: membrane_force}
   m: {at: {body: strip, node: $node}, quantity: bending_moment}
 )yaml";
@@ -70,7 +72,8 @@ TEST_CASE("stresses of a strip under end force and moment: N / h + 6 M / h^2", "
     for (const char* node : {"[0.5, 0.1, 0]", "[0.5, 0, 0]", "[1, 0.3, 0]", "[0.125, 0.2, 0]"})
       for (const auto formulation : {Formulation::vm_md, Formulation::nlffr, Formulation::cfr}) {
         INFO(cells << " " << node << " " << scene::name_of(formulation));
-        const History at = rest(fill(strip, {{"cells", cells}, {"node", node}}), formulation);
+        const History at = rest(
+            fill(strip, {{"cells", cells}, {"node", node}, {"pull", "3"}, {"moment", "[0, -0.06, 0]"}}), formulation);
         const double pull = 10 / 0.01, bend = 6 * 0.2 / 1e-4;
         // a moment about -y stretches the bottom
         const double tolerance = 2e-3 * bend;
@@ -80,9 +83,32 @@ TEST_CASE("stresses of a strip under end force and moment: N / h + 6 M / h^2", "
         CHECK(at["across.yy"].back() == Approx(pull - bend).margin(tolerance));
         CHECK(at["oblique.second"].back() == Approx(pull - bend).margin(tolerance));
         CHECK(at["mises.mises"].back() == Approx(bend - pull).margin(tolerance));
+        CHECK(at["diagonal.xx"].back() == Approx((pull - bend) / 2).margin(tolerance));
+        CHECK(at["diagonal_mises.mises"].back() == Approx(bend - pull).margin(tolerance));
         CHECK(at["n.xx"].back() == Approx(10).epsilon(2e-3));
         CHECK(at["m.xx"].back() == Approx(-0.2).epsilon(2e-3));
       }
+}
+
+TEST_CASE(
+    "stresses of a twisted strip: shear of 6 M_xy / h^2, M_xy = T / 2 b, along the axes, none along the diagonals",
+    "[verification]") {
+  for (const char* cells : {"quadrilaterals", "triangles"}) {
+    INFO(cells);
+    const History at =
+        rest(fill(strip, {{"cells", cells}, {"node", "[0.5, 0.1, 0]"}, {"pull", "0"}, {"moment", "[0.06, 0, 0]"}}),
+             Formulation::lffr);
+    const double M = 0.06 / (2 * 0.3), shear = 6 * M / 1e-4, tolerance = 5e-3 * shear;
+    CHECK(at["m.xy"].back() == Approx(-M).epsilon(5e-3));
+    CHECK(at["top.xy"].back() == Approx(-shear).margin(tolerance));
+    CHECK(std::abs(at["top.xx"].back()) < tolerance);
+    CHECK(at["diagonal.xx"].back() == Approx(-shear).margin(tolerance));
+    CHECK(at["diagonal.yy"].back() == Approx(shear).margin(tolerance));
+    CHECK(std::abs(at["diagonal.xy"].back()) < tolerance);
+    CHECK(at["oblique.first"].back() == Approx(shear).margin(tolerance));
+    CHECK(at["mises.mises"].back() == Approx(std::sqrt(3) * shear).epsilon(5e-3));
+    CHECK(at["diagonal_mises.mises"].back() == Approx(std::sqrt(3) * shear).epsilon(5e-3));
+  }
 }
 
 TEST_CASE("moments of a clamped square plate under pressure", "[verification]") {
