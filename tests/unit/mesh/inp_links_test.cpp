@@ -124,6 +124,13 @@ TEST_CASE("*TIE and *MPC TIE link nodes at the same points, and no others") {
   const auto apart = read(third + "*SURFACE, NAME=far\n3, E3\n*TIE, NAME=t\nfar, left\n");
   CHECK(apart.deck.links.empty());
   CHECK_THAT(apart.notices.at(0), Contains("*TIE of far to left is ignored: 1 of 2 nodes coincide with no node"));
+  // one node beside another by less than 1e-6 of the surface's length, and by more
+  const auto single = [&](const char* x) {
+    return read(third + "*NODE\n31, " + x + ", 1\n*SURFACE, NAME=one, TYPE=NODE\n31, 1.\n*TIE, NAME=t\none, left\n");
+  };
+  REQUIRE(single("2.0000005").deck.links.size() == 1);
+  CHECK(link_of(single("2.0000005"), 0) == Labels{6, 31});
+  CHECK(single("2.000002").deck.links.empty());
   const auto pair = read(third + "*MPC\nTIE, 21, 5\n");
   REQUIRE(pair.deck.links.size() == 1);
   CHECK(link_of(pair, 0) == Labels{5, 21});

@@ -190,6 +190,9 @@ TEST_CASE("shells whose section asks for it take the mean of nodal thicknesses")
   CHECK(file.deck.shell_sections[1].number == 1);
   CHECK(file.deck.shell_sections[1].plies.at(0).thickness == Approx((1 + 1 + 3 + 5) / 4.));
   CHECK_THAT(file.notices.at(0), Contains("nodal.inp:21: *NODAL THICKNESS: 1 shell with the mean thickness"));
+  for (const std::string wrong : {", 3", "6", "6, 0", "6, thick"})
+    CHECK_THAT(testing::fault_of([&] { read(testing::written("nodal.inp", text + wrong + "\n")); }),
+               Contains("expected a node or node set and a thickness, found '" + wrong + "'"));
 }
 
 TEST_CASE("elements that have a twin are read as it, with a notice") {

@@ -97,6 +97,21 @@ TEST_CASE("shells by their stiffness, and by materials that bend apart") {
   CHECK(second.rotary_inertia() == Approx(t * t * t / 3));
 }
 
+TEST_CASE("plies share one orientation, from which their angles count") {
+  mesh::DeckFile file;
+  file.deck.materials = {{"M", mesh::Elasticity::lamina, {10, 1, 0.3, 0.5, 0.5, 0.5}, 1}};
+  file.deck.orientations = {{"along", {0, 1, 0}, {-1, 0, 0}}, {"across", {1, 0, 0}, {0, 1, 0}}};
+  mesh::ShellSection section;
+  section.part = "A", section.number = 0;
+  section.plies = {{0.1, "M", "along", 0}, {0.1, "M", "", 90}, {0.1, "M", "along", 0}};
+  file.deck.shell_sections = {section};
+  const auto shell = std::get<fem::ShellSection>(plan::deck_sections(file).parts.at(0));
+  CHECK(shell.axis == Eigen::Vector3d::UnitY());
+  CHECK(shell.A(0, 0) == Approx((10 * 0.2 + 1 * 0.1) / (1 - 0.3 * 0.03)));  // nu_21 = nu_12 E_2 / E_1
+  file.deck.shell_sections[0].plies[2].orientation = "across";
+  CHECK_THROWS_WITH(plan::deck_sections(file), Catch::Matchers::Contains("orientations of different names"));
+}
+
 TEST_CASE("springs of a deck are cells of two nodes, one part for each set of constants") {
   mesh::DeckFile file;
   file.mesh.comm = PETSC_COMM_SELF;
