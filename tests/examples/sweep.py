@@ -6,6 +6,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 import h5py
 import numpy
@@ -32,6 +33,25 @@ def run(floe, ranks, folder, *words):
 def table(folder):
     with open(folder / "sweep.csv") as file:
         return list(csv.reader(file))
+
+
+def killed(floe, folder):
+    """A sweep that is killed keeps the members that were done about a second before."""
+    (folder / "long.yaml").write_text(SCENE.replace("end: 0.3, step: 1e-2", "end: 0.3, step: 1.5e-6"))  # a second each
+    words = ["sweep", "long.yaml", "--vary", "F=0.01:0.4:0.01", "-o", "killed"]
+    began = time.monotonic()
+    process = subprocess.Popen([str(floe), *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    summary, done = folder / "killed/summary.json", 0
+    while process.poll() is None and done == 0:
+        time.sleep(0.05)
+        done = json.loads(summary.read_text())["done"] if summary.exists() else 0
+        assert time.monotonic() - began < 100, "nothing is saved in 100 s"
+    process.kill()
+    process.wait()
+    assert 0 < done < 40, f"{done} members were saved on the way"
+    assert json.loads(summary.read_text())["status"] == "running"
+    rows = table(folder / "killed")
+    assert len(rows) > done and all(abs(float(row[1]) - 0.01 * m) < 1e-9 for m, row in enumerate(rows[1:], 1)), rows
 
 
 def main():
@@ -84,6 +104,7 @@ def main():
         (folder / "one.yaml").write_text(SCENE.replace("F: 1,", f"F: {warning['first']['F']},"))
         assert run(floe, 1, folder, "run", "one.yaml", "--no-estimate", "-o", "one").returncode == 0
         assert warning["text"] in json.loads((folder / "one/summary.json").read_text())["warnings"]
+        killed(floe, folder)
     print("sweeps agree")
 
 

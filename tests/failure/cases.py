@@ -318,6 +318,8 @@ FAULTS = [
           check=files("failed", 6, "-motion_ts_max_steps", 0.005)),
     *case("disk full from the start", formulations=("vm+md", "nlffr"), codes=1, lines=1, file_size=8,
           environment=SMALL_FILES, says=("result.h5.partial: File too large",), check=no_results),
+    *case("disk full for the shapes", codes=1, lines=1, scene=PLATE + "motion: {end: 1e-3, step: 1e-3}\n", file_size=500,
+          environment=SMALL_FILES, says=("result.h5.partial: File too large",), check=no_results),
     *case("disk full in the run", codes=1, lines=1, changes=GROWING, file_size=1600, environment=SMALL_FILES,
           says=("File too large", "the simulation stopped at t = "), check=full),
     *case("disk full in the run at full order", formulations=("nlffr",), codes=1, lines=1, changes=GROWING_FAST,

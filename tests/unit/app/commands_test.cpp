@@ -80,6 +80,31 @@ TEST_CASE("run: a thrown rod, on its parabola, in the table, the summary and on 
   CHECK(std::filesystem::exists(folder.result()));
 }
 
+TEST_CASE("run: the summary has the frequencies of the basis, and why candidate vectors were dropped") {
+  const OwnFolder own;
+  const auto folder = own.results("out");
+  const std::string text = beam(
+      "joints:\n  root: {type: revolute, between: [ground, beam.start]}\nloads:\n"
+      "  pull: {type: force, at: beam.end, force: [t, 0]}\n  push: {type: force, at: beam.end, force: [-t^2, 0]}\n"
+      "motion: {end: 0.02, step: 0.01}\nprobes:\n  tip: {at: beam.end, quantity: displacement}\n");
+  scene::Scene scene = parsed(text);
+  scene.bodies[0].reduction.attachment = scene::ReductionSpec::Attachment::all;
+  printed([&] { app::run_one(scene, Formulation::vm_md, PETSC_COMM_WORLD, folder); });
+  const auto body = nlohmann::json::parse(contents(folder.summary()))["bodies"][0];
+  REQUIRE(body["frequencies"].size() == 3);
+  for (int n = 1; n <= 3; ++n)
+    CHECK(body["frequencies"][n - 1]["rad_per_s"].get<double>() ==
+          Approx(std::pow(n * M_PI / 2, 2) * std::sqrt(10 / 3.)).epsilon(2e-5 * std::pow(n, 4)));
+  const auto dropped = [&](const std::string& name) {
+    for (const auto& candidate : body["basis"])
+      if (candidate["column"] == name) return candidate.value("dropped", std::string());
+    return std::string("no such vector");
+  };
+  CHECK(dropped("attachment pull.fx") == "");
+  CHECK(dropped("attachment push.fx") == "repeats pull.fx");
+  CHECK(dropped("attachment root.fx") == "does not deform the body");
+}
+
 TEST_CASE("check: mass properties of each body, and frequencies on request") {
   const std::string said = printed([&] { app::check(parsed(thrown), PETSC_COMM_WORLD); });
   CHECK_THAT(said, Contains("centre x") && Contains("1.333333") && !Contains("[Hz]"));  // 4 kg (2 m)^2 / 12

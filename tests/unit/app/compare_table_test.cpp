@@ -60,6 +60,14 @@ TEST_CASE("a comparison shows components where they fit, else vectors") {
   CHECK(table.columns[3].name == "tip.x vs cfr");
 }
 
+TEST_CASE("a comparison has the time of a step in microseconds") {
+  std::vector<Compared> rows = {run("cfr", 0)};
+  rows[0].result.motion_seconds = 3, rows[0].result.steps = 1000;
+  const output::Table table = comparison(rows, {&rows[0]}, {}, nullptr, true);
+  CHECK(table.columns.back().name == "per step");
+  CHECK(std::get<double>(table.rows[0].back()) == Approx(3000));
+}
+
 TEST_CASE("a comparison leaves out the second reference where both do not fit") {
   const std::vector<Compared> rows = {run("cfr", 0), run("nlffr", 0.1), run("vm", 0.5)};
   const std::vector<const Compared*> references = {&rows[0], &rows[1]};

@@ -114,10 +114,24 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
   }
   CHECK_THAT(said, Contains("4 members (0 failed)"));
   CHECK(nlohmann::json::parse(contents(folder.summary()))["status"] == "finished");
+  const auto rigid = own.results("rigid");  // nothing to estimate, which is said once
+  printed([&] { app::sweep(file, scene::Formulation::vm_md, {{"F", {3, 6}}}, false, true, PETSC_COMM_WORLD, rigid); });
+  const auto warnings = nlohmann::json::parse(contents(rigid.summary()))["warnings"];
+  REQUIRE(warnings.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const std::string part = std::array{"reduction", "model", "mesh"}[i];
+    CHECK_THAT(warnings[i]["text"].get<std::string>(),
+               Contains("no estimate of the " + part + " error: no body has a mesh"));
+    CHECK(warnings[i]["members"] == nlohmann::json{1, 2});
+  }
   const auto refused = [&](const std::vector<app::Varied>& what, scene::Formulation formulation) {
     app::sweep(file, formulation, what, false, false, PETSC_COMM_WORLD, own.results("no"));
   };
-  CHECK_THROWS_WITH(refused({{"G", {1}}}, scene::Formulation::vm_md), Contains("G"));
+  CHECK_THROWS_WITH(
+      refused({{"G", {1}}}, scene::Formulation::vm_md),
+      Contains("expected a key of the scene or a parameter (parameters, bodies, loads, motion, probes, F)"));
+  CHECK_THROWS_WITH(refused({{"motion.steps", {1}}}, scene::Formulation::vm_md),
+                    Contains("expected a key of motion (end, step); did you mean \"step\"?"));
   CHECK_THROWS_WITH(refused({{"F", {1}}}, scene::Formulation::nlffr), Contains("nlffr"));
   CHECK_FALSE(std::filesystem::exists(own.path / "no"));
 }
