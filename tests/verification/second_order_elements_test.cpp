@@ -269,6 +269,31 @@ probes: {tip: {at: {body: p, node: [1, 0.05, 0]}, quantity: position}}
   CHECK(tip.z() == Approx(0.16214).epsilon(1.5e-2));
 }
 
+// w = a sin(pi x) sin(pi y) of a free plate of side 1: elastic energy (D/8) (2 pi^2)^2 a^2, kinetic energy of the rate
+// b sin(pi x) sin(pi y) (m/8) b^2.
+TEST_CASE("shells of second order start with the energies of their deformation and its rate") {
+  for (const bool triangles : {false, true}) {
+    CAPTURE(triangles);
+    const Deck plate(
+        shells(triangles, 10, 10, 0.01, "*ELASTIC\n1.092e7, 0.3\n*DENSITY\n100.\n", flat));  // D = 1, m = 1
+    const History at = move(fill(R"yaml(
+parameters: {a: 1e-5, b: 1e-4}
+bodies:
+  plate:
+    mesh: {file: {path: $path}}
+    reduction: {modes: 4, derivatives: none, attachment: none}
+    initial: {deformation: [0, 0, "a*sin(pi*x)*sin(pi*y)"], deformation_rate: [0, 0, "b*sin(pi*x)*sin(pi*y)"]}
+motion: {end: 1e-3, step: 1e-3}
+probes: {middle: {at: {body: plate, node: [0.5, 0.5, 0]}, quantity: position}}
+)yaml",
+                                 {{"path", plate.path()}}),
+                            Formulation::lffr);
+    CHECK(at.energy.front().elastic == Approx(std::pow(2 * M_PI * M_PI * 1e-5, 2) / 8).epsilon(0.05));
+    CHECK(at.energy.front().kinetic == Approx(1e-8 / 8).epsilon(0.05));
+    CHECK(at["middle.z"].front() == Approx(1e-5).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("mass, centre and inertia of bodies of second order") {
   const bool triangles = GENERATE(false, true);
   const double R = 0.5, a = 0.6, L = 1, h = 0.005, rho = 7800;

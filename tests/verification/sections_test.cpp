@@ -336,18 +336,51 @@ bodies:
     reduction: {modes: 3}
 joints:
   clamp: {type: fixed, between: [ground, frame.start]}
+$more
 motion: {end: 1, step: 0.1}
 probes:
   s: {at: $place, quantity: section_force}
 )yaml";
-  const auto of = [&](const char* join, const char* place, Formulation formulation) {
-    return testing::complaint(fill(text, {{"join", join}, {"place", place}}), formulation);
+  const auto of = [&](const char* join, const char* place, Formulation formulation, const char* more = "") {
+    return testing::complaint(fill(text, {{"join", join}, {"place", place}, {"more", more}}), formulation);
   };
   const char *ring = "[[1, 2], [2, 3], [3, 4], [4, 1], [2, 5]]", *tree = "[[1, 2], [2, 3], [3, 4], [2, 5]]";
   CHECK_THAT(of(ring, "{body: frame, node: [0.5, 0, 0]}", Formulation::vm_md), Contains("form a ring"));
   CHECK(of(ring, "{body: frame, node: [0.5, 0, 0]}", Formulation::cfr).empty());
   CHECK(of(ring, "{body: frame, node: [1.5, 0, 0]}", Formulation::vm_md).empty());
   CHECK_THAT(of(tree, "frame.p2", Formulation::vm_md), Contains("3 elements of beams meet there; expected toward"));
+  const char* chord = "  chord: {type: spring, between: [frame.p1, frame.p4], stiffness: 1e3}";
+  CHECK_THAT(of(tree, "{body: frame, node: [0.5, 0, 0]}", Formulation::vm_md, chord),
+             Contains("joint chord connects both parts of body frame"));
+  CHECK(of(tree, "{body: frame, node: [1.5, 0, 0]}", Formulation::vm_md, chord).empty());
+}
+
+TEST_CASE("sections of damped bodies: a warning where the forces of the damping are not counted", "[verification]") {
+  const auto warned = [](const std::string& beam, const std::string& damping) {
+    const std::string text = fill(R"yaml(
+bodies:
+  beam: {$beam, reduction: {modes: 2}, damping: $damping}
+joints:
+  clamp: {type: fixed, between: [ground, beam.start]}
+motion: {end: 1, step: 0.1}
+probes:
+  s: {at: beam.middle, quantity: section_force}
+)yaml",
+                                  {{"beam", beam}, {"damping", damping}});
+    const auto model = assembly::build(scene::parse_scene(text, "scene"), Formulation::vm_md, PETSC_COMM_WORLD);
+    return std::any_of(model.warnings.begin(), model.warnings.end(), [](const std::string& warning) {
+      return warning.find("probe s: the forces of damping") != std::string::npos;
+    });
+  };
+  for (const std::string beam :
+       {"mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}, section: {EA: 1e5, EI: 1, rhoA: 1}",
+        "mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 4}}, material: {E: 7e10, nu: 0.3, rho: 1000}, "
+        "section: {shape: rectangle, width: 0.05, height: 0.02, orientation: [0, 0, 1]}"}) {
+    INFO(beam);
+    CHECK(warned(beam, "{mass: 0.1}"));
+    CHECK(warned(beam, "{modal: [0.01, 0.01]}"));
+    CHECK_FALSE(warned(beam, "{stiffness: 1e-4}"));
+  }
 }
 
 TEST_CASE("sections where three beams meet, by what they lead to", "[verification]") {

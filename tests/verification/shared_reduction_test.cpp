@@ -70,6 +70,26 @@ TEST_CASE("shared reductions: rotated blades on a hub have one reduction and mov
   }
 }
 
+TEST_CASE("shared reductions: a copy of the scene's first body moves as it does") {
+  const History at = move(R"yaml(
+bodies:
+  a: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}, section: {EA: 1e5, EI: 1, rhoA: 1, rhoI: 1e-4}, frame: clamped}
+  b: {like: a, initial: {position: [0, 1]}}
+joints:
+  ja: {type: fixed, between: [ground, a.start]}
+  jb: {type: fixed, between: [ground, b.start]}
+loads:
+  la: {type: force, at: a.end, force: [0, "sin(9*t)"]}
+  lb: {type: force, at: b.end, force: [0, "sin(9*t)"]}
+motion: {end: 0.1, step: 2e-3}
+probes: {a: {at: a.end}, b: {at: b.end}}
+)yaml",
+                          Formulation::vm_md);
+  CHECK(shared(at.model) == Names{"", "a"});
+  CHECK(std::abs(at["a.y"].back()) > 0.01);
+  for (const std::string c : {"x", "y"}) CHECK(at["b." + c].back() == Approx(at["a." + c].back()).epsilon(1e-9));
+}
+
 TEST_CASE("shared reductions: the same estimates as of reductions of their own") {
   const Estimated once = move_and_estimate(rotor(), Formulation::vm_md),
                   anew = move_and_estimate(rotor("", "7.0000001e10"), Formulation::vm_md);

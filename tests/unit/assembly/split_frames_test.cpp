@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <map>
 
 #include "building.h"
 
@@ -26,6 +27,7 @@ probes:
   tip: {at: beam.end, quantity: position}
   third: {at: {body: beam, node: [3.5, 0]}, quantity: position}
   joint: {at: {body: beam, node: [3, 0]}, quantity: position}
+  span: {at: beam.end, relative_to: {body: beam, node: [1.5, 0]}, quantity: position}
 )yaml";
 
 }  // namespace
@@ -52,6 +54,8 @@ TEST_CASE("a split body becomes its parts, clamped end to start, with places and
     if (load.kind == scene::Load::Kind::force) CHECK(load.at.body == "beam#4");
   }
   CHECK(distributed == std::vector<std::string>{"beam#1", "beam#2", "beam#3", "beam#4"});
+  CHECK(parts.probes.back().at.body == "beam#4");
+  CHECK(parts.probes.back().relative_to.value().body == "beam#1");
 }
 
 TEST_CASE("places of a split body stay where they are") {
@@ -61,8 +65,9 @@ TEST_CASE("places of a split body stay where they are") {
     const auto columns = assembly::probe_columns(model);
     const auto values = at_start(model);
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      const double x = columns[i].name == "tip.x" ? 5 : columns[i].name == "third.x" ? 3.5 : 3;
-      CHECK(values[i] == Approx(columns[i].name.back() == 'x' ? x : 0).epsilon(1e-13).margin(1e-14));
+      const std::map<std::string, double> known{{"tip.x", 5}, {"third.x", 3.5}, {"joint.x", 3}, {"span.x", 3.5}};
+      const double x = columns[i].name.back() == 'x' ? known.at(columns[i].name) : 0;
+      CHECK(values[i] == Approx(x).epsilon(1e-13).margin(1e-14));
     }
     CHECK(model.multipliers == (formulation == Formulation::cfr ? 3 : 12));
   }

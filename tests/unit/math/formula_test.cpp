@@ -188,6 +188,12 @@ TEST_CASE("functions of the scene: formulas and tables, with the chain rule") {
     CHECK(f("cubic(t)").derivative(t) == Approx(difference).epsilon(1e-6).margin(1e-6));
   }
   CHECK(f("cubic(t)")(2) == Approx(8));
+  // first and last rise small beside their neighbour: a parabola through three points would turn back there
+  names.functions["gentle"] = function_of(Table{{0, 1, 2, 3}, {0, 0.1, 1.9, 2}, Table::Interpolation::cubic});
+  for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    CHECK((f("gentle(t)")(t) > 0 && f("gentle(t)")(t) < 0.1));
+    CHECK((f("gentle(t)")(2 + t) > 1.9 && f("gentle(t)")(2 + t) < 2));
+  }
   CHECK(f("hill(t)")(5.5) == Approx(f("hill(t)")(1.5)));
   CHECK(f("hill(t)")(-0.5) == Approx(0.5));
   CHECK(f("hill(t)").derivative(7) == Approx(0).margin(1e-12));

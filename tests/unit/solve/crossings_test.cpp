@@ -24,7 +24,9 @@ Told watch(const Gap& gap, double end = 0.06) {
   event.gap = [&](double t, Vec, Vec) { return gap(t); };
   event.what_back = "left";
   solve::Integration how{end, 0.01, 0.8, {}};
-  how.events = {event};
+  dynamics::Event other{"other stop", "hit"};
+  other.gap = [](double, Vec, Vec) { return std::array{1., 0.}; };  // stays open
+  how.events = {event, other};
   how.on_event = [&](const dynamics::EventReport& report) { told.events.push_back(report); };
   solve::simulate(system, how, U, V, [&](const solve::Instant& now) { told.ends.push_back(now.t); });
   return told;
@@ -51,8 +53,8 @@ void check(const Told& told, const std::vector<std::pair<std::string, double>>& 
 }  // namespace
 
 TEST_CASE("a gap that closes and opens again is told of at both times, also within one step") {
-  // within a step, over an end of a step, over several
-  for (const auto& [a, b] : {std::pair(0.0231, 0.0275), {0.0285, 0.0321}, {0.0115, 0.0478}}) {
+  // within a step, over an end of a step, over several, from just before an end of a step to another
+  for (const auto& [a, b] : {std::pair(0.0231, 0.0275), {0.0285, 0.0321}, {0.0115, 0.0478}, {0.02 - 1e-8, 0.05 - 1e-8}}) {
     INFO(a << " to " << b);
     check(watch(between(a, b)), {{"hit", a}, {"left", b}}, b - a);
     check(watch(between(a, b, -3)), {{"left", a}, {"hit", b}}, 3 * (b - a));  // closed at first
