@@ -131,7 +131,7 @@ std::vector<ConstrainedPlace> PlanarAssembly::constrained_places(const DampedWho
     if (formulation_ == Formulation::cfr) {
       place.axes = node_axes(b, first, x);
       place.X = undeformed_origin(body) + A0 * x;
-      place.x.setZero(), place.S.setZero(3, 0), place.psi.setZero(3, 0);
+      place.x.setZero();
     } else {
       place.x = x, place.S.setZero(3, 3), place.psi.setZero(3, 3);
       for (int d = 0; d < 3; ++d) {

@@ -13,7 +13,7 @@ StateFormula::StateFormula(math::Formula formula, std::vector<std::unique_ptr<Se
     : formula_(std::move(formula)),
       sensors_(std::move(sensors)),
       arguments_(sensors_.size() + 1),
-      derivatives_(sensors_.size() + 1) {
+      derivatives_(arguments_.size()) {
   for (const auto& sensor : sensors_) parts_.push_back({place_all(sensor->coordinates(), coordinates_), {}, {}, {}});
 }
 
