@@ -153,6 +153,9 @@ Matrix3d rotated(double angle) {
   return T;
 }
 
+/// Strains with gamma_xy = 2 eps_xy likewise: sigma' eps is the same in all axes.
+Matrix3d rotated_strain(double angle) { return rotated(-angle).transpose(); }
+
 /// The layers that a probe of stresses or strains is of: the one that it names, or all.
 std::vector<fem::ShellLayer> layers_of(const Probe& probe, const fem::StressPoints& points) {
   const auto refuse = [&](const char* key, const std::string& what) {
@@ -282,8 +285,8 @@ std::vector<PatchSample> patch_samples(const Plan& plan, std::size_t p) {
     if (one.rank != rank) continue;
     const Vector3d own = one.directions().col(0);
     const double angle = -std::atan2(y.dot(own), x.dot(own));  // from its axes to those of the node
-    patch.push_back(
-        {one.cell, static_cast<std::size_t>(one.number), weights[static_cast<Eigen::Index>(i)] * rotated(angle) * H});
+    const Matrix3d T = probe.quantity == Probe::Quantity::strain ? rotated_strain(angle) : rotated(angle);
+    patch.push_back({one.cell, static_cast<std::size_t>(one.number), weights[static_cast<Eigen::Index>(i)] * T * H});
   }
   return patch;
 }
