@@ -10,7 +10,7 @@ namespace floe::mesh {
 namespace {
 
 constexpr std::size_t fields_of_card = 8;
-constexpr long long most_cards = 1000000;  // that are made by replication
+constexpr long long most_cards = 200000;  // that are made by replication
 
 std::string_view without_brackets(std::string_view text) {
   if (text.starts_with('(') && text.ends_with(')') && text.size() > 1) return text.substr(1, text.size() - 2);
@@ -40,15 +40,12 @@ void NasReplicate::keep(NasCard& card, std::deque<std::string>& texts) {
 }
 
 bool NasReplicate::advance(Where where) {
-  if (++count_ > most_cards) {
-    if (count_ == most_cards + 1) faults_.add(where, fmt::format("replication makes more than {} cards", most_cards));
-    return false;
-  }
   std::deque<std::string> made;
   std::vector<std::string_view> fields(fields_of_card);
   bool same = false;  // ==: all that follow
   for (std::size_t i = 0; i < fields_of_card; ++i) {
-    const std::string_view step = same || i >= steps_.size() ? "=" : steps_[i], before = previous_.text(i);
+    const std::string_view step = same || i >= steps_.size() ? "=" : std::string_view(steps_[i]),
+                           before = previous_.text(i);
     same = same || step == "==";
     if (same || step == "=") {
       made.emplace_back(before);
@@ -88,6 +85,9 @@ void NasReplicate::apply(const NasCard& step, const std::function<void(const Nas
       return faults_.add(where, step.name + " repeats steps of a card with =, but there is none before it");
     times = *n;
   }
+  if (times > most_cards - count_)
+    return faults_.add(where, fmt::format("replication makes more than {} cards", most_cards));
+  count_ += times;
   for (; times > 0 && advance(where); --times) visit(previous_);
 }
 

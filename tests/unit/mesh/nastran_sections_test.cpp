@@ -130,7 +130,8 @@ TEST_CASE("cards replicate the one before") {
       {"=,*1\n" + square, "bad.bdf:1: card '=' replicates a card, but there is none before it"},
       {square + "GRID,9,,0.,0.,0.\n=3\n", "bad.bdf:9: =3 repeats steps of a card with =, but there is none"},
       {square + "GRID,9,,0.,0.,0.\n=,*x,==\n", "GRID: expected a number to which '*x' adds, found '9'"},
-      {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=99999999\n", "replication makes more than 1000000 cards"},
+      {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=99999999\n", "replication makes more than 200000 cards"},
+      {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=99999\n=100001\n", "bad.bdf:11: replication makes more than"},
       {square + "GRID,9,,0.,0.,0.\n=,*1,==\n=0\n", "expects = or =n"},
       {square + "CONM2,70,1,,1.\n,1.,,1.,,,1.\n=,*1,==\n", "CONM2: replication of cards with continuations"}};
   for (const auto& [text, message] : wrong) CHECK_THAT(said(text), Contains(message));
