@@ -60,7 +60,7 @@ Discretisation discretisation_of(const Scene& scene) {
 
 Scene discretised(const Scene& scene, const Discretisation& bodies) {
   if (bodies == discretisation_of(scene)) return scene;
-  YAML::Node root = scene::load_resolved(scene.text);
+  YAML::Node root = scene::load_resolved(scene);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Body& body = scene.bodies[b];
     YAML::Node node = root["bodies"][body.name] = YAML::Clone(root["bodies"][body.name]);  // it may be an alias

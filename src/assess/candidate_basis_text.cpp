@@ -64,7 +64,7 @@ class MovedPaths {
 std::string candidates_text(const Scene& scene, const std::vector<CandidateVector>& columns, const Selection& selection,
                             const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
                             const std::filesystem::path& folder) {
-  YAML::Node root = load_resolved(scene.text);
+  YAML::Node root = load_resolved(scene);
   if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
   for (const Body& body : scene.bodies) {
     if (body.rigid || body.reduced) continue;

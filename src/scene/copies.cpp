@@ -7,7 +7,8 @@
 #include <set>
 
 #include "floe/math/nearest.h"
-#include "values.h"
+#include "group_copies.h"
+#include "readers.h"
 
 namespace floe::scene {
 namespace {
@@ -57,6 +58,19 @@ class Copies {
   std::set<std::string> under_way_;
 };
 
+/// The same values with nodes of their own: those of copies are otherwise the same nodes as their originals'.
+YAML::Node unshared(const YAML::Node& node) {
+  if (node.IsScalar()) return YAML::Node(node.Scalar());
+  if (!node.IsSequence() && !node.IsMap()) return {};
+  YAML::Node own(node.Type());
+  if (node.IsSequence())
+    for (const auto& item : node) own.push_back(unshared(item));
+  else
+    for (const auto& entry : node) own.force_insert(unshared(entry.first), unshared(entry.second));
+  own.SetStyle(node.Style());
+  return own;
+}
+
 }  // namespace
 
 void resolve_copies(Document& document, const YAML::Node& root) {
@@ -66,11 +80,17 @@ void resolve_copies(Document& document, const YAML::Node& root) {
       Copies(document, section, entries).resolve();
 }
 
-YAML::Node load_resolved(const std::string& text) {
-  YAML::Node root = YAML::Load(text);
+YAML::Node load_resolved(const Scene& scene) {
+  YAML::Node root = YAML::Load(scene.text);
   Document document;
+  document.file = scene.file;
+  document.dimension = scene.dimension;
   resolve_copies(document, root);
-  return root;
+  if (root["parameters"]) read_parameters(document, {root["parameters"], {}});
+  if (root["functions"]) read_functions(document, {root["functions"], {}});
+  write_out_groups(document, root);
+  root.remove("copies");
+  return unshared(root);
 }
 
 }  // namespace floe::scene

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "copies.h"
+#include "group_copies.h"
 #include "readers.h"
 #include "variation.h"
 
@@ -110,6 +111,9 @@ Scene parse_scene(const std::string& text, const std::string& name, const std::v
   if (const auto parameters = reading.value("parameters")) read_parameters(document, *parameters);
   if (const auto functions = reading.value("functions")) read_functions(document, *functions);
   scene.tables = document.tables;
+  const std::size_t before_groups = document.fault_count();
+  write_out_groups(document, root.node);
+  if (document.fault_count() != before_groups) document.throw_faults();
   if (unknown_dimension(document, root.node["bodies"])) {  // coordinates would be judged by a guess
     read_named<Body>(document, reading, "bodies", read_body);
     document.throw_faults();

@@ -43,6 +43,8 @@ const SchemaSection scene_section{
         part("bodies", Type::named_sections, required, "bodies by name", "body"),
         part("joints", Type::named_sections, "", "joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "loads by name", "load"),
+        part("copies", Type::named_sections, "",
+             "copies of groups of bodies by name, with the joints, loads and probes that act on them", "copy"),
         part("motion", Type::section, "", "end time and time step; required by run, compare, tradeoff and sweep",
              "motion"),
         accuracy,
@@ -85,6 +87,23 @@ const SchemaSection table_section{
         {"periodic", Type::flag, "", "false", "repeated beyond its ends"},
     }};
 
+const SchemaSection copy_section{
+    "copy",
+    "A copy of a group of bodies, moved as a whole. The joints that connect these bodies with one another or with the "
+    "ground, and the loads and probes of these bodies and joints, are copied and moved with them (forces, axes and "
+    "points of the ground in world axes, and sensors in formulas, too); so are joints to places {body: BODY, node: "
+    "[..]} of other bodies. Copies are named NAME_ORIGINAL, with the key as NAME. A joint, load or probe that the "
+    "scene "
+    "itself has by that name replaces the copy. Events are not copied.",
+    "like: [upper_arm, forearm]\nposition: [0, 0.5]\nangle: pi",
+    {
+        {"like", Type::texts, "", Key::required, "names of the bodies of the group; also of those of copies above"},
+        {"position", Type::point, "m", "", "translation, after the rotation about the world origin; absent: zero"},
+        in_plane({"angle", Type::number, "rad", "0", "rotation about the world origin, counterclockwise"}),
+        in_space({"rotation", Type::point, "rad", "", "rotation vector about the world origin; absent: zero"}),
+        {"without", Type::texts, "", "", "names of joints, loads and probes that are not copied; absent: none"},
+    }};
+
 const SchemaSection ground_section{
     "ground",
     "Translational base excitation. The world axes move with the ground: positions and velocities are relative to it, "
@@ -98,7 +117,7 @@ const SchemaSection ground_section{
 
 const std::vector<SchemaSection>& schema() {
   static const std::vector<SchemaSection> all = [] {
-    std::vector<SchemaSection> sections{scene_section, accuracy_section, table_section, ground_section};
+    std::vector<SchemaSection> sections{scene_section, accuracy_section, table_section, ground_section, copy_section};
     for (const auto* part : {&body_sections(), &mechanism_sections(), &spatial_sections()})
       sections.insert(sections.end(), part->begin(), part->end());
     return sections;
