@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "text.h"
@@ -53,13 +52,6 @@ void NasBuild::link(long long reference, const std::vector<long long>& nodes, Wh
   }
 }
 
-void NasBuild::add_links() {
-  for (const NasLink& rigid : model_.links) {
-    link(rigid.reference, rigid.nodes, rigid.where);
-    for (const long long node : rigid.nodes) independent_[node] = rigid.reference;
-  }
-}
-
 void NasBuild::add_extra_grids() {
   if (rank_ == ranks_ - 1)
     for (const auto* all : {&extra_, &between_})
@@ -85,52 +77,6 @@ void NasBuild::add_extra_grids() {
                     std::to_string(extra_.front().label) + " on, rigidly linked to their grids");
 }
 
-/// Moments of inertia of which one exceeds the sum of the others (by 0.1 %: rounded fields) are physically impossible,
-/// as where a card has one alone: the body of least extent that has the greatest of them is taken. With J = tr(S) 1 -
-/// S, S the integral of r r^T, negative roots of S become 0.
-void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
-  constexpr double rounding = 1e-9, fields = 1e-3;
-  const double scale = inertia.cwiseAbs().maxCoeff();
-  const auto refuse = [&] {
-    faults_.add(where, "CONM2: its moments of inertia are not those of a mass: one is negative about some axis");
-  };
-  if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] < -rounding * scale) return refuse();
-  const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(second);
-  if (!(principal.eigenvalues()[0] < -rounding * scale)) return;
-  const bool reports = principal.eigenvalues()[0] < -fields * scale;
-  const Eigen::Vector3d kept = principal.eigenvalues().cwiseMax(0);
-  const Eigen::Matrix3d &e = principal.eigenvectors(), was = inertia;
-  inertia = kept.sum() * Eigen::Matrix3d::Identity() - Eigen::Matrix3d(e * kept.asDiagonal() * e.transpose());
-  if (!reports) return;
-  notices.push_back(fmt::format(
-      "{}: CONM2: its moments of inertia are physically impossible (one exceeds the sum of the "
-      "others); taken as {:.6g}, {:.6g}, {:.6g} instead of {:.6g}, {:.6g}, {:.6g}",
-      faults_.text_of(where), inertia(0, 0), inertia(1, 1), inertia(2, 2), was(0, 0), was(1, 1), was(2, 2)));
-}
-
-void NasBuild::add_masses() {
-  for (const NasMass& given : model_.masses) {
-    const auto x = frames_.position(given.grid, given.where);
-    if (!x) continue;
-    PointMass mass = given.mass;
-    if (given.axes < 0) {
-      mass.offset -= *x;
-    } else {
-      const Eigen::Matrix3d axes = frames_.directions(given.axes, *x, given.where);
-      mass.offset = axes * mass.offset;
-      mass.inertia = axes * mass.inertia * axes.transpose();
-    }
-    mass.mass *= model_.mass_factor;
-    mass.inertia *= model_.mass_factor;
-    complete_inertia(mass.inertia, given.where);
-    if (rank_ != 0) continue;
-    mass.node = static_cast<PetscInt>(mesh.mentions.size());
-    mesh.mentions.push_back({given.grid, given.where});
-    deck.masses.push_back(mass);
-  }
-}
-
 std::vector<long long> NasBuild::used_grids() const {
   std::vector<long long> used;
   const auto add = [&](const auto& grids) { used.insert(used.end(), grids.begin(), grids.end()); };
@@ -139,6 +85,8 @@ std::vector<long long> NasBuild::used_grids() const {
   for (const NasSpring& spring : model_.springs)
     if (spring.grids[0] > 0 && spring.grids[1] > 0) add(spring.grids);
   for (const NasMass& mass : model_.masses) used.push_back(mass.grid);
+  for (const NasMassMatrix& mass : model_.mass_matrices) used.push_back(mass.grid);
+  for (const NasScalarMass& mass : model_.component_masses) used.push_back(mass.grid);
   for (const NasLink& rigid : model_.links) used.push_back(rigid.reference), add(rigid.nodes);
   for (const NasMean& mean : model_.means) add(mean.nodes);
   std::sort(used.begin(), used.end());

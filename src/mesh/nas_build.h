@@ -32,6 +32,9 @@ class NasBuild {
   /// Rigid links by independent grid: all ranks mention it, the first rank its dependent ones.
   void link(long long reference, const std::vector<long long>& nodes, Where where);
   void add_links();
+  struct Rotations;
+  std::unordered_map<long long, Rotations> rotations_of_grids() const;
+  void free_rotations();
   void add_shells();
   void add_beams();
   void add_extra_grids();
@@ -44,6 +47,8 @@ class NasBuild {
   std::optional<NodeSpring> bush(const NasSpring& spring, const std::array<Eigen::Vector3d, 2>& x);
   /// Diagonal of the box around all grids.
   double extent();
+  std::vector<NasMassMatrix> mass_matrices();
+  std::vector<NasMass> all_masses();
   void add_masses();
   void complete_inertia(Eigen::Matrix3d& inertia, Where where);
   void add_places();
@@ -90,6 +95,7 @@ class NasBuild {
   std::vector<Extra> extra_, between_;                    // at the ends of beams with offsets; inside beams with taper
   std::map<std::array<double, 4>, long long> extra_of_;
   std::map<long long, std::vector<std::size_t>> extra_links_;
+  std::map<std::size_t, unsigned> released_;  // of beams at links that leave rotations free, as NasBeam::releases
   std::vector<long long> used_materials_, used_properties_;
 };
 

@@ -248,7 +248,8 @@ void NasBuild::add_beams() {
   for (const NasShell& shell : model_.shells) next_element_ = std::max(next_element_, shell.id + 1);
   for (const NasBeam& beam : model_.beams) next_element_ = std::max(next_element_, beam.id + 1);
   for (std::size_t i = 0; i < model_.beams.size(); ++i) {
-    const NasBeam& beam = model_.beams[i];
+    NasBeam beam = model_.beams[i];
+    if (const auto found = released_.find(i); found != released_.end()) beam.releases |= found->second;
     const NasBeamProperty* own =
         property(model_.beam_properties, beam.property, beam.where, "beam " + std::to_string(beam.id));
     const std::optional<Ends> ends = ends_of(beam);

@@ -145,20 +145,32 @@ void read_conm2(NasReader& r) {
 
 namespace {
 
-bool all_six(std::string_view text) {
+/// Components, each once, ascending.
+std::string components(std::string_view text) {
   std::string digits(text);
   std::sort(digits.begin(), digits.end());
   digits.erase(std::unique(digits.begin(), digits.end()), digits.end());
-  return digits == "123456";
+  return digits;
+}
+
+bool all_six(std::string_view text) { return components(text) == "123456"; }
+
+/// The components that a link holds of its dependent grids: all translations at least.
+void read_held(NasFields& card, std::size_t field, NasLink& link) {
+  const std::string held = components(card.card.text(field));
+  if (held == "123456") return;
+  link.holds = held;
+  if (!held.starts_with("123") || held.find_first_not_of("123456") != std::string::npos)
+    card.refuse(field, "expects 123456, or 123: rigid links hold all three translations; found " +
+                           in_quotes(card.card.text(field)));
 }
 
 }  // namespace
 
 void read_rbe2(NasReader& r) {
   const auto& card = r.card.card;
-  NasLink link{r.card.integer(1, "the independent grid (GN)"), {}, r.where()};
-  if (!all_six(card.text(2)))
-    r.card.refuse(2, "expects 123456: rigid links hold all six directions; found " + in_quotes(card.text(2)));
+  NasLink link{r.card.integer(1, "the independent grid (GN)"), {}, r.where(), "RBE2 " + std::string(card.text(0))};
+  read_held(r.card, 2, link);
   std::size_t last = card.fields.size();
   while (last > 3 && card.blank(last - 1)) --last;
   if (last > 4 && card.text(last - 1).find('.') != std::string_view::npos) --last;  // ALPHA
@@ -193,10 +205,10 @@ void read_rbar(NasReader& r) {
   const long long a = r.card.integer(1, "a grid (GA)"), b = r.card.integer(2, "a grid (GB)");
   const bool first = all_six(card.text(3)) && card.blank(4), second = all_six(card.text(4)) && card.blank(3);
   if (!first && !second) r.card.refuse(3, "and 6 expect 123456 for one end and nothing for the other (CNA, CNB)");
+  NasLink link{first ? a : b, {first ? b : a}, r.where(), "RBAR " + std::string(card.text(0))};
   const std::string_view dependent = card.text(first ? 6 : 5);
-  if (!dependent.empty() && dependent != "0" && !all_six(dependent))
-    r.card.refuse(first ? 6 : 5, "expects nothing or 123456, found " + in_quotes(dependent));
-  if (r.card.good()) r.model.links.push_back({first ? a : b, {first ? b : a}, r.where()});
+  if (!dependent.empty() && dependent != "0") read_held(r.card, first ? 6 : 5, link);
+  if (r.card.good()) r.model.links.push_back(link);
 }
 
 }  // namespace floe::mesh

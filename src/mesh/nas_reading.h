@@ -105,10 +105,30 @@ struct NasMass {
   Where where;
 };
 
+/// CONM1: of the three translations and the three rotations of a grid.
+struct NasMassMatrix {
+  long long grid, axes;
+  std::string name;
+  Where where;
+  Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+/// CMASS1, CMASS2 between a grid and the ground.
+struct NasScalarMass {
+  long long id;
+  std::string card;
+  long long grid, property;  // 0: the mass is given
+  int component;             // 1 to 6
+  double mass;
+  Where where;
+};
+
 struct NasLink {
   long long reference;
   std::vector<long long> nodes;
   Where where;
+  std::string name = {};   // RBE2 7
+  std::string holds = {};  // 123 and some rotations of its dependent grids; empty: all
 };
 
 /// RBE3: the mean motion of grids.
@@ -135,6 +155,9 @@ struct NasModel {
   std::map<long long, std::string> other_materials;  // names of those that shells and beams do not have
   std::map<long long, NasAxes> axes;
   std::vector<NasMass> masses;
+  std::vector<NasMassMatrix> mass_matrices;
+  std::vector<NasScalarMass> component_masses;
+  std::map<long long, double> scalar_masses;  // PMASS
   std::vector<NasLink> links;
   std::vector<NasMean> means;
   std::vector<NasSpring> springs;

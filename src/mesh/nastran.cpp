@@ -17,7 +17,7 @@ bool ignores(const DeckRequest& request, const std::string& name) {
 
 /// Elements that are read, and left out where the scene asks.
 bool left_out(const NasCard& card, const DeckRequest& request, NasModel& model) {
-  const char* kinds[] = {"CELAS1", "CELAS2", "CBUSH", "CROD", "CTUBE", "CONROD", "RBE3"};
+  const char* kinds[] = {"CELAS1", "CELAS2", "CBUSH", "CROD", "CTUBE", "CONROD", "RBE3", "CONM1", "CMASS1", "CMASS2"};
   if (std::find(std::begin(kinds), std::end(kinds), card.name) == std::end(kinds) || !ignores(request, card.name))
     return false;
   model.refused.try_emplace(card.name, NasCount{card.where(), 0}).first->second.times++;

@@ -94,3 +94,57 @@ TEST_CASE("an RBE3 whose reference grid carries nothing is a place") {
   CHECK(file.mesh.node_count == 4);
   CHECK_THAT(all_of(file.notices), Contains("1 RBE3 without element at the reference grid"));
 }
+
+TEST_CASE("masses by components, or by their matrix, are those of rigid bodies") {
+  const auto file =
+      read("cmass.bdf", square +
+                            "CORD2R,7,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\n"  // x along y
+                            "GRID,5,,1.,0.,0.,7\nRBE2,80,2,123456,5\nPMASS,9,2.5,10,.5\n"
+                            "CMASS1,70,9,5,1\nCMASS1,71,9,5,2\nCMASS1,72,9,,,5,3\nCMASS1,73,10,5,4\n"
+                            "CMASS2,74,.6,5,5\nCMASS2,75,.7,5,6\n"
+                            // 2 at (.1, .2, .3) with moments 1, 2, 2.5 about its centre
+                            "CONM1,76,3,,2.,,2.,,\n,2.,,-.6,.4,1.26,.6,,-.2\n,-.04,2.2,-.4,.2,,-.06,-.12,2.6\n"
+                            "PARAM,WTMASS,2.\n");
+  const auto masses = testing::of_all_ranks(file.deck.masses);
+  REQUIRE(masses.size() == 2);
+  const auto& given = masses[masses[0].mass == 5 ? 0 : 1];
+  CHECK(given.mass == Approx(5));
+  CHECK(given.offset.norm() == 0);
+  CHECK((given.inertia - Eigen::Vector3d(1.2, 1, 1.4).asDiagonal().toDenseMatrix()).norm() < 1e-12);
+  const auto& matrix = masses[masses[0].mass == 5 ? 1 : 0];
+  CHECK(matrix.mass == Approx(4));
+  CHECK((matrix.offset - Eigen::Vector3d(.1, .2, .3)).norm() < 1e-12);
+  CHECK((matrix.inertia - Eigen::Vector3d(2, 4, 5).asDiagonal().toDenseMatrix()).norm() < 1e-12);
+  CHECK_THAT(said(square + "CMASS2,70,1.,3,1\nCMASS2,71,1.,3,2\n"),
+             Contains("bad.bdf:8: CMASS2 70: the masses at grid 3 are 1, 1, 0 along the directions 1, 2, 3; expected"));
+  CHECK_THAT(said(square + "CMASS2,70,1.,3,1,4,1\n"), Contains("CMASS2 70 is a mass between two degrees of freedom"));
+  CHECK_THAT(said(square + "CMASS2,70,1.,101\nSPOINT,101\n"), Contains("scalar points are not read"));
+  CHECK_THAT(said(square + "CMASS2,70,1.,3,5\n"), Contains("bad.bdf:8: grid 3 has moments of inertia without a mass"));
+  CHECK_THAT(said(square + "CMASS1,70,9,3,1\n"), Contains("CMASS1 70 names PMASS 9, which is not defined"));
+  CHECK_THAT(said(square + "CONM1,70,3,,1.,,1.,,\n,1.,,.5\n"), Contains("with terms between directions"));
+  CHECK(testing::of_all_ranks(read("left.bdf", square + "CMASS2,70,1.,3,1\n", {{}, false, {"CMASS2"}}).deck.masses)
+            .empty());
+}
+
+TEST_CASE("links that leave rotations free: to grids without these, or to the end of one beam") {
+  const std::string bar = "GRID,5,,1.,1.,1.\nGRID,6,,1.,1.,2.\nPBAR,5,1,.01,3.-6,2.-6,1.-6\nCBAR,9,5,6,5,0.,1.,0.\n";
+  for (const std::string link : {"RBE2,80,3,123,5\n", "RBE2,80,3,321,5\n", "RBAR,80,3,5,123456,,,123\n"}) {
+    const auto file = read("ball.bdf", square + bar + link);
+    REQUIRE(file.deck.beam_sections.size() == 1);
+    CHECK(file.deck.beam_sections[0].releases == 0x38u << 6);  // rotations of end B
+    CHECK(file.deck.links.size() == 1);
+  }
+  // of a spring of translations alone, nothing acts on the rotations
+  const auto spring = read("spring.bdf", square +
+                                             "GRID,5,,1.,1.,0.\nGRID,6,,0.,1.,0.\nRBE2,80,3,1235,5,6\n"
+                                             "CELAS2,70,1.,5,3,3,3\n");
+  CHECK(spring.deck.beam_sections.empty());
+  const std::pair<std::string, const char*> wrong[] = {
+      {"RBE2,80,3,12,4\n", "RBE2: field 4 expects 123456, or 123: rigid links hold all three translations; found '12'"},
+      {"RBAR,80,3,4,123456,,,12\n", "expects 123456, or 123"},
+      {"RBE2,80,3,123,4\n", "RBE2 80: holds 123 of grid 4, whose other rotations shell 1 has, too; expected 123456"},
+      {bar + "RBE2,80,3,1234,5\n", "whose other rotations more than one beam end has"},
+      {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n", "whose other rotations more than one beam end has"},
+      {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n", "whose other rotations another link has"}};
+  for (const auto& [text, message] : wrong) CHECK_THAT(said(square + text), Contains(message));
+}
