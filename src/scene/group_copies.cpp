@@ -64,6 +64,8 @@ class GroupCopy {
     if (const auto like = reading.value("like")) bodies_ = read_names(*like, reading.key("like"), {"bodies"});
     if (const auto without = reading.value("without"))
       without_ = read_names(*without, reading.key("without"), {"joints", "loads", "probes"});
+    for (const char* section : {"bodies", "joints", "loads", "probes"})
+      for (const std::string& name : names_of(entries_of(root_, section))) existing_[section].insert(name);
     motion_.dimension = document.dimension;
     if (reading.given("position")) motion_.p = Eigen::Vector3d(reading.point("position").data());
     if (document.dimension == 2)
@@ -126,7 +128,7 @@ class GroupCopy {
     const std::string name = key.Scalar();
     if (section != "bodies" && without_.count(name)) return;
     copied_[section].insert(name);
-    if (contains(names_of(entries_of(root_, section)), renamed(name))) {
+    if (existing_[section].count(renamed(name))) {
       if (section == "bodies")
         document_.fault(where_, fmt::format("copies body {} to {}, which exists", name, renamed(name)), "another name");
       return;
@@ -228,7 +230,7 @@ class GroupCopy {
       return copy;
     }
     if (body == "ground" && place.IsScalar()) return place;
-    if (place.IsMap() && place["node"] && (body == "ground" || contains(names_of(entries_of(root_, "bodies")), body)))
+    if (place.IsMap() && place["node"] && (body == "ground" || existing_.at("bodies").count(body)))
       return moved_point(place, body);
     document_.fault(document_.place_of(place.Mark(), path),
                     fmt::format("{}, on a body that {} does not copy", shown(place), "copies." + name_),
@@ -279,9 +281,19 @@ class GroupCopy {
   YAML::Node key_;
   std::set<std::string> bodies_, without_;
   GroupMotion motion_;
-  std::map<std::string, std::set<std::string>> copied_;  // by section: names of originals
+  std::map<std::string, std::set<std::string>> copied_, existing_;  // by section: names of originals; all names
   RenamedSensors sensors_;
 };
+
+}  // namespace
+
+namespace {
+
+/// Copies of copies may double their number with each.
+bool too_many(const YAML::Node& root) {
+  constexpr std::size_t most = 2000;
+  return root["bodies"] && root["bodies"].IsMap() && root["bodies"].size() > most;
+}
 
 }  // namespace
 
@@ -298,6 +310,7 @@ void write_out_groups(Document& document, YAML::Node root) {
     const std::size_t before = document.fault_count();
     GroupCopy copy(document, root, entry, name);
     if (document.fault_count() == before) copy.write_out();
+    if (too_many(root)) return document.fault(entry.where, "makes more than 2000 bodies", "fewer copies");
   }
 }
 

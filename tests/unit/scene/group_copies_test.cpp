@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
 #include <catch2/catch.hpp>
@@ -191,4 +192,15 @@ TEST_CASE("copies of groups: faults of values are told once, at their own lines"
                              "did you mean \"fore\"?"));
   CHECK_THAT(fault_of(with(plane, "base: {rigid", "two_fore: {rigid")),
              Catch::Contains("copies body fore to two_fore, which exists"));
+  std::string many = with(plane, "copies:\n", "copies:\n  c0: {like: [upper], without: [elbow]}\n"), all = "upper, c0_upper";
+  for (int i = 1; i < 12; ++i) {
+    many += fmt::format("  c{}: {{like: [{}], without: [elbow]}}\n", i, all);
+    std::string copies;
+    for (std::size_t at = 0, end; at < all.size(); at = end + 2) {
+      end = std::min(all.find(", ", at), all.size());
+      copies += fmt::format(", c{}_{}", i, all.substr(at, end - at));
+    }
+    all += copies;
+  }
+  CHECK_THAT(fault_of(many), Catch::Contains("copies.c10: makes more than 2000 bodies"));
 }
