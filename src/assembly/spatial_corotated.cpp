@@ -176,11 +176,6 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
 
 void SpatialAssembly::add_corotated(int b) {
   const PlannedBody& body = plan_.bodies[b];
-  for (const fem::Section& section : body.structure.sections)
-    if (std::holds_alternative<fem::NodeSpring>(section))
-      throw InputError(body.spec.where.text() +
-                       ": a body with springs between its nodes has no corotational model; expected another "
-                       "formulation than cfr");
   coordinates_.belongs_to("body " + body.spec.name);
   slots_[b].corotated = std::make_unique<reference::CorotationalBody>(
       coordinates_, body.structure, visited(b), clamped_edges(b),

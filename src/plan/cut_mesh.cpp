@@ -85,12 +85,10 @@ class Sets {
   std::vector<int> parent_;
 };
 
-/// Of each element with an extent its piece, numbered by slices and in each by the first element; -1: a point mass.
+/// Of each element with an extent its piece, numbered by slices and in each by the first element; -1: a point mass or
+/// spring.
 std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
   const RawMesh& mesh = whole.mesh;
-  if (std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const Cell& c) { return c.kind == mesh::CellKind::spring; }))
-    throw InputError(fmt::format("{}: body {} has springs between its nodes and is not divided; expected frames: 1",
-                                 frames_of(body), body.name));
   const std::vector<double> s = stations(body, mesh), cuts = planes(body, mesh, s);
   std::vector<int> slice(mesh.cells.size(), -1);
   for (std::size_t c = 0; c < slice.size(); ++c) {
@@ -111,6 +109,12 @@ std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
       const int node = independent_node[mesh.cells[c].nodes[i]];
       const auto [at, fresh] = first.emplace(std::pair(slice[c], node), static_cast<int>(c));
       if (!fresh) sets.join(at->second, static_cast<int>(c));
+    }
+  for (const Cell& cell : mesh.cells)
+    for (int k = 0; cell.kind == mesh::CellKind::spring && k < body.frames; ++k) {
+      const auto a = first.find({k, independent_node[cell.nodes[0]]}),
+                 b = first.find({k, independent_node[cell.nodes[1]]});
+      if (a != first.end() && b != first.end()) sets.join(a->second, b->second);
     }
   std::map<std::pair<int, int>, int> number;  // of a slice and the first element
   for (std::size_t c = 0; c < slice.size(); ++c)
@@ -133,6 +137,20 @@ std::vector<std::vector<int>> pieces_of_nodes(const RawMesh& mesh, const std::ve
     pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
   }
   return all;
+}
+
+/// Nodes that nothing but springs joins to the rest belong to a piece of the other end.
+void add_nodes_of_springs(const RawMesh& mesh, std::vector<std::vector<int>>& of_nodes) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Cell& cell : mesh.cells) {
+      if (cell.kind != mesh::CellKind::spring) continue;
+      std::vector<int>&a = of_nodes[cell.nodes[0]], &b = of_nodes[cell.nodes[1]];
+      if (a.empty() == b.empty()) continue;
+      (a.empty() ? a : b) = {(a.empty() ? b : a).front()};
+      changed = true;
+    }
+  }
 }
 
 std::vector<int> common(const std::vector<int>& a, const std::vector<int>& b) {
@@ -214,6 +232,23 @@ std::vector<int> CutMesh::pieces_with_shells(const std::string& part) const {
   return found;
 }
 
+namespace {
+
+/// The piece of an element without extent: a point mass, of links' independent nodes too, or a spring.
+int piece_of(const Body& body, const CutMesh& cut, const Cell& cell) {
+  if (cell.kind != mesh::CellKind::spring) return cut.of_nodes[cell.nodes[0]].front();
+  const std::vector<int> both = common(cut.of_nodes[cell.nodes[0]], cut.of_nodes[cell.nodes[1]]);
+  const std::vector<long long>& labels = cut.whole.mesh.node_labels;
+  if (both.empty())
+    throw InputError(
+        fmt::format("{}: the spring between nodes {} and {} of body {} joins two of its {} frames; "
+                    "expected fewer frames, of which one has both nodes",
+                    frames_of(body), labels[cell.nodes[0]], labels[cell.nodes[1]], body.name, body.frames));
+  return both.front();
+}
+
+}  // namespace
+
 CutMesh cut_mesh(const Body& body, MPI_Comm comm) {
   CutMesh found{whole_mesh(body, comm), {}, {}, {}};
   const RawMesh& mesh = found.whole.mesh;
@@ -221,9 +256,10 @@ CutMesh cut_mesh(const Body& body, MPI_Comm comm) {
   const int count = 1 + *std::max_element(of_elements.begin(), of_elements.end());
   found.of_nodes = pieces_of_nodes(mesh, of_elements);
   const std::vector<std::vector<int>> by_elements = found.of_nodes;
+  add_nodes_of_springs(mesh, found.of_nodes);
   const std::vector<int> of_links = pieces_of_links(body, found.whole, found.of_nodes);
-  for (std::size_t c = 0; c < of_elements.size(); ++c)  // point masses, of links' independent nodes too
-    if (of_elements[c] < 0) of_elements[c] = found.of_nodes[mesh.cells[c].nodes[0]].front();
+  for (std::size_t c = 0; c < of_elements.size(); ++c)
+    if (of_elements[c] < 0) of_elements[c] = piece_of(body, found, mesh.cells[c]);
   std::vector<MeshPiece> pieces(static_cast<std::size_t>(count));
   for (std::size_t node = 0; node < by_elements.size(); ++node)
     for (std::size_t i = 1; i < by_elements[node].size(); ++i) {

@@ -7,6 +7,7 @@
 #include "corotational_mass.h"
 #include "floe/dynamics/spatial_body.h"
 #include "floe/dynamics/spatial_joint.h"
+#include "floe/dynamics/spatial_spring.h"
 #include "floe/fem/element.h"
 #include "floe/fem/shell.h"
 #include "floe/math/rotation.h"
@@ -235,12 +236,29 @@ std::unique_ptr<CorotationalElement> CorotationalBody::element(const fem::Mesh::
   return std::make_unique<CorotationalElement>(kind, std::move(at), x, std::move(elasticity), viscosity);
 }
 
+/// The linear spring between two nodes in axes that rotate with the first one (fem::node_spring for small rotations).
+std::unique_ptr<dynamics::Term> CorotationalBody::spring(const fem::Mesh::Cell& cell, double viscosity) const {
+  const auto& own = std::get<fem::NodeSpring>(structure_.sections[cell.part]);
+  std::vector<SpatialMarker> at = places(cell);
+  if (one_frame(at)) return nullptr;
+  const Vector3d along = structure_.mesh.positions[cell.place[1]] - structure_.mesh.positions[cell.place[0]];
+  at[0].x0 += own.at * along, at[1].x0 += (own.at - 1) * along;
+  at[0].D0 = at[1].D0 = own.axes;
+  dynamics::BushingProperties properties;
+  properties.stiffness = own.stiffness, properties.viscosity = viscosity * own.stiffness;
+  properties.name = "between two nodes";
+  return std::make_unique<dynamics::SpatialBushing>(std::move(at[0]), std::move(at[1]), properties);
+}
+
 void CorotationalBody::add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms,
                                     CellsOfPart part) const {
   const fem::Mesh& mesh = structure_.mesh;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     const fem::Mesh::Cell& cell = mesh.cells[c];
-    if (!mesh::has_extent(cell.kind) || !counts(part, c)) continue;
+    if (!counts(part, c)) continue;
+    if (cell.kind == fem::CellKind::spring)
+      if (auto one = spring(cell, viscosity)) terms.push_back(std::move(one));
+    if (!mesh::has_extent(cell.kind)) continue;
     const std::size_t pieces = cell.kind == fem::CellKind::quadrilateral ? fem::quadrilateral_triangles.size() : 1;
     for (std::size_t i = 0; i < pieces; ++i)
       if (auto one = element(cell, i, viscosity)) terms.push_back(std::move(one));

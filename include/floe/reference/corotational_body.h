@@ -65,6 +65,7 @@ class CorotationalBody {
   std::vector<NodeMass> masses() const { return carried(Density::mass); }
   /// The element of a cell that is no point, or the i-th of a quadrilateral's four triangles; null: all its places have
   /// one frame. Rank-local.
+  std::unique_ptr<dynamics::Term> spring(const fem::Mesh::Cell& cell, double viscosity) const;
   std::unique_ptr<CorotationalElement> element(const fem::Mesh::Cell& cell, std::size_t i, double viscosity) const;
   /// Elements and masses of some cells alone. Rank-local.
   std::vector<std::unique_ptr<dynamics::Term>> terms_of(CellsOfPart part, double viscosity) const;
