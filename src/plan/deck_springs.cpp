@@ -43,16 +43,15 @@ std::vector<SpringKey> keys_of_all_ranks(MPI_Comm comm, const std::vector<mesh::
 
 }  // namespace
 
-void add_springs(mesh::DeckFile& file, std::map<int, fem::Section>& parts) {
-  mesh::RawMesh& raw = file.mesh;
-  const std::vector<SpringKey> all = keys_of_all_ranks(raw.comm, file.deck.springs);
+void add_springs(mesh::RawMesh& raw, const std::vector<mesh::NodeSpring>& springs, std::map<int, fem::Section>& parts) {
+  const std::vector<SpringKey> all = keys_of_all_ranks(raw.comm, springs);
   if (all.empty()) return;
   const int first = static_cast<int>(raw.parts.size());
   for (const SpringKey& key : all) {
     parts[static_cast<int>(raw.parts.size())] = section_of(key);
     raw.parts.emplace_back("spring");
   }
-  for (const mesh::NodeSpring& spring : file.deck.springs) {
+  for (const mesh::NodeSpring& spring : springs) {
     const int part = first + static_cast<int>(std::lower_bound(all.begin(), all.end(), key_of(spring)) - all.begin());
     mesh::Cell cell{mesh::CellKind::spring, mesh::no_nodes<PetscInt>(), part};
     std::copy(spring.nodes.begin(), spring.nodes.end(), cell.nodes.begin());

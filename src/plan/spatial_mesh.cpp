@@ -20,6 +20,7 @@
 #include "floe/scene/places.h"
 #include "hinge_lines.h"
 #include "point_masses.h"
+#include "straight_edges.h"
 
 namespace floe::plan {
 namespace {
@@ -83,7 +84,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
     std::vector<std::string> notices = deck_notices(read, deck, named_parts(body), file.scale);
     notices.insert(notices.begin(), read.notices.begin(), read.notices.end());
     add_masses(read, deck.parts);
-    add_springs(read, deck.parts);
+    add_springs(read.mesh, read.deck.springs, deck.parts);
     std::vector<mesh::DependentNode> dependent_nodes = mesh::dependent_nodes(read.mesh, read.deck.links);
     source = {std::move(read.mesh), std::move(deck.parts), std::move(notices), std::move(dependent_nodes),
               std::move(deck.points)};
@@ -194,6 +195,14 @@ Sections sections_of(const Body& body, const Source& source) {
   return sections;
 }
 
+/// The greatest membrane stiffness of the shells [N/m].
+double membrane_stiffness(const Sections& sections) {
+  double A = 0;
+  for (const fem::Section& section : sections.of_parts)
+    if (const auto* shell = std::get_if<fem::ShellSection>(&section)) A = std::max(A, shell->A.diagonal().maxCoeff());
+  return A;
+}
+
 /// Gives all elements the strains that the scene asks for, or by default those that their geometry calls for.
 /// @return which, and of a default the number that decides. Collective.
 std::string take_strains(const Body& body, const fem::Mesh& mesh, std::vector<fem::Section>& sections) {
@@ -266,6 +275,8 @@ SpatialMesh spatial_mesh(const Scene& scene, const Body& body, MPI_Comm comm) {
   for (std::size_t p = 0; p < source.mesh.places.size(); ++p)
     places[source.mesh.places[p]] = gathered(comm, source.mesh.place_nodes[p]);
   add_masses(body, places, source.mesh, source.parts);
+  if (has_straight_edges(scene, body))
+    add_straight_edges(scene, body, places, membrane_stiffness(sections_of(body, source)), source.mesh, source.parts);
   std::vector<std::string> left_out;
   source.dependent_nodes =
       mesh::with_lines(mesh::with_pieces(source.dependent_nodes, rigid_pieces(scene, body, places)),

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "readers.h"
 
@@ -127,18 +128,32 @@ std::optional<FrictionSpec> read_friction(Document& document, Reading& joint, co
   return friction;
 }
 
-void read_hold(Document& document, Reading& reading, Joint& joint) {
+/// Components by name, as many as `set` has.
+void read_components(Document& document, Reading& reading, const char* key, std::span<bool> set) {
   static const std::vector<std::string> components{"x", "y", "z", "rx", "ry", "rz"};
-  joint.edges = Joint::Edges::mean;  // no rigid region
-  const auto value = reading.value("hold");
+  const auto value = reading.value(key);
   if (!value) return;
-  for (const std::string& component : read_texts(document, *value, reading.key("hold"))) {
-    const auto found = std::find(components.begin(), components.end(), component);
-    if (found == components.end())
-      document.fault(value->where, fmt::format("contains \"{}\"", component), "x, y, z, rx, ry, rz");
+  const auto end = components.begin() + static_cast<std::ptrdiff_t>(set.size());
+  for (const std::string& component : read_texts(document, *value, reading.key(key))) {
+    const auto found = std::find(components.begin(), end, component);
+    if (found == end)
+      document.fault(value->where, fmt::format("contains \"{}\"", component),
+                     fmt::format("{}", fmt::join(components.begin(), end, ", ")));
     else
-      joint.hold[found - components.begin()] = true;
+      set[static_cast<std::size_t>(found - components.begin())] = true;
   }
+}
+
+void read_support(Document& document, Reading& reading, Joint& joint) {
+  joint.edges = Joint::Edges::mean;  // no rigid region
+  read_components(document, reading, "hold", joint.hold);
+  read_components(document, reading, "straight", joint.straight);
+  if (!reading.given("hold") && !reading.given("straight"))
+    document.fault(reading.where("hold"), "is missing", "hold, straight or both");
+  for (std::size_t i = 0; i < joint.straight.size(); ++i)
+    if (joint.straight[i] && joint.hold[i])
+      document.fault(reading.where("straight"), fmt::format("contains \"{}\", as hold does", "xyz"[i]),
+                     "components that are not zero");
   if (joint.first.ground() == joint.second.ground() && !joint.first.body.empty() && !joint.second.body.empty())
     document.fault(reading.where("between"), "has no place or two of the ground", "the ground and a place of a body");
 }
@@ -146,7 +161,7 @@ void read_hold(Document& document, Reading& reading, Joint& joint) {
 void read_properties(Document& document, Reading& reading, Joint& joint) {
   if (joint.kind == Kind::driven) read_drive(document, reading, "angle", joint.angle, joint.speed);
   if (joint.kind == Kind::driven_slide) read_drive(document, reading, "position", joint.position, joint.speed);
-  if (joint.kind == Kind::support) return read_hold(document, reading, joint);
+  if (joint.kind == Kind::support) return read_support(document, reading, joint);
   joint.limits = read_limits(document, reading, "limits");
   if (document.dimension == 3) joint.rotation_limits = read_limits(document, reading, "turn_limits");
   joint.friction = read_friction(document, reading, "friction");

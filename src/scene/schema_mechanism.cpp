@@ -60,10 +60,13 @@ const SchemaSection joint_section{
                             "and cylindrical joints along a straight edge, else mean. To the ground, fixed and driven "
                             "joints fix every node, and a hinge with edges: mean fixes the displacements of its edge",
                             {"rigid", "mean", "line"}))),
-        only({"support"}, in_space({"hold", Type::texts, "", required,
+        only({"support"}, in_space({"hold", Type::texts, "", "",
                                     "displacements x, y, z and rotations rx, ry, rz of every node that are zero, in "
                                     "mesh axes; together with the other joints to the ground they leave the body no "
-                                    "rigid motion"})),
+                                    "rigid motion; required unless straight is given"})),
+        only({"support"}, in_space({"straight", Type::texts, "", "",
+                                    "displacements x, y, z, normal to a straight edge of shells, that vary linearly "
+                                    "along it: an edge that moves and remains straight (movable straight edge)"})),
         only({"driven"}, {"angle", Type::formula, "rad", "",
                           "rotation angle of the second place relative to the first since the start; 0 at t = 0; "
                           "required unless speed is given"}),

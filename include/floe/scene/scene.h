@@ -255,6 +255,7 @@ struct Joint {
   enum class Edges { rigid, mean, line, nodes } edges = Edges::rigid;
   bool edges_given = false;
   std::array<bool, 6> hold{};                               ///< support: x, y, z, rx, ry, rz of every node, mesh axes
+  std::array<bool, 3> straight{};                           ///< support: x, y, z that are linear along the edge
   Point second_axis{};                                      ///< universal: carried by the second place
   double stiffness = 0;                                     ///< spring [N/m]
   double viscosity = 0;                                     ///< spring [N s/m]
