@@ -260,6 +260,14 @@ void add_static(CLI::App& app, Arguments& given, Work& work) {
   command->add_option("--steps", given.steps, "number of equilibria, at equal increments of t")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
+  CLI::Option* path = command->add_flag(
+      "--path", given.path,
+      "follow the path of equilibria by arc length, past limit points (snap-through, snap-back), to t = T; increments "
+      "of t are at most T / steps");
+  command->add_option("--points", given.points, "with --path: maximum number of points")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(path)
+      ->capture_default_str();
   add_no_estimate(command, given);
   add_folder(command, given);
   command->callback([&given, &work] {
@@ -267,8 +275,8 @@ void add_static(CLI::App& app, Arguments& given, Work& work) {
       const scene::Formulation formulation = scene::formulation_of(given.formulation);
       const scene::Scene scene = read(given.scene);
       const double at = given.at.value_or(scene.motion.end > 0 ? scene.motion.end : 1);
-      solve_static(scene, formulation, PETSC_COMM_WORLD, {at, given.steps}, new_folder(given, "static"),
-                   !given.no_estimate && scene::is_reduced(formulation));
+      solve_static(scene, formulation, PETSC_COMM_WORLD, {at, given.steps, given.path, given.points},
+                   new_folder(given, "static"), !given.no_estimate && scene::is_reduced(formulation));
     };
   });
 }

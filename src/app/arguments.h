@@ -19,11 +19,11 @@ struct Arguments {
   std::vector<std::string> formulations, varied;
   std::optional<std::string> out, matrices, restart, checkpoint, accuracy, explicit_scene;
   std::optional<double> at, until;
-  int steps = 10, frequencies = 0;
+  int steps = 10, frequencies = 0, points = 1000;
   CampbellRequest campbell;
   TradeoffRequest tradeoff;
   bool formulation_given = false, together = false, estimate = false, force = false, no_reference_error = false,
-       no_estimate = false, markdown = false;
+       no_estimate = false, path = false, markdown = false;
 };
 
 /// Adds run, compare, tradeoff, static, campbell, sweep, modes, reduce, info, check and schema.

@@ -16,6 +16,7 @@
 #include "floe/solve/branch.h"
 #include "floe/solve/start.h"
 #include "interruption.h"
+#include "load_path.h"
 #include "recorder.h"
 
 namespace floe::app {
@@ -61,7 +62,8 @@ void warn_of_jump(const assembly::Model& model, const solve::BranchJump& jump, V
   const std::string words = fmt::format(
       "the equilibrium jumps between t = {:.6g} and {:.6g}{}: the change is {:.2g} times that predicted by the "
       "tangents (limit {:.2g}), because of snap-through or a discontinuous load. The equilibria after it belong to "
-      "another branch, which need not be the only one; simulate the snap-through as a damped motion (floe run)",
+      "another branch, which need not be the only one; follow the path between them (--path), or simulate the "
+      "snap-through as a damped motion (floe run)",
       jump.from, jump.to, probe, jump.ratio, solve::least_jump);
   result.warnings.push_back(words);
   if (!result.summary.contains("jumps")) result.summary["jumps"] = nlohmann::ordered_json::array();
@@ -115,7 +117,8 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
       recorder.observe({0, 0, model.U, model.V, nullptr, false, nullptr, nullptr, true});
     else
       result.warnings.push_back(none);
-    for (int step = 1; step <= load.steps; ++step) {
+    if (load.path) follow_load_path(model, load, none.empty(), recorder, kept, report, result);
+    for (int step = 1; step <= load.steps && !load.path; ++step) {
       const double t = load.at * step / load.steps;
       report.newton += solve::follow_equilibrium(*model.system, report.end, t, load.at / 1000, model.U, model.V,
                                                  [&](const solve::BranchJump& jump, Vec before, Vec after) {
@@ -142,7 +145,10 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
         comm, [&] { result.out_of_range = assess::shapes_out_of_range(model, kept.states(), comm); });
     if (!unchecked.empty()) result.warnings.push_back("the model's validity was not checked: " + unchecked);
     for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
-    if (estimate) {
+    if (load.path) {
+      result.estimate.none =
+          "a path of equilibria has none: beyond limit points the full-order model has other ones at the same t";
+    } else if (estimate) {
       const output::Waiting waiting(comm, "estimating the error");
       result.estimate = assess::estimate_error_at_rest(
           model, kept.states(),

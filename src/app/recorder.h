@@ -36,6 +36,7 @@ class Recorder {
   void conclude_alone(const std::string& why) noexcept;
   /// A warning where the total energy has grown by what no load and no drive has brought; empty: it has not.
   std::string growth_warning() const;
+  MPI_Comm comm() const { return comm_; }
   /// Wall time that recording took. [s]
   double seconds() const { return seconds_; }
 

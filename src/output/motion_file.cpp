@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 
 #include "floe/output/claim.h"
@@ -13,11 +14,16 @@
 namespace floe::output {
 namespace {
 
-/// Rows nearest to instants at equal distances, each once; the first and the last among them.
+/// Rows nearest to instants at equal distances, each once; the first and the last among them. Of a path of equilibria,
+/// where t also falls: at equal distances in their numbers.
 std::vector<std::size_t> chosen_rows(const std::vector<double>& times, int frames) {
   std::vector<std::size_t> rows;
   if (frames <= 0 || frames >= std::ssize(times)) {
     for (std::size_t i = 0; i < times.size(); ++i) rows.push_back(i);
+    return rows;
+  }
+  if (!std::is_sorted(times.begin(), times.end())) {
+    for (int f = 0; f < frames; ++f) rows.push_back(f * (times.size() - 1) / std::max(1, frames - 1));
     return rows;
   }
   for (int f = 0; f < frames; ++f) {
@@ -28,6 +34,12 @@ std::vector<std::size_t> chosen_rows(const std::vector<double>& times, int frame
     if (rows.empty() || row != rows.back()) rows.push_back(row);
   }
   return rows;
+}
+
+/// Times that ParaView can order: of a path of equilibria the numbers of the frames instead of t.
+std::vector<double> ascending(std::vector<double> times) {
+  if (!std::is_sorted(times.begin(), times.end())) std::iota(times.begin(), times.end(), 0.);
+  return times;
 }
 
 std::string dataset(const MovingBody& body, std::size_t frame, const char* what) {
@@ -184,7 +196,7 @@ MotionWritten write_motion(MPI_Comm comm, const MotionRequest& request) {
           }
         }
       },
-      [&] { return text_of(bodies, written.t, sizes, request, pair.data().filename().string()); });
+      [&] { return text_of(bodies, ascending(written.t), sizes, request, pair.data().filename().string()); });
   return written;
 }
 

@@ -20,19 +20,12 @@ def writer_of(path, fps):
     return FFMpegWriter(fps=fps, codec="libx264", extra_args=["-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2"])
 
 
-def rows_of(run, count):
-    """Rows nearest to instants at equal distances."""
-    run.load()
-    rows = [run.row_at(t) for t in np.linspace(run.t[0], run.t[-1], min(count, len(run.t)))]
-    return list(dict.fromkeys(rows))
-
-
 def draw(run, path, dpi, count=100, fps=20.0, amplify=1.0, direction=(-60.0, 25.0)):
     need_bodies(run)
     plt = pyplot()
     from matplotlib.colors import Normalize
 
-    rows = rows_of(run, count)
+    rows = run.spread_rows(count)
     view, box, greatest = View(run.dimension, *direction), Box(), 0.0
     for row in rows:
         for body in run.bodies:

@@ -11,10 +11,11 @@ def rows_at(run, times, count=6):
     """Rows nearest to the times; without times `count` at equal distances."""
     run.load()
     if not times:
-        times = np.linspace(run.t[0], run.t[-1], count)
+        return run.spread_rows(count)
+    first, last = min(run.t), max(run.t)
     for t in times:
-        if not run.t[0] - 1e-9 <= t <= run.t[-1] + 1e-9:
-            raise Fault(f"--times {t:g}: the run goes from {run.t[0]:g} to {run.t[-1]:g} s")
+        if not first - 1e-9 <= t <= last + 1e-9:
+            raise Fault(f"--times {t:g}: the run goes from {first:g} to {last:g} s")
     rows = []
     for t in times:
         row = run.row_at(t)

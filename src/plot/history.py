@@ -43,7 +43,8 @@ def draw(run, path, dpi, wanted=()):
         for panel in panels[:, 0]:
             panel.axvline(event["t"], color="0.4", linewidth=0.9, linestyle=":")
     panels[-1, 0].set_xlabel(run.time_label)
-    panels[-1, 0].set_xlim(series["t"][0], series["t"][-1] if series["t"][-1] > series["t"][0] else series["t"][0] + 1)
+    first, last = min(series["t"]), max(series["t"])  # of a path of equilibria t also falls
+    panels[-1, 0].set_xlim(first, last if last > first else first + 1)
     more = f" (and {len(left)} more: --probes {left[0][0]}, ...)" if left else ""
     figure.suptitle(f"{run.title}: {run.summary.get('label', os.path.basename(run.folder))}{more}", fontsize=11)
     if events:

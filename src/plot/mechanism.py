@@ -77,13 +77,15 @@ def script_data(run):
     """JavaScript that gives viewer.js its numbers; or None, and why there is no view."""
     if not run.bodies:
         return None, "no body has a mesh in the results"
-    rows = list(dict.fromkeys(run.row_at(t) for t in np.linspace(run.t[0], run.t[-1], min(FRAMES, len(run.t)))))
+    rows = run.spread_rows(FRAMES)
     while len(rows) > 10 and bytes_of(run, len(rows)) > MOST_BYTES:
         rows = rows[::2]
     if bytes_of(run, len(rows)) > MOST_BYTES:
         return None, "the meshes are too large for a page; floe motion writes them for ParaView"
     made = [of_body(run, body, rows) for body in run.bodies]
-    data = {"dimension": run.dimension, "t": [float(run.t[row]) for row in rows],
+    labels = [f"t = {run.t[row]:.5g} s" for row in rows]  # of a path of equilibria t also falls
+    data = {"dimension": run.dimension, "t": rows if run.is_path else [float(run.t[row]) for row in rows],
+            "labels": labels if run.is_path else None,
             "greatest": max(greatest for _, greatest in made) or 1.0, "bodies": [body for body, _ in made],
             "joints": joint_data(run)}
     return "window.floeMotion = " + json.dumps(data).replace("</", "<\\/") + ";", ""

@@ -243,6 +243,22 @@ class Run:
         _, A = body.frame_at(self.U[row], self.attitude_at(row))
         return self.moved(body, row, amplify)[0][node] + A @ way
 
+    @property
+    def is_path(self):
+        """Of equilibria along a path (floe static --path) t also falls."""
+        self.load()
+        return bool((np.diff(self.t) < 0).any())
+
+    def spread_rows(self, count):
+        """Rows nearest to instants at equal distances; of a path at equal distances in their numbers."""
+        self.load()
+        count = min(count, len(self.t))
+        if self.is_path:
+            rows = [int(round(row)) for row in np.linspace(0, len(self.t) - 1, count)]
+        else:
+            rows = [self.row_at(t) for t in np.linspace(self.t[0], self.t[-1], count)]
+        return list(dict.fromkeys(rows))
+
     def row_at(self, t):
         self.load()
         return int(np.argmin(np.abs(self.t - t)))

@@ -190,7 +190,7 @@
     }
     placeJoints(state.frame);
     slider.value = state.frame;
-    clock.textContent = "t = " + Number(motion.t[state.frame].toPrecision(4)) + " s";
+    clock.textContent = motion.labels ? motion.labels[state.frame] : "t = " + Number(motion.t[state.frame].toPrecision(4)) + " s";
     render();
   }
 

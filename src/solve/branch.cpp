@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "floe/petsc/values.h"
 #include "floe/solve/start.h"
+#include "mass_norm.h"
 
 namespace floe::solve {
 
@@ -31,31 +31,6 @@ petsc::VecHandle step_towards(const System& system, double at, double other, Vec
   check(VecNorm(step, NORM_INFINITY, &size));
   if (!std::isfinite(size)) return {};
   return step;
-}
-
-/// sqrt(M_ii): weights in which lengths and angles stand beside one another; multipliers have none.
-petsc::VecHandle root_masses(const System& system, double t, Vec U, Vec V) {
-  const petsc::VecHandle A = system.create_vector();
-  petsc::VecHandle root = system.create_vector();
-  const petsc::MatHandle M = system.create_tangent(), rest = system.create_tangent();
-  const petsc::VecHandle other = system.create_vector();
-  system.tangent(t, U, V, A, {0, 0, 1}, M);
-  system.tangent(t, U, V, A, {0, 0, 0}, rest);  // what no weight scales
-  check(MatGetDiagonal(M, root));
-  check(MatGetDiagonal(rest, other));
-  check(VecAXPY(root, -1, other));
-  petsc::Values values(root);
-  for (PetscInt i = values.first; i < values.end; ++i) values[i] = values[i] > 0 ? std::sqrt(values[i]) : 0;
-  return root;
-}
-
-double size_of(Vec change, Vec weights) {
-  petsc::VecHandle weighted;
-  double size = 0;
-  check(VecDuplicate(change, weighted.out()));
-  check(VecPointwiseMult(weighted, change, weights));
-  check(VecNorm(weighted, NORM_2, &size));
-  return size;
 }
 
 /// Follows one step of the load.
@@ -119,11 +94,11 @@ class Follower {
     const petsc::VecHandle weights = root_masses(system_, next, U_, V_), change = system_.create_vector();
     check(VecCopy(U_, change));
     check(VecAXPY(change, -1, before));
-    const double size = size_of(change, weights);
+    const double size = weighted_size(change, weights);
     check(VecAXPBY(a, 0.5, -0.5, b));  // (a + b)/2 of the doc comment: a's sign is changed
-    const double predicted = size_of(a, weights);
+    const double predicted = weighted_size(a, weights);
     check(VecAXPY(a, -1, change));
-    if (!(size > 1e-9 * size_of(U_, weights)) || size_of(a, weights) <= most_departure * size) return {};
+    if (!(size > 1e-9 * weighted_size(U_, weights)) || weighted_size(a, weights) <= most_departure * size) return {};
     return {t, next, size / std::max(predicted, 1e-12 * size)};
   }
 

@@ -1,0 +1,49 @@
+#pragma once
+#include <functional>
+
+#include "floe/dynamics/system.h"
+
+namespace floe::solve {
+using namespace dynamics;
+
+/// How a path of equilibria is followed.
+struct PathRequest {
+  double first = 0.1;  ///< increment of t that no step exceeds, and that of the first one
+  double end = 1;      ///< the path ends where t comes to it, from either side
+  int most = 1000;     ///< or after so many points,
+  int number = 0;      ///< of which these were found before
+};
+
+struct PathPoint {
+  int number;  ///< from 1
+  double t;    ///< of the loads
+  bool limit;  ///< t is a maximum or minimum along the path
+  bool last;   ///< t = end, or there are as many points as were asked for
+};
+
+struct PathEnd {
+  int points = 0;  ///< with those found before
+  PetscInt iterations = 0;
+  bool at_end = false;  ///< t = end
+  bool closed = false;  ///< it came back to one of its limit points; else it has all points that were asked for
+};
+
+/// The path F(t(s), U(s), V, 0) = 0 from an equilibrium (t, U) on, past points where t has a maximum or a minimum
+/// (snap-through) and turns (snap-back), by steps of the length s:
+///
+///   ds^2 = sum_i M_ii dU_i^2 + beta^2 dt^2,   beta = |J^-1 dF/dt| at the start
+///
+/// Predictor along the tangent (-J^-1 dF/dt, 1), corrected by Newton's method in the plane normal to it; both equations
+/// are solved with one factor of J (prefix static_). The direction is that which continues the last step. A step is
+/// halved where the corrector fails or goes further than half the step, and where the tangent turns by more than
+/// half a radian; down to 1e-4 of the length of the first one. Limit points are found to dt/ds = 1e-6 / beta.
+///
+/// The path passes bifurcations on its own branch, as far as its steps are longer than what imperfections round off.
+/// Sources: Keller 1977; Crisfield 1981; Ramm 1981.
+///
+/// @param observe  called with every point and its U; attitudes begin each step at their bases
+/// @throws RunError  no step can be made: with the t. NothingHolds: at the start. Collective.
+PathEnd follow_path(const System& system, double t, const PathRequest& request, Vec U, Vec V,
+                    const std::function<void(const PathPoint&, Vec U)>& observe);
+
+}  // namespace floe::solve

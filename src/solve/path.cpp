@@ -1,0 +1,356 @@
+#include "floe/solve/path.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "floe/petsc/factorisation.h"
+#include "floe/solve/start.h"
+#include "mass_norm.h"
+
+namespace floe::solve {
+
+using petsc::check;
+
+namespace {
+
+constexpr int most_iterations = 15, good_iterations = 4;
+constexpr double good_turn = 0.15, most_turn = 0.5;  // of the tangent within a step [rad]
+constexpr double least_share = 1e-4;                 // of the length of the first step
+
+/// A vector and the t that goes with it: a point of the path or a direction.
+struct PathVector {
+  petsc::VecHandle U;
+  double t = 0;
+};
+
+/// An equilibrium with the direction in which the path goes on, of size one.
+struct PathState {
+  PathVector at, direction;
+};
+
+/// What is known at a point: a = -J^-1 dF/dt, to which dt = 1 belongs, and b = -J^-1 F.
+struct PathSolutions {
+  petsc::VecHandle a, b;
+};
+
+/// Linear algebra of the path: its metric, and one factor for both right-hand sides.
+class PathEquations {
+ public:
+  PathEquations(const System& system, double interval, Vec V, Vec weights)
+      : system_(system),
+        interval_(interval),
+        V_(V),
+        weights_(weights),
+        A_(system.create_vector()),
+        F_(system.create_vector()),
+        rate_(system.create_vector()),
+        J_(system.create_tangent()),
+        ksp_(tangent_solver(J_, "static_")) {}
+
+  double beta = 1;
+
+  PathVector vector() const { return {system_.create_vector(), 0}; }
+  double product(const PathVector& x, const PathVector& y) const {
+    return weighted_product(x.U, y.U, weights_) + beta * beta * x.t * y.t;
+  }
+  double size(const PathVector& x) const { return std::sqrt(product(x, x)); }
+
+  /// dF/dt by central differences: exact where loads are linear in t.
+  /// @return  false where J is singular. Collective.
+  bool solve(const PathVector& x, const PathSolutions& s) {
+    const double below = residual_below(x);
+    check(VecCopy(F_, rate_));
+    system_.residual(x.t + interval_, x.U, V_, A_, ConstraintLevel::position, F_);
+    check(VecAXPY(rate_, -1, F_));
+    check(VecScale(rate_, 1 / (interval_ + below)));
+    system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
+    check(VecScale(F_, -1));
+    system_.tangent(x.t, x.U, V_, A_, {1, 0, 0}, J_);
+    check(KSPSetOperators(ksp_, J_, J_));
+    return solve_one(rate_, s.a) && solve_one(F_, s.b);
+  }
+
+ private:
+  /// F a little before t, or at t where loads have no value before. @return  how much before
+  double residual_below(const PathVector& x) {
+    try {
+      system_.residual(x.t - interval_, x.U, V_, A_, ConstraintLevel::position, F_);
+      return interval_;
+    } catch (const petsc::Error&) {
+      throw;
+    } catch (const std::runtime_error&) {
+      system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
+      return 0;
+    }
+  }
+
+  bool solve_one(Vec right, Vec x) {
+    double size = 0;
+    try {
+      check(KSPSolve(ksp_, right, x));
+    } catch (const petsc::Error& error) {
+      if (!is_singular(error.code())) throw;
+      if (const petsc::FactorFault fault = petsc::factor_fault(ksp_); !fault.text.empty() && !fault.singular)
+        throw RunError(fault.text);
+      return false;
+    }
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    check(KSPGetConvergedReason(ksp_, &reason));
+    check(VecNorm(x, NORM_INFINITY, &size));
+    return reason >= 0 && std::isfinite(size);
+  }
+
+  const System& system_;
+  double interval_;
+  Vec V_, weights_;
+  petsc::VecHandle A_, F_, rate_;
+  petsc::MatHandle J_;
+  petsc::KspHandle ksp_;
+};
+
+void add_to(PathVector& x, double factor, const PathVector& d) {
+  check(VecAXPY(x.U, factor, d.U));
+  x.t += factor * d.t;
+}
+
+void set_to(PathVector& x, const PathVector& from) {
+  check(VecCopy(from.U, x.U));
+  x.t = from.t;
+}
+
+class PathFollower {
+ public:
+  using Observe = std::function<void(const PathPoint&, Vec)>;
+  PathFollower(const System& system, double t, const PathRequest& request, Vec U, Vec V, const Observe& observe)
+      : system_(system),
+        request_(request),
+        U_(U),
+        weights_(root_masses(system, t, U, V)),
+        equations_(system, 1e-3 * request.first, V, weights_),
+        observe_(observe),
+        solutions_{system.create_vector(), system.create_vector()} {
+    now_.at = equations_.vector(), now_.direction = equations_.vector();
+    check(VecCopy(U, now_.at.U));
+    now_.at.t = t, end_.points = request.number;
+  }
+
+  PathEnd go() {
+    start();
+    while (end_.points < request_.most && !end_.at_end && !end_.closed) {
+      PathState next = step();
+      const double side = std::copysign(1, next.direction.t);
+      const bool limit = side != side_;
+      if (limit) refine_limit(next);
+      side_ = side;
+      const bool crosses = (now_.at.t - request_.end) * (next.at.t - request_.end) <= 0;
+      if (crosses) finish(next);
+      end_.at_end = crosses;
+      accept(next, limit && !crosses);
+    }
+    return end_;
+  }
+
+ private:
+  PathState state() const { return {equations_.vector(), equations_.vector()}; }
+
+  void start() {
+    if (!equations_.solve(now_.at, solutions_)) throw nothing_holds();
+    const double rate = weighted_size(solutions_.a, weights_);
+    equations_.beta = rate > 0 ? rate : 1;
+    check(VecCopy(solutions_.a, now_.direction.U));
+    now_.direction.t = 1;
+    const double size = equations_.size(now_.direction), sign = request_.end > now_.at.t ? 1 : -1;
+    check(VecScale(now_.direction.U, sign / size));
+    now_.direction.t = sign / size;
+    side_ = sign;
+    first_ = length_ = request_.first * size;
+  }
+
+  /// The next point, by the longest step that converges.
+  PathState step() {
+    std::string why;
+    for (; length_ >= least_share * first_; length_ /= 2) {
+      const double most = 1.0001 * request_.first / std::max(std::abs(now_.direction.t), 1e-300);
+      length_ = std::min(length_, most);
+      try {
+        Tried tried = correct(length_, why);
+        if (!tried.state) continue;
+        const bool shortest = length_ < 2 * least_share * first_;
+        if (tried.turn > most_turn && !shortest) continue;
+        taken_ = length_;
+        length_ *= std::clamp(
+            std::min(good_turn / std::max(tried.turn, 1e-3), std::sqrt(double(good_iterations) / tried.iterations)),
+            0.5, 2.);
+        return std::move(*tried.state);
+      } catch (const petsc::Error&) {
+        throw;
+      } catch (const std::runtime_error& error) {  // also of formulas
+        why = error.what();
+      }
+    }
+    throw RunError(
+        fmt::format("the path of equilibria cannot be followed beyond t = {:.6g} (point {}): steps down to {:.0e} of "
+                    "the first fail{}"
+                    "; a load or stop that acts suddenly, a bifurcation, or --steps too few",
+                    now_.at.t, end_.points, least_share, why.empty() ? "" : " (" + why + ")"));
+  }
+
+  struct Tried {
+    std::optional<PathState> state;
+    int iterations = 0;
+    double turn = 0;
+  };
+
+  /// Newton's method from the predictor of a step, in the plane across the direction.
+  Tried correct(double length, std::string& why) {
+    PathState next = state();
+    set_to(next.at, now_.at);
+    add_to(next.at, length, now_.direction);
+    PathVector change = equations_.vector(), away = equations_.vector();
+    Tried tried;
+    double last = INFINITY;
+    while (tried.iterations < most_iterations) {
+      ++tried.iterations, ++end_.iterations;
+      if (!equations_.solve(next.at, solutions_)) {
+        why = "singular tangent stiffness";
+        return {};
+      }
+      correction(change);
+      add_to(next.at, 1, change), add_to(away, 1, change);
+      const double size = equations_.size(change), gone = equations_.size(away);
+      if (!(gone <= 0.5 * length)) {
+        why = "Newton's method leaves the path";
+        return {};
+      }
+      if (size <= 1e-9 * length || (size <= 1e-6 * length && size >= 0.5 * last)) {
+        tried.turn = point_on(next.direction);
+        tried.state = std::move(next);
+        return tried;
+      }
+      last = size;
+    }
+    why = fmt::format("Newton's method does not converge in {} iterations", most_iterations);
+    return {};
+  }
+
+  /// b + dt a, across the direction.
+  void correction(PathVector& change) const {
+    const PathVector& n = now_.direction;
+    const double na = weighted_product(n.U, solutions_.a, weights_) + equations_.beta * equations_.beta * n.t,
+                 nb = weighted_product(n.U, solutions_.b, weights_);
+    change.t = -nb / na;
+    check(VecWAXPY(change.U, change.t, solutions_.a, solutions_.b));
+  }
+
+  /// The direction at the last point of Newton's method, on from the present one. @return  the angle between them
+  double point_on(PathVector& direction) const {
+    check(VecCopy(solutions_.a, direction.U));
+    direction.t = 1;
+    const double size = equations_.size(direction), along = equations_.product(direction, now_.direction) / size,
+                 scale = std::copysign(1 / size, along);
+    check(VecScale(direction.U, scale));
+    direction.t = scale;
+    return std::acos(std::min(1., std::abs(along)));
+  }
+
+  /// Where dt/ds has changed its sign within the step: the point where it vanishes, by regula falsi (Illinois); the end
+  /// of the step stands where Newton's method fails.
+  void refine_limit(PathState& next) {
+    double low = 0, high = taken_, f_low = now_.direction.t, f_high = next.direction.t;
+    int last = 0;
+    for (int i = 0; i < 30 && std::abs(equations_.beta * next.direction.t) > 1e-6; ++i) {
+      const double s = (low * f_high - high * f_low) / (f_high - f_low);
+      std::string why;
+      Tried tried = correct(s, why);
+      if (!tried.state) return;
+      next = std::move(*tried.state);
+      const int side = next.direction.t * f_high > 0 ? 1 : -1;
+      (side > 0 ? high : low) = s, (side > 0 ? f_high : f_low) = next.direction.t;
+      if (side == last) (side > 0 ? f_low : f_high) /= 2;
+      last = side;
+    }
+    length_ = std::max(taken_ / 2, least_share * first_);
+  }
+
+  /// Newton's method at t = end, from the chord between the present point and the one beyond.
+  void finish(PathState& beyond) {
+    const double span = beyond.at.t - now_.at.t, share = span == 0 ? 1 : (request_.end - now_.at.t) / span;
+    check(VecAXPBY(beyond.at.U, 1 - share, share, now_.at.U));
+    beyond.at.t = request_.end;
+    double last = INFINITY;
+    for (int i = 0; i < most_iterations; ++i) {
+      ++end_.iterations;
+      if (!equations_.solve(beyond.at, solutions_)) break;
+      check(VecAXPY(beyond.at.U, 1, solutions_.b));
+      const double size = weighted_size(solutions_.b, weights_);
+      if (size <= 1e-9 * taken_ || (size <= 1e-6 * taken_ && size >= 0.5 * last)) return;
+      last = size;
+    }
+    throw RunError(fmt::format(
+        "the path of equilibria comes to t = {:.6g}, but Newton's method does not converge there", request_.end));
+  }
+
+  /// A limit point where one was before.
+  bool returns() {
+    PathVector here = equations_.vector(), way = equations_.vector();
+    set_to(here, now_.at);
+    bool back = false;
+    for (const auto& [point, length] : limits_) {
+      set_to(way, here);
+      add_to(way, -1, point);
+      back = back || equations_.size(way) < 1e-3 * (travelled_ - length);
+    }
+    limits_.emplace_back(std::move(here), travelled_);
+    return back;
+  }
+
+  void accept(PathState& next, bool limit) {
+    PathVector way = equations_.vector();
+    set_to(way, next.at);
+    add_to(way, -1, now_.at);
+    travelled_ += equations_.size(way);
+    now_ = std::move(next);
+    check(VecCopy(now_.at.U, U_));
+    system_.rebase(U_);
+    check(VecCopy(U_, now_.at.U));
+    const System::FailedConstraint failed = system_.failed_constraint(now_.at.t, U_);
+    if (!failed.joint.empty())
+      throw RunError(fmt::format("the path of equilibria ends at t = {:.6g}: {}", now_.at.t, failed.text()));
+    ++end_.points;
+    end_.closed = limit && returns();
+    observe_({end_.points, now_.at.t, limit, end_.at_end || end_.closed || end_.points == request_.most}, U_);
+  }
+
+  NothingHolds nothing_holds() const {
+    return NothingHolds(
+        fmt::format("the path of equilibria cannot begin at t = {:.6g}: singular tangent stiffness; "
+                    "constrain the unconstrained motion",
+                    now_.at.t));
+  }
+
+  const System& system_;
+  PathRequest request_;
+  Vec U_;
+  petsc::VecHandle weights_;
+  PathEquations equations_;
+  const Observe& observe_;
+  PathSolutions solutions_;
+  PathState now_;
+  PathEnd end_;
+  std::vector<std::pair<PathVector, double>> limits_;  // with the length of the path up to them
+  double first_ = 0, length_ = 0, taken_ = 0, travelled_ = 0;
+  double side_ = 1;  // sign of dt/ds behind the last point
+};
+
+}  // namespace
+
+PathEnd follow_path(const System& system, double t, const PathRequest& request, Vec U, Vec V,
+                    const std::function<void(const PathPoint&, Vec)>& observe) {
+  return PathFollower(system, t, request, U, V, observe).go();
+}
+
+}  // namespace floe::solve

@@ -1,0 +1,162 @@
+#include <catch2/catch.hpp>
+
+#include "../../src/app/equilibrium.h"
+#include "spatial_scenes.h"
+
+using namespace floe;
+using namespace floe::test;
+
+namespace {
+
+app::RunResult path_of(const std::string& text, Formulation formulation, double at, int steps, int points = 1000) {
+  return app::rest(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, {at, steps, true, points},
+                   std::nullopt, false);
+}
+
+std::vector<double> column(const app::RunResult& result, const std::string& name) {
+  const auto at = std::find_if(result.series.columns.begin(), result.series.columns.end(),
+                               [&](const auto& one) { return one.name == name; });
+  REQUIRE(at != result.series.columns.end());
+  std::vector<double> values;
+  for (const auto& row : result.series.values) values.push_back(row[at - result.series.columns.begin()]);
+  return values;
+}
+
+/// Loads of the limit points, in order.
+std::vector<double> limits_of(const app::RunResult& result) {
+  std::vector<double> loads;
+  for (const auto& point : result.summary["path"]["limit_points"]) loads.push_back(point["t"]);
+  return loads;
+}
+
+/// Two hinged bars of half span 1 and rise h, EA = 1000, that a force t pushes through at their apex.
+std::string truss(double h) {
+  return fill(R"yaml(
+bodies:
+  a:
+    mesh: {line: {from: [-1, 0], to: [0, $h], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1}
+  b:
+    mesh: {line: {from: [0, $h], to: [1, 0], elements: 2}}
+    section: {EA: 1e3, EI: 10, rhoA: 1}
+joints:
+  left: {type: revolute, between: [ground, a.start]}
+  apex: {type: revolute, between: [a.end, b.start]}
+  right: {type: revolute, between: [ground, b.end]}
+loads: {push: {type: force, at: a.end, force: [0, -t]}}
+probes: {apex: {at: a.end}}
+)yaml",
+              {{"h", number(h)}});
+}
+
+/// A roof of n x n quadrilaterals: 508 along its axis, radius 2540, half angle 0.1, E = 3102.75, nu = 0.3, every node
+/// of its straight edges held, its curved ones free, a force of 3000 t at its crown [N, mm].
+struct Roof {
+  Scratch folder;
+  int n;
+  double h;
+  std::string text(int modes = 8) const {
+    const auto node = [&](int i, int j) { return j * (n + 1) + i + 1; };
+    std::string deck = "*NODE\n", joints;
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        const double a = 0.1 * (2. * j / n - 1);
+        deck += fmt::format("{}, {:.15g}, {:.15g}, {:.15g}\n", node(i, j), 508. * i / n, 2540 * std::sin(a),
+                            2540 * std::cos(a));
+      }
+    deck += "*ELEMENT, TYPE=S4, ELSET=skin\n";
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        deck += fmt::format("{}, {}, {}, {}, {}\n", j * n + i + 1, node(i, j), node(i + 1, j), node(i + 1, j + 1),
+                            node(i, j + 1));
+    deck += fmt::format("*NSET, NSET=crown\n{},\n", node(n / 2, n / 2));
+    for (const int j : {0, n})
+      for (int i = 0; i <= n; ++i) {
+        deck += fmt::format("*NSET, NSET=n{}\n{},\n", node(i, j), node(i, j));
+        joints += fmt::format("  j{0}: {{type: spherical, between: [ground, roof.n{0}]}}\n", node(i, j));
+      }
+    deck += fmt::format(
+        "*MATERIAL, NAME=M\n*ELASTIC\n3102.75, 0.3\n*DENSITY\n1e-6,\n*SHELL SECTION, ELSET=skin, MATERIAL=M\n{},\n", h);
+    const std::string path = folder.path / "roof.inp";
+    write_text(path, deck);
+    return fmt::format(
+        "bodies: {{roof: {{mesh: {{file: {{path: {}}}}}, reduction: {{modes: {}}}}}}}\njoints:\n{}loads: {{p: {{type: "
+        "force, at: roof.crown, force: [0, 0, \"-3000*t\"]}}}}\nprobes: {{crown: {{at: roof.crown}}}}\n",
+        path, modes, joints);
+  }
+};
+
+}  // namespace
+
+// Engineering strain of straight bars: P = 2 EA (l0 - l)/l0 x/l, x the height of the apex, l^2 = 1 + x^2; maximum and
+// minimum at l^3 = l0.
+TEST_CASE("path: von Mises' truss through both limit points, every point against the closed form") {
+  const double h = GENERATE(0.05, 0.3), EA = 1e3, l0 = std::hypot(1, h);
+  const auto load = [&](double x) { return 2 * EA * (1 - std::hypot(1, x) / l0) * x / std::hypot(1, x); };
+  const double limit = load(std::sqrt(std::pow(l0, 2. / 3) - 1));
+  for (const Formulation formulation : {Formulation::cfr, Formulation::nlffr, Formulation::vm_md}) {
+    INFO(h << " " << scene::name_of(formulation));
+    const bool exact = formulation == Formulation::cfr || h < 0.1;
+    const app::RunResult path = path_of(truss(h), formulation, 2 * limit, 20);
+    const std::vector<double> y = column(path, "apex.y"), limits = limits_of(path);
+    REQUIRE(path.series.t.size() > 30);
+    for (std::size_t i = 0; i < y.size(); ++i)
+      CHECK(path.series.t[i] == Approx(load(h + y[i])).margin((exact ? 1e-4 : 1e-2) * limit));
+    REQUIRE(limits.size() == 2);
+    CHECK(limits[0] == Approx(limit).epsilon(exact ? 1e-5 : 1e-2));
+    CHECK(limits[1] == Approx(-limit).epsilon(exact ? 1e-5 : 1e-2));
+    CHECK(path.series.t.back() == 2 * limit);
+    CHECK(path.summary["path"]["at_end"] == true);
+  }
+}
+
+// Sabir and Lock 1972; limit load by Sze, Liu and Lo 2004 (shells with shear): 2.21 kN.
+TEST_CASE("path: the hinged cylindrical roof, thickness 12.7") {
+  const Roof roof{{}, 8, 12.7};
+  for (const Formulation formulation : {Formulation::cfr, Formulation::nlffr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    const bool reduced = formulation == Formulation::vm_md;
+    const app::RunResult path = path_of(roof.text(), formulation, 1, 15, reduced ? 18 : 1000);
+    const std::vector<double> limits = limits_of(path);
+    REQUIRE(limits.size() == (reduced ? 1 : 2));
+    CHECK(3000 * limits[0] == Approx(2210).epsilon(0.005));
+    if (!reduced) CHECK(path.series.t.back() == 1);
+  }
+}
+
+// The same source: 0.583 kN. Order 2 in the length of the elements.
+TEST_CASE("path: the hinged cylindrical roof, thickness 6.35: snap-back") {
+  const auto follow = [](int n, int points) {
+    return path_of(Roof{{}, n, 6.35}.text(), Formulation::cfr, 0.5, 30, points);
+  };
+  const app::RunResult coarse = follow(8, 1000);
+  const std::vector<double> limits = limits_of(coarse), z = column(coarse, "crown.z");
+  REQUIRE(limits.size() == 2);
+  CHECK(limits[1] < -0.1);
+  // The crown itself comes back on the way, and goes down again.
+  bool rises = false;
+  for (std::size_t i = 1; i < z.size(); ++i) rises = rises || z[i] > z[i - 1] + 0.1;
+  CHECK(rises);
+  const double fine = limits_of(follow(12, 22)).at(0);
+  CHECK(3000 * (fine - (limits[0] - fine) * 64 / (144 - 64)) == Approx(583).epsilon(0.01));
+  // Above the limit point there is one equilibrium: that to which load control snaps.
+  const app::RunResult snapped = app::rest(scene::parse_scene(Roof{{}, 8, 6.35}.text(), "scene"), Formulation::cfr,
+                                           PETSC_COMM_WORLD, {0.5, 5}, std::nullopt, false);
+  CHECK(z.back() == Approx(column(snapped, "crown.z").back()).epsilon(1e-6));
+}
+
+// Beam of length 1, EI = 1, under an axial force: Euler's load.
+TEST_CASE("path: a bifurcation is reported with its location") {
+  const app::RunResult path = path_of(R"yaml(
+bodies: {beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}, section: {EA: 1e6, EI: 1, rhoA: 1}}}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {push: {type: force, at: beam.end, force: [-t, 0]}}
+probes: {tip: {at: beam.end}}
+)yaml",
+                                      Formulation::cfr, 3, 30);
+  const auto& bifurcations = path.summary["path"]["bifurcations"];
+  REQUIRE(bifurcations.size() == 1);
+  CHECK(bifurcations[0]["from"].get<double>() < M_PI * M_PI / 4);
+  CHECK(bifurcations[0]["to"].get<double>() > M_PI * M_PI / 4);
+  CHECK(limits_of(path).empty());
+}
