@@ -180,8 +180,7 @@ void add_compare(CLI::App& app, Arguments& given, Work& work) {
   command
       ->add_option("--formulations", given.formulations,
                    "the formulations, separated by commas (default: cfr,nlffr,lffr,vm,vm+md; bodies from files: "
-                   "lffr,vm,vm+md; cfr in space only where it is named; planar beams with shear and modal damping: "
-                   "without cfr)")
+                   "lffr,vm,vm+md; cfr in space only where it is named)")
       ->delimiter(',');
   command->add_flag("--no-reference-error", given.no_reference_error,
                     "skip the run that determines the reference's own error");

@@ -62,8 +62,7 @@ bool any_of(const scene::Scene& scene, const std::function<bool(const scene::Bod
 std::vector<std::string> names_for(const scene::Scene& scene) {
   if (any_of(scene, [](const scene::Body& body) { return body.reduced.has_value(); })) return {"lffr", "vm", "vm+md"};
   std::vector<std::string> names = {"nlffr", "lffr", "vm", "vm+md"};
-  const bool modal = any_of(scene, [](const scene::Body& body) { return !body.damping.modal.empty(); });
-  if (scene.dimension == 2 && !modal) names.insert(names.begin(), "cfr");
+  if (scene.dimension == 2) names.insert(names.begin(), "cfr");
   return names;
 }
 

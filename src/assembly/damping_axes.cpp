@@ -5,8 +5,10 @@
 
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
+#include "floe/dynamics/damping.h"
 #include "floe/fem/assembly.h"
 #include "floe/math/rotation.h"
+#include "floe/petsc/values.h"
 #include "floe/scene/joint_events.h"
 
 namespace floe::assembly {
@@ -163,7 +165,8 @@ std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, cons
   std::vector<DampedWhole> all;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const Body& spec = plan.bodies[b].spec;
-    if (spec.damping.mass == 0 || spec.rigid || spec.reduced) continue;
+    const bool modal = corotational && has_modal_damping(spec);
+    if ((spec.damping.mass == 0 && !modal) || spec.rigid || spec.reduced) continue;
     const std::string name = whole_name(spec);
     if (name == spec.name && !corotational) continue;
     if (all.empty() || whole_name(plan.bodies[all.back().bodies.front()].spec) != name) {
@@ -184,6 +187,8 @@ std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, cons
     whole.fixed =
         firmly_grounded(plan, whole) && split(products_of_dofs(plan, whole, by_ground), dimension).second.cols() == 0;
     for (int b : whole.bodies) whole.fixed = whole.fixed || still[b];
+    // Modes need axes in which deformations are measured.
+    if (corotational && has_modal_damping(plan.bodies[whole.bodies.front()].spec)) whole.fixed = false;
     std::tie(whole.seen, whole.free) = split(products_of_dofs(plan, whole, whole.constrained), dimension);
   }
   return all;
@@ -240,6 +245,70 @@ VectorXd begin(const DampedWhole& whole, std::vector<std::unique_ptr<Accompanyin
   MPI_Allreduce(MPI_IN_PLACE, open.data(), static_cast<int>(n), MPI_DOUBLE, MPI_SUM, comm);
   MPI_Allreduce(MPI_IN_PLACE, J.data(), static_cast<int>(n * n), MPI_DOUBLE, MPI_SUM, comm);
   return -J.fullPivLu().solve(open);
+}
+
+std::vector<std::unique_ptr<AccompanyingAxes>> modal_rows(const DampedWhole& whole, const PlannedBody& body,
+                                                          const std::function<dynamics::MovingAxes(int)>& axes_of,
+                                                          std::vector<std::unique_ptr<dynamics::Term>>& terms) {
+  const reference::ModalDamping& modal = *whole.modal;
+  const fem::Structure& s = body.structure;
+  const Matrix3d A0 = undeformed_axes(body);
+  const int n = s.dofs_per_node, k = static_cast<int>(modal.forces.size());
+  std::vector<std::unique_ptr<petsc::ConstValues>> forces;
+  for (const petsc::VecHandle& f : modal.forces) forces.push_back(std::make_unique<petsc::ConstValues>(f));
+  std::vector<std::unique_ptr<AccompanyingAxes>> all;
+  for (int node = 0; node < s.mesh.owned_nodes; ++node) {
+    const Vector3d* spin = n == 6 ? fem::spin_axis(s.mesh, node) : nullptr;
+    std::vector<AccompanyingAxes::Row> rows;
+    bool any = false;
+    for (const auto& f : forces) {
+      Vector3d force = Vector3d::Zero(), moment = force;
+      for (int d = 0; d < n; ++d) {
+        const double value = (*f)[n * (s.mesh.first_node + node) + d];
+        const bool rotation = d >= (n == 3 ? 2 : 3);
+        if (!rotation)
+          force[d] = value;
+        else if (spin)
+          moment += d - 3 == fem::spin_slot(*spin) ? Vector3d(value * *spin) : Vector3d::Zero();
+        else
+          moment[n == 3 ? 2 : d - 3] = value;
+        any = any || value != 0;
+      }
+      AccompanyingAxes::Row row = zero_row(0);
+      row.b = A0 * force;
+      set_part(row, 0, 0.5 * skew(A0 * moment) * A0);
+      rows.push_back(std::move(row));
+    }
+    if (any)
+      all.push_back(std::make_unique<AccompanyingAxes>(axes_of(node), std::vector<int>{}, whole.f, modal.multipliers,
+                                                       std::move(rows)));
+  }
+  int rank = 0, size = 1;
+  MPI_Comm_rank(s.mesh.comm, &rank);
+  MPI_Comm_size(s.mesh.comm, &size);
+  if (rank + 1 < size) return all;
+  std::vector<int> y(k);
+  std::iota(y.begin(), y.end(), modal.y);
+  terms.push_back(std::make_unique<dynamics::LinearDamping>(y, modal.viscosity.asDiagonal()));
+  for (int i = 0; i < k; ++i) y.push_back(modal.multipliers + i);
+  terms.push_back(std::make_unique<reference::LinearConstraint>(std::move(y), -MatrixXd::Identity(k, k)));
+  return all;
+}
+
+VectorXd begin_modal(const DampedWhole& whole, std::vector<std::unique_ptr<AccompanyingAxes>>& rows, const VectorXd& q,
+                     const VectorXd& v, MPI_Comm comm) {
+  const Index k = static_cast<Index>(whole.modal->forces.size());
+  VectorXd rate = VectorXd::Zero(k);
+  for (auto& term : rows) {
+    const std::vector<int>& at = term->coordinates();
+    const VectorXd q_at = q(at), v_at = v(at), a_at = VectorXd::Zero(q_at.size());
+    VectorXd r = VectorXd::Zero(q_at.size());
+    term->begin_at(q_at);
+    term->residual({0, q_at, v_at, a_at, dynamics::ConstraintLevel::velocity}, r);
+    rate += r.tail(k);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, rate.data(), static_cast<int>(k), MPI_DOUBLE, MPI_SUM, comm);
+  return rate;
 }
 
 }  // namespace floe::assembly

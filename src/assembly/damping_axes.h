@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -6,15 +7,17 @@
 #include "floe/body/inertia.h"
 #include "floe/dynamics/relative_damping.h"
 #include "floe/plan/prepare.h"
+#include "floe/reference/modal_damping.h"
 
 namespace floe::assembly {
 using namespace plan;
 
-/// damping.mass of a body whose parts have axes of their own: in several frames, or corotational.
+/// Damping of a body whose parts have axes of their own: damping.mass in several frames, damping.mass and damping.modal
+/// of corotational elements.
 ///
-/// It acts on the velocity relative to axes f that accompany the whole body, as its joints see its rigid motions
-/// (fem::joint_frame): f follows the dofs that they hold, and where these leave rigid motions free, the mean of the
-/// mass,
+/// damping.mass acts on the velocity relative to axes f that accompany the whole body, as its joints see its rigid
+/// motions (fem::joint_frame): f follows the dofs that they hold, and where these leave rigid motions free, the mean of
+/// the mass,
 ///
 ///   sum over dofs constrained (S_r z)' d = 0,  z in the row space of S_r;   int rho (t + w x X)'(A_f'(r - R_f) - X) =
 ///   0,  (t, w) in the rest
@@ -30,6 +33,8 @@ struct DampedWhole {
   double length = 1;
   Eigen::MatrixXd seen, free;                     ///< rigid motions (t, w length) in mesh axes, 6 x ...
   std::vector<fem::Conditions> constrained = {};  ///< of each body
+  /// Of a corotational body: y_i = sum over nodes f_i'(A_f'(R - R_f) - X, rotation in f), viscous forces on y.
+  std::optional<reference::ModalDamping> modal = {};
   /// f; none: the ground.
   std::optional<dynamics::MovingAxes> axes() const;
   bool has(int body) const;
@@ -60,7 +65,8 @@ struct ConstrainedPlace {
 Eigen::Matrix3d undeformed_axes(const PlannedBody& body);
 Eigen::Vector3d undeformed_origin(const PlannedBody& body);
 
-/// Bodies of the plan that have damping.mass in several frames, or all that have it. Collective.
+/// Bodies of the plan that have damping.mass in several frames; corotational: all that have damping.mass or modal.
+/// Collective.
 /// @param still  of each body: whether its frame is fixed to the ground
 std::vector<DampedWhole> damped_wholes(const Plan& plan, bool corotational, const std::vector<bool>& still);
 
@@ -78,5 +84,24 @@ JointMultipliers unknowns_of(const DampedWhole& whole);
 /// c_0 of the terms and the velocity of f at the start. @param q, v  local coordinates, v with none of f. Collective.
 Eigen::VectorXd begin(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& terms,
                       const Eigen::VectorXd& q, const Eigen::VectorXd& v, MPI_Comm comm);
+
+/// Rows y_i of a corotational body's own nodes; on the last rank what acts on y alone joins `terms`. Rank-local.
+/// @param axes_of  axes of a node by its local number; they are the body's when it moves rigidly
+std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> modal_rows(
+    const DampedWhole& whole, const PlannedBody& body, const std::function<dynamics::MovingAxes(int)>& axes_of,
+    std::vector<std::unique_ptr<dynamics::Term>>& terms);
+
+/// The least damping.mass of these modes [1/s]: without any force of its own f has equations whose scale is nowhere,
+/// and factors of the tangent lose their digits.
+inline double least_mass_damping(const reference::ModalDamping& modal) { return 1e-9 * modal.viscosity.maxCoeff(); }
+
+/// Whether some mode of the body is damped.
+inline bool has_modal_damping(const Body& body) {
+  return std::any_of(body.damping.modal.begin(), body.damping.modal.end(), [](double ratio) { return ratio > 0; });
+}
+
+/// c_0 of these rows, and the rates of y at the start. Collective.
+Eigen::VectorXd begin_modal(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
+                            const Eigen::VectorXd& q, const Eigen::VectorXd& v, MPI_Comm comm);
 
 }  // namespace floe::assembly

@@ -113,10 +113,6 @@ void PlanarAssembly::add_body_terms(int b) {
     std::move(dampers.begin(), dampers.end(), std::back_inserter(terms_));
     return;
   }
-  if (!damping.modal.empty() && formulation_ == Formulation::cfr)
-    throw InputError(damping.where.text() +
-                     ": formulation cfr has no modal damping (modes are seen from a floating frame); expected "
-                     "damping.mass or damping.stiffness, or another formulation");
   if (formulation_ != Formulation::cfr) {
     auto more = reference::full_order_terms(
         body.structure, body.frame, *slot.nodes, slot.frame, slot.multipliers,

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "damping_axes.h"
 #include "floe/dynamics/floating_body.h"
 #include "floe/plan/hold_by_joint.h"
 #include "floe/reference/corotational_beam.h"
+#include "full_order_modes.h"
 #include "planar_assembly.h"
 
-// damping.mass of planar bodies in several frames, and of corotational ones.
+// damping.mass of planar bodies in several frames; damping.mass and damping.modal of corotational ones.
 namespace floe::assembly {
 
 using dynamics::MovingAxes;
@@ -31,6 +33,9 @@ void PlanarAssembly::add_damping_axes() {
     coordinates_.add_angle(first + 2, true);
     whole.f.position = first, whole.f.rotation = first + 2;
     whole.multipliers = coordinates_.add_shared(3, true);
+    if (formulation_ != Formulation::cfr || !has_modal_damping(plan_.bodies[whole.bodies.front()].spec)) continue;
+    whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
+    whole.alpha = std::max(whole.alpha, least_mass_damping(*whole.modal));
   }
 }
 
@@ -164,6 +169,19 @@ void PlanarAssembly::start_damping(const DampedWhole& whole,
   layout.gather(model.U, q), layout.gather(model.V, v);
   const Eigen::VectorXd rate = begin(whole, rows, q, v, coordinates_.comm());
   set_shared(own, {rate.begin(), rate.end()}, model.V);
+  if (!whole.modal) return;
+  const int b = whole.bodies.front();
+  const PlannedBody& body = plan_.bodies[b];
+  auto more = modal_rows(
+      whole, body,
+      [&](int node) { return node_axes(b, slots_[b].nodes->of_local_node(node), body.structure.mesh.positions[node]); },
+      terms_);
+  layout.gather(model.V, v);
+  const Eigen::VectorXd rates = begin_modal(whole, more, q, v, coordinates_.comm());
+  std::vector<int> y(static_cast<std::size_t>(rates.size()));
+  std::iota(y.begin(), y.end(), whole.modal->y);
+  set_shared(y, {rates.begin(), rates.end()}, model.V);
+  for (auto& term : more) terms_.push_back(std::move(term));
 }
 
 void PlanarAssembly::set_shared(const std::vector<int>& local, const std::vector<double>& values, Vec into) const {

@@ -118,11 +118,6 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
     pieces.push_back(corotated(index) ? clamped_edges(index) : Pieces{});
-    const DampingSpec& damping = plan_.bodies[b].spec.damping;
-    if (corotated(index) && !damping.modal.empty())
-      faults.push_back(damping.where.text() +
-                       ": formulation cfr has no modal damping (modes are seen from a floating frame); expected "
-                       "damping.mass or damping.stiffness, or another formulation");
   }
   const auto mean = [&](const Anchor& place) {
     return place.body >= 0 && corotated(place.body) && is_mean(place, pieces[place.body]);

@@ -3,9 +3,10 @@
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/spatial_body.h"
 #include "floe/math/rotation.h"
+#include "full_order_modes.h"
 #include "spatial_assembly.h"
 
-// damping.mass of spatial bodies in several frames, and of corotational ones.
+// damping.mass of spatial bodies in several frames; damping.mass and damping.modal of corotational ones.
 namespace floe::assembly {
 
 using dynamics::MovingAxes;
@@ -40,6 +41,9 @@ void SpatialAssembly::add_damping_axes() {
     damped_attitudes_.push_back(std::make_shared<dynamics::Attitude>());
     damped_attitudes_.back()->base = math::quaternion({r[0], r[1], r[2]});
     whole.f.attitude = damped_attitudes_.back();
+    if (!corotated(whole.bodies.front()) || !has_modal_damping(spec)) continue;
+    whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
+    whole.alpha = std::max(whole.alpha, least_mass_damping(*whole.modal));
   }
 }
 
@@ -131,6 +135,24 @@ void SpatialAssembly::add_damping(const DampedWhole& whole, Model& model) {
     check(VecSetValue(model.V, coordinates_.global()[own[i]], rate[i], INSERT_VALUES));
   check(VecAssemblyBegin(model.V));
   check(VecAssemblyEnd(model.V));
+  if (whole.modal) {
+    const int b = whole.bodies.front();
+    const PlannedBody& body = plan_.bodies[b];
+    auto more = modal_rows(
+        whole, body,
+        [&](int node) {
+          const dynamics::SpatialMarker at = slots_[b].corotated->place(body.structure.mesh.first_node + node);
+          return MovingAxes{at.coordinates[0], at.coordinates[3], at.attitude};
+        },
+        terms_);
+    layout.gather(model.V, v);
+    const Eigen::VectorXd rates = begin_modal(whole, more, start_, v, coordinates_.comm());
+    for (int i = 0; i < static_cast<int>(rates.size()) && owner_; ++i)
+      check(VecSetValue(model.V, coordinates_.global()[whole.modal->y + i], rates[i], INSERT_VALUES));
+    check(VecAssemblyBegin(model.V));
+    check(VecAssemblyEnd(model.V));
+    for (auto& term : more) terms_.push_back(std::move(term));
+  }
   for (auto& term : rows) terms_.push_back(std::move(term));
 }
 

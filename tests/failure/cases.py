@@ -40,6 +40,7 @@ class Case:
 
 
 MODAL = {"bodies.beam.damping": {"modal": [0.01]}}
+MEAN_DEFLECTION = {"bodies.beam.frame": "mean-axis", "probes.bend": {"at": "beam.middle", "quantity": "deflection"}}  # not in cfr
 
 
 def rows_of(folder, word, count):
@@ -113,8 +114,8 @@ COMMANDS = [
          ("--reference: is vm; expected nlffr or cfr",), lines=1, check=nothing),
     Case("trade-off against cfr, which the scene does not have",
          ["tradeoff", "scene.yaml", "--reference", "cfr", "-o", "out"], 2,
-         ("--reference cfr: formulation cfr", "has no modal damping", "expected --reference nlffr"), lines=1,
-         scene=scene(MODAL), check=nothing),
+         ("--reference cfr: formulation cfr", "relative to a mean-axis frame", "expected --reference nlffr"), lines=1,
+         scene=scene(MEAN_DEFLECTION), check=nothing),
     Case("residual responses of a body alone", ["reduce", "scene.yaml", "-o", "beam.h5"], 2,
          ("bodies.beam.reduction.responses", "needs a simulation of the whole scene"), lines=1,
          scene=scene({"bodies.beam.reduction": {"modes": 2, "responses": 3}})),
@@ -157,9 +158,9 @@ SCENES = [
           changes={"joints.clamp": {"type": "driven", "between": ["ground", "beam.start"], "angle": "0.1 + t"}}),
     *case("more modes than dofs", codes=2, says=("100 modes", "scene.yaml:"), lines=1, check=no_results,
           changes={"bodies.beam.reduction.modes": 100}),
-    *case("modal damping in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
-          says=("scene.yaml:", "no modal damping"),
-          changes={"bodies.beam.damping": {"modal": [0.01]}}),
+    *case("modal damping", formulations=("vm+md", "nlffr", "cfr"), changes=MODAL, check=files("finished", 51)),
+    *case("deflection from a mean-axis frame in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
+          says=("scene.yaml:", "relative to a mean-axis frame"), changes=MEAN_DEFLECTION),
     *case("load in body axes in cfr", formulations=("cfr",), codes=2, lines=1, check=no_results,
           says=("scene.yaml:", "axes"), changes={"loads.tip.axes": "body"}),
     *case("formula not a number when read", codes=2, lines=1, check=nothing,
@@ -222,7 +223,7 @@ FOLDERS = [
          scene=scene({"bodies.beam.reduction.modes": 100}), files={"out/summary.json": OWN},
          check=kept("out/summary.json", OWN)),
     *case("folder forced for a scene that cannot be built", formulations=("cfr",), options=("--force",), codes=2,
-          lines=1, says=("modal damping",), changes={"bodies.beam.damping": {"modal": [0.01]}},
+          lines=1, says=("mean-axis frame",), changes=MEAN_DEFLECTION,
           files={"out/summary.json": OWN}, check=kept("out/summary.json", OWN)),
     Case("folder forced with another's summary", run("vm+md", "--force"), 2,
          ("out': summary.json in it is not a result of floe;",), lines=1, files={"out/summary.json": "{}"},
@@ -698,9 +699,9 @@ WORDS = [
          scene=scene(MODAL)),
     Case("check in a formulation", ["check", "scene.yaml", "--formulation", "vm"], 0, lines=0, shows=("multipliers as vm\n",)),
     Case("check in a formulation that the scene does not have", ["check", "scene.yaml", "--formulation", "cfr"], 2, lines=1,
-         says=("no modal damping",), scene=scene(MODAL)),
-    Case("compare with modal damping", ["compare", "scene.yaml", "-o", "out"], 0, lines=0, never=("cfr",),
-         shows=("nlffr",), scene=scene(MODAL)),
+         says=("mean-axis frame",), scene=scene(MEAN_DEFLECTION)),
+    Case("compare with modal damping", ["compare", "scene.yaml", "-o", "out"], 0, lines=0,
+         shows=("cfr", "nlffr"), scene=scene(MODAL)),
     Case("more frames than there are", ["static", "scene.yaml", "--steps", "20", "--at", "1", "-o", "out"], 0, lines=0,
          shows=("take more than 4 (frames: 8)",), never=("frames: 2",),
          scene=scene({"bodies.beam.frames": 4, "bodies.beam.frame": {"type": "clamped", "at": "start"},
