@@ -81,8 +81,7 @@ TEST_CASE("total accuracy: the selected model is as close to geometrically exact
 }
 
 TEST_CASE("total accuracy: parts that cannot be bounded are named, the others are bounded") {
-  const app::Chosen chosen =
-      app::choose(scene_of({{"kind", "mean-axis"}}), {0.02, true}, PETSC_COMM_WORLD);
+  const app::Chosen chosen = app::choose(scene_of({{"kind", "mean-axis"}}), {0.02, true}, PETSC_COMM_WORLD);
   REQUIRE(chosen.unbounded.size() == 1);
   CHECK(chosen.unbounded[0].first == "model");
   CHECK_THAT(chosen.unbounded[0].second, Catch::Contains("formulation cfr"));
