@@ -103,7 +103,7 @@ TEST_CASE("what cannot be built is told with its place in the file") {
     CHECK_THAT(complaint(apart, formulation), Contains("test.yaml:8") && Contains("1 apart"));
     CHECK_THAT(complaint(driven, formulation), Contains("test.yaml:8") && Contains("is 1 at t = 0"));
   }
-  CHECK_THAT(complaint(modal, Formulation::cfr), Contains("test.yaml:7") && Contains("modal damping"));
+  CHECK(complaint(modal, Formulation::cfr).empty());
   CHECK(complaint(modal, Formulation::nlffr).empty());
   CHECK(complaint(modal, Formulation::vm_md).empty());
   CHECK(complaint(rayleigh, Formulation::cfr).empty());
