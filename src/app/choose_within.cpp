@@ -1,5 +1,3 @@
-#include "choose.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "choose.h"
 #include "choose_trials.h"
 #include "compare_table.h"
 #include "exact_motion.h"
@@ -231,7 +230,7 @@ class Search {
     if (count_ == 0) return;
     std::vector<assess::EnergyContribution> plain;
     for (const assess::EnergyContribution& one : order_)
-      if (!candidates_->columns()[one.column].label.starts_with("derivative")) plain.push_back(one);
+      if (candidates_->columns()[one.column].label.find("derivative ") == std::string::npos) plain.push_back(one);
     Selection all = trials_.first_of(plain, plain.size());
     all.linear = true;
     const Trial& linear = trials_.tried(all, step_);

@@ -68,6 +68,22 @@ void finish_elasticity(const PlannedBody& body, const reduction::Statics& static
 
 std::string whole_name(const Body& body) { return body.name.substr(0, body.name.find('#')); }
 
+std::string label_of_piece(const Body& body, const std::string& label) {
+  const std::size_t at = body.name.find('#');
+  return at == std::string::npos ? label : fmt::format("{} {}", body.name.substr(at), label);
+}
+
+std::vector<std::string> named_columns(const Body& body) {
+  const std::string own = label_of_piece(body, "");
+  std::vector<std::string> all;
+  for (const std::string& label : body.reduction.columns)
+    if (!label.starts_with('#'))
+      all.push_back(label);
+    else if (!own.empty() && label.starts_with(own))
+      all.push_back(label.substr(own.size()));
+  return all;
+}
+
 int count_of_modes(const PlannedBody& body) {
   return body.spec.reduction.modes.given ? body.spec.reduction.modes.count : as_the_body_has;
 }
@@ -147,7 +163,7 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generato
 
 std::vector<std::string> keep_named(const PlannedBody& body, Stage& stage) {
   const ReductionSpec& spec = body.spec.reduction;
-  const std::vector<std::string>& wanted = spec.columns;
+  const std::vector<std::string> wanted = named_columns(body.spec);
   const auto take = [&](const std::string& label) {
     return std::find(wanted.begin(), wanted.end(), label) != wanted.end();
   };
@@ -170,6 +186,8 @@ void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>
   for (std::size_t b = 0; b < labels.size(); ++b) {
     std::vector<std::string>& all = known[whole_name(plan.bodies[b].spec)];
     all.insert(all.end(), labels[b].begin(), labels[b].end());
+    if (whole_name(plan.bodies[b].spec) != plan.bodies[b].spec.name)
+      for (const std::string& label : labels[b]) all.push_back(label_of_piece(plan.bodies[b].spec, label));
   }
   std::vector<std::string> faults;
   for (std::size_t b = 0; b < labels.size(); ++b) {
@@ -192,8 +210,8 @@ reduction::DerivativeColumns derivatives_of(const PlannedBody& body, const Stage
                                             bool full) {
   reduction::DerivativeColumns all = reduction::derivative_columns(body.structure, body.frame, stage.for_modes,
                                                                    *stage.statics, stage.generators, pairs, full);
-  const std::vector<std::string>& wanted = body.spec.reduction.columns;
-  if (wanted.empty()) return all;
+  if (body.spec.reduction.columns.empty()) return all;
+  const std::vector<std::string> wanted = named_columns(body.spec);
   reduction::DerivativeColumns some;
   for (std::size_t i = 0; i < all.columns.size(); ++i) {
     if (std::find(wanted.begin(), wanted.end(), all.origins[i].label) == wanted.end()) continue;

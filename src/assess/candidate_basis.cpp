@@ -74,8 +74,8 @@ struct CandidateBasis::Parts {
   const PlannedBody& body(std::size_t b) const { return offline->plan.bodies[b]; }
   bool flexible(std::size_t b) const { return is_meshed(body(b).spec); }
 
-  std::size_t group_of(std::size_t b, const std::string& label, bool response) {
-    const std::string name = whole_name(body(b).spec);
+  std::size_t group_of(std::size_t b, const std::string& plain, bool response) {
+    const std::string name = whole_name(body(b).spec), label = label_of_piece(body(b).spec, plain);
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].body == name && columns[i].label == label) return i;
     columns.push_back({name, label, response});
@@ -102,6 +102,9 @@ struct CandidateBasis::Parts {
       const std::vector<char> taken = taken_of(b, selection);
       all[b] = flexible(b) && !starts_deformed(body(b)) && std::find(taken.begin(), taken.end(), 1) == taken.end();
     }
+    for (std::size_t b = 0; b < sources.size(); ++b)  // of a split body all pieces or none
+      for (std::size_t other = 0; other < sources.size(); ++other)
+        if (!all[other] && whole_name(body(b).spec) == whole_name(body(other).spec)) all[b] = 0;
     return all;
   }
   std::shared_ptr<Offline> offline_of(const Selection& selection) const {
@@ -122,7 +125,8 @@ const ReducedBody& CandidateBasis::Parts::reduced_body(std::size_t b, const std:
   const PlannedBody& plan = body(b);
   std::vector<Vec> some;
   std::vector<ColumnOrigin> origins;
-  const bool none = std::find(taken.begin(), taken.end(), 1) == taken.end();  // of a body with a start of its own
+  // Of a body with a start of its own, or a piece.
+  const bool none = std::find(taken.begin(), taken.end(), 1) == taken.end();
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (taken[i] || (none && i == 0)) some.push_back(source.columns[i]), origins.push_back(source.origins[i]);
   ReducedBody one;
@@ -188,7 +192,7 @@ reduction::Pairs CandidateBasis::Parts::leading_pairs(std::size_t b,
   return pairs;
 }
 
-/// A label stands for a column of every piece of a body that has it: what is offered of one is offered of all.
+/// What is offered of one piece of a body is offered of all.
 void CandidateBasis::Parts::add_derivatives(std::size_t b, const std::set<std::string>& offered) {
   Source& source = sources[b];
   reduction::Pairs pairs;

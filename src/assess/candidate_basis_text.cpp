@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "floe/scene/copies.h"
 
@@ -22,6 +24,11 @@ void write_columns(YAML::Node reduction, const std::vector<std::string>& labels,
     reduction["elastic_force"] = "linear";
   else
     reduction.remove("elastic_force");
+}
+
+/// `#2` of `#2 mode 1`; empty without pieces.
+std::string piece_of(const std::string& label) {
+  return label.starts_with('#') ? label.substr(0, label.find(' ')) : "";
 }
 
 /// Paths that are relative to the folder of one scene become those for a scene in another folder.
@@ -70,12 +77,20 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;
     bool any = false;
-    int responses = 0;
+    std::map<std::string, int> responses_of;
+    std::map<std::string, std::pair<bool, std::string>> pieces;  // whether it has one; the first that it may have
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      if (!selection.taken[i] || columns[i].body != body.name) continue;
-      any = true;
-      columns[i].response ? static_cast<void>(++responses) : labels.push_back(columns[i].label);
+      if (columns[i].body != body.name) continue;
+      const std::string piece = piece_of(columns[i].label);
+      bool& has = pieces.try_emplace(piece, false, columns[i].label).first->second.first;
+      if (!selection.taken[i]) continue;
+      any = has = true;
+      columns[i].response ? static_cast<void>(++responses_of[piece]) : labels.push_back(columns[i].label);
     }
+    int responses = 0;  // a scene gives all pieces as many
+    for (const auto& [piece, count] : responses_of) responses = std::max(responses, count);
+    for (const auto& [piece, one] : pieces)
+      if (!one.first && any) labels.push_back(one.second);  // as CandidateBasis::model has it
     YAML::Node node = root["bodies"][body.name];
     if (const auto file = files.find(body.name); file != files.end()) {
       const YAML::Node initial = node["initial"];

@@ -198,7 +198,8 @@ const SchemaSection reduction_section{
          "constraint mode for each of its dofs; absent: none"},
         {"columns", Type::texts, "", "",
          "labels of the basis vectors to use, as in summary.json: mode 1, attachment pin.moment, \"derivative 1,2\" "
-         "(in quotation marks); not with derivatives; absent: all"},
+         "(in quotation marks); of a body in several frames of all its parts, or with # of one: \"#2 mode 1\"; not "
+         "with derivatives; absent: all"},
         {"responses",
          Type::integer,
          "",

@@ -7,7 +7,8 @@
 
 namespace floe::assess {
 
-/// A basis vector that the bodies of a scene may have. The pieces of a split body (frames: N) have it together.
+/// A basis vector that the bodies of a scene may have; of the k-th piece of a split body (frames: N) with the label
+/// `#k LABEL`.
 struct CandidateVector {
   std::string body, label;  ///< `beam`, `derivative 1,2`
   bool response = false;    ///< of the error estimate: no scene names this one
