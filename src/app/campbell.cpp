@@ -91,9 +91,6 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
   const std::vector<double> speeds = parse_speeds(request.speeds);
   if (formulation == scene::Formulation::cfr && given.dimension == 2)
     throw InputError("--formulation: cfr has no rotating frames in the plane; expected nlffr, lffr, vm or vm+md");
-  if (int ranks = 1; formulation == scene::Formulation::cfr && (MPI_Comm_size(comm, &ranks), ranks > 1))
-    throw InputError(
-        "--formulation: cfr is supported on one rank only; expected one rank, or nlffr, lffr, vm or vm+md");
   const scene::Joint* hub = assembly::hub_of(given);
   CampbellDiagram diagram;
   diagram.axis.direction = direction_of(given, request, hub);

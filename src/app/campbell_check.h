@@ -17,7 +17,7 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
 
 /// A warning where a frequency at a speed is further from that of geometrically exact beams and shells (cfr) on the
 /// same mesh than 2.5 %, which 5 % of the stiffness make, and what the frequencies up to the next one differ at rest:
-/// the error of the basis and of cfr's inertia. In the order of the frequencies. In space, on one rank, where cfr
+/// the error of the basis and of cfr's inertia. In the order of the frequencies. In space, where cfr
 /// supports the scene with at most 300 unknowns; elsewhere nothing is checked.
 void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, double speed, int modes, MPI_Comm comm,
                           CampbellDiagram& diagram);

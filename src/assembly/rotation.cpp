@@ -92,12 +92,9 @@ void start_in_rotation(const Plan& plan, Model& model) {
   const Joint* hub = hub_of(plan.scene);
   if (!hub)
     throw InputError(where + ": is steady_rotation; expected exactly one driven or revolute joint to the ground");
-  int ranks = 1;
-  MPI_Comm_size(model.system->comm(), &ranks);
-  if (model.formulation == Formulation::cfr && (plan.scene.dimension == 2 || ranks > 1))
+  if (model.formulation == Formulation::cfr && plan.scene.dimension == 2)
     throw InputError(where +
-                     ": is steady_rotation, which formulation cfr has in space on one rank only; expected "
-                     "another formulation");
+                     ": is steady_rotation, which formulation cfr has in space only; expected another formulation");
   const auto j = static_cast<std::size_t>(hub - plan.scene.joints.data());
   solve::RotationAxis axis;
   axis.point = point_of(plan, j);

@@ -1,6 +1,8 @@
 #include "rotating_axes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "gather_to_all.h"
 
@@ -13,6 +15,29 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using petsc::check;
+
+std::vector<WorldFrame> world_frames(const System& system) {
+  std::vector<double> mine;
+  for (const auto& [first, attitude] : system.attitudes()) {
+    const Eigen::Quaterniond& q = attitude->base;
+    mine.insert(mine.end(), {double(system.coordinates().global()[first]), q.w(), q.x(), q.y(), q.z()});
+  }
+  int ranks = 1, count = static_cast<int>(mine.size());
+  MPI_Comm_size(system.comm(), &ranks);
+  std::vector<int> counts(ranks), offsets(ranks + 1, 0);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, system.comm());
+  std::partial_sum(counts.begin(), counts.end(), offsets.begin() + 1);
+  std::vector<double> all(offsets.back());
+  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, system.comm());
+  std::vector<WorldFrame> frames;
+  for (std::size_t i = 0; i < all.size(); i += 5)
+    frames.push_back({std::lround(all[i]), {all[i + 1], all[i + 2], all[i + 3], all[i + 4]}});
+  const auto before = [](const WorldFrame& a, const WorldFrame& b) { return a.x < b.x; };
+  const auto same = [](const WorldFrame& a, const WorldFrame& b) { return a.x == b.x; };
+  std::stable_sort(frames.begin(), frames.end(), before);
+  frames.erase(std::unique(frames.begin(), frames.end(), same), frames.end());
+  return frames;
+}
 
 namespace {
 
@@ -36,9 +61,9 @@ void add_planar(const RotatingSystem& rotating, double speed, const VectorXd& U,
 void add_spatial(const RotatingSystem& rotating, double speed, const VectorXd& U, RotatingMotion& out) {
   const Vector3d spin = speed * rotating.axis.direction;
   const Matrix3d W = math::skew(spin);
-  for (const auto& [first, attitude] : rotating.system.attitudes()) {
-    const Index x = global(rotating, first), R = global(rotating, first - 3);
-    const Vector3d omega = attitude->base.conjugate() * spin, arm = U.segment<3>(R) - rotating.axis.point;
+  for (const auto& [x, base] : world_frames(rotating.system)) {
+    const Index R = x - 3;
+    const Vector3d omega = base.conjugate() * spin, arm = U.segment<3>(R) - rotating.axis.point;
     const Matrix3d w = math::skew(omega);
     out.V.segment<3>(R) = W * arm, out.V.segment<3>(x) = omega;
     out.A.segment<3>(R) = W * W * arm;
@@ -101,13 +126,14 @@ MassScale mass_scale(const RotatingSystem& rotating, const MatrixXd& M) {
   MassScale scale{M.diagonal().cwiseMax(0).cwiseSqrt(), 0};
   for (int frame : rotating.planar_frames)
     scale.rotation = std::max(scale.rotation, scale.root[global(rotating, frame) + 2]);
-  for (const auto& [first, attitude] : rotating.system.attitudes())
-    scale.rotation = std::max(scale.rotation, scale.root.segment<3>(global(rotating, first)).maxCoeff());
+  for (const auto& [x, base] : world_frames(rotating.system))
+    scale.rotation = std::max(scale.rotation, scale.root.segment<3>(x).maxCoeff());
   if (scale.rotation == 0) scale.rotation = 1;
   return scale;
 }
 
-KeptState::KeptState(const System& system, Vec U) : system_(system), U_(system.create_vector()) {
+KeptState::KeptState(const System& system, Vec U)
+    : system_(system), U_(system.create_vector()), frames_(world_frames(system)) {
   check(VecCopy(U, U_));
   for (const auto& [first, attitude] : system.attitudes()) bases_.push_back(attitude->base);
 }
@@ -119,11 +145,9 @@ void KeptState::restore(Vec U) const {
 
 VectorXd KeptState::change_to(Vec U) const {
   VectorXd change = gather_to_all(system_, U) - gather_to_all(system_, U_);
-  for (std::size_t i = 0; i < bases_.size(); ++i) {
-    const auto& [first, attitude] = system_.attitudes()[i];
-    change.segment<3>(system_.coordinates().global()[first]) =
-        math::rotation_vector(bases_[i].conjugate() * attitude->base);
-  }
+  const std::vector<WorldFrame> now = world_frames(system_);
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    change.segment<3>(now[i].x) = math::rotation_vector(frames_[i].base.conjugate() * now[i].base);
   return change;
 }
 
@@ -133,11 +157,8 @@ void rotate(const RotatingSystem& rotating, double angle, Vec U) {
   VectorXd u = gather_to_all(system, U);
   const Eigen::Quaterniond E(Eigen::AngleAxisd(angle, rotating.axis.direction));
   const Vector3d& c = rotating.axis.point;
-  for (const auto& [first, attitude] : system.attitudes()) {
-    const Index R = global(rotating, first - 3);
-    u.segment<3>(R) = c + E * (u.segment<3>(R) - c);
-    attitude->base = (E * attitude->base).normalized();
-  }
+  for (const auto& [x, base] : world_frames(system)) u.segment<3>(x - 3) = c + E * (u.segment<3>(x - 3) - c);
+  for (const auto& [first, attitude] : system.attitudes()) attitude->base = (E * attitude->base).normalized();
   for (int frame : rotating.planar_frames) {
     const Index R = global(rotating, frame);
     u.segment<2>(R) = c.head<2>() + Eigen::Rotation2Dd(angle) * (u.segment<2>(R) - c.head<2>());
@@ -148,10 +169,8 @@ void rotate(const RotatingSystem& rotating, double angle, Vec U) {
 
 void rotation_rows(const RotatingSystem& rotating, double angle, Eigen::Ref<MatrixXd> rows) {
   const Matrix3d E = Eigen::AngleAxisd(angle, rotating.axis.direction).toRotationMatrix();
-  for (const auto& [first, attitude] : rotating.system.attitudes()) {
-    const Index R = global(rotating, first - 3);
-    rows.middleRows(R, 3) = (E * rows.middleRows(R, 3)).eval();
-  }
+  for (const auto& [x, base] : world_frames(rotating.system))
+    rows.middleRows(x - 3, 3) = (E * rows.middleRows(x - 3, 3)).eval();
   for (int frame : rotating.planar_frames) {
     const Index R = global(rotating, frame);
     rows.middleRows(R, 2) = (E.topLeftCorner<2, 2>() * rows.middleRows(R, 2)).eval();

@@ -5,6 +5,15 @@
 
 namespace floe::solve {
 
+/// A frame in space.
+struct WorldFrame {
+  Eigen::Index x;  ///< global index of the first of its three rotations; that of its place is three less
+  Eigen::Quaterniond base;
+};
+/// Frames of all ranks, each once, in the order of their indices: nodes of corotational bodies are frames that not
+/// every rank knows. Collective.
+std::vector<WorldFrame> world_frames(const System& system);
+
 /// What the rotation prescribes at a configuration whose attitudes are their own bases, by global index.
 struct RotatingMotion {
   /// A block of a matrix that has few: its rows and columns are those of three or two unknowns.
@@ -53,7 +62,8 @@ class KeptState {
  private:
   const System& system_;
   petsc::VecHandle U_;
-  std::vector<Eigen::Quaterniond> bases_;
+  std::vector<Eigen::Quaterniond> bases_;  // of those that this rank knows
+  std::vector<WorldFrame> frames_;
 };
 
 /// The whole scene rotated about the axis; bases take over the rotations of U. Collective.

@@ -39,6 +39,22 @@ class Case:
         self.codes = self.codes if isinstance(self.codes, tuple) else (self.codes,)
 
 
+# Strip of shells on a hub; its frequencies in cfr are those of one rank.
+BLADE = """
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [0.1, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.05, height: 0.05, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+  strip:
+    mesh: {plate: {origin: [0.1, -0.05, 0], along: [1, 0, 0], across: [0, 0.1, 0], elements: [8, 2]}}
+    section: {thickness: 2e-3}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+joints:
+  drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
+  weld: {type: fixed, between: [hub.end, strip.left]}
+"""
 MODAL = {"bodies.beam.damping": {"modal": [0.01]}}
 MEAN_DEFLECTION = {"bodies.beam.frame": "mean-axis", "probes.bend": {"at": "beam.middle", "quantity": "deflection"}}  # not in cfr
 
@@ -488,6 +504,9 @@ UNUSUAL = [
                                 ("a clamp", ["0,1", "--through", "0,0"], "joint clamp does not rotate with the scene"),
                                 ("no point", ["0,1", "--through", "here"], "--through: \"here\" is not a point"),
                                 ("cfr", ["0,1", "--formulation", "cfr"], "expected nlffr, lffr, vm or vm+md"))),
+    Case("campbell of corotational shells on several ranks", ["campbell", "scene.yaml", "--formulation", "cfr", "--speeds", "40",
+                                                              "--modes", "2", "-o", "out"], 0, shows=("45.9766", "123.576"),
+         scene=BLADE),
     Case("campbell of a scene that spins up", ["campbell", "scene.yaml", "--speeds", "1,2", "-o", "out"], 1,
          ("no steady rotation at 1 rad/s: a residual moment about the axis",), lines=1,
          scene=scene({"joints.clamp.type": "revolute",
