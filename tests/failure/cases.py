@@ -40,7 +40,7 @@ class Case:
 
 
 # Strip of shells on a hub; its frequencies in cfr are those of one rank.
-BLADE = """
+ROTATING_STRIP = """
 bodies:
   hub:
     rigid: true
@@ -506,7 +506,7 @@ UNUSUAL = [
                                 ("cfr", ["0,1", "--formulation", "cfr"], "expected nlffr, lffr, vm or vm+md"))),
     Case("campbell of corotational shells on several ranks", ["campbell", "scene.yaml", "--formulation", "cfr", "--speeds", "40",
                                                               "--modes", "2", "-o", "out"], 0, shows=("45.9766", "123.576"),
-         scene=BLADE),
+         scene=ROTATING_STRIP),
     Case("campbell of a scene that spins up", ["campbell", "scene.yaml", "--speeds", "1,2", "-o", "out"], 1,
          ("no steady rotation at 1 rad/s: a residual moment about the axis",), lines=1,
          scene=scene({"joints.clamp.type": "revolute",

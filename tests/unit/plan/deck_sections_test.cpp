@@ -121,7 +121,7 @@ TEST_CASE("springs of a deck are cells of two nodes, one part for each set of co
   two.nodes = {1, 2}, other.stiffness[5] = 8;
   file.deck.springs = {one, two, other};
   std::map<int, fem::Section> parts;
-  plan::add_springs(file, parts);
+  plan::add_springs(file.mesh, file.deck.springs, parts);
   REQUIRE(file.mesh.cells.size() == 3);
   CHECK(file.mesh.cell_count == 3);
   CHECK(file.mesh.cells[0].part == file.mesh.cells[1].part);
