@@ -140,10 +140,10 @@ class SpatialAssembly {
   Eigen::VectorXd start_;                                              // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::vector<std::shared_ptr<const reference::SpatialElements>> elements_;  // that are apart
-  std::vector<std::vector<const dynamics::Term*>> body_terms_;    // of each body, among terms_
-  Connections connections_;                                       // of the joints, among terms_
-  std::multimap<std::size_t, const dynamics::Term*> load_terms_;  // of those at places, among terms_
-  std::vector<int> undetermined_;                                 // joints whose multipliers are not determined
+  std::vector<std::vector<const dynamics::Term*>> body_terms_;               // of each body, among terms_
+  Connections connections_;                                                  // of the joints, among terms_
+  std::multimap<std::size_t, const dynamics::Term*> load_terms_;             // of those at places, among terms_
+  std::vector<int> undetermined_;  // joints whose multipliers are not determined
   std::map<std::string, JointSwitches> switches_;
 };
 

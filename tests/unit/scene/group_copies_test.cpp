@@ -192,7 +192,8 @@ TEST_CASE("copies of groups: faults of values are told once, at their own lines"
                              "did you mean \"fore\"?"));
   CHECK_THAT(fault_of(with(plane, "base: {rigid", "two_fore: {rigid")),
              Catch::Contains("copies body fore to two_fore, which exists"));
-  std::string many = with(plane, "copies:\n", "copies:\n  c0: {like: [upper], without: [elbow]}\n"), all = "upper, c0_upper";
+  std::string many = with(plane, "copies:\n", "copies:\n  c0: {like: [upper], without: [elbow]}\n"),
+              all = "upper, c0_upper";
   for (int i = 1; i < 12; ++i) {
     many += fmt::format("  c{}: {{like: [{}], without: [elbow]}}\n", i, all);
     std::string copies;

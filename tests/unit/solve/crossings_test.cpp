@@ -54,7 +54,8 @@ void check(const Told& told, const std::vector<std::pair<std::string, double>>& 
 
 TEST_CASE("a gap that closes and opens again is told of at both times, also within one step") {
   // within a step, over an end of a step, over several, from just before an end of a step to another
-  for (const auto& [a, b] : {std::pair(0.0231, 0.0275), {0.0285, 0.0321}, {0.0115, 0.0478}, {0.02 - 1e-8, 0.05 - 1e-8}}) {
+  for (const auto& [a, b] :
+       {std::pair(0.0231, 0.0275), {0.0285, 0.0321}, {0.0115, 0.0478}, {0.02 - 1e-8, 0.05 - 1e-8}}) {
     INFO(a << " to " << b);
     check(watch(between(a, b)), {{"hit", a}, {"left", b}}, b - a);
     check(watch(between(a, b, -3)), {{"left", a}, {"hit", b}}, 3 * (b - a));  // closed at first
