@@ -84,6 +84,10 @@ PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
   PetscFunctionReturn(0);
 }
 
+// Of the greatest weight: what is smaller is that of an unknown without mass or stiffness, as axes that accompany a
+// body.
+constexpr PetscReal round_off = 1e-20;
+
 void weigh(GeneralizedAlpha* data) {
   const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
   Changed weight(data->weight);
@@ -122,6 +126,8 @@ PetscErrorCode set_scales(TS ts) {
 
   PetscFunctionBegin;
   weigh(data);
+  PetscReal greatest;
+  PetscCall(VecMax(data->weight, nullptr, &greatest));
   const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
   Changed scale(data->scale);
   const PetscReal of_row = PetscSqrtReal(data->shift_a);
@@ -129,7 +135,7 @@ PetscErrorCode set_scales(TS ts) {
     if (dynamic[i] == 0)
       scale[i] = of_row * row[i];
     else
-      scale[i] = weight[i] > 0 ? 1 / PetscSqrtReal(weight[i]) : 1;
+      scale[i] = weight[i] > round_off * greatest ? 1 / PetscSqrtReal(weight[i]) : 1;
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);
