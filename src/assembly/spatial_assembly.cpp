@@ -362,7 +362,7 @@ Model SpatialAssembly::model() {
   model.coordinates = coordinates_.global_size() - model.multipliers;
   model.system = std::make_unique<dynamics::System>(std::move(coordinates_), std::move(terms_), std::move(attitudes));
   model.elements = std::move(elements_);
-  begin_motion(plan_, model);
+  if (!apart_) begin_motion(plan_, model);  // without elements there is neither mass nor stiffness
   return model;
 }
 

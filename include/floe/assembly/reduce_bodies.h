@@ -20,7 +20,8 @@ struct ReducedBody {
 body::PlaceMap place_map(const Plan& plan, const ReducedBody& reduced, const Anchor& place);
 
 /// The planned scene on its bodies in a formulation. @param reduced  as PlanarAssembly, SpatialAssembly
-/// @param apart  in space: elements of full-order bodies are not among the system's terms, but Model::elements.
+/// @param apart  in space: elements of full-order bodies are not among the system's terms, but Model::elements;
+/// its start is not made consistent.
 /// Collective.
 Model assemble(const Plan& plan, Formulation formulation, const std::vector<ReducedBody>& reduced, bool apart = false);
 

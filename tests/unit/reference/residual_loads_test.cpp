@@ -40,7 +40,7 @@ bodies:
     damping: {stiffness: 1e-4}
     initial: {position: [0, 1, 0]}
 joints:
-  root: {type: driven, between: [ground, arm.start], axis: [0, 0, 1], angle: "2*t^2"}
+  root: {type: driven, between: [ground, arm.start], axis: [0, 0, 1], angle: "2*t^2 + 0.5*t"}
   hinge: {type: revolute, between: [arm.end, flap.p1], axis: [0, 1, 0]}
   wall: {type: fixed, between: [ground, board.left]}
 motion: {end: 0.1, step: 1e-3}
