@@ -18,7 +18,7 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// What the points of a path have to say.
+/// Limit points, bifurcations and unstable directions of a path: summary and warnings.
 class PathReport {
  public:
   PathReport(const assembly::Model& model, RunResult& result) : model_(model), result_(result) {
@@ -32,6 +32,8 @@ class PathReport {
     const std::optional<int> unstable =
         limit ? std::nullopt : solve::unstable_directions(*model_.system, t, U, model_.V);
     json()["unstable_directions"].push_back(unstable ? ordered_json(*unstable) : ordered_json());
+    ++points_, unstable_ += unstable.value_or(0) > 0, unknown_ += !limit && !unstable;
+    if (unstable_ == 1 && unstable.value_or(0) > 0) first_unstable_ = t;
     if (limit) {
       add_limit(t, U);
       ++limits_;
@@ -50,6 +52,16 @@ class PathReport {
       result_.warnings.push_back(fmt::format(
           "limit points at t = {}{}: where a load goes beyond one the structure snaps to another equilibrium",
           fmt::join(some, ", "), count > most ? fmt::format(" and {} more (summary.json)", count - most) : ""));
+    if (unstable_ > 0)
+      result_.warnings.push_back(
+          fmt::format("{} of the {} points of the path are unstable equilibria, the first at t = {:.6g} "
+                      "(path.unstable_directions of summary.json): under constant loads the structure leaves them",
+                      unstable_, points_, first_unstable_));
+    if (unknown_ > 0)
+      result_.warnings.push_back(fmt::format(
+          "stability is not determined at {} of the {} points of the path: the tangent stiffness is not symmetric "
+          "(follower forces, pressures, moments) or is singular there; bifurcations at these points are not found",
+          unknown_, points_));
     const ordered_json& all = json()["bifurcations"];
     if (all.empty()) return;
     result_.warnings.push_back(fmt::format(
@@ -99,7 +111,9 @@ class PathReport {
   RunResult& result_;
   std::vector<std::string> limits_met_;
   std::optional<int> last_;
-  int limits_ = 0;  // since then
+  int limits_ = 0;                               // since then
+  int points_ = 0, unstable_ = 0, unknown_ = 0;  // unknown: no limit point, and no count of unstable directions
+  double first_unstable_ = 0;
   double t_ = 0;
 };
 
@@ -132,6 +146,7 @@ void follow_load_path(const assembly::Model& model, const LoadSteps& load, bool 
   const solve::PathEnd end =
       solve::follow_path(*model.system, t, {first, load.at, load.points, number}, model.U, model.V, observe);
   report.newton += end.iterations;
+  found.describe();
   found.conclude(end, load, report.end);
 }
 

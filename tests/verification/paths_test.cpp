@@ -49,6 +49,17 @@ probes: {apex: {at: a.end}}
               {{"h", number(h)}});
 }
 
+/// A clamped beam of length 1, EI = 1, under an axial force t with these settings.
+std::string strut(const std::string& settings) {
+  return fill(R"yaml(
+bodies: {beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}, section: {EA: 1e6, EI: 1, rhoA: 1}}}
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {push: {type: force, at: beam.end, force: [-t, 0]$settings}}
+probes: {tip: {at: beam.end}}
+)yaml",
+              {{"settings", settings}});
+}
+
 /// A roof of n x n quadrilaterals: 508 along its axis, radius 2540, half angle 0.1, E = 3102.75, nu = 0.3, every node
 /// of its straight edges held, its curved ones free, a force of 3000 t at its crown [N, mm].
 struct Roof {
@@ -147,16 +158,30 @@ TEST_CASE("path: the hinged cylindrical roof, thickness 6.35: snap-back") {
 
 // Beam of length 1, EI = 1, under an axial force: Euler's load.
 TEST_CASE("path: a bifurcation is reported with its location") {
-  const app::RunResult path = path_of(R"yaml(
-bodies: {beam: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 16}}, section: {EA: 1e6, EI: 1, rhoA: 1}}}
-joints: {clamp: {type: fixed, between: [ground, beam.start]}}
-loads: {push: {type: force, at: beam.end, force: [-t, 0]}}
-probes: {tip: {at: beam.end}}
-)yaml",
-                                      Formulation::cfr, 3, 30);
+  const app::RunResult path = path_of(strut(""), Formulation::cfr, 3, 30);
   const auto& bifurcations = path.summary["path"]["bifurcations"];
   REQUIRE(bifurcations.size() == 1);
   CHECK(bifurcations[0]["from"].get<double>() < M_PI * M_PI / 4);
   CHECK(bifurcations[0]["to"].get<double>() > M_PI * M_PI / 4);
   CHECK(limits_of(path).empty());
+}
+
+TEST_CASE("path: warnings name limit points, unstable points and bifurcations") {
+  const auto warned = [](const app::RunResult& result, const std::string& words) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(),
+                       [&](const std::string& one) { return one.find(words) != std::string::npos; });
+  };
+  const app::RunResult snap = path_of(truss(0.3), Formulation::cfr, 20, 20);
+  const auto& counts = snap.summary["path"]["unstable_directions"];
+  const auto unstable =
+      std::count_if(counts.begin(), counts.end(), [](const auto& one) { return one.is_number() && one > 0; });
+  REQUIRE(unstable > 0);
+  CHECK(warned(snap, fmt::format("limit points at t = {:.6g} (apex.y = ", limits_of(snap).at(0))));
+  CHECK(warned(snap, fmt::format("{} of the {} points of the path are unstable", unstable, counts.size())));
+  CHECK_FALSE(warned(snap, "stability is not determined"));
+  CHECK(warned(path_of(strut(""), Formulation::cfr, 3, 30), "the path passes a bifurcation between t = "));
+  // A follower force: the tangent is not symmetric.
+  const app::RunResult follower = path_of(strut(", axes: place"), Formulation::cfr, 3, 5);
+  CHECK(warned(follower, "stability is not determined at "));
+  CHECK_FALSE(warned(follower, "unstable equilibria"));
 }
