@@ -74,18 +74,42 @@ class PathEquations {
     return solve_one(rate_, s.a) && solve_one(F_, s.b);
   }
 
+  /// The greatest |J^-1 (F(t + d) - F(t))| / |d|, with J and F of the last point solved for: over the first step and
+  /// tenths of the way to the end. Loads that begin smoothly (dF/dt = 0) have one, too. Collective.
+  double greatest_chord(const PathVector& x, double first, double end) {
+    constexpr int samples = 10;
+    const petsc::VecHandle chord = system_.create_vector();
+    double most = 0;
+    for (int k = 0; k <= samples; ++k) {
+      const double d = k == 0 ? std::copysign(first, end - x.t) : (end - x.t) * k / samples;
+      double size = 0;
+      if (!residual_at(x.t + d, x.U, rate_)) continue;
+      check(VecAXPY(rate_, 1, F_));  // F_ is -F(t)
+      check(VecScale(rate_, 1 / d));
+      check(VecNorm(rate_, NORM_INFINITY, &size));
+      if (std::isfinite(size) && solve_one(rate_, chord)) most = std::max(most, weighted_size(chord, weights_));
+    }
+    return most;
+  }
+
  private:
-  /// F a little before t, or at t where loads have no value before. @return  how much before
-  double residual_below(const PathVector& x) {
+  /// @return  false where loads have no value
+  bool residual_at(double t, Vec U, Vec F) {
     try {
-      system_.residual(x.t - interval_, x.U, V_, A_, ConstraintLevel::position, F_);
-      return interval_;
+      system_.residual(t, U, V_, A_, ConstraintLevel::position, F);
+      return true;
     } catch (const petsc::Error&) {
       throw;
     } catch (const std::runtime_error&) {
-      system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
-      return 0;
+      return false;
     }
+  }
+
+  /// F a little before t, or at t where loads have no value before. @return  how much before
+  double residual_below(const PathVector& x) {
+    if (residual_at(x.t - interval_, x.U, F_)) return interval_;
+    system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
+    return 0;
   }
 
   bool solve_one(Vec right, Vec x) {
@@ -159,7 +183,8 @@ class PathFollower {
 
   void start() {
     if (!equations_.solve(now_.at, solutions_)) throw nothing_holds();
-    const double rate = weighted_size(solutions_.a, weights_);
+    const double rate = std::max(weighted_size(solutions_.a, weights_),
+                                 equations_.greatest_chord(now_.at, request_.first, request_.end));
     equations_.beta = rate > 0 ? rate : 1;
     check(VecCopy(solutions_.a, now_.direction.U));
     now_.direction.t = 1;
@@ -257,12 +282,13 @@ class PathFollower {
     return std::acos(std::min(1., std::abs(along)));
   }
 
-  /// Where dt/ds has changed its sign within the step: the point where it vanishes, by regula falsi (Illinois); the end
-  /// of the step stands where Newton's method fails.
+  /// Where dt/ds has changed its sign within the step: the point where it vanishes, to 1e-6 of its greater value at the
+  /// ends of the step, by regula falsi (Illinois). Where Newton's method fails, the point found last is kept.
   void refine_limit(PathState& next) {
     double low = 0, high = taken_, f_low = now_.direction.t, f_high = next.direction.t;
+    const double small = 1e-6 * std::max(std::abs(f_low), std::abs(f_high));
     int last = 0;
-    for (int i = 0; i < 30 && std::abs(equations_.beta * next.direction.t) > 1e-6; ++i) {
+    for (int i = 0; i < 30 && std::abs(next.direction.t) > small; ++i) {
       const double s = (low * f_high - high * f_low) / (f_high - f_low);
       std::string why;
       Tried tried = correct(s, why);

@@ -29,8 +29,8 @@ std::vector<double> limits_of(const app::RunResult& result) {
   return loads;
 }
 
-/// Two hinged bars of half span 1 and rise h, EA = 1000, that a force t pushes through at their apex.
-std::string truss(double h) {
+/// Two hinged bars of half span 1 and rise h, EA = 1000, that a force pushes through at their apex.
+std::string truss(double h, const std::string& force = "-t") {
   return fill(R"yaml(
 bodies:
   a:
@@ -43,11 +43,17 @@ joints:
   left: {type: revolute, between: [ground, a.start]}
   apex: {type: revolute, between: [a.end, b.start]}
   right: {type: revolute, between: [ground, b.end]}
-loads: {push: {type: force, at: a.end, force: [0, -t]}}
+loads: {push: {type: force, at: a.end, force: [0, "$force"]}}
 probes: {apex: {at: a.end}}
 )yaml",
-              {{"h", number(h)}});
+              {{"h", number(h)}, {"force", force}});
 }
+
+/// The force at its apex where that is x above the supports. Engineering strain of straight bars:
+/// P = 2 EA (l0 - l)/l0 x/l, l^2 = 1 + x^2; maximum and minimum at l^3 = l0.
+double truss_load(double h, double x) { return 2e3 * (1 - std::hypot(1, x) / std::hypot(1, h)) * x / std::hypot(1, x); }
+
+double truss_limit(double h) { return truss_load(h, std::sqrt(std::pow(std::hypot(1, h), 2. / 3) - 1)); }
 
 /// A clamped beam of length 1, EI = 1, under an axial force t with these settings.
 std::string strut(const std::string& settings) {
@@ -99,12 +105,8 @@ struct Roof {
 
 }  // namespace
 
-// Engineering strain of straight bars: P = 2 EA (l0 - l)/l0 x/l, x the height of the apex, l^2 = 1 + x^2; maximum and
-// minimum at l^3 = l0.
 TEST_CASE("path: von Mises' truss through both limit points, every point against the closed form") {
-  const double h = GENERATE(0.05, 0.3), EA = 1e3, l0 = std::hypot(1, h);
-  const auto load = [&](double x) { return 2 * EA * (1 - std::hypot(1, x) / l0) * x / std::hypot(1, x); };
-  const double limit = load(std::sqrt(std::pow(l0, 2. / 3) - 1));
+  const double h = GENERATE(0.05, 0.3), limit = truss_limit(h);
   for (const Formulation formulation : {Formulation::cfr, Formulation::nlffr, Formulation::vm_md}) {
     INFO(h << " " << scene::name_of(formulation));
     const bool exact = formulation == Formulation::cfr || h < 0.1;
@@ -112,7 +114,7 @@ TEST_CASE("path: von Mises' truss through both limit points, every point against
     const std::vector<double> y = column(path, "apex.y"), limits = limits_of(path);
     REQUIRE(path.series.t.size() > 30);
     for (std::size_t i = 0; i < y.size(); ++i)
-      CHECK(path.series.t[i] == Approx(load(h + y[i])).margin((exact ? 1e-4 : 1e-2) * limit));
+      CHECK(path.series.t[i] == Approx(truss_load(h, h + y[i])).margin((exact ? 1e-4 : 1e-2) * limit));
     REQUIRE(limits.size() == 2);
     CHECK(limits[0] == Approx(limit).epsilon(exact ? 1e-5 : 1e-2));
     CHECK(limits[1] == Approx(-limit).epsilon(exact ? 1e-5 : 1e-2));
@@ -184,4 +186,29 @@ TEST_CASE("path: warnings name limit points, unstable points and bifurcations") 
   const app::RunResult follower = path_of(strut(", axes: place"), Formulation::cfr, 3, 5);
   CHECK(warned(follower, "stability is not determined at "));
   CHECK_FALSE(warned(follower, "unstable equilibria"));
+}
+
+// Near t = 0 the load is constant: dF/dt gives no scale.
+TEST_CASE("path: loads and drives that begin smoothly") {
+  const double h = 0.3;
+  const app::RunResult ramp = path_of(truss(h, "-8*smooth(t, 0, 1)"), Formulation::cfr, 1, 20);
+  const std::vector<double> y = column(ramp, "apex.y");
+  REQUIRE(ramp.summary["path"]["at_end"] == true);
+  CHECK(y.size() < 60);
+  CHECK(truss_load(h, h + y.back()) == Approx(8).epsilon(1e-5));
+  CHECK(limits_of(ramp).empty());
+
+  const app::RunResult cube = path_of(truss(h, "-100*t^3 - 1e-4*t"), Formulation::cfr, 1, 20);
+  const std::vector<double> limits = limits_of(cube);
+  REQUIRE(limits.size() == 2);
+  for (const double t : limits) CHECK(std::abs(100 * t * t * t + 1e-4 * t) == Approx(truss_limit(h)).epsilon(1e-5));
+
+  const app::RunResult arm = path_of(R"yaml(
+bodies: {arm: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}, section: {EA: 1e4, EI: 10, rhoA: 1}}}
+joints: {motor: {type: driven, between: [ground, arm.start], angle: "0.9*smooth(t, 0, 1)"}}
+probes: {tip: {at: arm.end, quantity: position}}
+)yaml",
+                                     Formulation::cfr, 1, 10);
+  REQUIRE(arm.summary["path"]["at_end"] == true);
+  CHECK(column(arm, "tip.y").back() == Approx(std::sin(0.9)).epsilon(1e-9));
 }

@@ -31,12 +31,14 @@ struct PathEnd {
 /// The path F(t(s), U(s), V, 0) = 0 from an equilibrium (t, U) on, past points where t has a maximum or a minimum
 /// (snap-through) and turns (snap-back), by steps of the length s:
 ///
-///   ds^2 = sum_i M_ii dU_i^2 + beta^2 dt^2,   beta = |J^-1 dF/dt| at the start
+///   ds^2 = sum_i M_ii dU_i^2 + beta^2 dt^2,   beta = max_d |J^-1 (F(t + d) - F(t))| / d at the start
 ///
+/// over increments d up to the end and dF/dt itself: a scale of displacements for loads that begin smoothly, too.
 /// Predictor along the tangent (-J^-1 dF/dt, 1), corrected by Newton's method in the plane normal to it; both equations
 /// are solved with one factor of J (prefix static_). The direction is that which continues the last step. A step is
 /// halved where the corrector fails or goes further than half the step, and where the tangent turns by more than
-/// half a radian; down to 1e-4 of the length of the first one. Limit points are found to dt/ds = 1e-6 / beta.
+/// half a radian; down to 1e-4 of the length of the first one. Limit points are found to 1e-6 of the dt/ds at the
+/// ends of their step.
 ///
 /// The path passes bifurcations on its own branch, as far as its steps are longer than what imperfections round off.
 /// Sources: Keller 1977; Crisfield 1981; Ramm 1981.
