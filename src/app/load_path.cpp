@@ -141,7 +141,7 @@ void follow_load_path(const assembly::Model& model, const LoadSteps& load, bool 
     report.newton += solve::follow_equilibrium(*model.system, 0, first, load.at / 1000, model.U, model.V,
                                                [](const solve::BranchJump&, Vec, Vec) {});
     t = first, number = 1;
-    observe({1, t, false, false}, model.U);
+    observe({1, t, false, load.steps == 1 || load.points == 1}, model.U);
   }
   const solve::PathEnd end =
       solve::follow_path(*model.system, t, {first, load.at, load.points, number}, model.U, model.V, observe);

@@ -18,7 +18,7 @@ using petsc::check;
 namespace {
 
 constexpr int most_iterations = 15, good_iterations = 4;
-constexpr double good_turn = 0.15, most_turn = 0.5;  // of the tangent within a step [rad]
+constexpr double good_turn = 0.15, most_turn = 0.5;  // of tangent and chord within a step [rad]
 constexpr double least_share = 1e-4;                 // of the length of the first step
 
 /// A vector and the t that goes with it: a point of the path or a direction.
@@ -163,6 +163,8 @@ class PathFollower {
   }
 
   PathEnd go() {
+    end_.at_end = now_.at.t == request_.end;
+    if (end_.at_end) return end_;
     start();
     while (end_.points < request_.most && !end_.at_end && !end_.closed) {
       PathState next = step();
@@ -252,7 +254,7 @@ class PathFollower {
         return {};
       }
       if (size <= 1e-9 * length || (size <= 1e-6 * length && size >= 0.5 * last)) {
-        tried.turn = point_on(next.direction);
+        tried.turn = point_on(next);
         tried.state = std::move(next);
         return tried;
       }
@@ -271,15 +273,24 @@ class PathFollower {
     check(VecWAXPY(change.U, change.t, solutions_.a, solutions_.b));
   }
 
-  /// The direction at the last point of Newton's method, on from the present one. @return  the angle between them
-  double point_on(PathVector& direction) const {
+  /// The direction at the last point of Newton's method, on from the present one. @return  the rotation of the tangent
+  /// [rad], or twice the angle between the chord and one of the tangents, whichever is greater: all are the same on an
+  /// arc of a circle; the chord to another branch differs from tangents that agree
+  double point_on(PathState& next) const {
+    PathVector& direction = next.direction;
     check(VecCopy(solutions_.a, direction.U));
     direction.t = 1;
     const double size = equations_.size(direction), along = equations_.product(direction, now_.direction) / size,
                  scale = std::copysign(1 / size, along);
     check(VecScale(direction.U, scale));
     direction.t = scale;
-    return std::acos(std::min(1., std::abs(along)));
+    PathVector chord = equations_.vector();
+    set_to(chord, next.at);
+    add_to(chord, -1, now_.at);
+    const double length = equations_.size(chord);
+    const auto angle = [](double cosine) { return std::acos(std::clamp(cosine, -1., 1.)); };
+    return std::max({angle(std::abs(along)), 2 * angle(equations_.product(chord, now_.direction) / length),
+                     2 * angle(equations_.product(chord, direction) / length)});
   }
 
   /// Where dt/ds has changed its sign within the step: the point where it vanishes, to 1e-6 of its greater value at the

@@ -212,3 +212,30 @@ probes: {tip: {at: arm.end, quantity: position}}
   REQUIRE(arm.summary["path"]["at_end"] == true);
   CHECK(column(arm, "tip.y").back() == Approx(std::sin(0.9)).epsilon(1e-9));
 }
+
+// Limit load 9.53: the first step leads beyond the far branch at the same t.
+TEST_CASE("path: first steps longer than the way to the limit point") {
+  const double h = 0.3;
+  for (const double at : {100., 1000., 10000.}) {
+    INFO(at);
+    const app::RunResult path = path_of(truss(h), Formulation::cfr, at, 10);
+    const std::vector<double> limits = limits_of(path);
+    REQUIRE(limits.size() == 2);
+    CHECK(limits[0] == Approx(truss_limit(h)).epsilon(1e-5));
+    CHECK(limits[1] == Approx(-truss_limit(h)).epsilon(1e-5));
+  }
+}
+
+// There is no equilibrium at t = 0: the path begins at the first increment, which is the end.
+TEST_CASE("path: one step of a mechanism that its load holds") {
+  const app::RunResult path = path_of(R"yaml(
+bodies: {arm: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}, section: {EA: 1e4, EI: 10, rhoA: 1}}}
+joints: {pin: {type: revolute, between: [ground, arm.start]}}
+loads: {pull: {type: force, at: arm.end, force: [0, -t]}}
+probes: {tip: {at: arm.end, quantity: position}}
+)yaml",
+                                      Formulation::cfr, 1, 1);
+  CHECK(path.series.t == std::vector<double>{1});
+  CHECK(path.summary["path"]["at_end"] == true);
+  CHECK(column(path, "tip.y").back() == Approx(-1.0001).epsilon(1e-6));
+}

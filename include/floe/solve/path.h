@@ -37,7 +37,8 @@ struct PathEnd {
 /// Predictor along the tangent (-J^-1 dF/dt, 1), corrected by Newton's method in the plane normal to it; both equations
 /// are solved with one factor of J (prefix static_). The direction is that which continues the last step. A step is
 /// halved where the corrector fails or goes further than half the step, and where the tangent turns by more than
-/// half a radian; down to 1e-4 of the length of the first one. Limit points are found to 1e-6 of the dt/ds at the
+/// half a radian, or the chord differs from it at either end by more than a quarter (on another branch tangents may
+/// agree, but not with the chord); down to 1e-4 of the length of the first one. Limit points are found to 1e-6 of the dt/ds at the
 /// ends of their step.
 ///
 /// The path passes bifurcations on its own branch, as far as its steps are longer than what imperfections round off.
