@@ -20,6 +20,7 @@ namespace {
 constexpr int most_iterations = 15, good_iterations = 4;
 constexpr double good_turn = 0.15, most_turn = 0.5;  // of tangent and chord within a step [rad]
 constexpr double least_share = 1e-4;                 // of the length of the first step
+constexpr double least_first = 1e-8;                 // of the length tried first, for the first step
 
 /// A vector and the t that goes with it: a point of the path or a direction.
 struct PathVector {
@@ -154,7 +155,7 @@ class PathFollower {
         request_(request),
         U_(U),
         weights_(root_masses(system, t, U, V)),
-        equations_(system, 1e-3 * request.first, V, weights_),
+        equations_(system, 1e-5 * request.first, V, weights_),
         observe_(observe),
         solutions_{system.create_vector(), system.create_vector()} {
     now_.at = equations_.vector(), now_.direction = equations_.vector();
@@ -200,24 +201,32 @@ class PathFollower {
   /// The next point, by the longest step that converges.
   PathState step() {
     std::string why;
-    for (; length_ >= least_share * first_; length_ /= 2) {
+    const bool begins = end_.points == request_.number && !rough_start_;
+    const double least = (begins ? least_first : least_share) * first_;
+    for (; length_ >= least; length_ /= 2) {
       const double most = 1.0001 * request_.first / std::max(std::abs(now_.direction.t), 1e-300);
       length_ = std::min(length_, most);
       try {
-        Tried tried = correct(length_, why);
+        const bool shortest = !begins && length_ < 2 * least;  // at a kink of the path
+        Tried tried = correct(length_, why, shortest ? 4 : 0.5);
         if (!tried.state) continue;
-        const bool shortest = length_ < 2 * least_share * first_;
         if (tried.turn > most_turn && !shortest) continue;
         taken_ = length_;
         length_ *= std::clamp(
             std::min(good_turn / std::max(tried.turn, 1e-3), std::sqrt(double(good_iterations) / tried.iterations)),
             0.5, 2.);
+        if (begins) first_ = taken_;
+        length_ = std::max(length_, least_share * first_);
         return std::move(*tried.state);
       } catch (const petsc::Error&) {
         throw;
       } catch (const std::runtime_error& error) {  // also of formulas
         why = error.what();
       }
+    }
+    if (begins) {  // a load of infinite rate at the start, sqrt(t): a step as at a kink
+      rough_start_ = true, length_ = 1.9 * least_share * first_;
+      return step();
     }
     throw RunError(
         fmt::format("the path of equilibria cannot be followed beyond t = {:.6g} (point {}): steps down to {:.0e} of "
@@ -232,8 +241,9 @@ class PathFollower {
     double turn = 0;
   };
 
-  /// Newton's method from the predictor of a step, in the plane across the direction.
-  Tried correct(double length, std::string& why) {
+  /// Newton's method from the predictor of a step, in the plane across the direction, no further away from it than this
+  /// share of the length.
+  Tried correct(double length, std::string& why, double most_away = 0.5) {
     PathState next = state();
     set_to(next.at, now_.at);
     add_to(next.at, length, now_.direction);
@@ -249,7 +259,7 @@ class PathFollower {
       correction(change);
       add_to(next.at, 1, change), add_to(away, 1, change);
       const double size = equations_.size(change), gone = equations_.size(away);
-      if (!(gone <= 0.5 * length)) {
+      if (!(gone <= most_away * length)) {
         why = "Newton's method leaves the path";
         return {};
       }
@@ -380,6 +390,7 @@ class PathFollower {
   PathEnd end_;
   std::vector<std::pair<PathVector, double>> limits_;  // with the length of the path up to them
   double first_ = 0, length_ = 0, taken_ = 0, travelled_ = 0;
+  bool rough_start_ = false;
   double side_ = 1;  // sign of dt/ds behind the last point
 };
 

@@ -38,7 +38,8 @@ struct PathEnd {
 /// are solved with one factor of J (prefix static_). The direction is that which continues the last step. A step is
 /// halved where the corrector fails or goes further than half the step, and where the tangent turns by more than
 /// half a radian, or the chord differs from it at either end by more than a quarter (on another branch tangents may
-/// agree, but not with the chord); down to 1e-4 of the length of the first one. Limit points are found to 1e-6 of the dt/ds at the
+/// agree, but not with the chord); down to 1e-4 of the length of the first one (the first itself to 1e-8 of the
+/// increment asked for); the shortest passes a kink of the path. Limit points are found to 1e-6 of the dt/ds at the
 /// ends of their step.
 ///
 /// The path passes bifurcations on its own branch, as far as its steps are longer than what imperfections round off.
