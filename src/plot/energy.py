@@ -40,8 +40,9 @@ def draw(run, path, dpi):
         panel.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
     panels[0].legend(frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=2.6)
     panels[-1].set_xlabel(run.time_label)
-    if t[-1] > t[0]:
-        panels[-1].set_xlim(t[0], t[-1])
+    first, last = min(t), max(t)  # of a path of equilibria t also falls
+    if last > first:
+        panels[-1].set_xlim(first, last)
     figure.suptitle(f"{run.title}: {run.summary.get('label', '')}", fontsize=11)
     figure.align_ylabels(panels)
     save(figure, path, dpi)
