@@ -147,7 +147,8 @@ RunResult rest(const scene::Scene& given, scene::Formulation formulation, MPI_Co
     for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);
     if (load.path) {
       result.estimate.none =
-          "a path of equilibria has none: beyond limit points the full-order model has other ones at the same t";
+          "a path of equilibria is not estimated: beyond limit points the full-order model has several equilibria at "
+          "the same t";
     } else if (estimate) {
       const output::Waiting waiting(comm, "estimating the error");
       result.estimate = assess::estimate_error_at_rest(
