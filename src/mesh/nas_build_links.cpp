@@ -54,7 +54,16 @@ void NasBuild::free_rotations() {
       if (found == rotations.end() || (found->second.other.empty() && found->second.beams.empty())) continue;
       const auto& [beams, other] = found->second;
       if (other.empty() && beams.size() == 1 && link.holds == "123") {
-        released_[beams[0].first] |= 0x38u << (6 * beams[0].second);
+        const auto [b, end] = beams[0];
+        const NasBeam& beam = model_.beams[b];
+        const Eigen::Vector3d& offset = beam.offsets[static_cast<std::size_t>(end)];
+        if (offset.isZero(0))
+          released_[b] |= 0x38u << (6 * end);
+        else  // the ball joint is at the grid, the released end is not
+          faults_.add(link.where,
+                      fmt::format("{}: holds 123 of grid {}, at the end of beam {} with the offset ({:.6g}, "
+                                  "{:.6g}, {:.6g}); expected 123456, or no offset",
+                                  link.name, grid, beam.id, offset.x(), offset.y(), offset.z()));
         continue;
       }
       faults_.add(link.where,
