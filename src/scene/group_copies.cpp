@@ -15,6 +15,7 @@ namespace floe::scene {
 namespace {
 
 using Named = std::vector<std::pair<YAML::Node, YAML::Node>>;
+using Names = std::map<std::string, std::set<std::string>>;  // by section
 
 /// The keys and values of a mapping, as they are now.
 Named entries_of(const YAML::Node& map) {
@@ -44,6 +45,14 @@ std::string body_of(const YAML::Node& place) {
   return "";
 }
 
+/// Names of all that can be copied, as the scene is now.
+Names all_names(const YAML::Node& root) {
+  Names all;
+  for (const char* section : {"bodies", "joints", "loads", "probes"})
+    for (const std::string& name : names_of(entries_of(root, section))) all[section].insert(name);
+  return all;
+}
+
 std::string scalar(const YAML::Node& entry, const char* key) {
   return entry[key] && entry[key].IsScalar() ? entry[key].Scalar() : "";
 }
@@ -58,14 +67,21 @@ Eigen::Matrix3d exact(Eigen::Matrix3d R) {
 /// One entry of `copies`.
 class GroupCopy {
  public:
-  GroupCopy(Document& document, const YAML::Node& root, const Entry& entry, const YAML::Node& key)
-      : document_(document), root_(root), name_(entry.name), where_(entry.where), key_(key) {
+  /// @param own  names of what the scene gives itself
+  GroupCopy(Document& document, const YAML::Node& root, const Entry& entry, const YAML::Node& key, const Names& own)
+      : document_(document),
+        root_(root),
+        name_(entry.name),
+        where_(entry.where),
+        key_(key),
+        own_(own),
+        existing_(all_names(root)) {
+    if (!readable_in_formulas(name_))
+      document.fault(where_, "is not a valid name in formulas", "letters, digits and _, not starting with a digit");
     Reading reading(document, entry.value, "copy");
     if (const auto like = reading.value("like")) bodies_ = read_names(*like, reading.key("like"), {"bodies"});
     if (const auto without = reading.value("without"))
       without_ = read_names(*without, reading.key("without"), {"joints", "loads", "probes"});
-    for (const char* section : {"bodies", "joints", "loads", "probes"})
-      for (const std::string& name : names_of(entries_of(root_, section))) existing_[section].insert(name);
     motion_.dimension = document.dimension;
     if (reading.given("position")) motion_.p = Eigen::Vector3d(reading.point("position").data());
     if (document.dimension == 2)
@@ -123,14 +139,19 @@ class GroupCopy {
 
   std::string renamed(const std::string& name) const { return name_ + "_" + name; }
 
-  /// The copy of an entry; one that the scene has by that name replaces it.
+  /// The copy of an entry; one that the scene gives itself by that name replaces it, unless it is a body.
   void write(const std::string& section, const YAML::Node& key, const YAML::Node& original) {
     const std::string name = key.Scalar();
     if (section != "bodies" && without_.count(name)) return;
     copied_[section].insert(name);
     if (existing_[section].count(renamed(name))) {
-      if (section == "bodies")
-        document_.fault(where_, fmt::format("copies body {} to {}, which exists", name, renamed(name)), "another name");
+      if (const auto own = own_.find(section);
+          section == "bodies" || own == own_.end() || !own->second.count(renamed(name)))
+        document_.fault(
+            where_,
+            fmt::format("copies {} {} to {}, which exists",
+                        section == "bodies" ? "body" : section.substr(0, section.size() - 1), name, renamed(name)),
+            "another name");
       return;
     }
     const std::size_t before = document_.fault_count();
@@ -230,10 +251,18 @@ class GroupCopy {
       return copy;
     }
     if (body == "ground" && place.IsScalar()) return place;
-    if (place.IsMap() && place["node"] && (body == "ground" || existing_.at("bodies").count(body)))
-      return moved_point(place, body);
-    document_.fault(document_.place_of(place.Mark(), path),
-                    fmt::format("{}, on a body that {} does not copy", shown(place), "copies." + name_),
+    const Where where = document_.place_of(place.Mark(), path);
+    if (!body.empty() && body != "ground" && !existing_["bodies"].count(body)) {
+      std::vector<std::string> known(existing_["bodies"].begin(), existing_["bodies"].end());
+      known.push_back("ground");
+      document_.fault(
+          where, fmt::format("there is no body \"{}\"", body),
+          fmt::format("one of {}", fmt::join(known.begin(), known.begin() + std::min<long>(known.size(), 20), ", ")),
+          body, known);
+      return place;
+    }
+    if (place.IsMap() && place["node"] && !body.empty()) return moved_point(place, body);
+    document_.fault(where, fmt::format("{}, on a body that {} does not copy", shown(place), "copies." + name_),
                     fmt::format("coordinates of the place, as {{body: {}, node: [..]}}; an entry {} beside {}, which "
                                 "replaces its copy; or {} in copies.{}.without",
                                 body.empty() ? "BODY" : body, renamed(owner), owner, owner, name_));
@@ -281,7 +310,8 @@ class GroupCopy {
   YAML::Node key_;
   std::set<std::string> bodies_, without_;
   GroupMotion motion_;
-  std::map<std::string, std::set<std::string>> copied_, existing_;  // by section: names of originals; all names
+  const Names& own_;
+  Names copied_, existing_;  // names of originals; of all before this copy
   RenamedSensors sensors_;
 };
 
@@ -303,12 +333,13 @@ void write_out_groups(Document& document, YAML::Node root) {
   const Key& key = schema_section("scene").key("copies");
   const Where where = document.place_of(copies.Mark(), "copies");
   const std::vector<Entry> entries = read_mapping(document, {copies, where}, describe(key));
+  const Names own = all_names(root);
   for (const Entry& entry : entries) {
     YAML::Node name;
     for (const auto& candidate : copies)
       if (candidate.first.IsScalar() && candidate.first.Scalar() == entry.name) name.reset(candidate.first);
     const std::size_t before = document.fault_count();
-    GroupCopy copy(document, root, entry, name);
+    GroupCopy copy(document, root, entry, name, own);
     if (document.fault_count() == before) copy.write_out();
     if (too_many(root)) return document.fault(entry.where, "makes more than 2000 bodies", "fewer copies");
   }

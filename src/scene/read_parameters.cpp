@@ -5,21 +5,18 @@
 #include "readers.h"
 
 namespace floe::scene {
-namespace {
 
-bool identifier(const std::string& name) {
+bool readable_in_formulas(const std::string& name) {
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; };
   return !name.empty() && letter(name[0]) && name.size() <= 100 && std::all_of(name.begin(), name.end(), [&](char c) {
     return letter(c) || std::isdigit(static_cast<unsigned char>(c));
   });
 }
 
-}  // namespace
-
 bool check_name(Document& document, const Where& where, const std::string& name) {
   auto reserved = math::formula_names();
   for (const char* variable : {"t", "x", "y", "z"}) reserved.push_back(variable);
-  if (!identifier(name))
+  if (!readable_in_formulas(name))
     document.fault(where, "is not a valid name in formulas", "letters, digits and _, not starting with a digit");
   else if (std::count(reserved.begin(), reserved.end(), name))
     document.fault(where, "is reserved in formulas", "another name");

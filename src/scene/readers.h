@@ -41,6 +41,8 @@ void place_probes(Document& document, Scene& scene);
 void place_loads(Document& document, Scene& scene);
 void read_parameters(Document& document, const Value& value);
 void read_functions(Document& document, const Value& value);
+/// Whether formulas can read a name, or the first part of one: letters, digits and _, not starting with a digit.
+bool readable_in_formulas(const std::string& name);
 /// Whether formulas may know a parameter or function by this name; else a fault.
 bool check_name(Document& document, const Where& where, const std::string& name);
 

@@ -163,6 +163,32 @@ TEST_CASE("copies of groups: an entry of the scene replaces its copy; values fol
   CHECK(scene::offline_inputs(text, "scene", {{"a", 0.1}}) != scene::offline_inputs(text, "scene", {{"a", 0.2}}));
 }
 
+TEST_CASE("copies of groups: names that formulas can read, of entries that exist once") {
+  for (const std::string name : {"two-b", "2", "\"\"", "two.x", "t wo"})
+    CHECK_THAT(
+        fault_of(with(plane, "two: {like", name + ": {like")),
+        Catch::Contains("is not a valid name in formulas; expected letters, digits and _, not starting with a digit"));
+  CHECK_THAT(fault_of(with(plane, "two: {like", "2: {like")), Catch::Contains("scene:30:3: copies.2: is not"));
+  // a_ of b_alone is a_b_alone, as a_b_ of alone
+  const std::string both =
+      with(plane, "  two: {like: [upper, fore], angle: a, position: [0.5, 0.25], without: [own]}\n",
+           "  a: {like: [c]}\n  a_b: {like: [base], without: [rope]}\n");
+  const auto clash = [&](const std::string& at, const std::string& entry) {
+    return fault_of(
+        with(with(both, "  base: {rigid", "  c: {rigid: {mass: 1, centre: [0, 0], inertia: 1}}\n  base: {rigid"), at,
+             at + entry));
+  };
+  CHECK(clash("copies:\n", "") == "");
+  CHECK_THAT(clash("joints:\n", "  b_alone: {type: spring, between: [ground, c.centre], stiffness: 3}\n"),
+             Catch::Contains("copies.a_b: copies joint alone to a_b_alone, which exists; expected another name"));
+  CHECK_THAT(clash("probes:\n", "  b_base: {at: c.centre}\n"),
+             Catch::Contains("copies.a_b: copies probe base to a_b_base, which exists"));
+  CHECK_THAT(clash("loads:\n",
+                   "  b_k: {type: force, at: c.centre, force: [1, 1]}\n  k: {type: force, at: base.centre, "
+                   "force: [1, 1]}\n"),
+             Catch::Contains("copies.a_b: copies load k to a_b_k, which exists"));
+}
+
 TEST_CASE("copies of groups: written out, with nodes of their own") {
   const scene::Scene scene = parse_scene(plane, "scene");
   YAML::Node root = scene::load_resolved(scene);
@@ -187,6 +213,9 @@ TEST_CASE("copies of groups: faults of values are told once, at their own lines"
              Catch::Contains("scene:14:34: joints.rope.between: is \"base.centre\", on a body that copies.two does not "
                              "copy; expected coordinates of the place, as {body: base, node: [..]}; an entry "
                              "two_rope beside rope, which replaces its copy; or rope in copies.two.without"));
+  CHECK_THAT(fault_of(with(plane, "{body: base, node: [1, 0]}", "{body: bas, node: [1, 0]}")),
+             Catch::Contains("scene:14:34: joints.rope.between: there is no body \"bas\"; expected one of base, fore, "
+                             "upper, ground; did you mean \"base\"?"));
   CHECK_THAT(fault_of(with(plane, "like: [upper, fore]", "like: [upper, for]")),
              Catch::Contains("scene:30:15: copies.two.like: has \"for\"; expected names of bodies: upper, fore, base; "
                              "did you mean \"fore\"?"));
