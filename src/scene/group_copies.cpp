@@ -102,6 +102,8 @@ class GroupCopy {
       if (probe.IsMap() && acts_on(probe)) {
         write("probes", key, probe);
         sensors_.probes.insert_or_assign(key.Scalar(), probe);
+        if (motion_.dimension == 2 && probe["relative_to"] && bodies_.count(body_of(probe["relative_to"])))
+          sensors_.seen_from_group.insert(key.Scalar());
       }
     for (const std::string& name : without_) sensors_.probes.erase(name);
     for (const auto& [key, load] : entries_of(root_, "loads"))

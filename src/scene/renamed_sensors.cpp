@@ -49,7 +49,7 @@ bool RenamedSensors::named_in(const std::string& formula) const {
 std::string RenamedSensors::renamed(const std::string& name, const std::string& prefix,
                                     const GroupMotion& motion) const {
   if (!knows(name)) return name;
-  if (joints.count(owner(name))) return prefix + name;
+  if (joints.count(owner(name)) || seen_from_group.count(owner(name))) return prefix + name;
   const std::string component = name.substr(name.find('.') + 1), axes = motion.dimension == 3 ? "xyz" : "xy";
   const auto axis = component.empty() ? std::string::npos : axes.find(component.back());
   if (axis == std::string::npos || component.size() > 2) return prefix + name;

@@ -11,6 +11,7 @@ namespace floe::scene {
 struct RenamedSensors {
   std::set<std::string> joints;
   std::map<std::string, YAML::Node> probes;  ///< by name, the originals
+  std::set<std::string> seen_from_group;     ///< probes in axes that move with the group: their components stay
 
   /// Whether a formula names any of them.
   bool named_in(const std::string& formula) const;

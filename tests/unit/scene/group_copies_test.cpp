@@ -163,6 +163,19 @@ TEST_CASE("copies of groups: an entry of the scene replaces its copy; values fol
   CHECK(scene::offline_inputs(text, "scene", {{"a", 0.1}}) != scene::offline_inputs(text, "scene", {{"a", 0.2}}));
 }
 
+// d is seen from the frame of the group, so that of the copy records the same; w is seen from another body.
+TEST_CASE("copies of groups in the plane: sensors in axes of the group are not rotated back") {
+  const std::string text =
+      with(with(plane, "p: {at",
+                "d: {at: fore.end, relative_to: upper.start}\n  w: {at: fore.end, relative_to: {body: "
+                "base, node: [0, 0]}}\n  p: {at"),
+           "v.y - 0.5*p.x", "d.x + 9*w.x");
+  const scene::Scene scene = parse_scene(text, "scene");
+  CHECK(named(scene.loads, "two_push").force[0](1.) == -5);
+  REQUIRE(named(scene.loads, "two_push").force[1].variables() == std::vector<std::string>{"t", "two_d.x", "two_w.y"});
+  CHECK(named(scene.loads, "two_push").force[1].value(std::vector<double>{0, 2, 7}) == Approx(2 + 63));
+}
+
 TEST_CASE("copies of groups: names that formulas can read, of entries that exist once") {
   for (const std::string name : {"two-b", "2", "\"\"", "two.x", "t wo"})
     CHECK_THAT(
