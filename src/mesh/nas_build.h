@@ -50,7 +50,8 @@ class NasBuild {
   std::vector<NasMassMatrix> mass_matrices();
   std::vector<NasMass> all_masses();
   void add_masses();
-  void complete_inertia(Eigen::Matrix3d& inertia, Where where);
+  std::optional<NasMass> in_basic_axes(NasMass given);
+  void complete_inertia(Eigen::Matrix3d& inertia, const NasMass& of);
   void add_places();
   /// Labels of the grids of supports, each with its card, by the name of their place.
   std::map<std::string, std::vector<std::pair<long long, Where>>> supports() const;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 
 #include "nas_build.h"
 #include "text.h"
@@ -27,6 +28,23 @@ std::optional<PointMass> rigid_mass(const Eigen::Matrix<double, 6, 6>& M) {
   mass.inertia =
       M.bottomRightCorner<3, 3>() - mass.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
   return mass;
+}
+
+/// Cards that give a grid moments of inertia alone add them to another of this grid that gives it a mass.
+void add_inertia_to_masses(std::vector<NasMass>& masses) {
+  std::map<long long, std::size_t> with_mass;
+  for (std::size_t i = 0; i < masses.size(); ++i)
+    if (masses[i].mass.mass > 0) with_mass.try_emplace(masses[i].grid, i);
+  for (const NasMass& given : masses) {
+    const auto found = with_mass.find(given.grid);
+    if (given.mass.mass > 0 || found == with_mass.end()) continue;
+    NasMass& sum = masses[found->second];
+    sum.mass.inertia += given.mass.inertia;
+    sum.name += " with " + given.name;
+  }
+  masses.erase(std::remove_if(masses.begin(), masses.end(),
+                              [&](const NasMass& m) { return !(m.mass.mass > 0) && with_mass.count(m.grid); }),
+               masses.end());
 }
 
 }  // namespace
@@ -65,7 +83,7 @@ std::vector<NasMass> NasBuild::all_masses() {
   for (const NasMassMatrix& given : mass_matrices()) {
     if (given.matrix.isZero(0)) continue;
     if (auto mass = rigid_mass(given.matrix)) {
-      all.push_back({given.grid, given.axes, *mass, given.where});
+      all.push_back({given.grid, given.axes, *mass, given.where, given.name});
       continue;
     }
     const auto m = given.matrix.diagonal();
@@ -81,11 +99,12 @@ std::vector<NasMass> NasBuild::all_masses() {
 /// Moments of inertia of which one exceeds the sum of the others (by 0.1 %: rounded fields) are physically impossible,
 /// as where a card has one alone: the body of least extent that has the greatest of them is taken. With J = tr(S) 1 -
 /// S, S the integral of r r^T, negative roots of S become 0.
-void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
+void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, const NasMass& of) {
   constexpr double rounding = 1e-9, fields = 1e-3;
   const double scale = inertia.cwiseAbs().maxCoeff();
   const auto refuse = [&] {
-    faults_.add(where, "its moments of inertia are not those of a mass: one is negative about some axis");
+    faults_.add(of.where,
+                of.name + ": its moments of inertia are not those of a mass: one is negative about some axis");
   };
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] < -rounding * scale) return refuse();
   const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;
@@ -96,30 +115,40 @@ void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, Where where) {
   const Eigen::Matrix3d &e = principal.eigenvectors(), was = inertia;
   inertia = kept.sum() * Eigen::Matrix3d::Identity() - Eigen::Matrix3d(e * kept.asDiagonal() * e.transpose());
   if (!reports) return;
-  notices.push_back(fmt::format(
-      "{}: its moments of inertia are physically impossible (one exceeds the sum of the "
-      "others); taken as {:.6g}, {:.6g}, {:.6g} instead of {:.6g}, {:.6g}, {:.6g}",
-      faults_.text_of(where), inertia(0, 0), inertia(1, 1), inertia(2, 2), was(0, 0), was(1, 1), was(2, 2)));
+  notices.push_back(
+      fmt::format("{}: {}: its moments of inertia are physically impossible (one exceeds the sum of the "
+                  "others); taken as {:.6g}, {:.6g}, {:.6g} instead of {:.6g}, {:.6g}, {:.6g}",
+                  faults_.text_of(of.where), of.name, inertia(0, 0), inertia(1, 1), inertia(2, 2), was(0, 0), was(1, 1),
+                  was(2, 2)));
+}
+
+std::optional<NasMass> NasBuild::in_basic_axes(NasMass given) {
+  const auto x = frames_.position(given.grid, given.where);
+  if (!x) return std::nullopt;
+  PointMass& mass = given.mass;
+  if (given.axes < 0) {
+    mass.offset -= *x;
+  } else {
+    const Eigen::Matrix3d axes = frames_.directions(given.axes, *x, given.where);
+    mass.offset = axes * mass.offset;
+    mass.inertia = axes * mass.inertia * axes.transpose();
+  }
+  mass.mass *= model_.mass_factor;
+  mass.inertia *= model_.mass_factor;
+  return given;
 }
 
 void NasBuild::add_masses() {
-  for (const NasMass& given : all_masses()) {
-    const auto x = frames_.position(given.grid, given.where);
-    if (!x) continue;
-    PointMass mass = given.mass;
-    if (given.axes < 0) {
-      mass.offset -= *x;
-    } else {
-      const Eigen::Matrix3d axes = frames_.directions(given.axes, *x, given.where);
-      mass.offset = axes * mass.offset;
-      mass.inertia = axes * mass.inertia * axes.transpose();
-    }
-    mass.mass *= model_.mass_factor;
-    mass.inertia *= model_.mass_factor;
-    complete_inertia(mass.inertia, given.where);
+  std::vector<NasMass> masses;
+  for (const NasMass& given : all_masses())
+    if (const auto mass = in_basic_axes(given)) masses.push_back(*mass);
+  add_inertia_to_masses(masses);
+  for (NasMass& given : masses) {
+    PointMass& mass = given.mass;
+    complete_inertia(mass.inertia, given);
     if (mass.mass == 0 && !mass.inertia.isZero(0)) {
-      faults_.add(given.where,
-                  fmt::format("grid {} has moments of inertia without a mass; expected a mass, too", given.grid));
+      faults_.add(given.where, fmt::format("{}: grid {} has moments of inertia without a mass; expected a mass, too",
+                                           given.name, given.grid));
       continue;
     }
     if (rank_ != 0) continue;

@@ -132,7 +132,11 @@ void read_beam(NasReader& r) {
 }
 
 void read_conm2(NasReader& r) {
-  NasMass found{r.card.integer(1, "a grid"), std::max(-1LL, r.card.integer(2, "axes (CID)", 0)), {}, r.where()};
+  NasMass found{r.card.integer(1, "a grid"),
+                std::max(-1LL, r.card.integer(2, "axes (CID)", 0)),
+                {},
+                r.where(),
+                fmt::format("CONM2 {}", r.card.integer(0, "the element's number", 0))};
   found.mass.mass = r.card.real(3, "a mass");
   if (r.card.good() && found.mass.mass < 0) r.card.refuse(3, "expects a mass that is not negative");
   for (int i = 0; i < 3; ++i) found.mass.offset[i] = r.card.real(4 + i, "an offset", 0);

@@ -103,6 +103,7 @@ struct NasMass {
   long long grid, axes;  // -1: the centre is given in basic axes
   PointMass mass;
   Where where;
+  std::string name;  // CONM2 70
 };
 
 /// CONM1: of the three translations and the three rotations of a grid.

@@ -119,11 +119,26 @@ TEST_CASE("masses by components, or by their matrix, are those of rigid bodies")
              Contains("bad.bdf:8: CMASS2 70: the masses at grid 3 are 1, 1, 0 along the directions 1, 2, 3; expected"));
   CHECK_THAT(said(square + "CMASS2,70,1.,3,1,4,1\n"), Contains("CMASS2 70 is a mass between two degrees of freedom"));
   CHECK_THAT(said(square + "CMASS2,70,1.,101\nSPOINT,101\n"), Contains("scalar points are not read"));
-  CHECK_THAT(said(square + "CMASS2,70,1.,3,5\n"), Contains("bad.bdf:8: grid 3 has moments of inertia without a mass"));
+  CHECK_THAT(said(square + "CMASS2,70,1.,3,5\n"),
+             Contains("bad.bdf:8: CMASS2 70: grid 3 has moments of inertia without a mass"));
+  CHECK_THAT(said(square + "CONM2,70,3,,1.,,,,\n,-1.,,1.,,,1.\n"),
+             Contains("bad.bdf:8: CONM2 70: its moments of inertia are not those of a mass"));
   CHECK_THAT(said(square + "CMASS1,70,9,3,1\n"), Contains("CMASS1 70 names PMASS 9, which is not defined"));
   CHECK_THAT(said(square + "CONM1,70,3,,1.,,1.,,\n,1.,,.5\n"), Contains("with terms between directions"));
   CHECK(testing::of_all_ranks(read("left.bdf", square + "CMASS2,70,1.,3,1\n", {{}, false, {"CMASS2"}}).deck.masses)
             .empty());
+}
+
+TEST_CASE("moments of inertia without a mass are added to the mass that another card gives the grid") {
+  const std::string inertia = "CMASS2,71,.5,3,4\nCMASS2,72,.6,3,5\nCMASS2,73,.7,3,6\n";
+  for (const std::string text :
+       {inertia + "CONM2,70,3,,2.,.1,,,\n,.25,,.5,,,.5\n", "CONM2,70,3,,2.,.1,,,\n,.25,,.5,,,.5\n" + inertia}) {
+    const auto masses = testing::of_all_ranks(read("sum.bdf", square + text).deck.masses);
+    REQUIRE(masses.size() == 1);
+    CHECK(masses[0].mass == 2);
+    CHECK((masses[0].offset - Eigen::Vector3d(.1, 0, 0)).norm() < 1e-12);
+    CHECK((masses[0].inertia - Eigen::Vector3d(.75, 1.1, 1.2).asDiagonal().toDenseMatrix()).norm() < 1e-12);
+  }
 }
 
 TEST_CASE("links that leave rotations free: to grids without these, or to the end of one beam") {
