@@ -19,7 +19,8 @@ using namespace scene;
 /// @param places  nodes by name, the same on all ranks
 /// @param parts   sections of the mesh's parts that the scene does not give; those of the springs are added
 /// @param stiffness  A, the greatest of all shells
-/// @throws InputError  a place of less than three nodes, that is not straight, or along e. Collective.
+/// @throws InputError  a place of less than three nodes, with coincident ones, that is not straight, or along e; e
+/// normal to the shells. Collective.
 void add_straight_edges(const Scene& scene, const Body& body,
                         const std::map<std::string, std::vector<PetscInt>>& places, double stiffness,
                         mesh::RawMesh& raw, std::map<int, fem::Section>& parts);

@@ -653,6 +653,8 @@ SPACE = [
       for attachment, check in (("joints", space.warns("of the work of load m")), ("all", space.silent))),
     *(Case(f"space: two supports, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "1", "--at", "1", "-o", "out"],
            0, lines=0, scene=space.SAGGING, check=space.near("end.z", -1.478073e-4, 3e-7)) for f in ("vm+md", "nlffr")),
+    Case("space: a straight edge with two nodes at one point", run(), 2, lines=1,
+         says=("joints.c.straight: two nodes of its place coincide at (1, 1, 0)",), scene=space.SEAM, files={"seam.inp": space.SEAM_DECK}),
     Case("space: a hinge line across its axis", run(), 2, lines=1,
          says=("joints.h.edges: is line, but a.left is a straight edge, and the joint's axis is not along it",),
          scene=space.body(space.PLATE, "h: {type: revolute, between: [ground, a.left], axis: [1, 0, 0], edges: line}", probes="")),

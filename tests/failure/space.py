@@ -96,3 +96,33 @@ TILTED = BEAM.replace("to: [1, 0, 0]", "to: [0, 1, 0]").replace("[0, 1, 0]}, mat
 # sags by 5/384 rho g A L^4 / EI = 1.478e-4; stretching takes less than 1e-4 of it
 SAGGING = "gravity: [0, 0, -9.81]\n" + body(BEAM % "", *(h.replace("0, 0, 1]", "0, 1, 0]") for h in TWO_HINGES), motion="",
                                            probes="{end: {at: a.middle}}")
+
+# Two shells that meet without common nodes; a movable straight edge across the seam.
+SEAM = """bodies:
+  plate: {mesh: {file: {path: seam.inp}}}
+joints:
+  a: {type: fixed, between: [ground, {body: plate, node: [0, 0, 0]}]}
+  c: {type: support, between: [ground, plate.R], straight: [x]}
+motion: {end: 1, step: 1e-2}
+"""
+SEAM_DECK = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 1, 2, 0
+7, 0, 2, 0
+*ELEMENT, TYPE=S4, ELSET=E
+1, 1, 2, 3, 4
+2, 4, 5, 6, 7
+*NSET, NSET=R
+2, 3, 5, 6
+*MATERIAL, NAME=M
+*ELASTIC
+1e9, 0.3
+*DENSITY
+1000
+*SHELL SECTION, ELSET=E, MATERIAL=M
+0.01
+"""

@@ -176,6 +176,8 @@ joints:
   };
   CHECK(refused("plate.right", "x") == "");
   CHECK_THAT(refused("plate.right", "y"), Catch::Contains("joints.c.straight: direction y is not normal to the edge"));
+  CHECK_THAT(refused("plate.right", "x, z"), Catch::Contains("joints.c.straight: direction z is normal to the shell; "
+                                                             "expected one in its plane (hold: [z] keeps the edge"));
   CHECK_THAT(refused("{body: plate, node: [1, 1, 0]}", "x"),
              Catch::Contains("joints.c.straight: its place is no edge of three nodes or more"));
 }
