@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 
 import numpy as np
 
-from small_scenes import BEAM, CRANK, PANEL, PLATE, floe, probes, write
+from small_scenes import BEAM, CRANK, PANEL, PLATE, TRUSS, floe, probes, write
 
 FLOE = pathlib.Path(sys.argv[1]).resolve()
 
@@ -181,6 +181,24 @@ def numbers_of_the_files(folder):
     assert np.allclose(next(line for line in lines if line.get_label() == "1").get_xydata(), expected)
 
 
+def paths_show_all_load_parameters(folder):
+    """t of a path of equilibria falls below its first value, and its last one need not be the greatest."""
+    import energy
+    import history
+    from results import Run
+
+    write(folder, "truss.yaml", TRUSS)
+    for points in (30, 1000):
+        result = f"truss_{points}"
+        floe(FLOE, folder, "static", "truss.yaml", "--formulation", "cfr", "--path", "--at", "20", "--steps", "20", "--points", points, "-o", result)
+        run = Run(str(folder / result))
+        run.load()
+        assert min(run.t) < -1 and (run.t[-1] < 0) == (points == 30)
+        for module in (energy, history):
+            panel = kept(module, module.draw, run, "", 100).axes[-1]
+            assert np.allclose(panel.get_xlim(), (min(run.t), max(run.t))) and panel.get_xlabel() == "load parameter t [s]"
+
+
 def vibrations_are_followed(folder):
     """Each line of the diagram is a track, through crossings; one that ends and one that begins are others."""
     import campbell
@@ -310,8 +328,8 @@ def main():
             floe(FLOE, folder, "run", f"{scene}.yaml", "-o", scene)
         write(folder, "beam.yaml", BEAM)
         write(folder, "turning.yaml", BEAM, **{"joints: {clamp: {type: fixed": "joints: {clamp: {type: driven, angle: 0*t"})
-        for case in (each_kind, of_several_runs, of_a_tradeoff, endings, numbers_of_the_files, vibrations_are_followed,
-                     names_of_events_are_apart, joints_are_where_they_hold, comparisons, faults):
+        for case in (each_kind, of_several_runs, of_a_tradeoff, endings, numbers_of_the_files, paths_show_all_load_parameters,
+                     vibrations_are_followed, names_of_events_are_apart, joints_are_where_they_hold, comparisons, faults):
             case(folder)
 
 

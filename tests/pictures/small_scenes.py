@@ -34,6 +34,19 @@ probes:
   bend: {at: rod.middle, quantity: deflection}
 """
 
+# In the plane: a shallow truss that snaps through at t = 9.53 and -9.53.
+TRUSS = """
+bodies:
+  a: {mesh: {line: {from: [-1, 0], to: [0, 0.3], elements: 2}}, section: {EA: 1e3, EI: 10, rhoA: 1}}
+  b: {mesh: {line: {from: [0, 0.3], to: [1, 0], elements: 2}}, section: {EA: 1e3, EI: 10, rhoA: 1}}
+joints:
+  left: {type: revolute, between: [ground, a.start]}
+  apex: {type: revolute, between: [a.end, b.start]}
+  right: {type: revolute, between: [ground, b.end]}
+loads: {push: {type: force, at: a.end, force: [0, -t]}}
+probes: {apex: {at: a.end}}
+"""
+
 # In the plane, for all formulations: a cantilever that bends far.
 BEAM = """
 title: Cantilever
