@@ -91,6 +91,8 @@ class GroupCopy {
     motion_.R = exact(math::rotation(motion_.rotation));
   }
 
+  std::size_t count() const { return bodies_.size(); }
+
   void write_out() {
     for (const auto& [key, body] : entries_of(root_, "bodies"))
       if (bodies_.count(key.Scalar())) write("bodies", key, body);
@@ -321,10 +323,10 @@ class GroupCopy {
 
 namespace {
 
-/// Copies of copies may double their number with each.
-bool too_many(const YAML::Node& root) {
-  constexpr std::size_t most = 2000;
-  return root["bodies"] && root["bodies"].IsMap() && root["bodies"].size() > most;
+/// Copies of copies may double their number with each, and the time grows with its square.
+bool too_many(const YAML::Node& root, std::size_t more) {
+  constexpr std::size_t most = 1000;
+  return root["bodies"] && root["bodies"].IsMap() && root["bodies"].size() + more > most;
 }
 
 }  // namespace
@@ -342,8 +344,8 @@ void write_out_groups(Document& document, YAML::Node root) {
       if (candidate.first.IsScalar() && candidate.first.Scalar() == entry.name) name.reset(candidate.first);
     const std::size_t before = document.fault_count();
     GroupCopy copy(document, root, entry, name, own);
+    if (too_many(root, copy.count())) return document.fault(entry.where, "makes more than 1000 bodies", "fewer copies");
     if (document.fault_count() == before) copy.write_out();
-    if (too_many(root)) return document.fault(entry.where, "makes more than 2000 bodies", "fewer copies");
   }
 }
 

@@ -245,5 +245,5 @@ TEST_CASE("copies of groups: faults of values are told once, at their own lines"
     }
     all += copies;
   }
-  CHECK_THAT(fault_of(many), Catch::Contains("copies.c10: makes more than 2000 bodies"));
+  CHECK_THAT(fault_of(many), Catch::Contains("copies.c9: makes more than 1000 bodies"));
 }
