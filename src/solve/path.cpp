@@ -7,9 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "floe/petsc/factorisation.h"
 #include "floe/solve/start.h"
-#include "mass_norm.h"
+#include "path_equations.h"
 
 namespace floe::solve {
 
@@ -22,130 +21,10 @@ constexpr double good_turn = 0.15, most_turn = 0.5;  // of tangent and chord wit
 constexpr double least_share = 1e-4;                 // of the length of the first step
 constexpr double least_first = 1e-8;                 // of the length tried first, for the first step
 
-/// A vector and the t that goes with it: a point of the path or a direction.
-struct PathVector {
-  petsc::VecHandle U;
-  double t = 0;
-};
-
 /// An equilibrium with the direction in which the path goes on, of size one.
 struct PathState {
   PathVector at, direction;
 };
-
-/// What is known at a point: a = -J^-1 dF/dt, to which dt = 1 belongs, and b = -J^-1 F.
-struct PathSolutions {
-  petsc::VecHandle a, b;
-};
-
-/// Linear algebra of the path: its metric, and one factor for both right-hand sides.
-class PathEquations {
- public:
-  PathEquations(const System& system, double interval, Vec V, Vec weights)
-      : system_(system),
-        interval_(interval),
-        V_(V),
-        weights_(weights),
-        A_(system.create_vector()),
-        F_(system.create_vector()),
-        rate_(system.create_vector()),
-        J_(system.create_tangent()),
-        ksp_(tangent_solver(J_, "static_")) {}
-
-  double beta = 1;
-
-  PathVector vector() const { return {system_.create_vector(), 0}; }
-  double product(const PathVector& x, const PathVector& y) const {
-    return weighted_product(x.U, y.U, weights_) + beta * beta * x.t * y.t;
-  }
-  double size(const PathVector& x) const { return std::sqrt(product(x, x)); }
-
-  /// dF/dt by central differences: exact where loads are linear in t.
-  /// @return  false where J is singular. Collective.
-  bool solve(const PathVector& x, const PathSolutions& s) {
-    const double below = residual_below(x);
-    check(VecCopy(F_, rate_));
-    system_.residual(x.t + interval_, x.U, V_, A_, ConstraintLevel::position, F_);
-    check(VecAXPY(rate_, -1, F_));
-    check(VecScale(rate_, 1 / (interval_ + below)));
-    system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
-    check(VecScale(F_, -1));
-    system_.tangent(x.t, x.U, V_, A_, {1, 0, 0}, J_);
-    check(KSPSetOperators(ksp_, J_, J_));
-    return solve_one(rate_, s.a) && solve_one(F_, s.b);
-  }
-
-  /// The greatest |J^-1 (F(t + d) - F(t))| / |d|, with J and F of the last point solved for: over the first step and
-  /// tenths of the way to the end. Loads that begin smoothly (dF/dt = 0) have one, too. Collective.
-  double greatest_chord(const PathVector& x, double first, double end) {
-    constexpr int samples = 10;
-    const petsc::VecHandle chord = system_.create_vector();
-    double most = 0;
-    for (int k = 0; k <= samples; ++k) {
-      const double d = k == 0 ? std::copysign(first, end - x.t) : (end - x.t) * k / samples;
-      double size = 0;
-      if (!residual_at(x.t + d, x.U, rate_)) continue;
-      check(VecAXPY(rate_, 1, F_));  // F_ is -F(t)
-      check(VecScale(rate_, 1 / d));
-      check(VecNorm(rate_, NORM_INFINITY, &size));
-      if (std::isfinite(size) && solve_one(rate_, chord)) most = std::max(most, weighted_size(chord, weights_));
-    }
-    return most;
-  }
-
- private:
-  /// @return  false where loads have no value
-  bool residual_at(double t, Vec U, Vec F) {
-    try {
-      system_.residual(t, U, V_, A_, ConstraintLevel::position, F);
-      return true;
-    } catch (const petsc::Error&) {
-      throw;
-    } catch (const std::runtime_error&) {
-      return false;
-    }
-  }
-
-  /// F a little before t, or at t where loads have no value before. @return  how much before
-  double residual_below(const PathVector& x) {
-    if (residual_at(x.t - interval_, x.U, F_)) return interval_;
-    system_.residual(x.t, x.U, V_, A_, ConstraintLevel::position, F_);
-    return 0;
-  }
-
-  bool solve_one(Vec right, Vec x) {
-    double size = 0;
-    try {
-      check(KSPSolve(ksp_, right, x));
-    } catch (const petsc::Error& error) {
-      if (!is_singular(error.code())) throw;
-      if (const petsc::FactorFault fault = petsc::factor_fault(ksp_); !fault.text.empty() && !fault.singular)
-        throw RunError(fault.text);
-      return false;
-    }
-    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-    check(KSPGetConvergedReason(ksp_, &reason));
-    check(VecNorm(x, NORM_INFINITY, &size));
-    return reason >= 0 && std::isfinite(size);
-  }
-
-  const System& system_;
-  double interval_;
-  Vec V_, weights_;
-  petsc::VecHandle A_, F_, rate_;
-  petsc::MatHandle J_;
-  petsc::KspHandle ksp_;
-};
-
-void add_to(PathVector& x, double factor, const PathVector& d) {
-  check(VecAXPY(x.U, factor, d.U));
-  x.t += factor * d.t;
-}
-
-void set_to(PathVector& x, const PathVector& from) {
-  check(VecCopy(from.U, x.U));
-  x.t = from.t;
-}
 
 class PathFollower {
  public:
@@ -186,8 +65,8 @@ class PathFollower {
 
   void start() {
     if (!equations_.solve(now_.at, solutions_)) throw nothing_holds();
-    const double rate = std::max(weighted_size(solutions_.a, weights_),
-                                 equations_.greatest_chord(now_.at, request_.first, request_.end));
+    const double rate =
+        std::max(weighted_size(solutions_.a, weights_), equations_.max_chord(now_.at, request_.first, request_.end));
     equations_.beta = rate > 0 ? rate : 1;
     check(VecCopy(solutions_.a, now_.direction.U));
     now_.direction.t = 1;

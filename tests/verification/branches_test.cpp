@@ -2,7 +2,7 @@
 
 #include "../../src/app/campbell.h"
 #include "../../src/app/equilibrium.h"
-#include "scene_motion.h"
+#include "truss.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -17,27 +17,6 @@ int jumps_of(const app::RunResult& result) {
   return static_cast<int>(std::count_if(result.warnings.begin(), result.warnings.end(), [](const std::string& words) {
     return words.find("the equilibrium jumps between t = ") != std::string::npos;
   }));
-}
-
-/// Two hinged bars of half span 1 and rise h that a force pushes through at their apex (von Mises' truss), P L^3/(EA)
-/// of a shallow one x (h^2 - x^2), x its height: it snaps at 2 h^3/(3 sqrt 3).
-std::string truss(double h) {
-  return fill(R"yaml(
-bodies:
-  a:
-    mesh: {line: {from: [-1, 0], to: [0, $h], elements: 2}}
-    section: {EA: 1e3, EI: 10, rhoA: 1}
-  b:
-    mesh: {line: {from: [0, $h], to: [1, 0], elements: 2}}
-    section: {EA: 1e3, EI: 10, rhoA: 1}
-joints:
-  left: {type: revolute, between: [ground, a.start]}
-  apex: {type: revolute, between: [a.end, b.start]}
-  right: {type: revolute, between: [ground, b.end]}
-loads: {push: {type: force, at: a.end, force: [0, -t]}}
-probes: {apex: {at: a.end}}
-)yaml",
-              {{"h", number(h)}});
 }
 
 }  // namespace
