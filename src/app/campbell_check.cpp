@@ -35,7 +35,7 @@ double visit_speed(const solve::RotatingSystem& rotating, double from, int modes
 
 namespace {
 
-/// A model at the last of the speeds, by way of the others, as the diagram came there.
+/// A model at the last of the speeds, reached through the others as in the diagram.
 void follow(const solve::RotatingSystem& rotating, const std::vector<double>& before, int modes, Vec U,
             CampbellPoint& point) {
   double from = 0;

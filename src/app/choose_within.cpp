@@ -50,10 +50,10 @@ class Search {
     decisions_.push_back({std::move(what), std::move(choice), std::move(reason)});
   }
 
-  /// The richest model: responses join it until its estimate is a third of what is asked, six times at most.
+  /// The richest model: responses are added until its estimate is a third of the required error, six times at most.
   ///
-  /// What they change in the motion shows how good the estimate before them was: where the columns were far too poor
-  /// for it, it was too low, and the next ones are taken as many times greater.
+  /// The change of the motion that they cause measures the estimate made before them: where that was too low because
+  /// the basis was far too poor, the next estimates are multiplied by the ratio.
   void enrich() {
     constexpr int most_rounds = 6;
     double first = 0, before = 0, too_low = 1;
@@ -102,7 +102,7 @@ class Search {
     return worst;
   }
 
-  /// What is left of the error of a step after a halving that changed `between`, the one before it `before`; r their
+  /// The remaining error of a step after a halving that changed `between`, the one before it `before`; r their
   /// ratio. The changes to come, r/(1 - r) between, less the third of it that the extrapolation adds, or a twelfth of
   /// it.
   static double left_of(double between, double before) {
@@ -110,10 +110,10 @@ class Search {
     return r < 0.4 ? between * std::max(1. / 12, std::abs(r / (1 - r) - 1. / 3)) : between;
   }
 
-  /// A motion in steps that were halved until what is left of its error is less than a tenth of what is asked.
+  /// A motion in steps that were halved until its remaining error is less than a tenth of the required error.
   struct Limit {
     Series series;
-    double left;    ///< of its error
+    double left;    ///< remaining error
     double finest;  ///< step of models that are compared with it
   };
 
@@ -136,12 +136,12 @@ class Search {
     return limit;
   }
 
-  /// The motion that stands for the truth: of the richest model in steps that are halved,
+  /// The reference solution: the motion of the richest model in steps that are halved,
   ///
   ///   y = y_whole(h/2) + [y_few(0) - y_few(h/2)]
   ///
-  /// with the fewest columns that use half of what may be lost. A halving of both models shows how far the errors of
-  /// their steps are apart; a third of that is left of order 2.
+  /// with the fewest basis vectors whose error is within half of the error budget. A halving of both models gives the
+  /// difference of the errors of their steps; a third of it remains (order 2).
   void resolve_time() {
     if (reference_.series) {
       compare_with_given();
@@ -180,7 +180,7 @@ class Search {
     return true;
   }
 
-  /// The longest step whose error in the formulation of the reference is less than a quarter of what is asked.
+  /// The longest step whose error in the formulation of the reference is less than a quarter of the required error.
   void compare_with_given() {
     constexpr int most_halvings = 5;
     richest_ = reference_.error;
@@ -192,17 +192,16 @@ class Search {
     trials_.compare_with(*reference_.series);
     least_ = finest_ == scene_.motion.step ? worst_error(whole_motion_, *reference_.series)
                                            : trials_.tried(candidates_->whole(), finest_).error;
-    decide("richest model", "against cfr", "error " + math::percent(least_));
+    decide("richest model", "relative to cfr", "error " + math::percent(least_));
   }
 
-  /// What the scene wants stored between steps is interpolated, and the error of that is seen; but some steps there
-  /// must be.
+  /// Output between steps is interpolated, and its error is included; a minimum number of steps is required.
   bool may_be(double step) const { return step <= scene_.motion.end / 32; }
   bool longer_step() const { return may_be(2 * step_); }
 
-  /// What may be lost beside the richest model's own error.
+  /// The error budget beside the richest model's own error.
   double time_budget() const { return std::max(0.0, 0.9 * accuracy_ - richest_); }
-  /// What columns may lose before steps are longer: half of what the richest model leaves.
+  /// The error budget of basis vectors before steps are longer: half of what the richest model leaves.
   double first_time_budget() const {
     return std::min(least_, time_budget()) + 0.5 * std::max(0.0, time_budget() - least_);
   }
@@ -225,7 +224,7 @@ class Search {
     selection_ = trials_.first_of(order_, count_);
   }
 
-  /// Linear, without derivatives: they would follow nothing.
+  /// Linear, without derivatives, which would have no effect.
   void choose_force() {
     if (count_ == 0) return;
     std::vector<assess::EnergyContribution> plain;
@@ -241,7 +240,7 @@ class Search {
     const Trial& cheaper = trials_.tried(some, step_);
     linear_ = words(cheaper);
     if (!(cheaper.error <= time_budget())) return;
-    // With no more columns the linear force is the cheaper one, whatever a clock says.
+    // With no more basis vectors the linear force is the cheaper one, whatever the measured time.
     if (some.count() > selection_.count() &&
         !(trials_.seconds_of(some, step_) < 0.9 * trials_.seconds_of(selection_, step_))) {
       linear_ += fmt::format(" with {} basis vectors, but not faster", some.count());
@@ -339,8 +338,8 @@ class Search {
     chosen.supported = richest_ + of_choice;
     decide("estimated error", math::percent(chosen.supported),
            reference_.series
-               ? fmt::format("{} of the selected model against formulation cfr, {} of that", math::percent(of_choice),
-                             math::percent(richest_))
+               ? fmt::format("{} of the selected model relative to formulation cfr, {} of that",
+                             math::percent(of_choice), math::percent(richest_))
                : fmt::format(
                      "{} of the selected model, {} of the richest model, {} of its step{}", math::percent(of_choice),
                      math::percent(space_), math::percent(time_),

@@ -6,7 +6,7 @@
 
 namespace floe::app {
 
-/// The formulations of these names, each once; without any those that the scene can have: with
+/// The formulations of these names, each once; without names all that the scene supports: with
 /// bodies from files and in space fewer than cfr, nlffr, lffr, vm, vm+md.
 /// @throws InputError  a name is unknown, or given twice
 std::vector<scene::Formulation> formulations_to_compare(const scene::Scene& scene, std::vector<std::string> names);

@@ -28,7 +28,7 @@ class PathReport {
   }
 
   void add(double t, Vec U, bool limit) {
-    // At a limit point one direction has no stiffness: its sign is chance.
+    // At a limit point one direction has no stiffness: the sign of its eigenvalue is round-off.
     const std::optional<int> unstable =
         limit ? std::nullopt : solve::unstable_directions(*model_.system, t, U, model_.V);
     json()["unstable_directions"].push_back(unstable ? ordered_json(*unstable) : ordered_json());
@@ -43,7 +43,7 @@ class PathReport {
     }
   }
 
-  /// Warnings of what the path passed.
+  /// Warnings of limit points, unstable points and bifurcations.
   void describe() {
     constexpr std::size_t most = 6;
     const std::size_t count = limits_met_.size();
@@ -76,7 +76,7 @@ class PathReport {
     json()["at_end"] = end.at_end;
     if (end.closed)
       result_.warnings.push_back(
-          fmt::format("the path of equilibria is closed: after {} points it comes back to the limit point at t = "
+          fmt::format("the path of equilibria is closed: after {} points it returns to the limit point at t = "
                       "{:.6g}; it does not reach t = {:.6g}",
                       end.points, t, load.at));
     else if (!end.at_end)

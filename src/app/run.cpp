@@ -197,7 +197,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   result.end = report.end;
   result.motion_seconds = report.seconds - recorder.seconds();
   result.motion_processor = result.motion_seconds;
-  if (report.processor_seconds > 0 && report.seconds > 0)  // zero: a virtual machine's clock has stood still
+  if (report.processor_seconds > 0 && report.seconds > 0)  // zero: the clock of a virtual machine was stopped
     result.motion_processor *= report.processor_seconds / report.seconds;  // recording has the same share
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files

@@ -15,9 +15,9 @@ using namespace plan;
 /// Damping of a body whose parts have axes of their own: damping.mass in several frames, damping.mass and damping.modal
 /// of corotational elements.
 ///
-/// damping.mass acts on the velocity relative to axes f that accompany the whole body, as its joints see its rigid
-/// motions (fem::joint_frame): f follows the dofs that they hold, and where these leave rigid motions free, the mean of
-/// the mass,
+/// damping.mass acts on the velocity relative to axes f that accompany the whole body, according to the rigid motions
+/// that its joints constrain (fem::joint_frame): f follows the constrained dofs, and where these leave rigid motions
+/// free, the mean of the mass,
 ///
 ///   sum over dofs constrained (S_r z)' d = 0,  z in the row space of S_r;   int rho (t + w x X)'(A_f'(r - R_f) - X) =
 ///   0,  (t, w) in the rest
@@ -91,9 +91,9 @@ std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> modal_rows(
     const DampedWhole& whole, const PlannedBody& body, const std::function<dynamics::MovingAxes(int)>& axes_of,
     std::vector<std::unique_ptr<dynamics::Term>>& terms);
 
-/// The least damping.mass of these modes [1/s]: without any force of its own f has equations whose scale is nowhere,
-/// and factors of the tangent lose their digits.
-inline double least_mass_damping(const reference::ModalDamping& modal) { return 1e-9 * modal.viscosity.maxCoeff(); }
+/// The minimum damping.mass with these modes [1/s]: without any force on f its equations have no scale, and factors of
+/// the tangent lose their digits.
+inline double min_mass_damping(const reference::ModalDamping& modal) { return 1e-9 * modal.viscosity.maxCoeff(); }
 
 /// Whether some mode of the body is damped.
 inline bool has_modal_damping(const Body& body) {

@@ -35,7 +35,7 @@ void PlanarAssembly::add_damping_axes() {
     whole.multipliers = coordinates_.add_shared(3, true);
     if (formulation_ != Formulation::cfr || !has_modal_damping(plan_.bodies[whole.bodies.front()].spec)) continue;
     whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
-    whole.alpha = std::max(whole.alpha, least_mass_damping(*whole.modal));
+    whole.alpha = std::max(whole.alpha, min_mass_damping(*whole.modal));
   }
 }
 

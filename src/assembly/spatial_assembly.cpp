@@ -233,7 +233,7 @@ void SpatialAssembly::add_body(int b) {
       formulation_ == Formulation::lffr ? reference::ElasticForce::linear : reference::ElasticForce::von_karman;
   const auto elements = std::make_shared<reference::SpatialElements>(
       body.structure, body.frame, constrained(b), *slot.nodes, frame_of(b), force, body.spec.damping.stiffness);
-  for (auto& term : apart_ ? elements->held(1) : elements->all()) terms_.push_back(std::move(term));
+  for (auto& term : apart_ ? elements->constraints(1) : elements->all()) terms_.push_back(std::move(term));
   if (apart_) elements_.push_back(elements);
 }
 

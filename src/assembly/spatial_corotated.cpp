@@ -158,8 +158,8 @@ void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
     if (deflection && places_of_frame(p).empty())
       faults.push_back(
           probe.where.text() +
-          ": deflection is from a mean-axis frame, which formulation cfr does not have in space; expected a frame that "
-          "is clamped or pinned, or displacement, with relative_to a place that stands for the frame");
+          ": deflection is from a mean-axis frame, which formulation cfr does not support in space; expected a "
+          "clamped or pinned frame, or displacement with relative_to a place that represents the frame");
     else if (mean(other) ||
              (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
       faults.push_back(

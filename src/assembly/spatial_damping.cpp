@@ -43,7 +43,7 @@ void SpatialAssembly::add_damping_axes() {
     whole.f.attitude = damped_attitudes_.back();
     if (!corotated(whole.bodies.front()) || !has_modal_damping(spec)) continue;
     whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
-    whole.alpha = std::max(whole.alpha, least_mass_damping(*whole.modal));
+    whole.alpha = std::max(whole.alpha, min_mass_damping(*whole.modal));
   }
 }
 

@@ -19,8 +19,8 @@ using solve::State;
 
 namespace {
 
-constexpr int most_samples = 16, least_samples = 4;  // of the full-order residual
-constexpr int most_columns = 8, least_columns = 3;   // for each body
+constexpr int max_samples = 16, min_samples = 4;  // of the full-order residual
+constexpr int max_columns = 8, min_columns = 3;   // for each body
 constexpr int most_tangents = 2;
 
 bool keeps_factors(const Offline& offline) {
@@ -32,17 +32,17 @@ bool keeps_factors(const Offline& offline) {
 /// Where the motion deforms most, and some instants along it.
 void sample(const Model& model, const KeptMotion& motion, const TimeBudget& time, Residuals& residuals,
             Estimate& estimate) {
-  const std::vector<State> states = spread(motion.states(), most_samples - 1);
+  const std::vector<State> states = spread(motion.states(), max_samples - 1);
   const State& greatest = most_deformed(model, motion.states());
-  std::size_t count = std::min<std::size_t>(states.size(), least_samples);
+  std::size_t count = std::min<std::size_t>(states.size(), min_samples);
   std::vector<State> all{greatest};
   if (!residuals.apart()) {
     const double before = time.spent();
     residuals.add(all);
     all.clear();
     const double each = time.spent() - before;
-    count = std::min<std::size_t>(states.size(), static_cast<std::size_t>(std::max(
-                                                     1.0 * least_samples, 0.3 * time.left() / std::max(each, 1e-9))));
+    count = std::min<std::size_t>(
+        states.size(), static_cast<std::size_t>(std::max(1.0 * min_samples, 0.3 * time.left() / std::max(each, 1e-9))));
   }
   for (const State& state : spread(states, count))
     if (state.t != greatest.t) all.push_back(state);
@@ -56,7 +56,7 @@ void sample(const Model& model, const KeptMotion& motion, const TimeBudget& time
 int columns_in(double seconds, const ReducedBody& reduced) {
   const double k = std::max(1, reduced.body.coordinates());
   const double factor = std::pow(seconds / std::max(reduced.report.seconds_projection, 1e-6), 0.25);
-  return std::clamp(static_cast<int>(k * (factor - 1)), least_columns, most_columns);
+  return std::clamp(static_cast<int>(k * (factor - 1)), min_columns, max_columns);
 }
 
 std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& residuals, const TimeBudget& time,
@@ -72,9 +72,9 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
     if (!has_structure(body)) continue;
     const int most =
         static_cast<int>(time.of_first(columns_in(0.5 * time.left() / (all - static_cast<double>(b)), reduced)));
-    if (most < most_columns)
+    if (most < max_columns)
       estimate.notes.push_back(
-          fmt::format("body {}: {} basis vectors instead of {}, to save time", body.spec.name, most, most_columns));
+          fmt::format("body {}: {} basis vectors instead of {}, to save time", body.spec.name, most, max_columns));
     const auto W = std::make_shared<const reduction::Columns>(main_columns(
         body.structure,
         responses(body, reduced, residuals.loads(b), time.half_left() ? most_tangents : 1, estimate.notes), most));

@@ -10,8 +10,8 @@ namespace floe::assess {
 
 namespace {
 
-constexpr double least_of_step = 2e-6;  // processor time of a step of formulation cfr, for each element [s]
-constexpr PetscInt slow_steps = 5;      // at the start, which take longer; looked_at of them show how long one takes
+constexpr double min_step_seconds = 2e-6;  // processor time of a step of formulation cfr, for each element [s]
+constexpr PetscInt slow_steps = 5;         // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
 struct Thinning {
@@ -83,8 +83,8 @@ class ModelError {
       part_.none = "no probe can be compared with formulation cfr";
       return;
     }
-    if (const double least = least_seconds(); least_share * least / most_times_faster() > allowed_) {
-      part_.none = fmt::format("formulation cfr would take more than {:.2g} s (limit {:.2g} s)", least, allowed_);
+    if (const double seconds = min_seconds(); least_share * seconds / most_times_faster() > allowed_) {
+      part_.none = fmt::format("formulation cfr would take more than {:.2g} s (limit {:.2g} s)", seconds, allowed_);
       return;
     }
     Thinning used;
@@ -205,9 +205,9 @@ class ModelError {
                        [](const Body& body) { return body.mesh.plate.has_value(); });
   }
 
-  /// Of the whole motion, on no machine less: whether it is worth to build a large model at all.
-  double least_seconds() const {
-    return least_of_step * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline);
+  /// Lower bound for the whole motion on any machine: whether a large model is worth building.
+  double min_seconds() const {
+    return min_step_seconds * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline);
   }
   /// By thinning (affordable()).
   double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (plates() ? 1 : 4); }

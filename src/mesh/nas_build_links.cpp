@@ -44,7 +44,7 @@ std::unordered_map<long long, NasBuild::Rotations> NasBuild::rotations_of_grids(
 /// A link that leaves all rotations of its dependent grids free is a rigid one where nothing acts on these rotations,
 /// and one to a beam whose end is released where a single beam does.
 void NasBuild::free_rotations() {
-  const auto partial = [](const NasLink& link) { return !link.holds.empty(); };
+  const auto partial = [](const NasLink& link) { return !link.constrains.empty(); };
   if (std::none_of(model_.links.begin(), model_.links.end(), partial)) return;
   const auto rotations = rotations_of_grids();
   for (const NasLink& link : model_.links) {
@@ -53,7 +53,7 @@ void NasBuild::free_rotations() {
       const auto found = rotations.find(grid);
       if (found == rotations.end() || (found->second.other.empty() && found->second.beams.empty())) continue;
       const auto& [beams, other] = found->second;
-      if (other.empty() && beams.size() == 1 && link.holds == "123") {
+      if (other.empty() && beams.size() == 1 && link.constrains == "123") {
         const auto [b, end] = beams[0];
         const NasBeam& beam = model_.beams[b];
         const Eigen::Vector3d& offset = beam.offsets[static_cast<std::size_t>(end)];
@@ -61,15 +61,16 @@ void NasBuild::free_rotations() {
           released_[b] |= 0x38u << (6 * end);
         else  // the ball joint is at the grid, the released end is not
           faults_.add(link.where,
-                      fmt::format("{}: holds 123 of grid {}, at the end of beam {} with the offset ({:.6g}, "
+                      fmt::format("{}: constrains 123 of grid {}, at the end of beam {} with the offset ({:.6g}, "
                                   "{:.6g}, {:.6g}); expected 123456, or no offset",
                                   link.name, grid, beam.id, offset.x(), offset.y(), offset.z()));
         continue;
       }
-      faults_.add(link.where,
-                  fmt::format("{}: holds {} of grid {}, whose other rotations {} has, too; expected 123456, or 123 "
-                              "where no more than the end of one beam has these rotations",
-                              link.name, link.holds, grid, other.empty() ? "more than one beam end" : other));
+      faults_.add(
+          link.where,
+          fmt::format("{}: constrains {} of grid {}, whose other rotations are also dofs of {}; expected 123456, or "
+                      "123 where these rotations are dofs of the end of one beam at most",
+                      link.name, link.constrains, grid, other.empty() ? "more than one beam end" : other));
     }
   }
 }

@@ -97,14 +97,14 @@ std::vector<NasMass> NasBuild::all_masses() {
 }
 
 /// Moments of inertia of which one exceeds the sum of the others (by 0.1 %: rounded fields) are physically impossible,
-/// as where a card has one alone: the body of least extent that has the greatest of them is taken. With J = tr(S) 1 -
-/// S, S the integral of r r^T, negative roots of S become 0.
+/// for example where a card gives only one: the smallest body with the largest of them is taken. With J = tr(S) 1 - S,
+/// S the integral of r r^T, negative eigenvalues of S become 0.
 void NasBuild::complete_inertia(Eigen::Matrix3d& inertia, const NasMass& of) {
   constexpr double rounding = 1e-9, fields = 1e-3;
   const double scale = inertia.cwiseAbs().maxCoeff();
   const auto refuse = [&] {
     faults_.add(of.where,
-                of.name + ": its moments of inertia are not those of a mass: one is negative about some axis");
+                of.name + ": its moments of inertia are physically impossible: one is negative about some axis");
   };
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues()[0] < -rounding * scale) return refuse();
   const Eigen::Matrix3d second = inertia.trace() / 2 * Eigen::Matrix3d::Identity() - inertia;

@@ -159,13 +159,13 @@ std::string components(std::string_view text) {
 
 bool all_six(std::string_view text) { return components(text) == "123456"; }
 
-/// The components that a link holds of its dependent grids: all translations at least.
-void read_held(NasFields& card, std::size_t field, NasLink& link) {
-  const std::string held = components(card.card.text(field));
-  if (held == "123456") return;
-  link.holds = held;
-  if (!held.starts_with("123") || held.find_first_not_of("123456") != std::string::npos)
-    card.refuse(field, "expects 123456, or 123: rigid links hold all three translations; found " +
+/// The components of its dependent grids that a link constrains: at least all translations.
+void read_constrained(NasFields& card, std::size_t field, NasLink& link) {
+  const std::string found = components(card.card.text(field));
+  if (found == "123456") return;
+  link.constrains = found;
+  if (!found.starts_with("123") || found.find_first_not_of("123456") != std::string::npos)
+    card.refuse(field, "expects 123456, or 123: rigid links constrain all three translations; found " +
                            in_quotes(card.card.text(field)));
 }
 
@@ -174,7 +174,7 @@ void read_held(NasFields& card, std::size_t field, NasLink& link) {
 void read_rbe2(NasReader& r) {
   const auto& card = r.card.card;
   NasLink link{r.card.integer(1, "the independent grid (GN)"), {}, r.where(), "RBE2 " + std::string(card.text(0))};
-  read_held(r.card, 2, link);
+  read_constrained(r.card, 2, link);
   std::size_t last = card.fields.size();
   while (last > 3 && card.blank(last - 1)) --last;
   if (last > 4 && card.text(last - 1).find('.') != std::string_view::npos) --last;  // ALPHA
@@ -211,7 +211,7 @@ void read_rbar(NasReader& r) {
   if (!first && !second) r.card.refuse(3, "and 6 expect 123456 for one end and nothing for the other (CNA, CNB)");
   NasLink link{first ? a : b, {first ? b : a}, r.where(), "RBAR " + std::string(card.text(0))};
   const std::string_view dependent = card.text(first ? 6 : 5);
-  if (!dependent.empty() && dependent != "0") read_held(r.card, first ? 6 : 5, link);
+  if (!dependent.empty() && dependent != "0") read_constrained(r.card, first ? 6 : 5, link);
   if (r.card.good()) r.model.links.push_back(link);
 }
 

@@ -31,7 +31,8 @@ void read_cmass(NasReader& r) {
     mass.mass = r.card.real(1, "a mass");
   const long long a = r.card.integer(2, "a grid", 0), b = r.card.integer(4, "a grid", 0);
   if (a > 0 && b > 0)
-    r.card.refuse_card("is a mass between two degrees of freedom, which no body is; expected one grid, or CONM2");
+    r.card.refuse_card(
+        "couples two degrees of freedom, which the mass of a rigid body does not; expected one grid, or CONM2");
   const std::size_t field = a > 0 ? 2 : 4;
   mass.grid = a > 0 ? a : b;
   const long long component = r.card.integer(field + 1, "a component (1 to 6)", 0);

@@ -71,7 +71,7 @@ void read_pbar(NasReader& r) {
   take_general(r.card, property,
                {r.card.real(2, "the area"), r.card.real(3, "I1", 0), r.card.real(4, "I2", 0), r.card.real(18, "I12", 0),
                 r.card.real(5, "J", 0)});
-  property.extra = r.card.real(6, "a mass by length (NSM)", 0);
+  property.extra = r.card.real(6, "a mass per length (NSM)", 0);
   for (int i : {0, 1}) property.section.shear_factors[i] = std::max(0.0, r.card.real(16 + i, "a shear factor", 0));
   r.define(r.model.beam_properties, id, std::move(property), "property");
 }
@@ -118,7 +118,7 @@ void read_pbeam(NasReader& r) {
   const auto& card = r.card.card;
   const long long id = r.card.integer(0, "the property's number");
   NasBeamProperty property{r.named("PBEAM", id), r.card.integer(1, "a material"), {}, 0, 0, r.where()};
-  constexpr const char* names[] = {"the area", "I1", "I2", "I12", "J", "a mass by length (NSM)"};
+  constexpr const char* names[] = {"the area", "I1", "I2", "I12", "J", "a mass per length (NSM)"};
   std::vector<double> at_a;
   for (int i = 0; i < 6; ++i) at_a.push_back(i > 2 ? r.card.real(2 + i, names[i], 0) : r.card.real(2 + i, names[i]));
   const auto take = [&](const std::vector<double>& d, NasBeamProperty& of) {
@@ -136,7 +136,7 @@ void read_pbeam(NasReader& r) {
     std::vector<std::optional<double>> values(at_a.size());
     for (int i = 0; i < 6; ++i)
       if (!card.blank(next + 2 + i)) values[i] = r.card.real(next + 2 + i, names[i]);
-    taper.add(r.card.real(next + 1, "a place of the length (X/XB)", 1), values);
+    taper.add(r.card.real(next + 1, "a position along the length (X/XB)", 1), values);
     next += upper(card.text(next)) == "YES" ? 16 : 8;
   }
   read_after_stations(r, next, property);
@@ -158,7 +158,7 @@ void read_pbarl(NasReader& r) {
   }
   std::vector<double> d;
   for (std::size_t i = 0; i < count; ++i) d.push_back(r.card.positive(8 + i, "a dimension"));
-  d.push_back(r.card.real(8 + count, "a mass by length (NSM)", 0));
+  d.push_back(r.card.real(8 + count, "a mass per length (NSM)", 0));
   if (!r.card.good()) return;
   const auto take = [&](const std::vector<double>& values, NasBeamProperty& of) {
     take_nas_shape(r.card, shape, {values.begin(), values.end() - 1}, of);
@@ -172,9 +172,9 @@ void read_pbarl(NasReader& r) {
       for (std::size_t k = 0; k < d.size(); ++k) {
         const std::size_t field = i + 2 + k;
         if (!card.blank(field))
-          values[k] = k < count ? r.card.positive(field, "a dimension") : r.card.real(field, "a mass by length (NSM)");
+          values[k] = k < count ? r.card.positive(field, "a dimension") : r.card.real(field, "a mass per length (NSM)");
       }
-      taper.add(r.card.real(i + 1, "a place of the length (X/XB)", 1), values);
+      taper.add(r.card.real(i + 1, "a position along the length (X/XB)", 1), values);
     }
   taper.complete(r.card);
   if (r.card.good() && taper.varies()) taper.divide(property, take);

@@ -172,7 +172,8 @@ const std::map<std::string, std::string>& nas_others() {
         {"RBE1", "RBAR1", "RROD", "RTRPLT", "RTRPLT1", "RSPLINE", "RSSCON", "RJOINT"}},
        {"axes by another rule; use CORD2R", {"CORD3G", "CORD3R", "CORD3C", "CORD3S"}},
        {"a section that is not read; use PBAR, PBARL or PBEAM", {"PBRSECT", "PBMSECT", "PBCOMP", "PBEND", "PBEAM3"}},
-       {"a part of the model that a matrix or other points join", {"SECONCT", "SELOC", "SEMPLN", "CSUPEXT", "SEELT"}}});
+       {"a part of the model connected by a matrix or other points",
+        {"SECONCT", "SELOC", "SEMPLN", "CSUPEXT", "SEELT"}}});
   return all;
 }
 
@@ -204,10 +205,10 @@ std::string nas_reason(const std::string& name) {
       {"PBEAM NSI", "the nonstructural mass is spread over the section"},
       {"PBEAM CW", "beams have no warping stiffness"},
       {"CBEAM SA, SB", "beams have no warping stiffness"},
-      {"MAT3", "no shell or beam has it"},
-      {"MAT9", "no shell or beam has it"},
-      {"MAT10", "no shell or beam has it"},
-      {"MAT11", "no shell or beam has it"},
+      {"MAT3", "no shell or beam uses it"},
+      {"MAT9", "no shell or beam uses it"},
+      {"MAT10", "no shell or beam uses it"},
+      {"MAT11", "no shell or beam uses it"},
       {"PBUSH B, GE", "damping is that of the scene"},
       {"PBUSH M", "a spring has no mass; use CONM2"}};
   if (const auto found = of_fields.find(name); found != of_fields.end()) return found->second;

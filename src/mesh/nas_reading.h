@@ -79,7 +79,7 @@ struct NasBeamProperty {
   std::string name;  // PBAR3
   long long material;
   BeamSection section;  // without material and orientation
-  double area, extra;   // nonstructural mass by length
+  double area, extra;   // nonstructural mass per length
   Where where;
   std::vector<NasBeamProperty> pieces = {};  // of a beam with taper, from end A, of equal length
   unsigned releases = 0;                     // of the ends of such a beam, for constants that are 0
@@ -128,8 +128,8 @@ struct NasLink {
   long long reference;
   std::vector<long long> nodes;
   Where where;
-  std::string name = {};   // RBE2 7
-  std::string holds = {};  // 123 and some rotations of its dependent grids; empty: all
+  std::string name = {};        // RBE2 7
+  std::string constrains = {};  // 123 and some rotations of its dependent grids; empty: all
 };
 
 /// RBE3: the mean motion of grids.

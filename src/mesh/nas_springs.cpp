@@ -101,7 +101,7 @@ void read_prod(NasReader& r) {
     area = M_PI / 4 * (outer * outer - inner * inner);
     torsion = M_PI / 32 * (std::pow(outer, 4) - std::pow(inner, 4));
   }
-  const double extra = r.card.real(tube ? 4 : 5, "a mass by length (NSM)", 0);
+  const double extra = r.card.real(tube ? 4 : 5, "a mass per length (NSM)", 0);
   if (r.card.good() && torsion < 0) r.card.refuse(3, "expects J that is not negative");
   r.define(r.model.beam_properties, id,
            rod_property(r.named(r.card.card.name.c_str(), id), material, area, torsion, extra, r.where()), "property");
@@ -124,7 +124,7 @@ void read_conrod(NasReader& r) {
   rod.property = -rod.id;
   const long long material = r.card.integer(3, "a material");
   const double area = r.card.positive(4, "the area"), torsion = r.card.real(5, "J", 0),
-               extra = r.card.real(7, "a mass by length (NSM)", 0);
+               extra = r.card.real(7, "a mass per length (NSM)", 0);
   if (r.card.good() && torsion < 0) r.card.refuse(5, "expects J that is not negative");
   r.define(r.model.beam_properties, rod.property,
            rod_property(r.named("CONROD", rod.id), material, area, torsion, extra, r.where()), "rod");

@@ -17,7 +17,7 @@ void NasTaper::complete(NasFields& card) {
   if (stations_.front().x < 0) return card.refuse_card("expects stations (X/XB) between 0 and 1");
   for (std::size_t i = 1; i < stations_.size(); ++i)
     if (!(stations_[i].x > stations_[i - 1].x && stations_[i].x <= 1))
-      return card.refuse_card("expects stations (X/XB) between 0 and 1, each at a place of its own");
+      return card.refuse_card("expects stations (X/XB) between 0 and 1, all different");
   if (stations_.size() == 1) return;
   if (stations_.back().x != 1) return card.refuse_card("expects a station at end B (X/XB = 1)");
   Station &a = stations_.front(), &b = stations_.back();

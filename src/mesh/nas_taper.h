@@ -13,7 +13,7 @@ class NasTaper {
   /// A station at x of the length, whose values may be missing: those of end A at end B (x = 1), else between its ends.
   void add(double x, std::vector<std::optional<double>> values) { stations_.push_back({x, std::move(values)}); }
 
-  /// Fills what is missing; a fault where the stations do not end at 1, or two lie at one place.
+  /// Fills what is missing; a fault where the stations do not end at 1, or two coincide.
   void complete(NasFields& card);
 
   /// Whether a value differs from end A.

@@ -195,7 +195,7 @@ Sections sections_of(const Body& body, const Source& source) {
   return sections;
 }
 
-/// The greatest membrane stiffness of the shells [N/m].
+/// The maximum membrane stiffness of the shells [N/m].
 double membrane_stiffness(const Sections& sections) {
   double A = 0;
   for (const fem::Section& section : sections.of_parts)

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double factor = 1000;   // c
-constexpr double in_plane = 0.1;  // least component of e in the plane of a shell, which resists A of it squared
+constexpr double in_plane = 0.1;  // min component of e in the plane of a shell: the stiffness is A times its square
 
 struct Edge {
   std::vector<PetscInt> nodes;  // in their order along it

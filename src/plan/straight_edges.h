@@ -7,7 +7,7 @@
 namespace floe::plan {
 using namespace scene;
 
-/// Adds to the mesh what keeps edges of the body straight that its supports ask for (Joint::straight): between
+/// Adds to the mesh the springs that keep edges of the body straight (Joint::straight of its supports): between
 /// neighbours on the edge a stiff spring in the direction e of the displacements that vary linearly along it, and about
 /// t x e, t along the edge,
 ///
@@ -18,14 +18,14 @@ using namespace scene;
 ///
 /// @param places  nodes by name, the same on all ranks
 /// @param parts   sections of the mesh's parts that the scene does not give; those of the springs are added
-/// @param stiffness  A, the greatest of all shells
+/// @param stiffness  A, the maximum of all shells
 /// @throws InputError  a place of less than three nodes, with coincident ones, that is not straight, or along e; e
 /// normal to the shells. Collective.
 void add_straight_edges(const Scene& scene, const Body& body,
                         const std::map<std::string, std::vector<PetscInt>>& places, double stiffness,
                         mesh::RawMesh& raw, std::map<int, fem::Section>& parts);
 
-/// Whether supports ask for any of this body.
+/// Whether supports have straight edges of this body.
 bool has_straight_edges(const Scene& scene, const Body& body);
 
 }  // namespace floe::plan

@@ -127,7 +127,7 @@ SpatialElements::Terms SpatialElements::terms(std::size_t c, double& stiffest) c
   return terms;
 }
 
-SpatialElements::Terms SpatialElements::held(double scale) const {
+SpatialElements::Terms SpatialElements::constraints(double scale) const {
   Terms terms;
   for (const PetscInt dof : constrained_) {
     const PetscInt local = dof - dofs * structure_.mesh.first_node;
@@ -143,7 +143,7 @@ SpatialElements::Terms SpatialElements::all() const {
   for (std::size_t c = 0; c < count(); ++c)
     for (auto& term : terms(c, stiffest)) all.push_back(std::move(term));
   MPI_Allreduce(MPI_IN_PLACE, &stiffest, 1, MPI_DOUBLE, MPI_MAX, structure_.mesh.comm);
-  for (auto& term : held(stiffest > 0 ? stiffest : 1)) all.push_back(std::move(term));
+  for (auto& term : constraints(stiffest > 0 ? stiffest : 1)) all.push_back(std::move(term));
   return all;
 }
 

@@ -297,10 +297,10 @@ class GroupCopy {
     for (std::size_t i = 0; i < parts.size(); ++i)
       k[static_cast<Eigen::Index>(i)] = read_number(document_, parts[i], described);
     if (document_.fault_count() != before) return value;
-    const Eigen::Matrix3d turned = motion_.R * k.asDiagonal() * motion_.R.transpose();
-    const Eigen::Matrix3d rest = turned - Eigen::Matrix3d(turned.diagonal().asDiagonal());
-    if (rest.cwiseAbs().maxCoeff() <= 1e-12 * k.cwiseAbs().maxCoeff()) return numbers_at(value, turned.diagonal());
-    document_.fault(where, fmt::format("has axes that are no world axes as copies.{} rotates it", name_),
+    const Eigen::Matrix3d rotated = motion_.R * k.asDiagonal() * motion_.R.transpose();
+    const Eigen::Matrix3d rest = rotated - Eigen::Matrix3d(rotated.diagonal().asDiagonal());
+    if (rest.cwiseAbs().maxCoeff() <= 1e-12 * k.cwiseAbs().maxCoeff()) return numbers_at(value, rotated.diagonal());
+    document_.fault(where, fmt::format("has axes that are not world axes after the rotation of copies.{}", name_),
                     fmt::format("equal values, a rotation by right angles, an entry {} beside {}, which replaces its "
                                 "copy, or {} in copies.{}.without",
                                 renamed(owner), owner, owner, name_));

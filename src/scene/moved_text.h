@@ -21,7 +21,7 @@ struct GroupMotion {
   std::string moved_back(int i, const std::vector<std::string>& x, bool with_position) const;
 };
 
-/// Nodes that stand, for messages, where `at` does.
+/// Nodes with the line and column of `at`, for messages.
 YAML::Node text_at(const YAML::Node& at, const std::string& text);
 YAML::Node empty_list_at(const YAML::Node& at);
 YAML::Node empty_map_at(const YAML::Node& at);

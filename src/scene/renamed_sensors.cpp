@@ -10,7 +10,7 @@ namespace {
 bool letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
 
-/// The text with every name with dots, as hinge.angle, replaced; numbers as 1.5e3 are none.
+/// The text with every name with dots, as hinge.angle, replaced; numbers such as 1.5e3 are not names.
 std::string replaced(const std::string& text, const std::function<std::string(const std::string&)>& by) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -33,14 +33,14 @@ std::string owner(const std::string& name) { return name.substr(0, name.find('.'
 
 }  // namespace
 
-bool RenamedSensors::knows(const std::string& name) const {
+bool RenamedSensors::contains(const std::string& name) const {
   return name.find('.') != std::string::npos && (joints.count(owner(name)) || probes.count(owner(name)));
 }
 
 bool RenamedSensors::named_in(const std::string& formula) const {
   bool any = false;
   replaced(formula, [&](const std::string& name) {
-    any = any || knows(name);
+    any = any || contains(name);
     return name;
   });
   return any;
@@ -48,7 +48,7 @@ bool RenamedSensors::named_in(const std::string& formula) const {
 
 std::string RenamedSensors::renamed(const std::string& name, const std::string& prefix,
                                     const GroupMotion& motion) const {
-  if (!knows(name)) return name;
+  if (!contains(name)) return name;
   if (joints.count(owner(name)) || seen_from_group.count(owner(name))) return prefix + name;
   const std::string component = name.substr(name.find('.') + 1), axes = motion.dimension == 3 ? "xyz" : "xy";
   const auto axis = component.empty() ? std::string::npos : axes.find(component.back());

@@ -97,7 +97,8 @@ const SchemaSection copy_section{
     "itself has by that name replaces the copy. Events are not copied.",
     "like: [upper_arm, forearm]\nposition: [0, 0.5]\nangle: pi",
     {
-        {"like", Type::texts, "", Key::required, "names of the bodies of the group; also of those of copies above"},
+        {"like", Type::texts, "", Key::required,
+         "names of the bodies of the group; bodies of earlier copies are allowed"},
         {"position", Type::point, "m", "", "translation, after the rotation about the world origin; absent: zero"},
         in_plane({"angle", Type::number, "rad", "0", "rotation about the world origin, counterclockwise"}),
         in_space({"rotation", Type::point, "rad", "", "rotation vector about the world origin; absent: zero"}),

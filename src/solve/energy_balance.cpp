@@ -42,7 +42,7 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
   return rates - unbalanced;
 }
 
-void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double greatest) {
+void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
   if (count_ == 0) start_ = energy;
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
@@ -52,7 +52,7 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
     growth_ = std::max(growth_, energy - start_ - work_);
     power_ = power, known_ = 1;
   }
-  const double exchanged = std::max(turnover_, greatest);
+  const double exchanged = std::max(turnover_, max_part);
   if (growth_ <= 0.5 * exchanged) accounted_ = exchanged;
   beyond_ = growth_ > most_growth * accounted_ ? beyond_ + 1 : 0;
   ++count_, t_ = t;

@@ -78,7 +78,7 @@ Progress later_progress(GeneralizedAlpha* data, const Norms& norms) {
   return least;
 }
 
-// Whether Newton has left what its start is near, so that what it finds is another solution than the motion's: an
+// Whether Newton's method has left the neighbourhood of its start, so that it would converge to another solution: an
 // update of ten times the first one and of the step's own size, or, with new Jacobians, a residual of a hundred times
 // the first.
 bool has_left(const GeneralizedAlpha* data, const Norms& norms, PetscInt lag, PetscReal residual) {

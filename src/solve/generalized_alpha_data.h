@@ -112,8 +112,9 @@ PetscErrorCode start_consistently(TS ts);
 /// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
 PetscErrorCode smooth_rates(TS ts);
 
-/// U - U0, where a step may end, loses what the step does not resolve: of stiff motions h^2 a_0 / 2 is (omega h)^2 / 2
-/// times their amplitude. Multipliers become those of U0. Leaves J of the step's beginning in the solver. Collective.
+/// Removes from U - U0, an estimate of the step's end, what the step does not resolve: of stiff motions h^2 a_0 / 2 is
+/// (omega h)^2 / 2 times their amplitude. Multipliers become those of U0. Leaves J of the step's beginning in the
+/// solver. Collective.
 ///
 /// @param reach  how far the step's end can be: twice the distance of what is kept, and h |V0|; 0: U stays, because J
 ///               cannot be solved or because U has none of them

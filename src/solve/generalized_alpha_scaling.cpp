@@ -84,8 +84,8 @@ PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
   PetscFunctionReturn(0);
 }
 
-// Of the greatest weight: what is smaller is that of an unknown without mass or stiffness, as axes that accompany a
-// body.
+// Relative to the maximum weight: smaller weights are those of unknowns without mass or stiffness, such as axes that
+// accompany a body.
 constexpr PetscReal round_off = 1e-20;
 
 void weigh(GeneralizedAlpha* data) {
@@ -126,8 +126,8 @@ PetscErrorCode set_scales(TS ts) {
 
   PetscFunctionBegin;
   weigh(data);
-  PetscReal greatest;
-  PetscCall(VecMax(data->weight, nullptr, &greatest));
+  PetscReal max_weight;
+  PetscCall(VecMax(data->weight, nullptr, &max_weight));
   const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
   Changed scale(data->scale);
   const PetscReal of_row = PetscSqrtReal(data->shift_a);
@@ -135,7 +135,7 @@ PetscErrorCode set_scales(TS ts) {
     if (dynamic[i] == 0)
       scale[i] = of_row * row[i];
     else
-      scale[i] = weight[i] > round_off * greatest ? 1 / PetscSqrtReal(weight[i]) : 1;
+      scale[i] = weight[i] > round_off * max_weight ? 1 / PetscSqrtReal(weight[i]) : 1;
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);

@@ -127,7 +127,7 @@ PetscErrorCode newton(TS ts, SNESConvergedReason* reason) {
 }
 
 // From where the step would lead without motions that it does not resolve, which after a sudden force at a node are
-// beyond Newton's reach. A solution that is farther away is another one than the motion's.
+// too far away for convergence. A solution that is farther away than `reach` is not that of the motion.
 PetscErrorCode newton_from_resolved(TS ts, SNESConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   PetscReal reach, far;
@@ -168,8 +168,8 @@ PetscErrorCode newton_from_extrapolated(TS ts, PetscInt lag, SNESConvergedReason
   PetscFunctionReturn(0);
 }
 
-// While there are motions that the step does not resolve, and from where Newton fails because of them, solutions are
-// those near what it resolves.
+// While there are motions that the step does not resolve, from the step where Newton's method fails because of them on,
+// only solutions near the resolved motion are accepted.
 PetscErrorCode solve(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscInt lag = ts->snes->lagjacobian;

@@ -4,7 +4,7 @@
 namespace floe::solve {
 using namespace dynamics;
 
-/// sqrt(M_ii): weights in which lengths and angles stand beside one another; multipliers have none. Collective.
+/// sqrt(M_ii): weights that make lengths and angles comparable; multipliers have none. Collective.
 petsc::VecHandle root_masses(const System& system, double t, Vec U, Vec V);
 
 /// sum_i w_i^2 a_i b_i. Collective.

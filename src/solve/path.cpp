@@ -17,9 +17,9 @@ using petsc::check;
 namespace {
 
 constexpr int most_iterations = 15, good_iterations = 4;
-constexpr double good_turn = 0.15, most_turn = 0.5;  // of tangent and chord within a step [rad]
-constexpr double least_share = 1e-4;                 // of the length of the first step
-constexpr double least_first = 1e-8;                 // of the length tried first, for the first step
+constexpr double good_angle = 0.15, max_angle = 0.5;  // of tangent and chord within a step [rad]
+constexpr double min_share = 1e-4;                    // of the length of the first step
+constexpr double min_first = 1e-8;                    // of the length tried first, for the first step
 
 /// An equilibrium with the direction in which the path goes on, of size one.
 struct PathState {
@@ -81,7 +81,7 @@ class PathFollower {
   PathState step() {
     std::string why;
     const bool begins = end_.points == request_.number && !rough_start_;
-    const double least = (begins ? least_first : least_share) * first_;
+    const double least = (begins ? min_first : min_share) * first_;
     for (; length_ >= least; length_ /= 2) {
       const double most = 1.0001 * request_.first / std::max(std::abs(now_.direction.t), 1e-300);
       length_ = std::min(length_, most);
@@ -89,13 +89,13 @@ class PathFollower {
         const bool shortest = !begins && length_ < 2 * least;  // at a kink of the path
         Tried tried = correct(length_, why, shortest ? 4 : 0.5);
         if (!tried.state) continue;
-        if (tried.turn > most_turn && !shortest) continue;
+        if (tried.rotation > max_angle && !shortest) continue;
         taken_ = length_;
-        length_ *= std::clamp(
-            std::min(good_turn / std::max(tried.turn, 1e-3), std::sqrt(double(good_iterations) / tried.iterations)),
-            0.5, 2.);
+        length_ *= std::clamp(std::min(good_angle / std::max(tried.rotation, 1e-3),
+                                       std::sqrt(double(good_iterations) / tried.iterations)),
+                              0.5, 2.);
         if (begins) first_ = taken_;
-        length_ = std::max(length_, least_share * first_);
+        length_ = std::max(length_, min_share * first_);
         return std::move(*tried.state);
       } catch (const petsc::Error&) {
         throw;
@@ -104,20 +104,20 @@ class PathFollower {
       }
     }
     if (begins) {  // a load of infinite rate at the start, sqrt(t): a step as at a kink
-      rough_start_ = true, length_ = 1.9 * least_share * first_;
+      rough_start_ = true, length_ = 1.9 * min_share * first_;
       return step();
     }
     throw RunError(
         fmt::format("the path of equilibria cannot be followed beyond t = {:.6g} (point {}): steps down to {:.0e} of "
                     "the first fail{}"
-                    "; a load or stop that acts suddenly, a bifurcation, or --steps too few",
-                    now_.at.t, end_.points, least_share, why.empty() ? "" : " (" + why + ")"));
+                    "; possible causes: a sudden load or stop, a bifurcation, too few --steps",
+                    now_.at.t, end_.points, min_share, why.empty() ? "" : " (" + why + ")"));
   }
 
   struct Tried {
     std::optional<PathState> state;
     int iterations = 0;
-    double turn = 0;
+    double rotation = 0;
   };
 
   /// Newton's method from the predictor of a step, in the plane across the direction, no further away from it than this
@@ -143,7 +143,7 @@ class PathFollower {
         return {};
       }
       if (size <= 1e-9 * length || (size <= 1e-6 * length && size >= 0.5 * last)) {
-        tried.turn = point_on(next);
+        tried.rotation = point_on(next);
         tried.state = std::move(next);
         return tried;
       }
@@ -163,7 +163,7 @@ class PathFollower {
   }
 
   /// The direction at the last point of Newton's method, on from the present one. @return  the rotation of the tangent
-  /// [rad], or twice the angle between the chord and one of the tangents, whichever is greater: all are the same on an
+  /// [rad], or twice the angle between the chord and one of the tangents, whichever is larger: all are the same on an
   /// arc of a circle; the chord to another branch differs from tangents that agree
   double point_on(PathState& next) const {
     PathVector& direction = next.direction;
@@ -182,7 +182,7 @@ class PathFollower {
                      2 * angle(equations_.product(chord, direction) / length)});
   }
 
-  /// Where dt/ds has changed its sign within the step: the point where it vanishes, to 1e-6 of its greater value at the
+  /// Where dt/ds has changed its sign within the step: the point where it vanishes, to 1e-6 of its larger value at the
   /// ends of the step, by regula falsi (Illinois). Where Newton's method fails, the point found last is kept.
   void refine_limit(PathState& next) {
     double low = 0, high = taken_, f_low = now_.direction.t, f_high = next.direction.t;
@@ -199,7 +199,7 @@ class PathFollower {
       if (side == last) (side > 0 ? f_low : f_high) /= 2;
       last = side;
     }
-    length_ = std::max(taken_ / 2, least_share * first_);
+    length_ = std::max(taken_ / 2, min_share * first_);
   }
 
   /// Newton's method at t = end, from the chord between the present point and the one beyond.
@@ -216,11 +216,11 @@ class PathFollower {
       if (size <= 1e-9 * taken_ || (size <= 1e-6 * taken_ && size >= 0.5 * last)) return;
       last = size;
     }
-    throw RunError(fmt::format(
-        "the path of equilibria comes to t = {:.6g}, but Newton's method does not converge there", request_.end));
+    throw RunError(fmt::format("the path of equilibria reaches t = {:.6g}, but Newton's method does not converge there",
+                               request_.end));
   }
 
-  /// A limit point where one was before.
+  /// Whether the present limit point is one found before.
   bool returns() {
     PathVector here = equations_.vector(), way = equations_.vector();
     set_to(here, now_.at);

@@ -16,7 +16,7 @@ struct PathVector {
 void add_to(PathVector& x, double factor, const PathVector& d);
 void set_to(PathVector& x, const PathVector& from);
 
-/// What is known at a point: a = -J^-1 dF/dt, to which dt = 1 belongs, and b = -J^-1 F.
+/// Solutions at a point: a = -J^-1 dF/dt, for dt = 1, and b = -J^-1 F.
 struct PathSolutions {
   petsc::VecHandle a, b;
 };

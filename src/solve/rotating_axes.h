@@ -10,8 +10,8 @@ struct WorldFrame {
   Eigen::Index x;  ///< global index of the first of its three rotations; that of its place is three less
   Eigen::Quaterniond base;
 };
-/// Frames of all ranks, each once, in the order of their indices: nodes of corotational bodies are frames that not
-/// every rank knows. Collective.
+/// Frames of all ranks, each once, in the order of their indices: frames at nodes of corotational bodies are
+/// not present on every rank. Collective.
 std::vector<WorldFrame> world_frames(const System& system);
 
 /// What the rotation prescribes at a configuration whose attitudes are their own bases, by global index.
@@ -62,7 +62,7 @@ class KeptState {
  private:
   const System& system_;
   petsc::VecHandle U_;
-  std::vector<Eigen::Quaterniond> bases_;  // of those that this rank knows
+  std::vector<Eigen::Quaterniond> bases_;  // of the frames on this rank
   std::vector<WorldFrame> frames_;
 };
 

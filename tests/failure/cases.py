@@ -451,7 +451,7 @@ UNUSUAL = [
     Case("path of equilibria that ends early", ["static", "scene.yaml", "--path", "--points", "3", "-o", "out"], 0,
          shows=("No estimate of the error: a path", "the path of equilibria ends at t = ", "after 3 points (--points)"),
          check=files("finished", 4)),
-    Case("path of what nothing holds", ["static", "scene.yaml", "--path", "-o", "out"], 1,
+    Case("path of an unconstrained body", ["static", "scene.yaml", "--path", "-o", "out"], 1,
          ("no equilibrium at t = ", "singular tangent stiffness (body beam)"), lines=1, scene=scene({"joints": None}),
          check=files("failed", 0, "no equilibrium")),
     Case("path from where a load begins", ["static", "scene.yaml", "--path", "-o", "out"], 0,

@@ -182,7 +182,7 @@ def numbers_of_the_files(folder):
 
 
 def paths_show_all_load_parameters(folder):
-    """t of a path of equilibria falls below its first value, and its last one need not be the greatest."""
+    """t of a path of equilibria falls below its first value, and its last one need not be the maximum."""
     import energy
     import history
     from results import Run

@@ -79,11 +79,11 @@ probes: {middle: {at: strut.middle, quantity: position}}
 
 namespace {
 
-/// A rigid rod of length L, hinged at the distance e from a vertical axis, which begins at the angle `turned` below the
+/// A rigid rod of length L, hinged at the distance e from a vertical axis, which begins at the angle `angle` below the
 /// horizontal outwards. Its angle b from the downward vertical, outwards, is an equilibrium at the speed W where
 /// f(b) = W^2 cos b (e/2 + L sin b/3) - g sin b/2 = 0, and small motions have -3 f'(b)/L = omega^2.
 struct HingedRod {
-  double e, turned;
+  double e, angle;
   static constexpr double L = 0.75, g = 9.81;
 
   app::CampbellDiagram at(const std::string& speeds) const {
@@ -104,12 +104,12 @@ bodies:
     mesh: {line: {from: [0, 0, 0], to: [$L, 0, 0], elements: 6}}
     section: {A: 1e-4, Iy: 1e-20, Iz: 1e-20, J: 1e-20, orientation: [0, 1, 0]}
     material: {E: 7e10, nu: 0.3, rho: 2700}
-    initial: {rotation: [0, $turned, 0], position: [$e, 0, 0]}
+    initial: {rotation: [0, $angle, 0], position: [$e, 0, 0]}
 joints:
   drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
   hinge: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
 )yaml",
-                                              {{"e", number(e)}, {"turned", number(turned)}, {"L", number(L)}}),
+                                              {{"e", number(e)}, {"angle", number(angle)}, {"L", number(L)}}),
                                          "scene"),
                       Formulation::vm_md, PETSC_COMM_WORLD, request, fault);
     if (fault) std::rethrow_exception(fault);
@@ -135,7 +135,7 @@ int warnings_of(const app::CampbellDiagram& diagram, const std::string& words) {
 
 }  // namespace
 
-// It hangs outwards at all speeds; inwards it can stand, too, unstably.
+// It hangs outwards at all speeds; inwards there is an unstable equilibrium, too.
 TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
   const HingedRod rod{0.02, 0.5};
   for (const std::string speeds : {"4,5,6", "4,6", "3,4,4.2,4.4,4.6,4.8,5,6"}) {
@@ -151,10 +151,10 @@ TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
   }
 }
 
-// Across the axis it hangs above a speed only: where the greatest torque towards the horizontal, over all angles, is 0.
+// Across the axis it hangs above a speed only: where the maximum torque towards the horizontal, over all angles, is 0.
 TEST_CASE("campbell: a branch that ends is left with a warning that gives the speed") {
   const HingedRod rod{0.05, 2.9};
-  const auto steepest = [&](double W) {  // the angle of the greatest torque
+  const auto steepest = [&](double W) {  // the angle of the maximum torque
     double at = 0;
     for (double b = 0; b > -M_PI / 2; b -= 1e-4)
       if (-rod.torque(W, b) > -rod.torque(W, at) || at == 0) at = b;
@@ -179,7 +179,7 @@ TEST_CASE("campbell: a branch that ends is left with a warning that gives the sp
   CHECK(warnings_of(found, "the steady rotation jumps to another branch") == 1);
 }
 
-// Upright it falls at one rate, the only exponents being +- that rate. Rigid bodies have no reduced model to blame.
+// Upright it falls at one rate; the only exponents are +- that rate. Rigid bodies have no reduced model.
 TEST_CASE("campbell: an upright rod falls at the rate of its closed form") {
   const HingedRod rod{0.05, 1.5 * M_PI + 0.1};
   const auto found = rod.at("0.5,1,1.5,2,2.5,3,3.5,4,4.5,5");

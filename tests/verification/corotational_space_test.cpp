@@ -303,9 +303,9 @@ probes: {tip: {at: b.end}}
   };
   const auto drift = [](const History& h) {
     const auto sum = [](const dynamics::Energy& e) { return e.kinetic + e.elastic; };
-    double greatest = 0;
-    for (const dynamics::Energy& e : h.energy) greatest = std::max(greatest, std::abs(sum(e) / sum(h.energy[0]) - 1));
-    return greatest;
+    double maximum = 0;
+    for (const dynamics::Energy& e : h.energy) maximum = std::max(maximum, std::abs(sum(e) / sum(h.energy[0]) - 1));
+    return maximum;
   };
   const double coarse = drift(flown(2e-3)), fine = drift(flown(1e-3));
   CHECK(fine < 2e-4);
@@ -336,7 +336,7 @@ probes: {tip: {at: b.end}}
   CHECK(error("16") < 1e-3);
 }
 
-// Of small deflections both models say the same; those of cfr are measured from the node or the edge that the frame of
+// For small deflections both models agree; those of cfr are measured from the node or the edge that the frame of
 // the other is clamped at, or from the chord of the nodes that it is pinned to.
 TEST_CASE("cfr in space: deflections from clamped and pinned frames, against the full-order model") {
   const std::string beam = R"yaml(
@@ -374,14 +374,14 @@ probes: {at: {at: strip.p3, quantity: deflection}}
   for (const std::string& text : {fill(beam, {{"frame", "pinned"}, {"at", "beam.middle"}}),
                                   fill(beam, {{"frame", "{type: clamped, at: start}"}, {"at", "beam.end"}}), strip}) {
     const History exact = move(text, Formulation::nlffr), corotated = move(text, Formulation::cfr);
-    double greatest = 0, error = 0;
+    double maximum = 0, error = 0;
     for (const char* column : {"at.x", "at.y", "at.z"})
       for (std::size_t i = 0; i < exact.t.size(); ++i) {
-        greatest = std::max(greatest, std::abs(exact[column][i]));
+        maximum = std::max(maximum, std::abs(exact[column][i]));
         error = std::max(error, std::abs(exact[column][i] - corotated[column][i]));
       }
-    INFO(text << greatest);
-    CHECK(greatest > 5e-4);
-    CHECK(error < (text == strip ? 0.03 : 0.01) * greatest);
+    INFO(text << maximum);
+    CHECK(maximum > 5e-4);
+    CHECK(error < (text == strip ? 0.03 : 0.01) * maximum);
   }
 }

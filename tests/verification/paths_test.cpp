@@ -48,7 +48,7 @@ probes: {tip: {at: beam.end}}
 }
 
 /// A roof of n x n quadrilaterals: 508 along its axis, radius 2540, half angle 0.1, E = 3102.75, nu = 0.3, every node
-/// of its straight edges held, its curved ones free, a force of 3000 t at its crown [N, mm].
+/// of its straight edges hinged, its curved ones free, a force of 3000 t at its crown [N, mm].
 struct Roof {
   Scratch folder;
   int n;
@@ -208,7 +208,7 @@ TEST_CASE("path: first steps longer than the way to the limit point") {
 }
 
 // There is no equilibrium at t = 0: the path begins at the first increment, which is the end.
-TEST_CASE("path: one step of a mechanism that its load holds") {
+TEST_CASE("path: one step of a mechanism that only its load makes stable") {
   const app::RunResult path = path_of(R"yaml(
 bodies: {arm: {mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}, section: {EA: 1e4, EI: 10, rhoA: 1}}}
 joints: {pin: {type: revolute, between: [ground, arm.start]}}

@@ -120,7 +120,7 @@ TEST_CASE("a measured clamp changes nothing but that it is measured", "[verifica
   }
 }
 
-TEST_CASE("drive moment and root reactions of a beam that a hub carries round", "[verification]") {
+TEST_CASE("drive moment and root reactions of a beam on a driven hub", "[verification]") {
   // hub and beam rigid enough; angle a t^2/2 gives f = m r (-w^2, a), moments about the places
   const std::string text = R"yaml(
 bodies:
@@ -292,7 +292,7 @@ probes:
   }
 }
 
-TEST_CASE("a drive by a cubic table leaves no moment once it stands", "[verification]") {
+TEST_CASE("a drive by a cubic table leaves no moment after it stops", "[verification]") {
   const std::string text = R"yaml(
 functions:
   stroke: {t: [0, 0.1003, 0.2], values: [0, 0.1, 0.1], interpolation: cubic}

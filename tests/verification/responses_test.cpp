@@ -73,7 +73,7 @@ TEST_CASE("residual responses: the full-order motion is approached, without deri
   CHECK(before < 1e-3);
 }
 
-TEST_CASE("residual responses: they join what the scene has, in every frame, with its elastic force") {
+TEST_CASE("residual responses: added to the basis of the scene, in every frame, with its elastic force") {
   const std::string text = fast(", responses: 3, elastic_force: linear");
   CHECK(labels(moved(text, Formulation::vm_md)) ==
         std::vector<std::string>{"mode 1", "mode 2", "response 1", "response 2", "response 3"});

@@ -27,7 +27,7 @@ Eigen::Vector3d vector(const History& history, const std::string& probe) {
 
 }  // namespace
 
-TEST_CASE("sections of a cantilever under tip force and weight: equilibrium of what lies beyond", "[verification]") {
+TEST_CASE("sections of a cantilever under tip force and weight: equilibrium of the part beyond", "[verification]") {
   const std::string text = R"yaml(
 gravity: [0, 0, -9.81]
 bodies:
@@ -325,7 +325,7 @@ probes:
   }
 }
 
-TEST_CASE("sections that are none, or that nothing determines", "[verification]") {
+TEST_CASE("sections that do not exist or are not determined", "[verification]") {
   const std::string text = R"yaml(
 bodies:
   frame:

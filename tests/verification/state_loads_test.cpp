@@ -159,7 +159,7 @@ probes: {mass: {at: mass.start, quantity: position}}
 }
 
 // A free body in a fluid: m v. = -c v, J w. = -b w about an axis of the body.
-TEST_CASE("state loads: forces against velocities of places let them decay") {
+TEST_CASE("state loads: forces opposed to velocities damp the motion") {
   const History at = move(R"yaml(
 bodies:
   ball:

@@ -239,7 +239,7 @@ probes:
   }
 }
 
-TEST_CASE("stresses that no shell has", "[verification]") {
+TEST_CASE("stresses at places without shells", "[verification]") {
   const std::string beam = R"yaml(
 bodies:
   beam:

@@ -36,7 +36,7 @@ reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generato
 std::string whole_name(const Body& body);
 /// A label among those of all pieces: `#2 mode 1` of beam#2, as it is of a body in one frame.
 std::string label_of_piece(const Body& body, const std::string& label);
-/// The labels of reduction.columns that stand for the body: those without a piece, and those of its own (`#2 mode 1`).
+/// The labels of reduction.columns that refer to the body: those without a piece, and those of its own (`#2 mode 1`).
 std::vector<std::string> named_columns(const Body& body);
 
 /// Leaves the stage those generators and pairs that reduction.columns names and that there are. A body's pieces differ

@@ -10,11 +10,11 @@ inline bool has_structure(const PlannedBody& body) { return !body.spec.rigid && 
 /// Of all bodies with a mesh.
 PetscInt elements_of(const Offline& offline);
 
-/// From so many elements on the terms of full order take gigabytes.
+/// From this number of elements on, the terms of the full-order model take gigabytes.
 inline constexpr PetscInt many_elements = 20000;
 
-/// The full-order model of the bodies; mass-proportional and modal damping, which it does not know, are taken out of
-/// the residual by those who know V. @param apart  as assemble(). Collective.
+/// The full-order model of the bodies, without mass-proportional and modal damping, whose forces the caller adds to the
+/// residual. @param apart  as assemble(). Collective.
 Model full_order(Offline& offline, bool apart = false);
 
 /// V'r by plain products.
@@ -26,20 +26,20 @@ Eigen::VectorXd products(const reduction::Basis& basis, Vec r);
 class Residuals {
  public:
   /// @param reduced     of offline.reduced
-  /// @param apart_from  so many elements, where the scene is in space
+  /// @param apart_from  number of elements from which they are apart; in space only
   Residuals(const Model& reduced, Offline& offline, PetscInt apart_from = many_elements);
-  /// Whether elements are not stored, but made anew by each call of add().
+  /// Whether elements are not stored, but created in each call of add().
   bool apart() const { return !full_.elements.empty(); }
-  /// Elements that are apart are made once for all of the states. Collective.
+  /// Elements that are apart are created once for all states. Collective.
   void add(const std::vector<solve::State>& states);
   /// -r of each state, of a body.
   const std::vector<ResidualLoad>& loads(std::size_t body) const { return loads_[body]; }
-  /// |V'r| against the elastic forces that V carries, the greatest of each over the states.
+  /// |V'r| relative to the elastic forces on V, each the maximum over the states.
   double unbalanced() const { return forces_ > 0 ? unbalanced_ / forces_ : 0; }
   int samples = 0;
 
  private:
-  /// The full-order model at a state, as this rank sees it.
+  /// This rank's part of the full-order model at a state.
   struct Lifted {
     double t;
     Eigen::VectorXd q, v, a;

@@ -33,27 +33,26 @@ struct SpatialFrame {
 };
 
 /// The elements of one full-order body in space (formulations nlffr and lffr): of each a SpatialBody, or a
-/// FixedFrameBody where the frame stands still; before it the damping of its strain rates and for mean_axis its part of
+/// FixedFrameBody where the frame is fixed; before it the damping of its strain rates and for mean_axis its part of
 /// the constraints Phi_r' M q = 0, where there are any.
 ///
-/// Terms are made when they are asked for: those of a triangle of shells take 31 kB, those of a body may not fit in
-/// memory.
+/// Terms are created on request: those of a shell triangle take 31 kB, those of a body may exceed the memory.
 class SpatialElements {
  public:
   using Terms = std::vector<std::unique_ptr<dynamics::Term>>;
   /// @param structure    borrowed
-  /// @param constrained  dofs that the frame holds, and those of nodes that follow others
-  /// @param frame        without attitude: it stands still
+  /// @param constrained  dofs constrained by the frame, and those of dependent nodes
+  /// @param frame        without attitude: a fixed frame
   /// @param viscosity    beta of Kelvin-Voigt damping on the strain rates [s]
   /// Collective.
   SpatialElements(const fem::Structure& structure, const fem::ReferenceFrame& reference, fem::Conditions constrained,
                   const NodeCoordinates& nodes, SpatialFrame frame, ElasticForce force, double viscosity = 0);
   /// Of this rank.
   std::size_t count() const { return structure_.mesh.cells.size(); }
-  /// @param stiffest  raised to that of the element. Rank-local.
+  /// @param stiffest  raised to the stiffness of the element. Rank-local.
   Terms terms(std::size_t cell, double& stiffest) const;
-  /// The equations that hold the constrained dofs at zero, scaled. Rank-local.
-  Terms held(double scale) const;
+  /// The equations that keep the constrained dofs at zero, scaled. Rank-local.
+  Terms constraints(double scale) const;
   /// All of them. Collective.
   Terms all() const;
 

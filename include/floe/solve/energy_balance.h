@@ -22,17 +22,17 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 /// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
-  /// An instant. A null: not known yet (at the start). Collective.
+  /// An instant. A null: not computed yet (at the start). Collective.
   /// @param energy    total, of U, V
-  /// @param greatest  of its parts, so far
-  void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double greatest);
+  /// @param max_part  maximum of its parts so far
+  void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part);
   /// Energy that the impulses of drives bring at an instant, which belongs to W; the power behind it is another one.
   void add_impulse(double energy);
   double work() const { return work_; }          ///< W [J]
   double growth() const { return growth_; }      ///< [J]
   double turnover() const { return turnover_; }  ///< int |P| dt [J]
-  /// Whether the growth was more than `most_growth` times what the motion had and exchanged while its balance held, at
-  /// two instants in a row (one alone may be round-off of a motion that begins from rest), and more than `floor` [J].
+  /// Whether the growth was more than `most_growth` times what the motion had and exchanged while its balance was met,
+  /// at two instants in a row (one may be round-off of a motion that begins from rest), and more than `floor` [J].
   bool runs_away(double floor) const { return beyond_ >= 2 && growth_ > floor; }
   static constexpr double most_growth = 3;
 

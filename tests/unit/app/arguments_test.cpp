@@ -66,7 +66,7 @@ TEST_CASE("command lines: equilibria, motions, sweeps, frequencies and reduced b
   CHECK_THAT(said({"schema", "--markdown"}), Contains("|"));
 }
 
-TEST_CASE("command lines that ask for what is not there are refused") {
+TEST_CASE("command lines with missing or invalid arguments are refused") {
   const OwnFolder own;
   const std::string scene = own.write("scene.yaml", cantilever),
                     still = own.write("still.yaml", cantilever.substr(0, cantilever.find("motion:")));

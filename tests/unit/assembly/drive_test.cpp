@@ -67,7 +67,7 @@ TEST_CASE("drives of infinite acceleration are smoothed beside it and as written
   CHECK_THAT(words[0], Contains("joint hub") && Contains("is infinite at t = 0 s") && Contains("(10 steps)"));
 }
 
-TEST_CASE("a drive by speed turns by its integral") {
+TEST_CASE("a drive by speed rotates by its integral") {
   const scene::Scene scene = driven("speed: '3*cos(2*t)'");
   const dynamics::TimeFunction drive = assembly::drive_of(scene.joints[0], scene.motion);
   for (const double t : {0.0, 0.3, 1.0}) {

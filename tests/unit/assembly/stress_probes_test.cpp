@@ -75,7 +75,7 @@ TEST_CASE("stresses, strains, forces and moments of a shell that starts stretche
   }
 }
 
-TEST_CASE("probes of stresses that cannot be are refused with the reason") {
+TEST_CASE("stress probes that are not defined are refused with the reason") {
   const auto said = [](const std::string& section, const std::string& probe) {
     return testing::complaint(
         "bodies:\n  plate:\n    mesh: {plate: {along: [1, 0, 0], across: [0, 0.5, 0], elements: "

@@ -71,7 +71,7 @@ TEST_CASE("unit pressure on an element: rigid motions move its resultant, its mo
     CHECK((unit.force_by * turn - w.cross(unit.force)).norm() < 1e-12);
     CHECK((unit.moment_by * shift - c.cross(unit.force)).norm() < 1e-12);
     CHECK((unit.moment_by * turn - w.cross(unit.moment)).norm() < 1e-12);
-    // the virtual work of forces that turn with the element, on a translation
+    // the virtual work of forces that rotate with the element, on a translation
     CHECK(shift.dot(unit.load_by * turn) == Approx(c.dot(w.cross(unit.force))).margin(1e-12));
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (Eigen::Index i = 0; i < shift.size(); ++i) spread += shift[i] * unit.spread_by[i];

@@ -93,7 +93,7 @@ TEST_CASE("a PSHELL without MID2 bends by its material") {
                                             "stiffness of MID1 and the thickness (1 card)"));
 }
 
-TEST_CASE("moments of inertia of no body become those of the least one with the greatest") {
+TEST_CASE("physically impossible moments of inertia become those of the smallest body with the largest") {
   const auto file = read("inertia.bdf", square + "CONM2,50,3,,4.,,,,,\n,,,2.\n");
   const auto masses = testing::of_all_ranks(file.deck.masses);
   REQUIRE(masses.size() == 1);
@@ -104,12 +104,12 @@ TEST_CASE("moments of inertia of no body become those of the least one with the 
 
 TEST_CASE("materials of solids matter only where shells or beams name them") {
   const auto file = read("mat9.bdf", square + "MAT9,7,1.\nMAT10,8,1.\n");
-  CHECK_THAT(all_of(file.notices), Contains("MAT9 is ignored: no shell or beam has it (1 card)"));
+  CHECK_THAT(all_of(file.notices), Contains("MAT9 is ignored: no shell or beam uses it (1 card)"));
   CHECK_THAT(said(grids + "CTRIA3,2,3,1,2,3\nPSHELL,3,7,.01,7\nMAT9,7,1.\n"),
              Contains("PSHELL3 names material 7, a MAT9, which is not read; use MAT1, MAT8 or MAT2"));
 }
 
-TEST_CASE("scalar points, gaps and the reduction of superelements are no part of a body") {
+TEST_CASE("scalar points, gaps and the reduction of superelements are ignored") {
   const auto notices = all_of(read("points.bdf", square + "SPOINT,101,102\nQSET1,,101,102\nCGAP,70,7,1,2\nPGAP,7\n"
                                                           "RVDOF1,123,1,2,3,4,5,6,7,8\n")
                                   .notices);

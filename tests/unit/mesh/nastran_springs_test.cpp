@@ -122,7 +122,7 @@ TEST_CASE("masses by components, or by their matrix, are those of rigid bodies")
   CHECK_THAT(said(square + "CMASS2,70,1.,3,5\n"),
              Contains("bad.bdf:8: CMASS2 70: grid 3 has moments of inertia without a mass"));
   CHECK_THAT(said(square + "CONM2,70,3,,1.,,,,\n,-1.,,1.,,,1.\n"),
-             Contains("bad.bdf:8: CONM2 70: its moments of inertia are not those of a mass"));
+             Contains("bad.bdf:8: CONM2 70: its moments of inertia are physically impossible: one is negative"));
   CHECK_THAT(said(square + "CMASS1,70,9,3,1\n"), Contains("CMASS1 70 names PMASS 9, which is not defined"));
   CHECK_THAT(said(square + "CONM1,70,3,,1.,,1.,,\n,1.,,.5\n"), Contains("with terms between directions"));
   CHECK(testing::of_all_ranks(read("left.bdf", square + "CMASS2,70,1.,3,1\n", {{}, false, {"CMASS2"}}).deck.masses)
@@ -155,14 +155,16 @@ TEST_CASE("links that leave rotations free: to grids without these, or to the en
                                              "CELAS2,70,1.,5,3,3,3\n");
   CHECK(spring.deck.beam_sections.empty());
   const std::pair<std::string, const char*> wrong[] = {
-      {"RBE2,80,3,12,4\n", "RBE2: field 4 expects 123456, or 123: rigid links hold all three translations; found '12'"},
+      {"RBE2,80,3,12,4\n",
+       "RBE2: field 4 expects 123456, or 123: rigid links constrain all three translations; found '12'"},
       {"RBAR,80,3,4,123456,,,12\n", "expects 123456, or 123"},
-      {"RBE2,80,3,123,4\n", "RBE2 80: holds 123 of grid 4, whose other rotations shell 1 has, too; expected 123456"},
+      {"RBE2,80,3,123,4\n",
+       "RBE2 80: constrains 123 of grid 4, whose other rotations are also dofs of shell 1; expected 123456"},
       {bar + "RBE2,80,3,1234,5\n", "whose other rotations more than one beam end has"},
       {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n", "whose other rotations more than one beam end has"},
       {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n", "whose other rotations another link has"},
       {bar + "GRID,7,,0.,0.,0.\nGRID,8,,0.,0.,9.\nCBAR,11,5,7,8,0.,1.,0.,GGG\n,,,0.,0.,.3\nRBE2,80,3,123,7\n",
-       "RBE2 80: holds 123 of grid 7, at the end of beam 11 with the offset (0, 0, 0.3); expected 123456, or "
+       "RBE2 80: constrains 123 of grid 7, at the end of beam 11 with the offset (0, 0, 0.3); expected 123456, or "
        "no offset"}};
   for (const auto& [text, message] : wrong) CHECK_THAT(said(square + text), Contains(message));
 }

@@ -91,18 +91,18 @@ TEST_CASE("corotational in space: deflections are from the clamped or pinned fra
   const History pinned = move(fill(boom, {{"frame", "{type: pinned, from: start, to: end}"}}), Formulation::cfr);
   const Eigen::Matrix3d start = math::rotation(Vector3d(0.3, -0.2, 0.5));
   REQUIRE(clamped.t.size() > 30);
-  double greatest = 0;
+  double maximum = 0;
   for (std::size_t i = 0; i < clamped.t.size(); ++i) {
     const Eigen::Matrix3d driven = math::rotation(Vector3d(0, 0, 4 * clamped.t[i] * clamped.t[i]));
     const Vector3d m = vector_of(clamped, "m", i) - vector_of(clamped, "a", i), d = vector_of(clamped, "middle", i);
     CHECK((start.transpose() * driven.transpose() * m - X - d).norm() < 1e-9);
-    greatest = std::max(greatest, d.norm());
+    maximum = std::max(maximum, d.norm());
     const Vector3d a = vector_of(pinned, "a", i), chord = (vector_of(pinned, "b", i) - a).normalized(),
                    other = vector_of(pinned, "m", i) - a, e = vector_of(pinned, "middle", i);
     CHECK(e.x() == Approx(chord.dot(other) - 0.5).margin(1e-12));
     CHECK(e.tail<2>().norm() == Approx((other - chord.dot(other) * chord).norm()).margin(1e-12));
   }
-  CHECK(greatest > 0.01);
+  CHECK(maximum > 0.01);
   CHECK_THROWS_WITH(move(fill(boom, {{"frame", "mean-axis"}}), Formulation::cfr),
                     Catch::Contains("deflection is from a mean-axis frame"));
 }
@@ -156,12 +156,12 @@ TEST_CASE("cfr in space: a mechanism of shells, beams and a rigid body moves ali
   solve::simulate(*alone.system, how, alone.U, alone.V,
                   [&](const solve::Instant& now) { last = assembly::probe_values(alone, now.t, now.U, now.V); });
   const auto columns = assembly::probe_columns(at.model);
-  double greatest = 0;
+  double maximum = 0;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     CHECK(at[columns[c].name].back() == Approx(last[c]).margin(1e-8));
-    greatest = std::max(greatest, std::abs(last[c]));
+    maximum = std::max(maximum, std::abs(last[c]));
   }
-  CHECK(greatest > 1e-3);
+  CHECK(maximum > 1e-3);
 }
 
 TEST_CASE("cfr in space: what it does not know is refused", "[corotational-space]") {

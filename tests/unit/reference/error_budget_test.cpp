@@ -163,7 +163,7 @@ TEST_CASE("error budget: what cannot be estimated says why") {
   REQUIRE(deflection.model.notes.size() == 1);
   CHECK_THAT(deflection.model.notes[0], Catch::Contains("probe tip"));
   const Budget fixed = budget_of(plate("deflection"), 100), moved = budget_of(plate("displacement"), 100);
-  CHECK(fixed.model.none == "");  // the ground holds the frame: both probes are the same
+  CHECK(fixed.model.none == "");  // the frame is fixed to the ground: both probes are the same
   CHECK(fixed.model.probes.at(0) == Approx(moved.model.probes.at(0)).epsilon(1e-6));
   const Budget late = budget_of(plate("displacement"), 1e-3), at_once = budget_of(plate("displacement"), 1e-6);
   CHECK_THAT(late.model.none, Catch::Contains("formulation cfr would take about"));

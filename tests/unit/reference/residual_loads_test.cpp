@@ -13,7 +13,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 // A damped shell in mean axes that swings about a hinge line on a rotating arm of beams, and a plate that the ground
-// clamps: every kind of full-order element, of bodies that move and that stand still.
+// clamps: every kind of full-order element, of moving and fixed-frame bodies.
 const char* const scene_text = R"(
 gravity: [0, 0, -9.81]
 bodies:

@@ -146,8 +146,9 @@ motion: {end: 1, step: 1}
   // axes y and z of the bushing become z and -y
   CHECK(named(scene.joints, "one_k").translation == std::array<double, 3>{1, 3, 2});
   CHECK(scene.joints.size() == 5);
-  CHECK_THAT(fault_of(with(text, "without: [one_k]", "without: [one_j]")),
-             Catch::Contains("joints.one_k.translation: has axes that are no world axes as copies.two rotates it"));
+  CHECK_THAT(
+      fault_of(with(text, "without: [one_k]", "without: [one_j]")),
+      Catch::Contains("joints.one_k.translation: has axes that are not world axes after the rotation of copies.two"));
 }
 
 TEST_CASE("copies of groups: an entry of the scene replaces its copy; values follow the originals") {
@@ -216,7 +217,7 @@ TEST_CASE("copies of groups: written out, with nodes of their own") {
   check_point(named(again.bodies, "two_fore").initial.position, 0.5, 1.55);
 }
 
-TEST_CASE("copies of groups: faults of values are told once, at their own lines") {
+TEST_CASE("copies of groups: faults of values are reported once, at their own lines") {
   CHECK_THAT(fault_of(with(plane, "rhoA: 1", "rhoA: x")),
              Catch::Contains("scene:6:38: bodies.upper.section.rhoA") && !Catch::Contains("two_upper"));
   CHECK_THAT(fault_of(with(plane, "[upper.end, fore.start]", "[upper.end, fore.stat]")),
