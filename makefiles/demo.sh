@@ -5,5 +5,3 @@ build=$1
 cd "$(dirname "$0")/.."
 source makefiles/mpi_environment.sh
 "$build/floe" compare examples/cantilever/scene.yaml -o results/demo --force
-cp results/demo/compare.png docs/paper_cantilever.png
-echo "The same picture, for the documentation: docs/paper_cantilever.png"
