@@ -205,9 +205,11 @@ class ModelError {
                        [](const Body& body) { return body.mesh.plate.has_value(); });
   }
 
-  /// Lower bound for the whole motion on any machine: whether a large model is worth building.
+  /// Lower bound for the whole motion on any machine, of each rank: whether a large model is worth building.
   double min_seconds() const {
-    return min_step_seconds * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline);
+    int ranks = 1;
+    MPI_Comm_size(motion_.comm, &ranks);
+    return min_step_seconds * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline) / ranks;
   }
   /// By thinning (affordable()).
   double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (plates() ? 1 : 4); }

@@ -46,7 +46,7 @@ inline double estimate_seconds(double run) { return std::max(1.0, 0.1 * run); }
 ///
 /// What [V W] cannot follow is not seen; where V is far too poor the estimate is too small.
 ///
-/// Made below 20000 elements: the terms of the full-order model stand in memory while it is made.
+/// From many_elements on, in space, elements of the full-order model are made one after another and not stored.
 ///
 /// @param model    reduced, with its offline stage kept (build)
 /// @param seconds  that it may take, about; it thins its samples, basis vectors and instants and reports it
@@ -59,7 +59,8 @@ Estimate estimate_error(const Model& model, const KeptMotion& motion, double sec
 ///
 /// and what it adds is the error. A first step is the response of the full tangent to the residual; it stops where the
 /// next step would be short, or when its time is over. Errors are relative to what it arrives at, here; `samples` are
-/// residuals, there are no basis vectors. Of the last equilibrium there is a step at least; others as time allows.
+/// residuals, there are no basis vectors. Made below many_elements: the tangent of the full-order model stands in
+/// memory while it is made. Of the last equilibrium there is a step at least; others as time allows.
 ///
 /// @param model   reduced, with its offline stage kept (build); factors of K are not needed
 /// @param states  in ascending order of t, at rest
