@@ -27,7 +27,10 @@ class PathReport {
               {"unstable_directions", ordered_json::array()}};
   }
 
-  void add(double t, Vec U, bool limit) {
+  void add(double t, Vec U, solve::PathPoint::Limit kind) {
+    using Limit = solve::PathPoint::Limit;
+    const bool limit = kind == Limit::at;
+    if (kind == Limit::within) ++limits_, ++within_;
     // At a limit point one direction has no stiffness: the sign of its eigenvalue is round-off.
     const std::optional<int> unstable =
         limit ? std::nullopt : solve::unstable_directions(*model_.system, t, U, model_.V);
@@ -52,6 +55,10 @@ class PathReport {
       result_.warnings.push_back(fmt::format(
           "limit points at t = {}{}: where a load goes beyond one the structure snaps to another equilibrium",
           fmt::join(some, ", "), count > most ? fmt::format(" and {} more (summary.json)", count - most) : ""));
+    if (within_ > 0)
+      result_.warnings.push_back(fmt::format(
+          "{} limit point{} of the path not located, because Newton's method fails next to {}; take more --steps",
+          within_, within_ == 1 ? " is" : "s are", within_ == 1 ? "it" : "them"));
     if (unstable_ > 0)
       result_.warnings.push_back(
           fmt::format("{} of the {} points of the path are unstable equilibria, the first at t = {:.6g} "
@@ -112,6 +119,7 @@ class PathReport {
   std::vector<std::string> limits_met_;
   std::optional<int> last_;
   int limits_ = 0;                               // since then
+  int within_ = 0;                               // limit points that are not located
   int points_ = 0, unstable_ = 0, unknown_ = 0;  // unknown: no limit point, and no count of unstable directions
   double first_unstable_ = 0;
   double t_ = 0;
@@ -136,15 +144,20 @@ void follow_load_path(const assembly::Model& model, const LoadSteps& load, bool 
   double t = 0;
   int number = 0;
   if (begun) {
-    found.add(0, model.U, false);
+    found.add(0, model.U, solve::PathPoint::Limit::none);
   } else {
     report.newton += solve::follow_equilibrium(*model.system, 0, first, load.at / 1000, model.U, model.V,
                                                [](const solve::BranchJump&, Vec, Vec) {});
     t = first, number = 1;
-    observe({1, t, false, load.steps == 1 || load.points == 1}, model.U);
+    observe({1, t, solve::PathPoint::Limit::none, load.steps == 1 || load.points == 1}, model.U);
   }
-  const solve::PathEnd end =
-      solve::follow_path(*model.system, t, {first, load.at, load.points, number}, model.U, model.V, observe);
+  solve::PathEnd end;
+  try {
+    end = solve::follow_path(*model.system, t, {first, load.at, load.points, number}, model.U, model.V, observe);
+  } catch (...) {  // what was found until then
+    found.describe();
+    throw;
+  }
   report.newton += end.iterations;
   found.describe();
   found.conclude(end, load, report.end);

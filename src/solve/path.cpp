@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "floe/solve/start.h"
+#include "gather_to_all.h"
 #include "path_equations.h"
+#include "rotating_axes.h"
 
 namespace floe::solve {
 
@@ -50,12 +52,13 @@ class PathFollower {
       PathState next = step();
       const double side = std::copysign(1, next.direction.t);
       const bool limit = side != side_;
-      if (limit) refine_limit(next);
+      const bool located = limit && refine_limit(next);
       side_ = side;
       const bool crosses = (now_.at.t - request_.end) * (next.at.t - request_.end) <= 0;
       if (crosses) finish(next);
       end_.at_end = crosses;
-      accept(next, limit && !crosses);
+      using Limit = PathPoint::Limit;
+      accept(next, !limit || crosses ? Limit::none : located ? Limit::at : Limit::within);
     }
     return end_;
   }
@@ -183,23 +186,34 @@ class PathFollower {
   }
 
   /// Where dt/ds has changed its sign within the step: the point where it vanishes, to 1e-6 of its larger value at the
-  /// ends of the step, by regula falsi (Illinois). Where Newton's method fails, the point found last is kept.
-  void refine_limit(PathState& next) {
+  /// ends of the step, by regula falsi (Illinois). @return  false: Newton's method fails beside it, or formulas have no
+  /// value; the point found last is kept
+  bool refine_limit(PathState& next) {
     double low = 0, high = taken_, f_low = now_.direction.t, f_high = next.direction.t;
     const double small = 1e-6 * std::max(std::abs(f_low), std::abs(f_high));
     int last = 0;
     for (int i = 0; i < 30 && std::abs(next.direction.t) > small; ++i) {
       const double s = (low * f_high - high * f_low) / (f_high - f_low);
-      std::string why;
-      Tried tried = correct(s, why);
-      if (!tried.state) return;
-      next = std::move(*tried.state);
+      const Tried tried = tried_at(s);
+      if (!tried.state) break;
+      set_to(next.at, tried.state->at), set_to(next.direction, tried.state->direction);
       const int side = next.direction.t * f_high > 0 ? 1 : -1;
       (side > 0 ? high : low) = s, (side > 0 ? f_high : f_low) = next.direction.t;
       if (side == last) (side > 0 ? f_low : f_high) /= 2;
       last = side;
     }
     length_ = std::max(taken_ / 2, min_share * first_);
+    return std::abs(next.direction.t) <= small;
+  }
+  Tried tried_at(double length) {
+    std::string why;
+    try {
+      return correct(length, why);
+    } catch (const petsc::Error&) {
+      throw;
+    } catch (const std::runtime_error&) {  // of formulas
+      return {};
+    }
   }
 
   /// Newton's method at t = end, from the chord between the present point and the one beyond.
@@ -220,21 +234,20 @@ class PathFollower {
                                request_.end));
   }
 
-  /// Whether the present limit point is one found before.
+  /// Whether the present limit point is one found before; rotations of frames count. Their bases are those of U_.
   bool returns() {
-    PathVector here = equations_.vector(), way = equations_.vector();
-    set_to(here, now_.at);
+    PathVector way = equations_.vector();
     bool back = false;
-    for (const auto& [point, length] : limits_) {
-      set_to(way, here);
-      add_to(way, -1, point);
-      back = back || equations_.size(way) < 1e-3 * (travelled_ - length);
+    for (const LimitPoint& point : limits_) {
+      set(way.U, point.state.change_to(U_));
+      way.t = now_.at.t - point.t;
+      back = back || equations_.size(way) < 1e-3 * (travelled_ - point.travelled);
     }
-    limits_.emplace_back(std::move(here), travelled_);
+    limits_.push_back({KeptState(system_, U_), now_.at.t, travelled_});
     return back;
   }
 
-  void accept(PathState& next, bool limit) {
+  void accept(PathState& next, PathPoint::Limit limit) {
     PathVector way = equations_.vector();
     set_to(way, next.at);
     add_to(way, -1, now_.at);
@@ -247,7 +260,7 @@ class PathFollower {
     if (!failed.joint.empty())
       throw RunError(fmt::format("the path of equilibria ends at t = {:.6g}: {}", now_.at.t, failed.text()));
     ++end_.points;
-    end_.closed = limit && returns();
+    end_.closed = limit == PathPoint::Limit::at && returns();
     observe_({end_.points, now_.at.t, limit, end_.at_end || end_.closed || end_.points == request_.most}, U_);
   }
 
@@ -267,7 +280,11 @@ class PathFollower {
   PathSolutions solutions_;
   PathState now_;
   PathEnd end_;
-  std::vector<std::pair<PathVector, double>> limits_;  // with the length of the path up to them
+  struct LimitPoint {
+    KeptState state;
+    double t, travelled;  // length of the path up to it
+  };
+  std::vector<LimitPoint> limits_;
   double first_ = 0, length_ = 0, taken_ = 0, travelled_ = 0;
   bool rough_start_ = false;
   double side_ = 1;  // sign of dt/ds behind the last point

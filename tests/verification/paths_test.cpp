@@ -232,3 +232,24 @@ TEST_CASE("path: loads with a kink, or with an infinite rate at the start") {
   CHECK(root.summary["path"]["at_end"] == true);
   CHECK(truss_load(h, h + column(root, "apex.y").back()) == Approx(8).epsilon(1e-5));
 }
+
+// The origin of the frame stays where it is, and the load has the same limit at every half turn: attitudes tell these
+// limit points apart. M = sin(2 angle) + t has limits where cos(2 angle) vanishes.
+TEST_CASE("path: limit points of a body that rotates about a place are different ones") {
+  const app::RunResult result = path_of(R"yaml(
+bodies:
+  rod:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [1, 0, 0], elements: 2}}
+    section: {A: 1e-3, Iy: 1e-8, Iz: 1e-8, J: 1e-8, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    frame: {type: pinned}
+joints: {hinge: {type: revolute, between: [ground, rod.start], axis: [0, 0, 1]}}
+loads: {twist: {type: moment, at: rod.start, moment: [0, 0, "t - sin(2*hinge.angle)"]}}
+probes: {a: {joint: hinge, quantity: angle}}
+)yaml",
+                                        Formulation::nlffr, 2, 20, 100);
+  const std::vector<double> angle = column(result, "a.value");
+  CHECK(*std::max_element(angle.begin(), angle.end()) > 3 * M_PI / 2);
+  for (const std::string& warning : result.warnings) CHECK_THAT(warning, !Catch::Contains("closed"));
+}

@@ -17,8 +17,10 @@ struct PathRequest {
 struct PathPoint {
   int number;  ///< from 1
   double t;    ///< of the loads
-  bool limit;  ///< t is a maximum or minimum along the path
-  bool last;   ///< t = end, or all requested points are found
+  /// t has a maximum or minimum along the path: here (at), or somewhere in the step to this point, where Newton's
+  /// method failed beside it (within).
+  enum class Limit { none, at, within } limit;
+  bool last;  ///< t = end, or all requested points are found
 };
 
 struct PathEnd {
