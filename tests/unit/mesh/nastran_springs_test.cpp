@@ -117,7 +117,7 @@ TEST_CASE("masses by components, or by their matrix, are those of rigid bodies")
   CHECK((matrix.inertia - Eigen::Vector3d(2, 4, 5).asDiagonal().toDenseMatrix()).norm() < 1e-12);
   CHECK_THAT(said(square + "CMASS2,70,1.,3,1\nCMASS2,71,1.,3,2\n"),
              Contains("bad.bdf:8: CMASS2 70: the masses at grid 3 are 1, 1, 0 along the directions 1, 2, 3; expected"));
-  CHECK_THAT(said(square + "CMASS2,70,1.,3,1,4,1\n"), Contains("CMASS2 70 is a mass between two degrees of freedom"));
+  CHECK_THAT(said(square + "CMASS2,70,1.,3,1,4,1\n"), Contains("CMASS2 70 couples two degrees of freedom"));
   CHECK_THAT(said(square + "CMASS2,70,1.,101\nSPOINT,101\n"), Contains("scalar points are not read"));
   CHECK_THAT(said(square + "CMASS2,70,1.,3,5\n"),
              Contains("bad.bdf:8: CMASS2 70: grid 3 has moments of inertia without a mass"));
@@ -160,9 +160,9 @@ TEST_CASE("links that leave rotations free: to grids without these, or to the en
       {"RBAR,80,3,4,123456,,,12\n", "expects 123456, or 123"},
       {"RBE2,80,3,123,4\n",
        "RBE2 80: constrains 123 of grid 4, whose other rotations are also dofs of shell 1; expected 123456"},
-      {bar + "RBE2,80,3,1234,5\n", "whose other rotations more than one beam end has"},
-      {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n", "whose other rotations more than one beam end has"},
-      {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n", "whose other rotations another link has"},
+      {bar + "RBE2,80,3,1234,5\n", "whose other rotations are also dofs of more than one beam end"},
+      {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n", "whose other rotations are also dofs of more than one beam end"},
+      {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n", "whose other rotations are also dofs of another link"},
       {bar + "GRID,7,,0.,0.,0.\nGRID,8,,0.,0.,9.\nCBAR,11,5,7,8,0.,1.,0.,GGG\n,,,0.,0.,.3\nRBE2,80,3,123,7\n",
        "RBE2 80: constrains 123 of grid 7, at the end of beam 11 with the offset (0, 0, 0.3); expected 123456, or "
        "no offset"}};
