@@ -125,7 +125,8 @@ void Recorder::continue_files(const output::Checkpoint& from) {
 void Recorder::note(const dynamics::EventReport& event) {
   ordered_json j{{"name", event.name}, {"what", event.what}, {"t", event.t}};
   if (event.speed) j["speed"] = *event.speed;
-  if (event.work) j["kinetic_energy_gained"] = *event.work, balance_.add_impulse(*event.work);
+  if (event.work) j["kinetic_energy_gained"] = *event.work;
+  balance_.pass_event(event.work.value_or(0));
   if (!event.impulses.empty()) j["kinetic_energy_lost"] = event.lost, j["impulses"] = event.impulses;
   result_.summary["events"].push_back(j);
 }

@@ -52,25 +52,28 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
     growth_ = std::max(growth_, energy - start_ - work_);
     power_ = power, known_ = 1;
   }
+  if (count_ > 0) rise_ += std::max(0., energy - energy_ - std::max(0., work_ - work_then_));
+  energy_ = energy, work_then_ = work_;
   const double exchanged = std::max(turnover_, max_part);
-  if (growth_ <= 0.5 * exchanged) accounted_ = exchanged;
-  beyond_ = growth_ > most_growth * accounted_ ? beyond_ + 1 : 0;
+  if (growth() <= 0.5 * exchanged) accounted_ = exchanged;
+  beyond_ = growth() > most_growth * accounted_ ? beyond_ + 1 : 0;
   ++count_, t_ = t;
 }
 
-void EnergyBalance::add_impulse(double energy) {
+void EnergyBalance::pass_event(double energy) {
   work_ += energy, turnover_ += std::abs(energy);
   known_ = 0;
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_, t_, power_, known_, start_, work_, turnover_, growth_, accounted_, beyond_};
+  return {count_,  t_,      power_,     known_, start_,     work_,  turnover_,
+          growth_, energy_, work_then_, rise_,  accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], power_ = saved[2], known_ = saved[3];
   start_ = saved[4], work_ = saved[5], turnover_ = saved[6], growth_ = saved[7];
-  accounted_ = saved[8], beyond_ = saved[9];
+  energy_ = saved[8], work_then_ = saved[9], rise_ = saved[10], accounted_ = saved[11], beyond_ = saved[12];
 }
 
 }  // namespace floe::solve

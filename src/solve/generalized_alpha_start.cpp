@@ -8,6 +8,9 @@
 //                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
 //                   slow motions and 0 for stiff ones; what the constraints see of A' stays
+//   A_0 resolved    J^-1 M shift_a A_0 in the place of A_0 where this removes more than half of A_0 in the norm of M: a
+//                   joint was released, or a force begins. Of stiff motions A_0 is -omega^2 times their amplitude, and
+//                   h A_0 would make omega h times the velocities that they can have (overshoot)
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
@@ -181,6 +184,52 @@ PetscErrorCode leave_out_stiff(TS ts, PetscReal e, Vec x, KSPConvergedReason* re
   PetscFunctionReturn(0);
 }
 
+// sqrt(x' M x) at the state that the step begins with; e as in multiply_inertia.
+PetscErrorCode inertia_norm(TS ts, PetscReal e, Vec x, PetscReal* norm) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  PetscCall(multiply_inertia(ts, e, x, data->work_F));
+  PetscCall(VecDot(x, data->work_F, norm));
+  *norm = PetscSqrtReal(PetscMax(*norm, 0));
+  PetscFunctionReturn(0);
+}
+
+// J(shift_v = 0, shift_a) of the state that the step begins with; A: NULL for zero accelerations.
+PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  Mat J, P;
+
+  PetscFunctionBegin;
+  if (!A) PetscCall(VecSet(data->work_A, 0));
+  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
+  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, A ? A : data->work_A, 0, data->shift_a, J, P));
+  PetscCall(take_jacobian(ts));
+  PetscFunctionReturn(0);
+}
+
+// A_0 of a start, with its J in the solver. What is removed must not change momentum; the derivative of M A_0 with
+// respect to q would, and is as large as A_0.
+PetscErrorCode resolve_accelerations(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  KSPConvergedReason reason;
+  PetscReal whole, lost;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(data->A0, data->work_U));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
+  if (reason < 0) PetscFunctionReturn(0);
+  PetscCall(VecWAXPY(data->V1, -1, data->work_U, data->A0));
+  PetscCall(inertia_norm(ts, 1, data->A0, &whole));
+  PetscCall(inertia_norm(ts, 1, data->V1, &lost));
+  if (!(lost > 0.5 * whole)) PetscFunctionReturn(0);
+  PetscCall(jacobian_of_beginning(ts, nullptr));
+  PetscCall(leave_out_stiff(ts, 1, data->A0, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscFunctionReturn(0);
+}
+
 // A' of a start.
 PetscErrorCode resolve_jerk(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
@@ -192,18 +241,6 @@ PetscErrorCode resolve_jerk(TS ts) {
     PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
                "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
   }
-  PetscFunctionReturn(0);
-}
-
-// J(shift_v = 0, shift_a) of the state that the step begins with.
-PetscErrorCode jacobian_of_beginning(TS ts) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
-  Mat J, P;
-
-  PetscFunctionBegin;
-  PetscCall(SNESGetJacobian(ts->snes, &J, &P, nullptr, nullptr));
-  PetscCall(TSComputeI2Jacobian(ts, ts->ptime, data->U0, data->V0, data->A0, 0, data->shift_a, J, P));
-  PetscCall(take_jacobian(ts));
   PetscFunctionReturn(0);
 }
 
@@ -250,8 +287,9 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(differentiate(ts, inertia));
   PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
-  PetscCall(resolve_jerk(ts));
   PetscCall(mark_origin(ts));
+  PetscCall(resolve_accelerations(ts));
+  PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));
   data->fresh = data->started = PETSC_TRUE;
   data->equal_steps = 0;
@@ -265,25 +303,15 @@ PetscErrorCode smooth_rates(TS ts) {
 
   PetscFunctionBegin;
   PetscCall(set_scales(ts));
-  PetscCall(jacobian_of_beginning(ts));
+  PetscCall(jacobian_of_beginning(ts, data->A0));
   PetscCall(project_velocity(ts));
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
+  PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
   data->fresh = PETSC_TRUE;
   data->equal_steps = 0;
-  PetscFunctionReturn(0);
-}
-
-// sqrt(x' M x) at the state that the step begins with.
-static PetscErrorCode inertia_norm(TS ts, Vec x, PetscReal* norm) {
-  GeneralizedAlpha* data = generalized_alpha_data(ts);
-
-  PetscFunctionBegin;
-  PetscCall(multiply_inertia(ts, data->shift_a, x, data->work_F));
-  PetscCall(VecDot(x, data->work_F, norm));
-  *norm = PetscSqrtReal(PetscMax(*norm, 0));
   PetscFunctionReturn(0);
 }
 
@@ -294,17 +322,17 @@ PetscErrorCode keep_resolved(TS ts, Vec U, PetscReal* reach) {
 
   PetscFunctionBegin;
   *reach = 0;
-  PetscCall(jacobian_of_beginning(ts));
+  PetscCall(jacobian_of_beginning(ts, data->A0));
   PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
   PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
   PetscCall(VecCopy(data->work_U, data->V1));
-  PetscCall(inertia_norm(ts, data->V1, &whole));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V1, &whole));
   PetscCall(leave_out_stiff(ts, data->shift_a, data->work_U, &reason));
   PetscCall(VecAXPY(data->V1, -1, data->work_U));
-  PetscCall(inertia_norm(ts, data->V1, &lost));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V1, &lost));
   if (reason < 0 || !(lost > 1e-3 * whole)) PetscFunctionReturn(0);
-  PetscCall(inertia_norm(ts, data->work_U, &kept));
-  PetscCall(inertia_norm(ts, data->V0, &coasting));
+  PetscCall(inertia_norm(ts, data->shift_a, data->work_U, &kept));
+  PetscCall(inertia_norm(ts, data->shift_a, data->V0, &coasting));
   PetscCall(VecWAXPY(U, 1, data->U0, data->work_U));
   *reach = 2 * kept + data->h * coasting;
   PetscFunctionReturn(0);
@@ -316,7 +344,7 @@ PetscErrorCode distance(TS ts, Vec U, PetscReal* far) {
   PetscFunctionBegin;
   PetscCall(VecWAXPY(data->work_U, -1, data->U0, U));
   PetscCall(VecPointwiseMult(data->work_U, data->work_U, data->dynamic));
-  PetscCall(inertia_norm(ts, data->work_U, far));
+  PetscCall(inertia_norm(ts, data->shift_a, data->work_U, far));
   PetscFunctionReturn(0);
 }
 

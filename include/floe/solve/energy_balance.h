@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 
 #include "floe/dynamics/system.h"
@@ -17,34 +18,39 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 
 /// What of the total energy's growth no load and no drive has brought: sampled along a motion.
 ///
-///   growth = max over t of E(t) - E(0) - W(t),   W = int P dt by the trapezoidal rule
+///   growth = min(max over t of E(t) - E(0) - W(t),  sum over instants of max(0, dE - max(0, dW))),
+///   W = int P dt by the trapezoidal rule
 ///
-/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
+/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none. The first alone would
+/// count dissipation of vibrations that steps do not resolve, which the trapezoidal rule gets wrong, the second alone
+/// the errors of coarse samples.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Collective.
   /// @param energy    total, of U, V
   /// @param max_part  maximum of its parts so far
   void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part);
-  /// Energy that the impulses of drives bring at an instant, which belongs to W; the power behind it is another one.
-  void add_impulse(double energy);
-  double work() const { return work_; }          ///< W [J]
-  double growth() const { return growth_; }      ///< [J]
-  double turnover() const { return turnover_; }  ///< int |P| dt [J]
+  /// An event, where the power jumps: W over the step that contains it is h times the power at the step's end, not the
+  /// trapezoidal rule. `energy` [J]: what impulses of drives bring there, which belongs to W.
+  void pass_event(double energy);
+  double work() const { return work_; }                       ///< W [J]
+  double growth() const { return std::min(growth_, rise_); }  ///< [J]
+  double turnover() const { return turnover_; }               ///< int |P| dt [J]
   /// Whether the growth was more than `most_growth` times what the motion had and exchanged while its balance was met,
   /// at two instants in a row (one may be round-off of a motion that begins from rest), and more than `floor` [J].
-  bool runs_away(double floor) const { return beyond_ >= 2 && growth_ > floor; }
+  bool runs_away(double floor) const { return beyond_ >= 2 && growth() > floor; }
   static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 10;
+  static constexpr int numbers = 13;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
  private:
   double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
-  double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
+  double energy_ = 0, work_then_ = 0, rise_ = 0;  // of the instant before: E, W; the second growth
+  double accounted_ = 0, beyond_ = 0;             // energy while growth was less than half of it; instants in a row
 };
 
 }  // namespace floe::solve

@@ -161,7 +161,8 @@ TEST_CASE("links that leave rotations free: to grids without these, or to the en
       {"RBE2,80,3,123,4\n",
        "RBE2 80: constrains 123 of grid 4, whose other rotations are also dofs of shell 1; expected 123456"},
       {bar + "RBE2,80,3,1234,5\n", "whose other rotations are also dofs of more than one beam end"},
-      {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n", "whose other rotations are also dofs of more than one beam end"},
+      {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n",
+       "whose other rotations are also dofs of more than one beam end"},
       {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n", "whose other rotations are also dofs of another link"},
       {bar + "GRID,7,,0.,0.,0.\nGRID,8,,0.,0.,9.\nCBAR,11,5,7,8,0.,1.,0.,GGG\n,,,0.,0.,.3\nRBE2,80,3,123,7\n",
        "RBE2 80: constrains 123 of grid 7, at the end of beam 11 with the offset (0, 0, 0.3); expected 123456, or "

@@ -88,3 +88,19 @@ TEST_CASE("energy that grows without work is seen, also by a balance that was sa
   CHECK(balance.work() == Approx(0).margin(1e-6));
   CHECK(balance.growth() == Approx(0.5 * J * (16 - 1)).epsilon(1e-6));
 }
+
+// Work of dampers that is overestimated three times, and an energy that only falls; then as much again that rises.
+TEST_CASE("dissipation that samples overestimate is no growth of energy") {
+  const dynamics::System system = testing::pendulum(2, 1.5, 9.81);
+  const petsc::VecHandle U = vector_of(system, {0, 0, -M_PI / 2, 0, 0}), V = system.create_vector(),
+                         A = system.create_vector();
+  solve::EnergyBalance balance;
+  for (int i = 0; i <= 10; ++i) {
+    if (i > 0) balance.pass_event(-3);
+    balance.add(system, 0.1 * i, U, V, A, 20 - i, 20);
+  }
+  CHECK(balance.work() == Approx(-30));
+  CHECK(balance.growth() == 0);
+  balance.add(system, 1.1, U, V, A, 15, 20);
+  CHECK(balance.growth() == Approx(5));
+}
