@@ -66,11 +66,10 @@ void finish_elasticity(const PlannedBody& body, const reduction::Statics& static
   omit_products(body.spec.reduction, reduced);
 }
 
-std::string whole_name(const Body& body) { return body.name.substr(0, body.name.find('#')); }
+const std::string& whole_name(const Body& body) { return body.piece > 0 ? body.whole : body.name; }
 
 std::string label_of_piece(const Body& body, const std::string& label) {
-  const std::size_t at = body.name.find('#');
-  return at == std::string::npos ? label : fmt::format("{} {}", body.name.substr(at), label);
+  return body.piece > 0 ? fmt::format("#{} {}", body.piece, label) : label;
 }
 
 std::vector<std::string> named_columns(const Body& body) {
@@ -130,23 +129,12 @@ void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyRepor
   generate(plan, index, modes, stage, report);
 }
 
-namespace {
-
-/// Whether a field is the response to an interface vector beyond the first one of a cut (`strip#1-2/2.fx`), which
-/// changes the stress near the cut alone.
-bool of_higher_vector(const std::string& label) {
-  const std::size_t cut = label.find('#');
-  return cut != std::string::npos && label.find('/', cut) != std::string::npos;
-}
-
-}  // namespace
-
 reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators) {
   using Choice = DerivativesSpec::Choice;
   reduction::Pairs pairs;
   if (spec.choice == Choice::all) {
     for (const auto& pair : reduction::all_pairs(static_cast<int>(generators.fields.size())))
-      if (std::none_of(pair.begin(), pair.end(), [&](int i) { return of_higher_vector(generators.origins[i].label); }))
+      if (std::none_of(pair.begin(), pair.end(), [&](int i) { return generators.origins[i].of_higher_vector; }))
         pairs.push_back(pair);
     return pairs;
   }
@@ -186,7 +174,7 @@ void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>
   for (std::size_t b = 0; b < labels.size(); ++b) {
     std::vector<std::string>& all = known[whole_name(plan.bodies[b].spec)];
     all.insert(all.end(), labels[b].begin(), labels[b].end());
-    if (whole_name(plan.bodies[b].spec) != plan.bodies[b].spec.name)
+    if (plan.bodies[b].spec.piece > 0)
       for (const std::string& label : labels[b]) all.push_back(label_of_piece(plan.bodies[b].spec, label));
   }
   std::vector<std::string> faults;

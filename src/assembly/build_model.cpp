@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -135,13 +136,15 @@ ReducedBodies reduced_bodies(Offline& offline, Formulation formulation, bool kee
 /// Loads whose directions depend on the number of frames.
 std::vector<std::string> loads_in_axes_of_parts(const Scene& split) {
   std::vector<std::string> words;
-  const auto look = [&](const Load& load, const std::string& part) {
-    const std::string whole = part.substr(0, part.find('#'));
-    if (load.axes != Load::Axes::body || load.kind == Load::Kind::pressure || whole == part) return;
+  const auto look = [&](const Load& load, const std::string& name) {
+    if (load.axes != Load::Axes::body || load.kind == Load::Kind::pressure) return;
+    const auto part = std::find_if(split.bodies.begin(), split.bodies.end(),
+                                   [&](const Body& body) { return body.name == name && body.piece > 0; });
+    if (part == split.bodies.end()) return;
     const std::string text = fmt::format(
         "load {}: its axes are those of the floating frames of the parts of body {}, and with more frames those of its "
         "sections; for the same directions in any number of frames use axes: place or world",
-        load.name, whole);
+        load.name, part->whole);
     if (words.empty() || words.back() != text) words.push_back(text);
   };
   for (const Load& load : split.loads) look(load, load.spread() ? load.body : load.at.body);

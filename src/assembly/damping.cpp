@@ -90,7 +90,7 @@ fem::ReferenceFrame damping_frame(const Plan& plan, int index) {
 
 namespace {
 
-bool in_several_frames(const PlannedBody& body) { return whole_name(body.spec) != body.spec.name; }
+bool in_several_frames(const PlannedBody& body) { return body.spec.piece > 0; }
 
 /// Modal damping, as it came with the basis or the file, and alpha V'P'MPV.
 Eigen::MatrixXd constant_damping(const Plan& plan, int index, const ReducedBody& reduced) {

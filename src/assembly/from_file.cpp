@@ -71,7 +71,7 @@ ReducedBody from_file(const PlannedBody& body, Formulation formulation) {
     if (reduced.damping.size() > 0) reduced.damping = reduced.damping.topLeftCorner(k, k).eval();
   }
   BodyReport& report = reduced.report;
-  report.name = body.spec.name, report.file = body.spec.reduced->path;
+  report.name = report.whole = body.spec.name, report.file = body.spec.reduced->path;
   report.file_version = file.version;
   report.nodes = file.nodes, report.elements = file.cells, report.dofs = file.dofs;
   report.dimension = file.dimension;

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "begin_motion.h"
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/floating_body.h"
 #include "floe/petsc/values.h"
@@ -238,7 +239,7 @@ Model PlanarAssembly::model() {
     add_gravity(static_cast<int>(b));
     BodyReport report = reduced_[b].report;
     const fem::Mesh& mesh = plan_.bodies[b].structure.mesh;
-    report.name = plan_.bodies[b].spec.name;
+    report.name = plan_.bodies[b].spec.name, report.whole = whole_name(plan_.bodies[b].spec);
     report.rigid = plan_.bodies[b].spec.rigid;
     if (!plan_.bodies[b].spec.reduced) {
       report.nodes = mesh.node_count, report.elements = mesh.cell_count;

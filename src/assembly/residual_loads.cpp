@@ -133,7 +133,7 @@ void Residuals::take(int b, const State& state, Vec F) {
     const int first = full_.bodies[b].first_dof;  // behind the last one where this rank owns no dofs
     for (PetscInt i = 0; i < own.end - own.first; ++i) own.begin()[i] = -all[global[first + i]];
   }
-  const bool several = whole_name(body.spec) != body.spec.name;  // frames, whose damping acts on the body as one
+  const bool several = body.spec.piece > 0;  // frames, whose damping acts on the body as one
   if (body.spec.damping.mass != 0 && !several) add_mass_damping(b, state, load);
   VectorXd along = products(*reduced.basis, load);
   if (!body.spec.damping.modal.empty() || (body.spec.damping.mass != 0 && several)) {

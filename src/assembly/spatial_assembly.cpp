@@ -9,6 +9,7 @@
 
 #include "begin_motion.h"
 #include "drive.h"
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/fixed_frame_body.h"
@@ -316,7 +317,7 @@ Model SpatialAssembly::model() {
     add_gravity(index);
     BodyReport report = reduced_[b].report;
     const fem::Mesh& mesh = body.structure.mesh;
-    report.name = body.spec.name;
+    report.name = body.spec.name, report.whole = whole_name(body.spec);
     report.rigid = body.spec.rigid;
     if (!body.spec.reduced)
       report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();

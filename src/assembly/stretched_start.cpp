@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "floe/assembly/body_stage.h"
 #include "floe/assembly/start_vectors.h"
 
 namespace floe::assembly {
@@ -21,7 +22,7 @@ std::string stretched_start(const Plan& plan, const Model& model) {
   for (const PlannedBody& body : plan.bodies) {
     if (!starts_deformed(body) || !body.deformation) continue;
     linear += body.linear_start_energy;
-    const std::string whole = body.spec.name.substr(0, body.spec.name.find('#'));
+    const std::string& whole = whole_name(body.spec);
     if (names.empty() || names.back() != whole) names.push_back(whole);
   }
   if (names.empty() || !(linear > 0)) return "";

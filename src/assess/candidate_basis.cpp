@@ -78,7 +78,7 @@ struct CandidateBasis::Parts {
     const std::string name = whole_name(body(b).spec), label = label_of_piece(body(b).spec, plain);
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i].body == name && columns[i].label == label) return i;
-    columns.push_back({name, label, response});
+    columns.push_back({name, label, response, body(b).spec.piece});
     return columns.size() - 1;
   }
 

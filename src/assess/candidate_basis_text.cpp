@@ -26,11 +26,6 @@ void write_columns(YAML::Node reduction, const std::vector<std::string>& labels,
     reduction.remove("elastic_force");
 }
 
-/// `#2` of `#2 mode 1`; empty without pieces.
-std::string piece_of(const std::string& label) {
-  return label.starts_with('#') ? label.substr(0, label.find(' ')) : "";
-}
-
 /// Paths that are relative to the folder of one scene become those for a scene in another folder.
 class MovedPaths {
  public:
@@ -77,11 +72,11 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
     if (body.rigid || body.reduced) continue;
     std::vector<std::string> labels;
     bool any = false;
-    std::map<std::string, int> responses_of;
-    std::map<std::string, std::pair<bool, std::string>> pieces;  // whether it has one; the first that it may have
+    std::map<int, int> responses_of;                     // by piece
+    std::map<int, std::pair<bool, std::string>> pieces;  // whether it has one; the first that it may have
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].body != body.name) continue;
-      const std::string piece = piece_of(columns[i].label);
+      const int piece = columns[i].piece;
       bool& has = pieces.try_emplace(piece, false, columns[i].label).first->second.first;
       if (!selection.taken[i]) continue;
       any = has = true;

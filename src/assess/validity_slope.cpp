@@ -26,9 +26,7 @@ struct Whole {
 std::vector<Whole> wholes_of(const Model& model) {
   std::vector<Whole> wholes;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    const std::string& name = model.bodies[b].name;
-    const std::string whole = name.substr(0, name.find('#'));
-    if (whole != name && !wholes.empty() && wholes.back().name == whole)
+    if (const std::string& whole = model.bodies[b].whole; !wholes.empty() && wholes.back().name == whole)
       wholes.back().end = b + 1;
     else
       wholes.push_back({whole, b, b + 1});

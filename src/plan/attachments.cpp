@@ -222,8 +222,10 @@ bool carries_moment(const Joint& joint, int dimension) {
 /// Forces and moments on a side of a cut that its interface vectors distribute, besides the first one.
 void add_interface(const PlannedBody& body, const Interface& cut, int side, const std::string& name, Attachments& all) {
   for (Eigen::Index vector = 1; vector < cut.factors.cols(); ++vector)
-    for (int c = 0; c < 6; ++c)
+    for (int c = 0; c < 6; ++c) {
       all.push_back(unit_load(body, cut.sum(side, vector), c, fmt::format("{}/{}", name, vector + 1)));
+      all.back().of_higher_vector = true;
+    }
 }
 
 void add_joints(const Plan& plan, int index, Attachments& all) {

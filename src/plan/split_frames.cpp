@@ -60,6 +60,7 @@ Body part_of(const Body& body, const Cuts& cuts, int i) {
   Body part = cut == cuts.end() ? part_of_line(body, i) : body;
   if (cut != cuts.end()) part.mesh.piece = cut->second.pieces[i];
   part.name = part_name(body.name, i);
+  part.whole = body.name, part.piece = i + 1;
   part.frames = 1;
   return part;
 }

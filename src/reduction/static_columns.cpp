@@ -231,6 +231,7 @@ StaticColumns static_columns(const fem::Structure& structure, const Statics& sta
   const petsc::MatHandle M = fem::mass(structure, {});
   for (const Attachment& attachment : attachments) {
     ColumnOrigin origin{ColumnOrigin::Kind::attachment, "attachment " + attachment.label};
+    origin.of_higher_vector = attachment.of_higher_vector;
     if (attachment.load) {
       origin.dropped = load->dropped;
       result.columns.push_back(std::move(load++->u));

@@ -33,7 +33,7 @@ void generate(const Plan& plan, int index, int modes, Stage& stage, BodyReport& 
 reduction::Pairs pairs_of(const DerivativesSpec& spec, const reduction::Generators& generators);
 
 /// Of the body as the user wrote it, which `frames` may have split into pieces (split_frames).
-std::string whole_name(const Body& body);
+const std::string& whole_name(const Body& body);
 /// A label among those of all pieces: `#2 mode 1` of beam#2, as it is of a body in one frame.
 std::string label_of_piece(const Body& body, const std::string& label);
 /// The labels of reduction.columns that refer to the body: those without a piece, and those of its own (`#2 mode 1`).

@@ -36,6 +36,7 @@ using namespace scene;
 /// What came out of the reduction of one body, for the user's eyes and for redrawing.
 struct BodyReport {
   std::string name;
+  std::string whole = {};         ///< the body of the scene that it is, or is a piece of (`frames`)
   std::string file = {};          ///< of a body that was reduced before
   std::string reduction_of = {};  ///< the body whose reduction it has (shared_reduction.h)
   int file_version = 0;           ///< of its format

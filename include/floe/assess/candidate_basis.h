@@ -12,6 +12,7 @@ namespace floe::assess {
 struct CandidateVector {
   std::string body, label;  ///< `beam`, `derivative 1,2`
   bool response = false;    ///< of the error estimate: no scene names this one
+  int piece = 0;            ///< of a body in several frames: of which one, from 1
 };
 
 /// A model on some basis vectors of a candidate basis. A body without any is rigid.

@@ -12,8 +12,9 @@ struct ColumnOrigin {
   double omega = 0;     ///< modes [rad/s]
   double new_part = 1;  ///< share of the scaled basis vector that the basis vectors before it lack
   bool kept = true;
-  double interaction = 0;    ///< derivatives chosen by count: modal interaction relative to the maximum
-  std::string dropped = {};  ///< attachment modes that are not even candidates: why, `repeats tip.fx`
+  double interaction = 0;         ///< derivatives chosen by count: modal interaction relative to the maximum
+  bool of_higher_vector = false;  ///< an attachment mode that is (Attachment)
+  std::string dropped = {};       ///< attachment modes that are not even candidates: why, `repeats tip.fx`
 };
 
 /// V = [phi theta ...], M-orthonormal: V' M V = 1. k basis vectors.

@@ -8,9 +8,10 @@ namespace floe::reduction {
 
 /// An attachment mode asked for: the response to a unit load, or to a displacement of dofs that are constrained.
 struct Attachment {
-  std::string label;       ///< `root.moment`
-  petsc::VecHandle load;   ///< null: a displacement
-  petsc::VecHandle moved;  ///< of dofs among Statics::conditions, zero elsewhere
+  std::string label;              ///< `root.moment`
+  petsc::VecHandle load;          ///< null: a displacement
+  petsc::VecHandle moved;         ///< of dofs among Statics::conditions, zero elsewhere
+  bool of_higher_vector = false;  ///< an interface vector beyond the first one of a cut, whose effect is near the cut
 };
 
 /// Which derivatives join the basis.

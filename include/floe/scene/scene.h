@@ -188,6 +188,8 @@ struct MassSpec {
 /// count.
 struct Body {
   std::string name;
+  std::string whole;  ///< of a piece that `frames` made (plan::split_frames): the name of the body in the scene
+  int piece = 0;      ///< its number, from 1
   std::optional<ReducedSpec> reduced;
   MeshSpec mesh;
   Section section;              ///< in the plane
