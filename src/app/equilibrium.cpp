@@ -75,7 +75,7 @@ void warn_of_jump(const assembly::Model& model, const solve::BranchJump& jump, V
 std::string start_of_table(const assembly::Model& model, const LoadSteps& load, PetscInt& iterations) {
   try {
     iterations += solve::equilibrium(*model.system, 0, model.U, model.V, true);
-  } catch (const solve::NothingHolds& error) {
+  } catch (const solve::Unconstrained& error) {
     return fmt::format("{}: the table begins at t = {:.6g}",
                        std::string(error.what()).substr(0, std::string(error.what()).rfind(';')), load.at / load.steps);
   }

@@ -99,7 +99,7 @@ std::vector<std::tuple<std::string, PetscInt, output::Label>> Recorder::all_seri
 void Recorder::continue_files(const output::Checkpoint& from) {
   const std::vector<double>& record = from.shared.at("record");
   const auto rows = static_cast<std::int64_t>(record[0]);
-  energy_start_ = record[1], energy_now_ = record[2], energy_greatest_ = record[3];
+  energy_start_ = record[1], energy_now_ = record[2], max_energy_ = record[3];
   change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
   std::array<double, solve::EnergyBalance::numbers> balance{};
   std::copy_n(record.begin() + 7, balance.size(), balance.begin());
@@ -162,7 +162,7 @@ void Recorder::write_checkpoint(const solve::Instant& instant) {
   checkpoint.shared["record"] = {static_cast<double>(result_.series.t.size()),
                                  energy_start_,
                                  energy_now_,
-                                 energy_greatest_,
+                                 max_energy_,
                                  change_,
                                  violation_,
                                  velocity_violation_};
@@ -259,12 +259,12 @@ void Recorder::look_after(const solve::Instant& instant, const Measured& now) {
   const dynamics::Energy& energy = now.energy;
   energy_now_ = energy.kinetic + energy.elastic + energy.potential;
   if (result_.series.t.empty()) energy_start_ = energy_now_;  // a table of equilibria may begin late
-  energy_greatest_ = std::max({energy_greatest_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
+  max_energy_ = std::max({max_energy_, energy.kinetic, energy.elastic, std::abs(energy.potential)});
   change_ = std::max(change_, std::abs(energy_now_ - energy_start_));
   violation_ = std::max(violation_, now.violations[0]);
   velocity_violation_ = std::max(velocity_violation_, now.violations[1]);
   const double begin = MPI_Wtime();
-  balance_.add(*model_.system, instant.t, instant.U, instant.V, instant.A, energy_now_, energy_greatest_);
+  balance_.add(*model_.system, instant.t, instant.U, instant.V, instant.A, energy_now_, max_energy_);
   seconds_ += MPI_Wtime() - begin;
   refuse_runaway();
 }
@@ -281,7 +281,7 @@ void Recorder::refuse_runaway() const {
 
 std::string Recorder::growth_warning() const {
   constexpr double limit = 0.1;
-  const double scale = std::max(balance_.turnover(), energy_greatest_), growth = balance_.growth();
+  const double scale = std::max(balance_.turnover(), max_energy_), growth = balance_.growth();
   if (!(growth > limit * scale)) return "";
   return fmt::format(
       "total energy: grows by {:.3g} J beyond the work of loads and drives ({:.3g} J), {:.0f} % of the maximum energy "
@@ -326,12 +326,9 @@ void Recorder::finish(const solve::IntegrationReport& report, const std::string&
                       {"rejected", report.rejected},
                       {"newton_iterations", report.newton},
                       {"linear_solves", report.solves}};
-  j["energy"] = {{"start", energy_start_},
-                 {"end", energy_now_},
-                 {"greatest_part", energy_greatest_},
-                 {"greatest_change_of_total_energy", change_},
-                 {"work", balance_.work()},
-                 {"greatest_growth_without_work", balance_.growth()}};
+  j["energy"] = {{"start", energy_start_},       {"end", energy_now_},
+                 {"greatest_part", max_energy_}, {"greatest_change_of_total_energy", change_},
+                 {"work", balance_.work()},      {"greatest_growth_without_work", balance_.growth()}};
   j["constraints"] = {{"greatest_violation", violation_}, {"greatest_velocity_violation", velocity_violation_}};
   if (assesses) j["assessment"] = unassessed;
   if (scene::is_reduced(model_.formulation))

@@ -74,7 +74,7 @@ class Recorder {
   std::unique_ptr<output::SeriesFile> probes_;
   std::unique_ptr<output::ResultFile> file_;
   std::string written_;  // the summary in result.h5
-  double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, energy_greatest_ = 0;
+  double seconds_ = 0, energy_start_ = 0, energy_now_ = 0, max_energy_ = 0;
   double change_ = 0;  // greatest, of the total energy: work of loads and drives, dissipation, and drift
   solve::EnergyBalance balance_;
   double violation_ = 0, velocity_violation_ = 0;

@@ -85,7 +85,7 @@ Simulated compared(const FinishedMotion& motion, std::vector<ProbeColumn> column
                    const std::string& what, ErrorPart& part) {
   if (!history.stopped.empty()) {
     const std::string why = what + ": " + first_line(history.stopped);
-    if (history.reached < least_share * motion.how.end) throw RunError(why);
+    if (history.reached < min_fraction * motion.how.end) throw RunError(why);
     part.notes.push_back(why);
   }
   return {std::move(columns), std::move(history.values)};

@@ -43,7 +43,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
                        const solve::Integration& how, const std::vector<double>& times, const Enough& enough = {});
 
 /// A share of the motion: what simulates less than that is no estimate.
-inline constexpr double least_share = 0.2;
+inline constexpr double min_fraction = 0.2;
 
 /// Probes of a motion that a part is compared with; one that stopped early says so in the notes.
 /// @param what  was simulated, for the note

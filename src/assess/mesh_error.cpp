@@ -43,7 +43,7 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBu
   if (can_lengthen(motion))
     while (needs() > time.left() && step < 4) step *= 2;
   double end = motion.how.end;
-  if (const double share = time.left() / needs(); share < 1) end *= std::max(share, least_share);
+  if (const double share = time.left() / needs(); share < 1) end *= std::max(share, min_fraction);
   solve::Integration how = motion.how;
   how.step *= step, how.end = end;
   part.by = finer ? "elements half as long" : "elements twice as long";
@@ -52,7 +52,7 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBu
                                          [&](const solve::Instant&, double spent) { return spent > 2 * allowed; });
   if (history.enough || !history.stopped.empty()) {
     const std::string why = part.by + ": " + (history.enough ? too_long(2 * allowed) : first_line(history.stopped));
-    if (history.reached < least_share * motion.how.end) {
+    if (history.reached < min_fraction * motion.how.end) {
       part.none = why;
       return;
     }

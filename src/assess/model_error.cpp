@@ -83,7 +83,7 @@ class ModelError {
       part_.none = "no probe can be compared with formulation cfr";
       return;
     }
-    if (const double seconds = min_seconds(); least_share * seconds / most_times_faster() > allowed_) {
+    if (const double seconds = min_seconds(); min_fraction * seconds / most_times_faster() > allowed_) {
       part_.none = fmt::format("formulation cfr would take more than {:.2g} s (limit {:.2g} s)", seconds, allowed_);
       return;
     }
@@ -135,7 +135,7 @@ class ModelError {
     if (history.enough && !late) return std::nullopt;
     if (late || !history.stopped.empty()) {
       const std::string why = "formulation cfr: " + (late ? too_long(2 * allowed_) : first_line(history.stopped));
-      if (history.reached < least_share * motion_.how.end) throw RunError(why);
+      if (history.reached < min_fraction * motion_.how.end) throw RunError(why);
       part_.notes.push_back(why);
     }
     return Exact{{probe_columns(model), std::move(history.values)}, history.reached};
@@ -235,7 +235,7 @@ class ModelError {
     const Thinning last = all.empty() ? Thinning{} : all.back();
     const double share = time_.left() / time_.of_first(needs(last));
     until_ *= share;
-    if (share < least_share) {
+    if (share < min_fraction) {
       part_.none = fmt::format("formulation cfr would take about {:.2g} s (limit {:.2g} s)",
                                time_.of_first(each_ * static_cast<double>(motion_.steps)), allowed_);
       return std::nullopt;

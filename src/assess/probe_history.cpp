@@ -55,7 +55,7 @@ ProbeHistory equilibrium_history(const Model& model, const solve::Integration& h
   try {
     try {
       solve::equilibrium(*model.system, 0, model.U, model.V, true);
-    } catch (const solve::NothingHolds&) {  // the first load does
+    } catch (const solve::Unconstrained&) {  // the first load does
     }
     for (PetscInt step = 1; step <= steps && !history.enough; ++step) {
       const double t = how.step * static_cast<double>(step);

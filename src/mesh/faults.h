@@ -32,7 +32,7 @@ class Faults {
   void add(Where where, const std::string& text);
   bool any() const { return !faults_.empty(); }
 
-  /// Throws the first faults of all ranks, each told once, where any rank has one. Collective.
+  /// Throws the first faults of all ranks, each reported once, where any rank has one. Collective.
   /// @throws InputError  the same on every rank, whatever their number
   void throw_together(MPI_Comm comm) const;
 

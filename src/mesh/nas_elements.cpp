@@ -13,7 +13,7 @@ void read_grid(NasReader& r) {
                {},
                r.where()};
   for (int i = 0; i < 3; ++i) grid.x[i] = r.card.real(2 + i, "a coordinate", 0);
-  if (!r.card.card.blank(6)) grid.constrained = NasGrid::holds(r.card.card.text(6));
+  if (!r.card.card.blank(6)) grid.constrained = NasGrid::are_constrained(r.card.card.text(6));
   if (grid.constrained.value_or(false)) r.count_ignored("GRID PS");
   if (r.card.good()) r.model.grids.push_back(grid);
 }

@@ -26,7 +26,7 @@ NasFrames::NasFrames(const NasModel& model, Faults& faults) : model_(model), fau
     NasFields fields(found->second, faults);
     default_cp_ = fields.integer(1, "axes (CP)", 0);
     default_cd_ = fields.integer(5, "axes (CD)", 0);
-    default_constrained_ = NasGrid::holds(fields.card.text(6));
+    default_constrained_ = NasGrid::are_constrained(fields.card.text(6));
   }
   grids_.reserve(model.grids.size());
   for (std::size_t i = 0; i < model.grids.size(); ++i) grids_.emplace(model.grids[i].id, i);

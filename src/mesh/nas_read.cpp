@@ -33,7 +33,7 @@ void read_param(NasReader& r) {
 
 void read_defaults(NasReader& r) {
   if (r.card.card.name != "GRDSET" && !r.model.beams.empty()) r.card.refuse_card("is expected before the first beam");
-  if (r.card.card.name == "GRDSET" && NasGrid::holds(r.card.card.text(6))) r.count_ignored("GRDSET PS");
+  if (r.card.card.name == "GRDSET" && NasGrid::are_constrained(r.card.card.text(6))) r.count_ignored("GRDSET PS");
   NasCard& kept = r.model.defaults[r.card.card.name] = r.card.card;
   for (auto& field : kept.fields) field = r.model.texts.emplace_back(field);
 }

@@ -14,7 +14,7 @@ struct NasGrid {
   std::optional<bool> constrained;  // in PS; none: as GRDSET gives it
   Where where;
 
-  static bool holds(std::string_view ps) { return !ps.empty() && ps != "0"; }
+  static bool are_constrained(std::string_view ps) { return !ps.empty() && ps != "0"; }
 };
 
 struct NasShell {

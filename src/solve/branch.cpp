@@ -46,7 +46,7 @@ class Follower {
     PetscInt iterations = 0;
     try {
       iterations = equilibrium(system_, next, U_, V_);
-    } catch (const NothingHolds&) {
+    } catch (const Unconstrained&) {
       throw;
     } catch (const LostInRoundOff&) {
       throw;

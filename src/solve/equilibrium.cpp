@@ -33,15 +33,15 @@ std::string none_at(double t, const std::string& why) {
   return fmt::format("no equilibrium at t = {:.6g}; {}", t, why);
 }
 
-NothingHolds unconstrained(double t, const std::string& bodies) {
-  return NothingHolds(
+Unconstrained unconstrained(double t, const std::string& bodies) {
+  return Unconstrained(
       none_at(t, fmt::format("singular tangent stiffness{}: an unconstrained rigid-body motion, or ill-conditioning; "
                              "constrain it, or start from another configuration (`initial`)",
                              bodies)));
 }
 
-NothingHolds driven_away(double t, const std::string& bodies) {
-  return NothingHolds(
+Unconstrained driven_away(double t, const std::string& bodies) {
+  return Unconstrained(
       none_at(t, fmt::format("singular tangent stiffness{}: an unconstrained rigid-body motion, along which the loads "
                              "are not zero; constrain it, or start from another configuration (`initial`)",
                              bodies)));
@@ -100,7 +100,7 @@ bool correct(KSP ksp, Vec F, Vec step) {
 /// next step, by the tangent of this configuration. Steps are taken until one is short in every direction and neither
 /// what it changes of the tangent nor the tangent's round-off matters.
 ///
-/// @return  steps that were needed before the one that told. @throws  NothingHolds: the tangent is round-off in some
+/// @return  steps that were needed before the one that told. @throws  Unconstrained: the tangent is round-off in some
 /// direction; LostInRoundOff
 PetscInt make_sure(const System& system, double t, Vec U, Vec V, Vec before, Mat J) {
   const petsc::VecHandle A = system.create_vector(), F = system.create_vector(), step = system.create_vector();
@@ -165,7 +165,7 @@ NewtonSearch search_from(const System& system, double t, Vec U, Vec V, Vec befor
 
 /// Down from `before` as a damped motion would go, and from there to the equilibrium, into U.
 /// @return  steps; none, and U as it was, where that way does not end
-/// @throws NothingHolds  the loads drive it away; RunError  no equilibrium at its end
+/// @throws Unconstrained  the loads drive it away; RunError  no equilibrium at its end
 PetscInt search_below(const System& system, double t, Vec before, Vec U, Vec V) {
   const petsc::VecHandle below = system.create_vector();
   check(VecCopy(before, below));
@@ -197,7 +197,7 @@ PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend)
   check(VecCopy(U, there));
   try {
     if (const PetscInt steps = search_below(system, t, before, U, V); steps > 0) return relaxed + steps;
-  } catch (const NothingHolds&) {
+  } catch (const Unconstrained&) {
     if (fault) throw;
   } catch (const RunError&) {  // what Newton's method found, or said, stands
   }

@@ -264,8 +264,8 @@ class PathFollower {
     observe_({end_.points, now_.at.t, limit, end_.at_end || end_.closed || end_.points == request_.most}, U_);
   }
 
-  NothingHolds nothing_holds() const {
-    return NothingHolds(
+  Unconstrained nothing_holds() const {
+    return Unconstrained(
         fmt::format("the path of equilibria cannot begin at t = {:.6g}: singular tangent stiffness; "
                     "constrain the unconstrained motion",
                     now_.at.t));

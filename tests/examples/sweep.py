@@ -89,7 +89,7 @@ def main():
         assert done.returncode == 0 and "2 reductions of bodies" in done.stdout, done.stdout + done.stderr
         done = run(floe, 1, folder, "sweep", "scene.yaml", "--vary", "L=1,1.1", "--vary", "F=1,2", "--together", "-o", "pairs")
         assert done.returncode == 0 and len(table(folder / "pairs")) == 3, done.stdout + done.stderr
-        # what floe run would note of a member is told once, with the first that has it and how many more
+        # what floe run would note of a member is reported once, with the first that has it and how many more
         notes = []
         for ranks in (1, 2):
             done = run(floe, ranks, folder, "sweep", "scene.yaml", "--vary", "F=0.01,3,10,11", "-o", f"warned{ranks}")

@@ -13,8 +13,8 @@ struct ColumnOrigin {
   double new_part = 1;  ///< share of the scaled basis vector that the basis vectors before it lack
   bool kept = true;
   double interaction = 0;         ///< derivatives chosen by count: modal interaction relative to the maximum
-  bool of_higher_vector = false;  ///< an attachment mode that is (Attachment)
   std::string dropped = {};       ///< attachment modes that are not even candidates: why, `repeats tip.fx`
+  bool of_higher_vector = false;  ///< an attachment mode that is (Attachment)
 };
 
 /// V = [phi theta ...], M-orthonormal: V' M V = 1. k basis vectors.

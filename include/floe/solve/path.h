@@ -48,7 +48,7 @@ struct PathEnd {
 /// round off there. Sources: Keller 1977; Crisfield 1981; Ramm 1981.
 ///
 /// @param observe  called with every point and its U; attitudes begin each step at their bases
-/// @throws RunError  no step converges; the message has t. NothingHolds: at the start. Collective.
+/// @throws RunError  no step converges; the message has t. Unconstrained: at the start. Collective.
 PathEnd follow_path(const System& system, double t, const PathRequest& request, Vec U, Vec V,
                     const std::function<void(const PathPoint&, Vec U)>& observe);
 

@@ -34,7 +34,7 @@ double constraint_violation(const System& system, double t, Vec U, Vec V, Constr
 /// Nothing holds the configuration in some direction: at the start of the search and after relaxation; or because the
 /// loads drive it away along a path without stiffness; or where the search ends, where the tangent is no more than its
 /// own round-off there.
-class NothingHolds : public RunError {
+class Unconstrained : public RunError {
   using RunError::RunError;
 };
 
@@ -59,7 +59,7 @@ class LostInRoundOff : public RunError {
 /// of 1 rad in every rotation, of its size in every body's place, and of the configuration in the norm of |K_ii|; until
 /// then further steps are taken.
 /// @throws RunError  not converged, joints not met as they are meant to be (System::failed_constraint), or constraints
-/// repeat; NothingHolds, LostInRoundOff; U is then whatever it was last. Collective.
+/// repeat; Unconstrained, LostInRoundOff; U is then whatever it was last. Collective.
 PetscInt equilibrium(const System& system, double t, Vec U, Vec V, bool descend = false);
 
 /// Directions in which an equilibrium gives way, 0 for a stable one: negative eigenvalues of [K C'; C 0] beyond one for

@@ -71,7 +71,7 @@ TEST_CASE("copies: a value of the original that is varied is that of its copies"
         scene::offline_inputs(two_arms, "scene", {}));
 }
 
-TEST_CASE("copies: a fault in a value that copies have is told once") {
+TEST_CASE("copies: a fault in a value that copies have is reported once") {
   std::string text = two_arms;
   text.replace(text.find("rhoA: 2"), 7, "rhoA: x");
   const std::string said = fault_of(text);

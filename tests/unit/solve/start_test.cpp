@@ -188,7 +188,7 @@ TEST_CASE("where nothing resists at the start but will, the equilibrium is found
 TEST_CASE("where nothing resists at all, and where constraints repeat, the search says which, and of whom") {
   const dynamics::System loose = pushed_rod({0, 0, 0});
   const petsc::VecHandle U = loose.create_vector(), V = loose.create_vector();
-  CHECK_THROWS_AS(solve::equilibrium(loose, 0.5, U, V), solve::NothingHolds);
+  CHECK_THROWS_AS(solve::equilibrium(loose, 0.5, U, V), solve::Unconstrained);
   CHECK_THROWS_WITH(solve::equilibrium(loose, 0.5, U, V), Catch::Contains("singular tangent stiffness (body rod)"));
   const dynamics::System twice = pushed_rod({3, 0, 0}, 2);
   const petsc::VecHandle U2 = twice.create_vector(), V2 = twice.create_vector();
