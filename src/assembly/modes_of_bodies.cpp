@@ -1,4 +1,5 @@
 #include "floe/assembly/reduce_bodies.h"
+#include "floe/fem/element_count.h"
 
 namespace floe::assembly {
 
@@ -18,7 +19,7 @@ std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
       report = from_file(body, Formulation::vm_md).report;
     } else {
       const fem::Mesh& mesh = body.structure.mesh;
-      report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = mesh.cell_count;
+      report.dofs = body.structure.dofs(), report.nodes = mesh.node_count, report.elements = fem::element_count(mesh);
       if (!body.spec.rigid) report.strains = body.strains;
     }
     report.name = body.spec.name, report.rigid = body.spec.rigid;

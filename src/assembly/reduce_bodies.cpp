@@ -9,6 +9,7 @@
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/mode_warnings.h"
 #include "floe/assembly/shared_reduction.h"
+#include "floe/fem/element_count.h"
 #include "floe/plan/attachments.h"
 #include "floe/plan/hold_at_frame.h"
 #include "floe/plan/interface.h"
@@ -269,7 +270,7 @@ std::vector<BodyReport> modes_of_bodies(const Plan& plan) {
     report.name = body.spec.name;
     report.rigid = body.spec.rigid;
     report.notices = body.notices;
-    report.nodes = body.structure.mesh.node_count, report.elements = body.structure.mesh.cell_count;
+    report.nodes = body.structure.mesh.node_count, report.elements = fem::element_count(body.structure.mesh);
     report.dofs = body.structure.dofs();
     if (body.spec.reduced) {
       reports.push_back(from_file(body, Formulation::vm_md).report);

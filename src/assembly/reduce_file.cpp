@@ -6,6 +6,7 @@
 #include "floe/assembly/damping.h"
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/assembly/reduced_bodies_file.h"
+#include "floe/fem/element_count.h"
 #include "floe/fem/pressure.h"
 #include "floe/math/nearest.h"
 #include "floe/output/claim.h"
@@ -176,7 +177,7 @@ output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const
   file.name = body.spec.name;
   file.dimension = body.structure.dimension();
   file.dofs = body.structure.dofs(), file.nodes = body.structure.mesh.node_count;
-  file.cells = body.structure.mesh.cell_count;
+  file.cells = fem::element_count(body.structure.mesh);
   file.body = reduced.body;
   file.omitted_products = report.omitted_products;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)

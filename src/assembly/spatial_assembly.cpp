@@ -13,6 +13,7 @@
 #include "floe/assembly/damping.h"
 #include "floe/dynamics/damping.h"
 #include "floe/dynamics/fixed_frame_body.h"
+#include "floe/fem/element_count.h"
 #include "floe/math/rotation.h"
 #include "floe/petsc/values.h"
 #include "floe/plan/mesh_copy.h"
@@ -320,7 +321,7 @@ Model SpatialAssembly::model() {
     report.name = body.spec.name, report.whole = whole_name(body.spec);
     report.rigid = body.spec.rigid;
     if (!body.spec.reduced)
-      report.nodes = mesh.node_count, report.elements = mesh.cell_count, report.dofs = body.structure.dofs();
+      report.nodes = mesh.node_count, report.elements = fem::element_count(mesh), report.dofs = body.structure.dofs();
     report.dimension = 3;
     if (!body.spec.rigid && !body.spec.reduced) report.strains = body.strains;
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;

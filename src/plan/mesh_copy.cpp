@@ -9,6 +9,8 @@ namespace floe::plan {
 
 std::vector<std::vector<int>> pictured(fem::CellKind kind) {
   switch (kind) {
+    case fem::CellKind::spring:
+      return {};  // no piece of material
     case fem::CellKind::line3:
       return {{0, 2}, {2, 1}};
     case fem::CellKind::triangle6:

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "floe/fem/element_count.h"
 #include "floe/reduction/statics.h"
 
 namespace floe::reduction {
@@ -99,13 +100,13 @@ RunError too_fine(const fem::Structure& structure, const std::string& what) {
         "{}: {} of {} elements {} of second order (S8R) without an edge in common with another shell; by reduced "
         "integration two motions of such an element cost no energy, which is the cause if the joints leave them free; "
         "take two or more of them side by side, elements of first order, or joints that constrain one of its edges",
-        what, lone, structure.mesh.cell_count, lone == 1 ? "is a quadrilateral" : "are quadrilaterals"));
+        what, lone, fem::element_count(structure.mesh), lone == 1 ? "is a quadrilateral" : "are quadrilaterals"));
   const Cells cells = cells_of(structure);
   const double length = fem::extent(structure);
   if (cells.plain || !(cells.h > 10 * cells.r))  // (L/h)^4, the bending of a cell against that of the body
     return RunError(
         fmt::format("the mesh of {} elements is finer than double precision resolves: {}; take fewer elements",
-                    structure.mesh.cell_count, what));
+                    fem::element_count(structure.mesh), what));
   return RunError(fmt::format(
       "the body is thinner than double precision resolves: {}; where it is bent or folded, an element of {:.2g} m with "
       "the radius of gyration {:.2g} m stretches (L/h)^2 (L/r)^2 = {:.1g} times as stiffly as the whole of {:.2g} m "

@@ -289,9 +289,29 @@ def refusals(folder):
     assert "its sections are given by their stiffness" in said, said
 
 
+def springs_are_no_elements(folder):
+    """The springs of a straight edge are neither counted nor have they stresses; the tension is nearly uniform (rotations of
+    the corners about the normal are free)."""
+    scene = CLAMPED.replace("[24, 24]", "[4, 4]").replace("type: fixed", "type: support")
+    for name, hold in (("left", "hold: [x, z]"), ("bottom", "hold: [y, z]"), ("top", "hold: [z]"),
+                       ("right", "hold: [z], straight: [x]")):
+        scene = scene.replace(f"plate.{name}]}}", f"plate.{name}], {hold}}}")
+    scene = scene.replace("{type: pressure, body: plate, pressure: 10}", "{type: force, at: plate.right, force: [50, 0, 0]}")
+    for ranks in (1, 3):
+        path, said = recovered(FLOE, folder, scene, ranks=ranks)
+        assert "16 elements of plate" in said, said
+        found = Fields(path, "plate")
+        assert len(found.x) == 16 and found["membrane_force"].shape[0] == 16
+        close(found["membrane_force"][:, 0], np.full(16, 50.0), 0.12, "N")
+    said = floe(FLOE, folder, "check", "scene.yaml")
+    assert "plate        16 " in said, said
+    floe(FLOE, folder, "reduce", "scene.yaml", "-o", "plate.h5")
+    assert ", 16 elements" in floe(FLOE, folder, "info", "plate.h5")
+
+
 def main():
     tests = [strip_under_force, plate_under_pressure, navier, layers, beams, round_bars, large_rotations, reduced_against_full_order, body_from_a_file,
-             the_same_on_ranks, singular_places, refusals]
+             the_same_on_ranks, singular_places, springs_are_no_elements, refusals]
     if shutil.which("ccx"):
         tests.append(lambda folder: calculix.plate_of_second_order(FLOE, folder))
     else:
