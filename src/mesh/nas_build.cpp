@@ -54,7 +54,7 @@ void NasBuild::link(long long reference, const std::vector<long long>& nodes, Wh
 
 void NasBuild::add_extra_grids() {
   if (rank_ == ranks_ - 1)
-    for (const auto* all : {&extra_, &between_})
+    for (const auto* all : {&extra_, &between_, &hinges_})
       for (const Extra& extra : *all) {
         mesh.node_labels.push_back(extra.label);
         mesh.positions.push_back(extra.x);
@@ -66,6 +66,11 @@ void NasBuild::add_extra_grids() {
                     "them, from {} on",
                     faults_.text_of(between_.front().where), counted(static_cast<long long>(between_.size()), "node"),
                     between_.front().label));
+  if (!hinges_.empty())
+    notices.push_back(
+        fmt::format("{}: links that leave rotations of shells free: {} of their own, from {} on, {} by stiff springs",
+                    faults_.text_of(hinges_.front().where), counted(static_cast<long long>(hinges_.size()), "node"),
+                    hinges_.front().label, hinges_.size() > 1 ? "each joined to its grid" : "joined to its grid"));
   if (extra_.empty()) return;
   for (const auto& [reference, which] : extra_links_) {
     std::vector<long long> nodes;
@@ -101,9 +106,12 @@ void NasBuild::add_means() {
   for (const NasMean& mean : model_.means) {
     const std::string name = "RBE3 " + std::to_string(mean.id);
     if (std::binary_search(used.begin(), used.end(), mean.reference)) {
-      faults_.add(mean.where, name + ": reference grid " + std::to_string(mean.reference) +
-                                  " has an element, a mass or a link, which a mean of grids does not carry; expected "
-                                  "RBE2");
+      faults_.add(
+          mean.where,
+          fmt::format("{0}: reference grid {1} has an element, a mass or a link, which a mean of grids does not "
+                      "carry; expected RBE2, or for a mass a rigid body of the scene, fixed to the place "
+                      "RBE3_{2} by a joint",
+                      name, mean.reference, mean.id));
       continue;
     }
     names.push_back("RBE3_" + std::to_string(mean.id));

@@ -320,6 +320,31 @@ def sprung(floe):
     return len(own) == 6 and error <= 1e-4
 
 
+def hinged(floe):
+    """@return  whether a RBE2 of 123 holds two edges of a plate as supports of x, y, z do, and one of 123456 clamps them"""
+    model = plate(24, 16)
+    edges = [[k for k, x in model["nodes"].items() if x[0] == side] for side in (0, 1)]
+    supports = "".join(card("free", "SPC1", s + 7, 123, *edge) for s, edge in enumerate(edges))
+    link = lambda which: "GRID,9001,,-.1,.3,.2\n" + card("free", "RBE2", 9001, 9001, which, *edges[0], *edges[1])
+    scene = "bodies: {plate: {mesh: {file: {path: part.bdf}}, reduction: {modes: 6}}}\njoints:\n"
+    held = "".join(f"  j{s}: {{type: support, between: [ground, plate.SPC{s + 7}], hold: [x, y, z]}}\n" for s in (0, 1))
+    fixed = "  j: {type: fixed, between: [ground, {body: plate, node: [-.1, .3, .2]}]}\n"
+    found = {}
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        for name, cards, joints in (("supports", supports, held), ("123", link(123), fixed),
+                                    ("123456", link(123456), fixed)):
+            (folder / "part.bdf").write_text(bdf(model, "free").replace("ENDDATA", cards + "ENDDATA"))
+            (folder / "scene.yaml").write_text(scene + joints)
+            done = subprocess.run([floe, "check", "scene.yaml", "--frequencies", "6"], cwd=folder, capture_output=True, text=True)
+            assert done.returncode == 0, done.stderr
+            found[name] = [float(row[1]) for row in re.findall(r"^plate +\d+ +(\S+) +([.\de+]+)$", done.stdout, re.M)]
+    error = max(abs(a / b - 1) for a, b in zip(found["123"], found["supports"]))
+    print(f"RBE2 123 as supports {error:.1e} of 1e-03: " + " ".join(f"{a:.5g}/{b:.5g}" for a, b in zip(found["123"], found["supports"])))
+    print(f"RBE2 123456: {found['123456'][0] / found['123'][0]:.3g} times the first frequency")
+    return len(found["123"]) == 6 and error <= 1e-3 and found["123456"][0] > 2 * found["123"][0]
+
+
 def with_spring(model, nodes, stiffness):
     """The deck with a SPRINGA between two nodes."""
     more = f"*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n100000, {nodes[0]}, {nodes[1]}\n*SPRING, ELSET=SPRING\n\n{stiffness}\n"
@@ -379,6 +404,7 @@ def main():
     failed |= not second_order(floe)
     failed |= not sprung(floe)
     failed |= not sprung_panel(floe)
+    failed |= not hinged(floe)
     for name, model, tolerance in (("plate", plate(), 0.01), ("frame", frame(), 0.01)):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)

@@ -52,7 +52,10 @@ TEST_CASE("wrong cards of Nastran are refused with line and field") {
       {"CROD,70,9,1,2\n", "beam 70 names property 9, which is not defined"},
       {"CONROD,70,1,2,1,0.\n", "CONROD: field 6 expects the area greater than 0"},
       {"CROD,70,9,1,2\nPTUBE,9,1,.1,.06\n", "PTUBE: field 5 expects a wall of at most half the diameter"},
-      {"RBE3,70,,1,123,1.,123,2,3\n", "RBE3 70: reference grid 1 has an element, a mass or a link"},
+      {"RBE3,70,,1,123,1.,123,2,3\n",
+       "RBE3 70: reference grid 1 has an element, a mass or a link, which a mean of grids does not carry; expected "
+       "RBE2, "
+       "or for a mass a rigid body of the scene, fixed to the place RBE3_70 by a joint"},
       {"RBE3,70,,1,123\n", "RBE3 70 has no grids"},
       {"PSHELL,4,1,0.,1\n", "PSHELL: field 4 expects a thickness greater than 0"},
       {"MAT1,4,0.,,.3\n", "expect E and G greater than 0"},

@@ -88,6 +88,32 @@ TEST_CASE("a PSHELL may bend by another material, or by other fibres") {
   CHECK(file.deck.shell_sections[0].bending->factor == 1.5);
 }
 
+TEST_CASE("links that leave rotations of shells free end at hinges") {
+  const auto file = read("hinge.bdf", square +
+                                          "GRID,5,,.5,.5,1.\nGRID,6,,2.,0.,0.\nCBAR,9,5,2,6,0.,0.,1.\n"
+                                          "PBAR,5,1,1.-4,1.-9,1.-9,1.-9\nRBE2,80,5,123,1,2\nRBAR,81,5,3,123456\n");
+  CHECK(file.mesh.node_count == 8);
+  const auto springs = testing::of_all_ranks(file.deck.springs);
+  REQUIRE(springs.size() == 2);
+  const double k = 1000 * 2.1e11 * .01, bending = k * .01 * .01 / 12;  // edges of length 1
+  for (const auto& spring : springs) {
+    CHECK(spring.stiffness[0] == Approx(bending));
+    CHECK(spring.axes.col(0) == Eigen::Vector3d::UnitZ());
+    CHECK(spring.stiffness[1] == Approx(k));
+    CHECK(spring.stiffness[2] == Approx(k));
+    CHECK(std::all_of(spring.stiffness.begin() + 3, spring.stiffness.end(), [](double of) { return of == 0; }));
+  }
+  CHECK(position(file.mesh, 7) == Eigen::Vector3d(0, 0, 0));
+  CHECK(position(file.mesh, 8) == Eigen::Vector3d(1, 0, 0));
+  CHECK_THAT(all_of(file.notices),
+             Contains("links that leave rotations of shells free: 2 nodes of their own, from 7 on, "
+                      "each joined to its grid by stiff springs"));
+  CHECK_THAT(
+      said(grids + "CQUAD4,1,3,1,2,3,4\nGRID,5,,.5,.5,1.\nRBE2,80,5,123,1,2\n"),
+      Contains("RBE2 80: constrains 123 of grid 1, of shells without thickness and material in the deck; expected "
+               "PSHELL or PCOMP, or 123456"));
+}
+
 TEST_CASE("an RBE3 whose reference grid carries nothing is a place") {
   const auto file = read("mean.bdf", square + "GRID,5,,.5,.5,1.\nRBE3,70,,5,123456,1.,123,1,2,\n,3,2.,123456,4\n");
   CHECK(testing::labels_at(file.mesh, "RBE3_70") == std::vector<long long>{1, 2, 3, 4});
@@ -158,8 +184,9 @@ TEST_CASE("links that leave rotations free: to grids without these, or to the en
       {"RBE2,80,3,12,4\n",
        "RBE2: field 4 expects 123456, or 123: rigid links constrain all three translations; found '12'"},
       {"RBAR,80,3,4,123456,,,12\n", "expects 123456, or 123"},
-      {"RBE2,80,3,123,4\n",
-       "RBE2 80: constrains 123 of grid 4, whose other rotations are also dofs of shell 1; expected 123456"},
+      {"RBE2,80,3,1234,4\n",
+       "RBE2 80: constrains 1234 of grid 4, whose other rotations are also dofs of shell 1; expected 123456, or 123 "
+       "where these rotations are dofs of shells"},
       {bar + "RBE2,80,3,1234,5\n", "whose other rotations are also dofs of more than one beam end"},
       {bar + "CBAR,10,5,6,5,0.,1.,0.\nRBE2,80,3,123,5\n",
        "whose other rotations are also dofs of more than one beam end"},
