@@ -20,12 +20,15 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// `bodies.blade` of `bodies.blade.section.A`.
+std::string entry_of(const std::string& key) {
+  const auto first = key.find('.');
+  return first == std::string::npos ? key : key.substr(0, key.find('.', first + 1));
+}
+
 // `bodies.blade.section.A` without the name of the entry, which copies of a body differ in.
 std::string without_entry(const std::string& key) {
-  const auto first = key.find('.');
-  if (first == std::string::npos) return key;
-  const auto second = key.find('.', first + 1);
-  return key.substr(0, first) + (second == std::string::npos ? "" : key.substr(second));
+  return key.substr(0, key.find('.')) + key.substr(entry_of(key).size());
 }
 
 }  // namespace
@@ -43,11 +46,13 @@ void Document::fault(const Where& where, const std::string& wrong, const std::st
   if (!expected.empty()) said += "; expected " + expected;
   if (const std::string near = math::nearest(word, known); !near.empty())
     said += fmt::format("; did you mean \"{}\"?", near);
-  faults_.push_back({where.line, where.column, one_line(where.text() + ": " + said), without_entry(where.key) + said});
+  faults_.push_back({where.line, where.column, one_line(where.text() + ": " + said), without_entry(where.key) + said,
+                     entry_of(where.key)});
 }
 
 void Document::fault(const Where& where, const InputError& error) {
-  for (const auto& text : error.faults()) faults_.push_back({where.line, where.column, one_line(text), text});
+  for (const auto& text : error.faults())
+    faults_.push_back({where.line, where.column, one_line(text), text, entry_of(where.key)});
 }
 
 void Document::throw_faults() const {
@@ -56,10 +61,17 @@ void Document::throw_faults() const {
   std::stable_sort(sorted.begin(), sorted.end(), [](const Fault& a, const Fault& b) {
     return std::pair(a.line, a.column) < std::pair(b.line, b.column);
   });
+  std::set<std::string> entries;
+  for (const auto& fault : sorted) entries.insert(fault.entry);
+  const auto of_original = [&](const Fault& fault) {  // its own faults are told once those of the original are mended
+    for (auto from = copied.find(fault.entry); from != copied.end(); from = copied.find(from->second))
+      if (entries.count(from->second)) return true;
+    return false;
+  };
   std::vector<std::string> texts;
   std::set<std::tuple<int, int, std::string>> said;  // once, however many copies have the value
   for (const auto& fault : sorted)
-    if (said.emplace(fault.line, fault.column, fault.said).second) texts.push_back(fault.text);
+    if (!of_original(fault) && said.emplace(fault.line, fault.column, fault.said).second) texts.push_back(fault.text);
   throw InputError(texts);
 }
 

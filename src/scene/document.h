@@ -26,6 +26,8 @@ class Document {
   math::Names names;                ///< that formulas may use: parameters and functions so far
   int dimension = 2;                ///< of the scene: how many coordinates a point has
   std::vector<std::string> tables;  ///< files of tables so far
+  /// Of entries that `copies` made, as bodies.right_arm: the entry that they were made from.
+  std::map<std::string, std::string> copied;
 
   /// A reduced body's file, read once. @throws InputError
   std::shared_ptr<const output::ReducedBodyFile> reduced_file(const std::string& path);
@@ -48,7 +50,8 @@ class Document {
   struct Fault {
     int line, column;
     std::string text;
-    std::string said;  ///< the same of copies of one entry
+    std::string said;   ///< the same of copies of one entry
+    std::string entry;  ///< bodies.blade of bodies.blade.section.A
   };
   std::vector<Fault> faults_;
   std::map<std::string, std::shared_ptr<const output::ReducedBodyFile>> reduced_files_;

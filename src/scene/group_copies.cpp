@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <set>
 
+#include "copied_events.h"
 #include "floe/math/rotation.h"
 #include "moved_text.h"
 #include "readers.h"
+#include "renamed_columns.h"
 #include "renamed_sensors.h"
 
 namespace floe::scene {
@@ -48,7 +50,7 @@ std::string body_of(const YAML::Node& place) {
 /// Names of all that can be copied, as the scene is now.
 Names all_names(const YAML::Node& root) {
   Names all;
-  for (const char* section : {"bodies", "joints", "loads", "probes"})
+  for (const char* section : {"bodies", "joints", "loads", "probes", "events"})
     for (const std::string& name : names_of(entries_of(root, section))) all[section].insert(name);
   return all;
 }
@@ -81,7 +83,7 @@ class GroupCopy {
     Reading reading(document, entry.value, "copy");
     if (const auto like = reading.value("like")) bodies_ = read_names(*like, reading.key("like"), {"bodies"});
     if (const auto without = reading.value("without"))
-      without_ = read_names(*without, reading.key("without"), {"joints", "loads", "probes"});
+      without_ = read_names(*without, reading.key("without"), {"joints", "loads", "probes", "events"});
     motion_.dimension = document.dimension;
     if (reading.given("position")) motion_.p = Eigen::Vector3d(reading.point("position").data());
     if (document.dimension == 2)
@@ -94,8 +96,6 @@ class GroupCopy {
   std::size_t count() const { return bodies_.size(); }
 
   void write_out() {
-    for (const auto& [key, body] : entries_of(root_, "bodies"))
-      if (bodies_.count(key.Scalar())) write("bodies", key, body);
     for (const auto& [key, joint] : entries_of(root_, "joints"))
       if (joint.IsMap() && joint["between"] && joint["between"].IsSequence() && touches(joint["between"]))
         write("joints", key, joint);
@@ -110,8 +110,17 @@ class GroupCopy {
     for (const std::string& name : without_) sensors_.probes.erase(name);
     for (const auto& [key, load] : entries_of(root_, "loads"))
       if (load.IsMap() && acts_on(load)) write("loads", key, load);
+    Named of_formulas;
     for (const auto& [key, probe] : entries_of(root_, "probes"))
-      if (probe.IsMap() && sensors_.named_in(scalar(probe, "formula"))) write("probes", key, probe);
+      if (probe.IsMap() && sensors_.named_in(scalar(probe, "formula"))) of_formulas.emplace_back(key, probe);
+    for (const auto& [key, probe] : of_formulas) {
+      write("probes", key, probe);
+      if (!without_.count(key.Scalar())) sensors_.probes.insert_or_assign(key.Scalar(), probe);
+    }
+    for (const auto& [key, event] : entries_of(root_, "events"))
+      if (is_of_group(event, sensors_)) write("events", key, event);
+    for (const auto& [key, body] : entries_of(root_, "bodies"))
+      if (bodies_.count(key.Scalar())) write("bodies", key, body);
   }
 
  private:
@@ -158,17 +167,22 @@ class GroupCopy {
             "another name");
       return;
     }
+    document_.copied.emplace(section + "." + renamed(name), section + "." + name);
     const std::size_t before = document_.fault_count();
-    const YAML::Node copy =
-        section == "bodies" ? moved_body(name, original) : moved_entry(section + "." + name, name, original);
-    if (document_.fault_count() == before) root_[section].force_insert(text_at(key_, renamed(name)), copy);
+    const YAML::Node copy = section == "bodies"   ? moved_body(name, original)
+                            : section == "events" ? copied_event(document_, name, original, name_, sensors_, motion_)
+                                                  : moved_entry(section + "." + name, name, original);
+    if (document_.fault_count() == before) root_[section].force_insert(text_at(key, renamed(name)), copy);
   }
 
   YAML::Node moved_body(const std::string& name, const YAML::Node& body) {
     if (!body.IsMap()) return body;
+    std::set<std::string> labels = copied_["joints"];
+    labels.insert(copied_["loads"].begin(), copied_["loads"].end());
     YAML::Node moved = empty_map_at(body);
     for (const auto& [key, value] : entries_of(body))
-      if (key.Scalar() != "initial") moved.force_insert(key, value);
+      if (key.Scalar() != "initial")
+        moved.force_insert(key, key.Scalar() == "reduction" ? with_renamed_columns(value, labels, renamed("")) : value);
     const YAML::Node initial = body["initial"] ? body["initial"] : YAML::Node();
     moved.force_insert(text_at(key_, "initial"),
                        initial.IsDefined() && !initial.IsNull() && !initial.IsMap() ? initial : start(name, initial));

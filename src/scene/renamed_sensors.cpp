@@ -1,7 +1,10 @@
 #include "renamed_sensors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
 
 namespace floe::scene {
@@ -31,6 +34,18 @@ std::string replaced(const std::string& text, const std::function<std::string(co
 
 std::string owner(const std::string& name) { return name.substr(0, name.find('.')); }
 
+std::string along(std::string component, int axis) {
+  component.back() = "xyz"[axis];
+  return component;
+}
+
+/// Quantities whose components are in axes of bodies, sections or shells.
+const std::set<std::string>& own_axes() {
+  static const std::set<std::string> all{"deflection", "section_force",    "section_moment", "stress",
+                                         "strain",     "principal_stress", "membrane_force", "bending_moment"};
+  return all;
+}
+
 }  // namespace
 
 bool RenamedSensors::contains(const std::string& name) const {
@@ -49,19 +64,43 @@ bool RenamedSensors::named_in(const std::string& formula) const {
 std::string RenamedSensors::renamed(const std::string& name, const std::string& prefix,
                                     const GroupMotion& motion) const {
   if (!contains(name)) return name;
-  if (joints.count(owner(name)) || seen_from_group.count(owner(name))) return prefix + name;
+  const int axis = axis_of(name, motion);
+  if (axis < 0) return prefix + name;
+  std::vector<std::string> components;
+  for (int i = 0; i < motion.dimension; ++i) components.push_back(along(prefix + name, i));
+  return motion.moved_back(axis, components, is_position(owner(name)));
+}
+
+int RenamedSensors::axis_of(const std::string& name, const GroupMotion& motion) const {
+  const auto found = probes.find(owner(name));
+  if (found == probes.end() || joints.count(owner(name)) || seen_from_group.count(owner(name))) return -1;
+  const YAML::Node& quantity = found->second["quantity"];
+  if (quantity && quantity.IsScalar() && own_axes().count(quantity.Scalar())) return -1;
   const std::string component = name.substr(name.find('.') + 1), axes = motion.dimension == 3 ? "xyz" : "xy";
   const auto axis = component.empty() ? std::string::npos : axes.find(component.back());
-  if (axis == std::string::npos || component.size() > 2) return prefix + name;
-  const YAML::Node probe = probes.at(owner(name));
-  const bool position = probe["quantity"] && probe["quantity"].IsScalar() && probe["quantity"].Scalar() == "position" &&
-                        !probe["relative_to"];
-  std::vector<std::string> components;
-  for (const char c : axes) {
-    components.push_back(prefix + name);
-    components.back().back() = c;
+  return axis == std::string::npos || component.size() > 2 ? -1 : static_cast<int>(axis);
+}
+
+bool RenamedSensors::is_position(const std::string& probe) const {
+  const YAML::Node& of = probes.at(probe);
+  return of["quantity"] && of["quantity"].IsScalar() && of["quantity"].Scalar() == "position" && !of["relative_to"];
+}
+
+bool RenamedSensors::has_probe(const std::string& component) const { return probes.count(owner(component)) > 0; }
+
+std::optional<RenamedSensors::Crossing> RenamedSensors::crossing(const Crossing& original, const std::string& prefix,
+                                                                 const GroupMotion& motion) const {
+  if (!has_probe(original.probe)) return original;
+  const Crossing same{prefix + original.probe, original.crosses};
+  const int axis = axis_of(original.probe, motion);
+  if (axis < 0) return same;
+  for (int i = 0; i < motion.dimension; ++i) {  // x_axis = R_i,axis (x'_i - p_i)
+    const double sign = motion.R(i, axis), shift = is_position(owner(original.probe)) ? motion.p[i] : 0;
+    if (std::abs(sign) != 1) continue;
+    if (sign == 1 && shift == 0) return Crossing{along(same.probe, i), original.crosses};
+    return Crossing{along(same.probe, i), fmt::format("({})*({}) + ({})", sign, original.crosses, shift)};
   }
-  return motion.moved_back(static_cast<int>(axis), components, position);
+  return std::nullopt;
 }
 
 YAML::Node RenamedSensors::renamed(const YAML::Node& formulas, const std::string& prefix,

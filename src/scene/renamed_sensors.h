@@ -1,5 +1,6 @@
 #pragma once
 #include <map>
+#include <optional>
 #include <set>
 
 #include "moved_text.h"
@@ -18,7 +19,20 @@ struct RenamedSensors {
   /// A formula or a list of formulas. @param prefix  of the names of copies
   YAML::Node renamed(const YAML::Node& formulas, const std::string& prefix, const GroupMotion& motion) const;
 
+  /// Whether `tip.y` is of a probe of the group.
+  bool has_probe(const std::string& component) const;
+  /// A component of a probe that crosses a value.
+  struct Crossing {
+    std::string probe, crosses;
+  };
+  /// The same of the copy; nothing where several components of the copy's probe make up the original's.
+  std::optional<Crossing> crossing(const Crossing& original, const std::string& prefix,
+                                   const GroupMotion& motion) const;
+
  private:
+  /// Which of the axes x, y, z of the world a component is along, or -1 if it is along none.
+  int axis_of(const std::string& name, const GroupMotion& motion) const;
+  bool is_position(const std::string& probe) const;
   bool contains(const std::string& name) const;
   std::string renamed(const std::string& name, const std::string& prefix, const GroupMotion& motion) const;
 };

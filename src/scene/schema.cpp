@@ -44,7 +44,7 @@ const SchemaSection scene_section{
         part("joints", Type::named_sections, "", "joints by name; absent: the bodies are free", "joint"),
         part("loads", Type::named_sections, "", "loads by name", "load"),
         part("copies", Type::named_sections, "",
-             "copies of groups of bodies by name, with the joints, loads and probes that act on them", "copy"),
+             "copies of groups of bodies by name, with the joints, loads, probes and events that act on them", "copy"),
         part("motion", Type::section, "", "end time and time step; required by run, compare, tradeoff and sweep",
              "motion"),
         accuracy,
@@ -92,9 +92,9 @@ const SchemaSection copy_section{
     "A copy of a group of bodies, moved as a whole. The joints that connect these bodies with one another or with the "
     "ground, and the loads and probes of these bodies and joints, are copied and moved with them (forces, axes and "
     "points of the ground in world axes, and sensors in formulas, too); so are joints to places {body: BODY, node: "
-    "[..]} of other bodies. Copies are named NAME_ORIGINAL, with the key as NAME. A joint, load or probe that the "
-    "scene "
-    "itself has by that name replaces the copy. Events are not copied.",
+    "[..]} of other bodies. Copies are named NAME_ORIGINAL, with the key as NAME. A joint, load, probe or event "
+    "that the scene itself has by that name replaces the copy. Copied are also events that unlock or lock a copied "
+    "joint, or that a copied probe triggers.",
     "like: [upper_arm, forearm]\nposition: [0, 0.5]\nangle: pi",
     {
         {"like", Type::texts, "", Key::required,
@@ -102,7 +102,7 @@ const SchemaSection copy_section{
         {"position", Type::point, "m", "", "translation, after the rotation about the world origin; absent: zero"},
         in_plane({"angle", Type::number, "rad", "0", "rotation about the world origin, counterclockwise"}),
         in_space({"rotation", Type::point, "rad", "", "rotation vector about the world origin; absent: zero"}),
-        {"without", Type::texts, "", "", "names of joints, loads and probes that are not copied; absent: none"},
+        {"without", Type::texts, "", "", "names of joints, loads, probes and events that are not copied; absent: none"},
     }};
 
 const SchemaSection ground_section{

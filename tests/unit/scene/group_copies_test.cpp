@@ -151,6 +151,75 @@ motion: {end: 1, step: 1}
       Catch::Contains("joints.one_k.translation: has axes that are not world axes after the rotation of copies.two"));
 }
 
+// x -> 0.5 - y, y -> 0.25 + x: the copy is at y' = 0.25 + c where the original is at x = c.
+TEST_CASE("copies of groups: events of copied joints and probes") {
+  const std::string events = R"yaml(events:
+  drop: {unlock: shoulder, at: 0.5}
+  hold: {lock: elbow, probe: p.x, crosses: 2}
+  back: {lock: elbow, when: "t - 0.7"}
+  fast: {stop: true, probe: v.y, crosses: 3}
+  high: {stop: true, probe: p.y}
+  error: {stop: true, probe: e.value, crosses: 9}
+  end: {stop: true, at: 0.9}
+  other: {unlock: alone2, probe: base.x, crosses: 1}
+)yaml";
+  const std::string text =
+      with(plane, "  alone:", "  alone2: {type: revolute, between: [ground, base.centre]}\n  alone:") + events;
+  const auto copy_of = [](const scene::Scene& scene, const std::string& name) {
+    return named(scene.events, "two_" + name);
+  };
+  const std::string start = with(text, "position: [0.1, 0.2], angle: pi/2", "angle: 0");
+  const scene::Scene scene = parse_scene(start, "scene");
+  CHECK(scene.events.size() == 14);
+  CHECK(copy_of(scene, "drop").joint == "two_shoulder");
+  CHECK(copy_of(scene, "drop").at == 0.5);
+  CHECK(copy_of(scene, "hold").joint == "two_elbow");
+  CHECK(copy_of(scene, "hold").probe == "two_p.y");
+  CHECK(copy_of(scene, "hold").crosses == Approx(2.25));
+  CHECK(copy_of(scene, "back").when.has_value());
+  CHECK(copy_of(scene, "fast").probe == "two_v.x");
+  CHECK(copy_of(scene, "fast").crosses == Approx(-3));
+  CHECK(copy_of(scene, "high").probe == "two_p.x");
+  CHECK(copy_of(scene, "high").crosses == Approx(0.5));
+  CHECK(copy_of(scene, "error").probe == "two_e.value");
+  CHECK(copy_of(scene, "error").crosses == 9);
+  const scene::Scene own = parse_scene(with(with(start, "without: [own]", "without: [own, drop, fast]"), "events:\n",
+                                            "events:\n  two_hold: {lock: two_elbow, at: 0.1}\n"),
+                                       "scene");
+  CHECK(own.events.size() == 12);
+  CHECK(copy_of(own, "hold").at == 0.1);
+  CHECK_THAT(
+      fault_of(with(start, "a: pi/2", "a: 0.5")),
+      Catch::Contains("scene:34:30: events.hold.probe: is \"p.x\", which is the sum of several components after "
+                      "the rotation of copies.two; expected a rotation by right angles, an entry two_hold beside "
+                      "hold, which replaces its copy; or hold in copies.two.without"));
+  CHECK_THAT(fault_of(with(start, "probe: base.x", "probe: p.x")),
+             Catch::Contains("events.other.probe: is \"p.x\", of the group of copies.two, and joint alone2 is not; "
+                             "expected an entry two_other beside other"));
+}
+
+TEST_CASE("copies of groups: basis vectors of joints and loads have the names of the copies") {
+  const std::string reduction = R"yaml(
+    reduction:
+      modes: 2
+      attachment: all
+      interface: [start]
+      columns: [mode 1, "derivative 1,2", "derivative 1,push.fx", "derivative push/2.fy,push-.fx", attachment elbow.fx,
+                attachment start.x, "#2 attachment shoulder.moment", attachment own.fx])yaml";
+  const std::string text = with(
+      with(plane, "  base: {rigid",
+           "  third:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}\n    section: {EA: 1, EI: 1, rhoA: 1, "
+           "rhoI: 0}" +
+               reduction + "\n  base: {rigid"),
+      "like: [upper, fore]", "like: [upper, fore, third]");
+  const scene::Scene scene = parse_scene(text, "scene");
+  CHECK(named(scene.bodies, "two_third").reduction.columns ==
+        std::vector<std::string>{"mode 1", "derivative 1,2", "derivative 1,two_push.fx",
+                                 "derivative two_push/2.fy,two_push-.fx", "attachment two_elbow.fx",
+                                 "attachment start.x", "#2 attachment two_shoulder.moment", "attachment own.fx"});
+  CHECK(named(scene.bodies, "third").reduction.columns[2] == "derivative 1,push.fx");
+}
+
 TEST_CASE("copies of groups: an entry of the scene replaces its copy; values follow the originals") {
   const std::string text =
       with(with(plane, "  alone:", "  two_rope: {like: rope, stiffness: 4}\n  alone:"),
@@ -223,6 +292,16 @@ TEST_CASE("copies of groups: faults of values are reported once, at their own li
   CHECK_THAT(fault_of(with(plane, "[upper.end, fore.start]", "[upper.end, fore.stat]")),
              Catch::Contains("scene:12:48: joints.elbow.between[2]: fore has no place") &&
                  Catch::Contains("did you mean \"start\"?"));
+  // texts and columns of copies differ: the copies' faults are told once the originals are mended
+  const auto once = [](const std::string& text, const std::string& fault) {
+    const std::string found = fault_of(text);
+    CHECK_THAT(found, Catch::StartsWith(fault) && !Catch::Contains("two_") && !Catch::Contains("\n"));
+  };
+  once(with(plane, "at: fore.end, force", "at: fore.ende, force"), "scene:18:27: loads.push.at: fore has no place");
+  once(with(plane, "5*t", "5*tt"), "scene:18:62: loads.push.force[2]: \"tt\" at character 3 of \"5*tt\"");
+  once(with(plane, "{joint: shoulder, quantity: force}", "{joint: shoulder, quantity: travel}"),
+       "scene:25:3: probes.r.formula: depends on \"shoulder.travel\"");
+  once(with(plane, "node: [0.3, 0]}", "node: [0.3, 1]}"), "scene:11:3: joints.shoulder: its places are 1 apart");
   CHECK_THAT(fault_of(with(plane, "{body: base, node: [1, 0]}", "base.centre")),
              Catch::Contains("scene:14:34: joints.rope.between: is \"base.centre\", on a body that copies.two does not "
                              "copy; expected coordinates of the place, as {body: base, node: [..]}; an entry "
