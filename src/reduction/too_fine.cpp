@@ -92,6 +92,14 @@ PetscInt lone_quadrilaterals(const fem::Structure& structure) {
   return sum;
 }
 
+/// Whether parts of the body may move relative to each other without stiffness.
+bool may_be_loose(const fem::Structure& structure) {
+  return std::any_of(structure.sections.begin(), structure.sections.end(), [](const fem::Section& section) {
+    const auto* beam = std::get_if<fem::SpatialBeam>(&section);
+    return std::holds_alternative<fem::NodeSpring>(section) || (beam && beam->releases.any());
+  });
+}
+
 }  // namespace
 
 RunError too_fine(const fem::Structure& structure, const std::string& what) {
@@ -103,6 +111,12 @@ RunError too_fine(const fem::Structure& structure, const std::string& what) {
         what, lone, fem::element_count(structure.mesh), lone == 1 ? "is a quadrilateral" : "are quadrilaterals"));
   const Cells cells = cells_of(structure);
   const double length = fem::extent(structure);
+  if (may_be_loose(structure))
+    return RunError(fmt::format(
+        "{}: springs, released ends of beams or links that leave rotations free may leave a motion without stiffness "
+        "within the body (a hinge needs two bodies and a joint), or the mesh of {} elements is finer than double "
+        "precision resolves",
+        what, fem::element_count(structure.mesh)));
   if (cells.plain || !(cells.h > 10 * cells.r))  // (L/h)^4, the bending of a cell against that of the body
     return RunError(
         fmt::format("the mesh of {} elements is finer than double precision resolves: {}; take fewer elements",

@@ -339,6 +339,10 @@ def hinged(floe):
             done = subprocess.run([floe, "check", "scene.yaml", "--frequencies", "6"], cwd=folder, capture_output=True, text=True)
             assert done.returncode == 0, done.stderr
             found[name] = [float(row[1]) for row in re.findall(r"^plate +\d+ +(\S+) +([.\de+]+)$", done.stdout, re.M)]
+        one_line = "GRID,9001,,-.1,.3,.2\n" + card("free", "RBE2", 9001, 9001, 123, *edges[0])
+        (folder / "part.bdf").write_text(bdf(model, "free").replace("ENDDATA", one_line + "ENDDATA"))
+        done = subprocess.run([floe, "check", "part.bdf", "--frequencies", "6"], cwd=folder, capture_output=True, text=True)
+        assert done.returncode == 1 and "links that leave rotations free may leave a motion without stiffness" in done.stderr, done.stderr
     error = max(abs(a / b - 1) for a, b in zip(found["123"], found["supports"]))
     print(f"RBE2 123 as supports {error:.1e} of 1e-03: " + " ".join(f"{a:.5g}/{b:.5g}" for a, b in zip(found["123"], found["supports"])))
     print(f"RBE2 123456: {found['123456'][0] / found['123'][0]:.3g} times the first frequency")
