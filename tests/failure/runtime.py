@@ -1,5 +1,32 @@
 """Bad checkpoints, events and sweeps. (Runs that are killed and taken up again: restart.py.)"""
+import csv
+
 from scenes import scene
+
+# The basis of the copy has the vector of the copy's own spring.
+COPIED_COLUMNS = """
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {EA: 1e4, EI: 10, rhoA: 1, rhoI: 0}
+    frame: clamped
+    reduction: {modes: 2, columns: [mode 1, attachment tip.fy, "derivative 1,tip.fy"]}
+joints:
+  root: {type: fixed, between: [ground, arm.start]}
+  tip: {type: spring, between: [{body: ground, node: [1, 1]}, arm.end], stiffness: 100}
+loads: {push: {type: force, at: arm.end, force: [0, "10*t"]}}
+motion: {end: 0.1, step: 0.01}
+probes: {e: {at: arm.end}}
+copies: {two: {like: [arm], angle: pi/2}}
+"""
+
+
+def same_but_rotated(folder):
+    """(x, y) -> (-y, x)"""
+    with open(folder / "out/probes.csv", newline="") as file:
+        rows = list(csv.reader(file))
+    last = dict(zip((name.split(" [")[0] for name in rows[0]), map(float, rows[-1])))
+    assert last["e.y"] > 1e-3 and abs(last["two_e.x"] + last["e.y"]) < 1e-10 and abs(last["two_e.y"] - last["e.x"]) < 1e-10, last
 
 
 def cases(Case, run, case, nothing, kept):
@@ -64,6 +91,10 @@ def cases(Case, run, case, nothing, kept):
               says=("motion.output: is 1e-09", "at least 1/100 of step")),
         *case("column that is not there", codes=2, lines=1, check=nothing, changes=kept_none,
               says=('has no basis vector "mod 2"', 'did you mean "mode 2"?')),
+        *case("column that is not there, copied", codes=2, lines=1, check=nothing,
+              changes={**kept_none, "copies": {"two": {"like": ["beam"], "angle": 1}}},
+              says=('bodies.beam.reduction.columns: body beam has no basis vector "mod 2"',)),
+        *case("columns of joints, copied", lines=0, scene=COPIED_COLUMNS, options=("--no-estimate",), check=same_but_rotated),
         *case("column twice", codes=2, lines=1, check=nothing,
               changes={"bodies.beam.reduction": {"columns": ["mode 1", "mode 1"]}}, says=('"mode 1" is given twice',)),
         *case("columns and derivatives", codes=2, lines=1, check=nothing,
