@@ -115,7 +115,7 @@ bool read_later(const std::string& name) {
   for (const char* part :
        {"mat_", "mg_",      "gamg_",   "sub_", "fieldsplit_", "redundant_",       "telescope_", "inner_",
         "npc_", "esteig_",  "coarse",  "view", "monitor",     "converged_reason", "test_",      "compare_",
-        "hmg_", "ksp_ksp_", "ksp_pc_", "asm_", "deflation_",  "block_lanczos"})
+        "hmg_", "ksp_ksp_", "ksp_pc_", "asm_", "deflation_",  "block_lanczos",    "bddc_"})
     if (name.find(part) != std::string::npos) return true;
   return false;
 }

@@ -41,21 +41,30 @@ void hold(const Structure& structure, const Conditions& conditions, const std::v
 
 }  // namespace
 
-petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& conditions, double diagonal,
-                                const std::function<Eigen::MatrixXd(const Mesh::Cell&)>& matrix_of) {
-  const petsc::Stage stage("assembly");
-  petsc::MatHandle A = empty_matrix(structure);
+double for_each_matrix(const Structure& structure, const Conditions& conditions, const MatrixOfCell& matrix_of,
+                       const MatrixSink& add) {
   double largest = 0;
   for (const Mesh::Cell& cell : structure.mesh.cells) {
     Eigen::MatrixXd Ae = matrix_of(cell);
     largest = std::max(largest, Ae.diagonal().cwiseAbs().maxCoeff());
     hold(structure, conditions, structure.cell_dofs(cell), Ae);
-    PetscInt nodes[2 * mesh::most_nodes];
-    PetscInt count = 0;
-    for (int node : cell.nodes()) nodes[count++] = structure.mesh.global_node(node);
-    check(MatSetValuesBlocked(A, count, nodes, count, nodes, Ae.data(), ADD_VALUES));  // symmetric: either major
+    add(cell, Ae);
   }
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  return largest;
+}
+
+petsc::MatHandle assemble_cells(const Structure& structure, const Conditions& conditions, double diagonal,
+                                const MatrixOfCell& matrix_of) {
+  const petsc::Stage stage("assembly");
+  petsc::MatHandle A = empty_matrix(structure);
+  const double largest =
+      for_each_matrix(structure, conditions, matrix_of, [&](const Mesh::Cell& cell, const Eigen::MatrixXd& Ae) {
+        PetscInt nodes[2 * mesh::most_nodes];
+        PetscInt count = 0;
+        for (int node : cell.nodes()) nodes[count++] = structure.mesh.global_node(node);
+        check(MatSetValuesBlocked(A, count, nodes, count, nodes, Ae.data(), ADD_VALUES));  // symmetric: either major
+      });
   PetscInt first = 0, end = 0;
   check(MatGetOwnershipRange(A, &first, &end));
   for (PetscInt dof : conditions)

@@ -15,6 +15,7 @@
 #include "floe/petsc/values.h"
 #include "mode_pairs.h"
 #include "multigrid.h"
+#include "subdomains.h"
 
 namespace floe::reduction {
 
@@ -75,14 +76,13 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   iterate(ksp, KSPCG);
 }
 
-/// Where the user's options iterate: the assembled K - shift M as multigrid takes it, for the preconditioner.
+/// Where the user's options iterate: K - shift M as their preconditioner takes it.
 void precondition(EPS eps, double shift, const fem::Structure& structure, const fem::ReferenceFrame& frame,
                   const fem::Conditions& constrained) {
   ST st = nullptr;
-  const petsc::MatHandle shifted = fem::assemble(structure, constrained, 1, 1, -shift);
   check(EPSGetST(eps, &st));
   check(STSetMatMode(st, ST_MATMODE_SHELL));
-  check(STSetPreconditionerMat(st, for_multigrid(shifted, frame, constrained)));
+  check(STSetPreconditionerMat(st, for_iteration(solver_of(eps), {structure, frame, constrained, shift})));
 }
 
 petsc::EpsHandle solver(Mat K, Mat M, double shift, double tolerance) {

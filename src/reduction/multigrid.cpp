@@ -41,18 +41,22 @@ Columns orthonormal_rigid(const fem::ReferenceFrame& frame, const fem::Condition
 
 }  // namespace
 
-petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
-  petsc::MatHandle rows;
-  check(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, rows.out()));
-  check(MatSetOption(rows, MAT_SPD, PETSC_TRUE));
+void set_near_null_space(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
   const Columns rigid = orthonormal_rigid(frame, constrained);
   const std::vector<Vec> vectors(rigid.begin(), rigid.end());
   MatNullSpace near = nullptr;
   check(MatNullSpaceCreate(PetscObjectComm(reinterpret_cast<PetscObject>(A)), PETSC_FALSE,
                            static_cast<PetscInt>(vectors.size()), vectors.data(), &near));
-  const PetscErrorCode code = MatSetNearNullSpace(rows, near);
+  const PetscErrorCode code = MatSetNearNullSpace(A, near);
   check(MatNullSpaceDestroy(&near));
   check(code);
+}
+
+petsc::MatHandle for_multigrid(Mat A, const fem::ReferenceFrame& frame, const fem::Conditions& constrained) {
+  petsc::MatHandle rows;
+  check(MatConvert(A, MATAIJ, MAT_INITIAL_MATRIX, rows.out()));
+  check(MatSetOption(rows, MAT_SPD, PETSC_TRUE));
+  set_near_null_space(rows, frame, constrained);
   return rows;
 }
 

@@ -11,6 +11,7 @@
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "multigrid.h"
+#include "subdomains.h"
 
 namespace floe::reduction {
 
@@ -30,7 +31,7 @@ Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& fra
       ksp_(direct_solver(K_, "derivatives_")) {
   petsc::refuse_preconditioner_alone(ksp_);
   if (factors(ksp_)) return;
-  K_ = for_multigrid(K_, frame, conditions_);
+  K_ = for_iteration(ksp_, {structure, frame, conditions_, 0, K_});
   check(KSPSetOperators(ksp_, K_, K_));
 }
 

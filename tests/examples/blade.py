@@ -44,6 +44,22 @@ def motion_from_the_file(folder):
     assert np.abs(meshed - reduced).max() < 1e-8 * np.abs(meshed).max(), np.abs(meshed - reduced).max()
 
 
+def frequencies(text):
+    return np.array([float(line.split()[2]) for line in text.splitlines() if re.match(r"blade +\d+ +[\d.]+ +[\d.]+ ", line)])
+
+
+def by_subdomains(folder):
+    """The options files of domain decomposition find the frequencies of the factor; one rank is refused."""
+    (folder / "free.yaml").write_text(re.sub(r"(?m)^joints:\n .*\n", "", (folder / "scene.yaml").read_text()))
+    for scene, name in (("free.yaml", "subdomains_free.opts"), ("scene.yaml", "subdomains.opts")):
+        options = ["-options_file", str(EXAMPLE / "options" / name)]
+        direct = frequencies(floe(folder, "modes", scene))
+        found = frequencies(floe(folder, "modes", scene, *options, ranks=3))
+        assert len(direct) == 3 and np.allclose(found, direct, rtol=1e-5), (scene, direct, found)
+    one = subprocess.run([FLOE, "modes", "scene.yaml", *options], cwd=folder, capture_output=True, text=True)
+    assert one.returncode == 2 and "expected several ranks" in one.stderr, one.stderr
+
+
 def items(folder, name):
     """Every array that the XDMF file names, with the dimensions and types it is said to have."""
     arrays = {}
@@ -97,6 +113,7 @@ def main():
         shutil.copy(EXAMPLE / "mesh.py", folder)
         subprocess.run([sys.executable, "mesh.py", "blade.msh", "24", "6"], cwd=folder, check=True)
         motion_from_the_file(folder)
+        by_subdomains(folder)
         shapes_for_pictures(folder)
 
 
