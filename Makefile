@@ -1,7 +1,7 @@
 # make demo | make check | make build; everything else is named in README.md.
 BUILD ?= build
 SHELL := /bin/bash
-.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online bench-peers bench-scaling tradeoff totals extremes petsc-options sanitize valgrind install package \
+.PHONY: all references readme-pictures build program setup demo check check-look verify-ranks check64 clean bench-planar bench-offline bench-online bench-peers bench-scaling bench-subdomains tradeoff totals extremes petsc-options sanitize valgrind install package \
 	manual api verification format format-check lint coverage fuzz mutate setup-manual setup-maintain
 all: build
 
@@ -41,6 +41,9 @@ bench-offline: build
 # The offline stage on 1, 2, 4, ... ranks, as many as there are cores.
 bench-scaling: build
 	@bash makefiles/bench_scaling.sh $(BUILD)
+
+bench-subdomains: build
+	@bash makefiles/bench_subdomains.sh $(BUILD)
 
 # The same decks in CalculiX and in floe, side by side.
 bench-peers: program
