@@ -85,6 +85,7 @@ void PlanarAssembly::add_coordinates() {
     slot.modal = full_order_modal_damping(plan_, index, body.frame.conditions, coordinates_);
   }
   add_damping_axes();
+  add_body_axes();
   joint_rows_ = independent_rows(plan_, reduced_, undetermined_);
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
@@ -257,6 +258,7 @@ Model PlanarAssembly::model() {
     model.bodies.push_back(std::move(report));
   }
   set_start(model);
+  start_body_axes(model);
   for (const DampedWhole& whole : damped_) add_damping(whole, model);
   Eigen::VectorXd q;
   {
@@ -272,6 +274,7 @@ Model PlanarAssembly::model() {
   for (std::size_t j = 0; j < joint_rows_.size(); ++j) model.joints.push_back({joint_multipliers_[j], joint_rows_[j]});
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
+  for (const auto& [b, axes] : body_axes_) model.joints.push_back(unknowns_of(axes));
   model.switches = switches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;

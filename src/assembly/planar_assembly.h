@@ -39,7 +39,12 @@ class PlanarAssembly {
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
-  std::vector<ConstrainedPlace> constrained_places(const DampedWhole& whole, int body);
+  std::vector<ConstrainedPlace> constrained_places(const WholeAxes& whole, int body);
+  std::vector<CarriedMass> corotational_masses(int body) const;
+  void add_axes(WholeAxes& axes);
+  /// Of corotational bodies: axes that follow them as their floating frames would.
+  void add_body_axes();
+  void start_body_axes(Model& model);
   dynamics::MovingAxes node_axes(int body, int first, const Eigen::Vector3d& x) const;
   void start_damping(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
                      Model& model);
@@ -84,6 +89,7 @@ class PlanarAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
+  std::map<int, WholeAxes> body_axes_;  // of corotational bodies, in the axes of their meshes
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint
   std::vector<std::array<dynamics::Marker, 2>> joint_places_;

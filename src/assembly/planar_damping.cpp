@@ -29,13 +29,51 @@ void PlanarAssembly::add_damping_axes() {
   for (DampedWhole& whole : damped_) {
     if (whole.fixed) continue;
     coordinates_.belongs_to("damping of body " + plan_.bodies[whole.bodies.front()].spec.name);
-    const int first = coordinates_.add_shared(3);
-    coordinates_.add_angle(first + 2, true);
-    whole.f.position = first, whole.f.rotation = first + 2;
-    whole.multipliers = coordinates_.add_shared(3, true);
+    add_axes(whole);
     if (formulation_ != Formulation::cfr || !has_modal_damping(plan_.bodies[whole.bodies.front()].spec)) continue;
     whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
     whole.alpha = std::max(whole.alpha, min_mass_damping(*whole.modal));
+  }
+}
+
+void PlanarAssembly::add_axes(WholeAxes& axes) {
+  axes.f.position = coordinates_.add_shared(3), axes.f.rotation = axes.f.position + 2;
+  coordinates_.add_angle(axes.f.rotation, true);
+  axes.multipliers = coordinates_.add_shared(3, true);
+}
+
+void PlanarAssembly::add_body_axes() {
+  if (formulation_ != Formulation::cfr) return;
+  const auto by_places = [&](std::size_t p) {
+    return !plan_.probe_frames[p].empty() ||
+           plan_.bodies[plan_.probes[p][0].body].frame.kind != fem::ReferenceFrame::Kind::mean_axis;
+  };
+  for (int b = 0; b < static_cast<int>(slots_.size()); ++b) {
+    if (compact(b) || !needs_frame_axes(plan_, b, by_places)) continue;
+    coordinates_.belongs_to("axes of body " + plan_.bodies[b].spec.name);
+    add_axes(body_axes_.emplace(b, frame_axes(plan_, b)).first->second);
+  }
+}
+
+/// Places the axes where their rows put them, with the velocity that these have.
+void PlanarAssembly::start_body_axes(Model& model) {
+  const dynamics::System layout(coordinates_, {});
+  for (const auto& [b, axes] : body_axes_) {
+    const PlannedBody& body = plan_.bodies[b];
+    const std::vector<int> own = axes.f.coordinates();
+    AxesTerms rows = conditions(
+        axes, 3, [&](int part) { return corotational_masses(part); },
+        [&, &whole = axes](int part) { return constrained_places(whole, part); });
+    Eigen::VectorXd q, v;
+    layout.gather(model.U, q);
+    q(own) << mesh_axes_at_start(body).R.head<2>(), body.pose[2] - body.frame_angle;
+    place_axes(axes, rows, nullptr, q, coordinates_.comm());
+    const Eigen::VectorXd start = q(own);
+    set_shared(own, {start.begin(), start.end()}, model.U);
+    layout.gather(model.V, v);
+    const Eigen::VectorXd rate = rates_of(axes, rows, q, v, coordinates_.comm());
+    set_shared(own, {rate.begin(), rate.end()}, model.V);
+    for (auto& term : rows) terms_.push_back(std::move(term));
   }
 }
 
@@ -46,6 +84,30 @@ MovingAxes PlanarAssembly::node_axes(int b, int first, const Eigen::Vector3d& x)
   axes.origin.head<2>() = undeformed_place(body, x);
   axes.angle = body.pose[2];
   return axes;
+}
+
+/// Halves of its elements.
+std::vector<CarriedMass> PlanarAssembly::corotational_masses(int b) const {
+  const PlannedBody& body = plan_.bodies[b];
+  const fem::Structure& s = body.structure;
+  const Eigen::Matrix3d A0 = undeformed_axes(body);
+  std::vector<CarriedMass> all;
+  for (const auto& cell : s.mesh.cells) {
+    const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
+    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]},
+                          along = ends[1] - ends[0];
+    for (const int i : {0, 1}) {
+      const Eigen::Vector2d arm = (i == 0 ? 1 : -1) * (0.5 - 0.5 / std::sqrt(3.0)) * along.head<2>();
+      body::Inertia half(2, 0);
+      half.add(body::MassPoint{section.rhoA * along.norm() / 2, arm, Eigen::MatrixXd(2, 0)});
+      all.push_back({node_axes(b, slots_[b].nodes->of_local_node(cell.nodes()[i]), ends[i]),
+                     {},
+                     half,
+                     undeformed_origin(body) + A0 * ends[i],
+                     A0});
+    }
+  }
+  return all;
 }
 
 std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, int b) {
@@ -86,17 +148,12 @@ std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, in
       continue;
     }
     const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
-    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]},
-                          along = ends[1] - ends[0];
+    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]};
     std::vector<MovingAxes> nodes;
     std::vector<int> coordinates;
     for (const int i : {0, 1}) {
       nodes.push_back(node_axes(b, slot.nodes->of_local_node(cell.nodes()[i]), ends[i]));
       for (int coordinate : nodes.back().coordinates()) coordinates.push_back(coordinate);
-      const Eigen::Vector2d arm = (i == 0 ? 1 : -1) * (0.5 - 0.5 / std::sqrt(3.0)) * along.head<2>();
-      body::Inertia half(2, 0);
-      half.add(body::MassPoint{section.rhoA * along.norm() / 2, arm, Eigen::MatrixXd(2, 0)});
-      all.push_back({nodes.back(), {}, half, undeformed_origin(body) + A0 * ends[i], A0});
     }
     terms_.push_back(std::make_unique<RelativeDamping>(
         std::make_unique<reference::CorotationalBeamMass>(
@@ -104,10 +161,11 @@ std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, in
             reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, 0, section.GA}),
         nodes, whole.axes(), whole.alpha));
   }
+  if (formulation_ == Formulation::cfr) return corotational_masses(b);
   return all;
 }
 
-std::vector<ConstrainedPlace> PlanarAssembly::constrained_places(const DampedWhole& whole, int b) {
+std::vector<ConstrainedPlace> PlanarAssembly::constrained_places(const WholeAxes& whole, int b) {
   const PlannedBody& body = plan_.bodies[b];
   const Slot& slot = slots_[b];
   const fem::Conditions& constrained = whole.constrained[whole.place_in(b)];
@@ -167,7 +225,8 @@ void PlanarAssembly::start_damping(const DampedWhole& whole,
   const dynamics::System layout(coordinates_, {});
   Eigen::VectorXd q, v;
   layout.gather(model.U, q), layout.gather(model.V, v);
-  const Eigen::VectorXd rate = begin(whole, rows, q, v, coordinates_.comm());
+  begin_at(rows, q);
+  const Eigen::VectorXd rate = rates_of(whole, rows, q, v, coordinates_.comm());
   set_shared(own, {rate.begin(), rate.end()}, model.V);
   if (!whole.modal) return;
   const int b = whole.bodies.front();

@@ -29,9 +29,6 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
   std::vector<Marker> markers;
   if (load.kind != Load::Kind::distributed) {
     Marker at = marker(place);
-    if (axes == Force::Axes::body && formulation_ == Formulation::cfr && !compact(place.body))
-      throw InputError(load.where.text() +
-                       ": axes: body rotate with the floating frame, which formulation cfr does not have");
     if (owner_) markers.push_back(std::move(at));
   } else if (compact(place.body)) {
     if (owner_) markers.push_back(density(place.body, part ? part->masses.line : reduced_[place.body].body.line));
@@ -40,25 +37,23 @@ std::vector<std::unique_ptr<dynamics::Term>> PlanarAssembly::load_terms(
                                          *slots_[place.body].nodes, slots_[place.body].frame, reference::Density::line,
                                          cells);
   } else {
-    if (axes == Force::Axes::body)
-      throw InputError(load.where.text() +
-                       ": axes: body rotate with the floating frame, which formulation cfr does not have");
     markers =
         reference::corotational_line_markers(plan_.bodies[place.body].structure, *slots_[place.body].nodes, cells);
   }
   std::vector<std::unique_ptr<dynamics::Term>> terms;
+  const auto body_axes = body_axes_.find(place.body);
+  const bool other = axes == Force::Axes::body && body_axes != body_axes_.end();
   for (Marker& at : markers) {
     // Axes of body and place are those of the mesh where they are not rotated.
-    const double tilt = axes == Force::Axes::world ? 0 : -plan_.bodies[place.body].frame_angle;
+    const double tilt = axes == Force::Axes::world || other ? 0 : -plan_.bodies[place.body].frame_angle;
     const Eigen::Matrix2d A = rotation_matrix(tilt);
-    terms.push_back(std::make_unique<Force>(
-        std::move(at),
-        [value, A](double t) {
-          Eigen::Vector3d f = value(t);
-          f.head<2>() = (A * f.head<2>()).eval();
-          return f;
-        },
-        axes));
+    const auto force = [value, A](double t) {
+      Eigen::Vector3d f = value(t);
+      f.head<2>() = (A * f.head<2>()).eval();
+      return f;
+    };
+    terms.push_back(other ? std::make_unique<Force>(std::move(at), force, body_axes->second.f)
+                          : std::make_unique<Force>(std::move(at), force, axes));
   }
   return terms;
 }

@@ -19,9 +19,7 @@ std::optional<FrameByPlaces> PlanarAssembly::frame_of_deflection(std::size_t p) 
   const PlannedBody& body = plan_.bodies[probe.body];
   const FrameKind kind = body.frame.kind;
   if (places.empty() && (compact(probe.body) || formulation_ != Formulation::cfr)) return std::nullopt;
-  if (places.empty() && kind == FrameKind::mean_axis)
-    throw InputError(plan_.scene.probes[p].where.text() +
-                     ": deflection relative to a mean-axis frame is not available in formulation cfr");
+  if (places.empty() && kind == FrameKind::mean_axis) return std::nullopt;  // body_axes_
   if (places.empty())
     for (const Anchor& node : body.frame_places) places.push_back({probe.body, node.node, node.x});
   FrameByPlaces frame{kind, {}, {}};
@@ -74,6 +72,13 @@ void PlanarAssembly::add_probes(Model& model, const Eigen::VectorXd& q) {
     }
     probe.connections = measured(connections_, plan_.scene, spec);
     if (spec.relative_to) probe.relative_to = marker(plan_.probes[p][1]);
+    if (const auto axes = body_axes_.find(place.body);
+        spec.quantity == Probe::Quantity::deflection && axes != body_axes_.end() && !probe.frame) {
+      probe.relative_to = dynamics::Marker::ground({0, 0});
+      probe.relative_to->coordinates = axes->second.f.coordinates();
+      probe.relative_to->framed = true;
+      probe.undeformed = in_mesh_axes(place);
+    }
     if (owner_) {
       probe.start = pose_at(probe.marker, q);
       if (probe.relative_to) probe.start_relative = pose_at(*probe.relative_to, q);

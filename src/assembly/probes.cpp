@@ -39,23 +39,13 @@ dynamics::SpatialPose placed(const dynamics::SpatialMarker& marker, const Eigen:
   return pose;
 }
 
-dynamics::SpatialPose placed(const SpatialProbe& probe, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  if (probe.mean.empty()) return placed(probe.marker, q, v);
-  dynamics::SpatialPose sum = placed(probe.mean.front(), q, v);
-  for (std::size_t i = 1; i < probe.mean.size(); ++i) {
-    const dynamics::SpatialPose at = placed(probe.mean[i], q, v);
-    sum.p += at.p, sum.velocity += at.velocity;
-  }
-  return sum;
-}
-
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& D) {
   return math::rotation_vector(Eigen::Quaterniond(D).normalized());
 }
 
 void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 std::vector<double>& values) {
-  dynamics::SpatialPose at = placed(probe, q, v);
+  dynamics::SpatialPose at = placed(probe.marker, q, v);
   if (probe.relative_to) {  // seen from axes that rotate with the other place
     const dynamics::SpatialPose from = placed(*probe.relative_to, q, v);
     const Eigen::Matrix3d Dt = from.D.transpose();
@@ -70,7 +60,9 @@ void add_values(const SpatialProbe& probe, Probe::Quantity quantity, const Eigen
   if (quantity == Probe::Quantity::velocity) value = at.velocity;
   if (quantity == Probe::Quantity::rotation) value = rotation_vector(at.D);
   if (quantity == Probe::Quantity::angular_velocity) value = at.spin;
-  if (quantity == Probe::Quantity::deflection)
+  if (quantity == Probe::Quantity::deflection && probe.undeformed)
+    value -= *probe.undeformed;
+  else if (quantity == Probe::Quantity::deflection)
     value = probe.frame ? deflection(*probe.frame, q, at.p) : Eigen::Vector3d(probe.mesh * (at.c - probe.marker.x0));
   values.insert(values.end(), value.data(), value.data() + 3);
 }
@@ -162,15 +154,10 @@ void add_acceleration(const ModelProbe& probe, const Eigen::VectorXd& q, const E
     dynamics::pick(coordinates, a, second);
   };
   if (probe.spatial) {
-    Eigen::Vector3d value = Eigen::Vector3d::Zero();
-    const auto add = [&](const dynamics::SpatialMarker& marker) {
-      pick_all(marker.coordinates);
-      dynamics::SpatialPose at;
-      dynamics::pose(marker, own, rate, second, at);
-      value += angular ? at.spin_rate : at.acceleration;
-    };
-    if (probe.spatial->mean.empty()) add(probe.spatial->marker);
-    for (const dynamics::SpatialMarker& share : probe.spatial->mean) add(share);
+    pick_all(probe.spatial->marker.coordinates);
+    dynamics::SpatialPose at;
+    dynamics::pose(probe.spatial->marker, own, rate, second, at);
+    Eigen::Vector3d value = angular ? at.spin_rate : at.acceleration;
     if (probe.spatial->relative_to) value = placed(*probe.spatial->relative_to, q, v).D.transpose() * value;
     values.insert(values.end(), value.data(), value.data() + 3);
     return;
@@ -296,8 +283,9 @@ void add_values(const ModelProbe& probe, double t, const Eigen::VectorXd& q, con
     default:
       break;  // add_exerted, value_of, add_section, add_shell
     case Probe::Quantity::deflection: {
-      if (probe.frame) {
-        const Eigen::Vector2d u = deflection(*probe.frame, q, at.y.head<2>());
+      if (probe.frame || probe.undeformed) {
+        const Eigen::Vector2d p = at.y.head<2>(),
+                              u = probe.frame ? deflection(*probe.frame, q, p) : Eigen::Vector2d(p - *probe.undeformed);
         values.insert(values.end(), {u.x(), u.y()});
         break;
       }

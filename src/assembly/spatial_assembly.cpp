@@ -86,7 +86,6 @@ const fem::Conditions& SpatialAssembly::constrained(int b) const {
 
 void SpatialAssembly::refuse() const {
   std::vector<std::string> faults;
-  refuse_corotated(faults);
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
     if (is_reduced(formulation_) || !plan_.joint_constrained[j]) continue;
@@ -141,8 +140,10 @@ std::vector<Anchor> SpatialAssembly::places_of_frame(std::size_t probe) const {
   if (!places.empty() || plan_.scene.probes[probe].quantity != Probe::Quantity::deflection || b < 0 || !corotated(b))
     return places;
   const PlannedBody& body = plan_.bodies[b];
-  if (body.frame.kind != FrameKind::mean_axis)
-    for (Anchor place : body.frame_places) place.body = b, places.push_back(place);
+  for (Anchor place : body.frame_places) {
+    if (place.averaging_weights.empty()) return {};  // none, or a frame by dofs of several places
+    place.body = b, places.push_back(place);
+  }
   return places;
 }
 
@@ -157,6 +158,7 @@ void SpatialAssembly::add_frame(int b) {
 }
 
 void SpatialAssembly::add_coordinates() {
+  find_held_nodes();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
     Slot& slot = slots_[b];
@@ -179,6 +181,7 @@ void SpatialAssembly::add_coordinates() {
     slot.modal = full_order_modal_damping(plan_, index, constrained(index), coordinates_);
   }
   add_damping_axes();
+  add_corotated_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     coordinates_.belongs_to("joint " + plan_.scene.joints[j].name);
     const int rows = row_count(static_cast<int>(j));
@@ -293,6 +296,10 @@ void SpatialAssembly::set_start(Model& model) {
     for (int i = 0; i < 3 && owner_ && !whole.fixed; ++i)
       check(VecSetValue(model.U, coordinates_.global()[whole.f.position + i],
                         plan_.bodies[whole.bodies.front()].spec.initial.position[i], INSERT_VALUES));
+  for (const auto& [b, axes] : body_axes_)
+    for (int i = 0; i < 3 && owner_; ++i)
+      check(VecSetValue(model.U, coordinates_.global()[axes.f.position + i], mesh_axes_at_start(plan_.bodies[b]).R[i],
+                        INSERT_VALUES));
   for (Vec v : {model.U.get(), model.V.get()}) {
     check(VecAssemblyBegin(v));
     check(VecAssemblyEnd(v));
@@ -307,6 +314,7 @@ Model SpatialAssembly::model() {
   if (plan_.extent > 0) model.extent = plan_.extent;
   add_coordinates();
   set_start(model);
+  start_corotated_axes(model);
   for (const DampedWhole& whole : damped_) add_damping(whole, model);
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
@@ -353,12 +361,12 @@ Model SpatialAssembly::model() {
       slots_[b].corotated->add_attitudes(attitudes);
     else if (slots_[b].attitude && plan_.bodies[b].parent < 0)
       attitudes.emplace_back(slots_[b].frame + 3, slots_[b].attitude);
-  std::size_t next = 0;
-  for (const DampedWhole& whole : damped_)
-    if (!whole.fixed) attitudes.emplace_back(whole.f.rotation, damped_attitudes_[next++]);
+  attitudes.insert(attitudes.end(), axes_attitudes_.begin(), axes_attitudes_.end());
   for (std::size_t j = 0; j < multipliers_.size(); ++j) model.joints.push_back(multipliers_of(static_cast<int>(j)));
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
+  for (const auto& [b, axes] : body_axes_) model.joints.push_back(unknowns_of(axes));
+  for (const auto& [key, mean] : means_) model.joints.push_back(unknowns_of(mean.second));
   model.switches = switches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;

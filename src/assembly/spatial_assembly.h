@@ -60,8 +60,15 @@ class SpatialAssembly {
   std::vector<int> coordinates_of(int body) const;  // of a reduced body: frame, elastic
   reference::SpatialFrame frame_of(int body) const;
 
-  void refuse_corotated(std::vector<std::string>& faults) const;
   std::vector<std::vector<PetscInt>> clamped_edges(int body) const;
+  /// Of joints that hold nodes of a corotational body one by one: supports, and clamps of edges until they are
+  /// released. Which dofs, in the axes of the mesh.
+  struct HeldNode {
+    PetscInt node;
+    std::vector<int> dofs;
+  };
+  void find_held_nodes();
+  std::vector<PlacedJoint> place_held_nodes(int joint);
   void add_corotated(int body);
   void add_corotated_pressure(const Load& load, int body, const fem::Mesh::Cell& cell);
 
@@ -72,7 +79,20 @@ class SpatialAssembly {
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
-  std::vector<ConstrainedPlace> constrained_places(const DampedWhole& whole, int body);
+  std::vector<ConstrainedPlace> constrained_places(const WholeAxes& whole, int body);
+  /// Unknowns of axes, their multipliers and their attitude, the last of axes_attitudes_.
+  void add_axes(WholeAxes& axes);
+  /// Of corotational bodies: those that follow them as their floating frames would, and those of places of several
+  /// nodes.
+  void add_corotated_axes();
+  std::vector<CarriedMass> corotated_masses(int body) const;
+  AxesTerms rows_of_mean(const WholeAxes& mean, const Anchor& place) const;
+  void start_corotated_axes(Model& model);
+  void start_axes(const WholeAxes& axes, AxesTerms rows, Model& model);
+  void set_shared(int first, const Eigen::VectorXd& values, Vec into) const;
+  /// What says which nodes a place is the mean of, and how.
+  using MeanOf = std::tuple<int, std::vector<PetscInt>, std::vector<double>, const void*>;
+  static MeanOf mean_of(const Anchor& place);
   void add_gravity(int body, const BodyPart* part = nullptr);
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative, const BodyPart* part);
@@ -116,8 +136,7 @@ class SpatialAssembly {
 
   dynamics::SpatialMarker marker(const Anchor& place);
   /// Places whose sum the mean of the place's nodes is, and the share of each in a moment. On the last rank.
-  std::vector<std::pair<dynamics::SpatialMarker, double>> corotated_parts(const Anchor& place,
-                                                                          bool deflection = false) const;
+  std::vector<std::pair<dynamics::SpatialMarker, double>> corotated_parts(const Anchor& place) const;
   /// Whether the place is, with formulation cfr, the mean of nodes that move by themselves. Collective.
   bool is_corotated_mean(const Anchor& place) const;
   dynamics::SpatialMarker density_marker(int body, const body::Inertia& inertia) const;
@@ -133,11 +152,14 @@ class SpatialAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
-  std::vector<std::shared_ptr<dynamics::Attitude>> damped_attitudes_;  // of those that have axes
-  std::vector<int> multipliers_;                                       // of each joint, the first
-  std::vector<PlacedJoint> placed_;                                    // every joint
-  std::map<std::pair<int, PetscInt>, int> uses_;                       // of a body's node, by rows of joints
-  Eigen::VectorXd start_;                                              // local coordinates at the start
+  std::map<int, std::vector<HeldNode>> held_nodes_;       // of joints
+  std::map<int, WholeAxes> body_axes_;                    // of corotational bodies, in the axes of their meshes
+  std::map<MeanOf, std::pair<Anchor, WholeAxes>> means_;  // of corotational bodies, in the axes of their frames
+  dynamics::Attitudes axes_attitudes_;                    // of all these
+  std::vector<int> multipliers_;                          // of each joint, the first
+  std::vector<PlacedJoint> placed_;                       // every joint
+  std::map<std::pair<int, PetscInt>, int> uses_;          // of a body's node, by rows of joints
+  Eigen::VectorXd start_;                                 // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::vector<std::shared_ptr<const reference::SpatialElements>> elements_;  // that are apart
   std::vector<std::vector<const dynamics::Term*>> body_terms_;               // of each body, among terms_

@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "floe/error.h"
 #include "floe/fem/shell.h"
 #include "floe/plan/prepare_spatial_joints.h"
 #include "floe/reference/facet_pressure.h"
 #include "floe/scene/joint_events.h"
-#include "floe/scene/sensors.h"
 #include "spatial_assembly.h"
 
 namespace floe::assembly {
@@ -24,16 +24,6 @@ bool leads(const AveragingWeight& weight) { return weight.share != 0; }
 
 /// a of an averaging weight's arm, which maps theta to theta x a in the plane of a shell.
 Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
-
-/// The same normal to the shell: arms of displacements in its plane are those of quadratic functions (drilling
-/// rotations), of deflections those of cubic ones, which are smaller.
-Vector3d deflection_arm(const AveragingWeight& weight) {
-  const Eigen::Matrix3d odd = (weight.arm - weight.arm.transpose()) / 2;
-  const Vector3d along(-odd(2, 1), -odd(0, 2), -odd(1, 0));
-  if (along.norm() <= 1e-14 * weight.arm.norm() || along.norm() == 0) return Vector3d::Zero();
-  const Vector3d sizes = Eigen::JacobiSVD<Eigen::Matrix3d>(weight.arm).singularValues();
-  return (sizes[1] > 1e-9 * sizes[0] ? sizes[1] : sizes[0]) * along.normalized();
-}
 
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
   return std::all_of(place.averaging_weights.begin(), place.averaging_weights.end(),
@@ -86,87 +76,63 @@ bool SpatialAssembly::is_corotated_mean(const Anchor& place) const {
          is_mean(place, clamped_edges(place.body));
 }
 
-namespace {
-
-/// Quantities of a place that are means of those of its nodes.
-bool is_linear(Probe::Quantity quantity) {
-  return quantity == Probe::Quantity::position || quantity == Probe::Quantity::displacement ||
-         quantity == Probe::Quantity::velocity || quantity == Probe::Quantity::acceleration;
-}
-
-/// Whether a formula of a load or of a probe names the probe.
-bool is_in_formula(const Scene& scene, int probe) {
-  const auto names = [&](const math::Formula& formula) {
-    const auto& all = formula.variables();
-    return std::any_of(all.begin() + (all.empty() ? 0 : 1), all.end(),
-                       [&](const std::string& name) { return scene::sensor_of(scene, name).probe == probe; });
-  };
-  const auto of_load = [&](const Load& load) {
-    return names(load.on_joint) || (load.has_sensors() && (std::any_of(load.force.begin(), load.force.end(), names) ||
-                                                           std::any_of(load.moment.begin(), load.moment.end(), names)));
-  };
-  return std::any_of(scene.loads.begin(), scene.loads.end(), of_load) ||
-         std::any_of(scene.probes.begin(), scene.probes.end(),
-                     [&](const Probe& one) { return one.quantity == Probe::Quantity::formula && names(one.formula); });
-}
-
-}  // namespace
-
-void SpatialAssembly::refuse_corotated(std::vector<std::string>& faults) const {
+void SpatialAssembly::find_held_nodes() {
   if (formulation_ != Formulation::cfr) return;
-  std::vector<Pieces> pieces;
-  for (std::size_t b = 0; b < slots_.size(); ++b) {
-    const int index = static_cast<int>(b);
-    pieces.push_back(corotated(index) ? clamped_edges(index) : Pieces{});
-  }
-  const auto mean = [&](const Anchor& place) {
-    return place.body >= 0 && corotated(place.body) && is_mean(place, pieces[place.body]);
-  };
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j)
-    for (const Anchor& place : plan_.joints[j]) {
-      const bool supports =
-          place.body >= 0 && corotated(place.body) && plan_.scene.joints[j].kind == Joint::Kind::support;
-      if (!supports && !mean(place)) continue;
-      const std::string where = plan_.scene.joints[j].where.text();
-      faults.push_back(
-          supports ? where +
-                         ": type support, which formulation cfr does not support; expected another "
-                         "formulation, or joints of type fixed at single nodes or clamped edges"
-                   : fmt::format("{}: constrains the mean displacement of {} nodes of body {}, which formulation "
-                                 "cfr does not support; expected edges: rigid or line, or a place of one node",
-                                 where, place.nodes.size(), plan_.bodies[place.body].spec.name));
-      break;
+  std::set<std::array<PetscInt, 3>> held;  // each dof once: edges may have nodes in common
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const Joint& joint = plan_.scene.joints[j];
+    const Anchor* place = constrained_place(plan_, j);
+    if (!place || place->body < 0 || !corotated(place->body)) continue;
+    const bool released = clamps(joint) && is_unlocked(plan_.scene, joint.name) && is_corotated_mean(*place);
+    if (joint.kind != Joint::Kind::support && !released) continue;
+    for (const Probe& probe : plan_.scene.probes)
+      if (probe.joint == joint.name && probe.quantity != Probe::Quantity::force)
+        throw InputError(
+            fmt::format("{}: measures joint {}, which in formulation cfr holds each node of its edge until "
+                        "an event releases it; expected quantity: force, or a place of one node",
+                        probe.where.text(), joint.name));
+    std::vector<HeldNode>& nodes = held_nodes_[static_cast<int>(j)];
+    const Pieces pieces = clamped_edges(place->body);
+    for (const AveragingWeight& weight : place->averaging_weights) {
+      const bool clamped = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+        return std::binary_search(piece.begin(), piece.end(), weight.node);
+      });
+      if (!leads(weight) || clamped) continue;
+      HeldNode one{weight.node, {}};
+      for (int dof = 0; dof < 6; ++dof)
+        if ((released || joint.hold[dof]) && held.insert({place->body, weight.node, dof}).second)
+          one.dofs.push_back(dof);
+      if (!one.dofs.empty()) nodes.push_back(std::move(one));
     }
-  for (std::size_t l = 0; l < plan_.loads.size(); ++l) {
-    const Load& load = plan_.scene.loads[l];
-    const Anchor& place = plan_.loads[l];
-    if (place.body < 0 || !corotated(place.body)) continue;
-    if (load.axes == Load::Axes::body && load.kind != Load::Kind::pressure)
-      faults.push_back(load.where.text() +
-                       ": axes: body rotate with the floating frame, which formulation cfr does not "
-                       "have; expected axes: world or place");
-    if (load.axes == Load::Axes::place && mean(place))
-      faults.push_back(
-          load.where.text() +
-          ": axes: place of several nodes, which formulation cfr does not support; expected axes: world, or "
-          "a place of one node");
   }
-  for (std::size_t p = 0; p < plan_.probes.size(); ++p) {
-    const Probe& probe = plan_.scene.probes[p];
-    const auto& [place, other] = plan_.probes[p];
-    const bool deflection = place.body >= 0 && corotated(place.body) && probe.quantity == Probe::Quantity::deflection;
-    if (deflection && places_of_frame(p).empty())
-      faults.push_back(
-          probe.where.text() +
-          ": deflection is from a mean-axis frame, which formulation cfr does not support in space; expected a "
-          "clamped or pinned frame, or displacement with relative_to a place that represents the frame");
-    else if (mean(other) ||
-             (mean(place) && (!is_linear(probe.quantity) || is_in_formula(plan_.scene, static_cast<int>(p)))))
-      faults.push_back(
-          probe.where.text() +
-          ": formulation cfr records only the position, displacement, velocity and acceleration of the mean of several "
-          "nodes, and not in formulas; expected one of these, or a place of one node");
+}
+
+/// A component of the displacement along the held body's axes at the start; the rotation about such an axis by the two
+/// others: y of the other place stays normal to x of the node, and so on.
+std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_held_nodes(int j) {
+  const Anchor& held = *constrained_place(plan_, j);
+  const bool first = &held == &plan_.joints[j][0];
+  const PlannedBody& body = plan_.bodies[held.body];
+  const Eigen::Matrix3d W = body.attitude * body.axes.transpose();
+  std::vector<PlacedJoint> all;
+  for (const HeldNode& one : held_nodes_.at(j)) {
+    PlacedJoint piece;
+    for (const int dof : one.dofs)
+      if (dof < 3)
+        piece.constraint.rows.push_back(dynamics::Along{dof});
+      else
+        piece.constraint.rows.push_back(dynamics::Product{(dof + 2) % 3, (dof + 1) % 3});
+    if (owner_) {
+      SpatialMarker node = slots_[held.body].corotated->place(one.node), other = marker(plan_.joints[j][first ? 1 : 0]);
+      if (std::isnan(other.x0.x())) other.x0.setZero();  // the ground
+      const dynamics::SpatialPose at = start_of(node), from = start_of(other);
+      other.x0 += from.A.transpose() * (at.p - from.p);
+      node.D0 = node.D0 * at.D.transpose() * W, other.D0 = other.D0 * from.D.transpose() * W;
+      piece.places = {std::move(other), std::move(node)};
+    }
+    all.push_back(std::move(piece));
   }
+  return all;
 }
 
 void SpatialAssembly::add_corotated(int b) {
@@ -178,8 +144,7 @@ void SpatialAssembly::add_corotated(int b) {
                                    body.deformation_rate});
 }
 
-std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place,
-                                                                               bool deflection) const {
+std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place) const {
   const reference::CorotationalBody& body = *slots_[place.body].corotated;
   if (place.nodes.size() == 1 && body.has_frame(place.nodes.front())) return {{body.place(place.nodes.front()), 1.}};
   std::vector<std::pair<SpatialMarker, double>> parts;
@@ -192,7 +157,7 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
     piece = other;
     SpatialMarker at = body.place(weight.node);
     at.mass = weight.share;
-    at.x0 = weight.share * at.x0 + (deflection ? deflection_arm(weight) : arm_of(weight));
+    at.x0 = weight.share * at.x0 + arm_of(weight);
     parts.emplace_back(std::move(at), weight.share);
   }
   if (one) return {{body.place_on_piece(piece, place.x), 1.}};

@@ -35,12 +35,9 @@ void SpatialAssembly::add_damping_axes() {
     if (whole.fixed) continue;
     const Body& spec = plan_.bodies[whole.bodies.front()].spec;
     coordinates_.belongs_to("damping of body " + spec.name);
-    whole.f.position = coordinates_.add_shared(6), whole.f.rotation = whole.f.position + 3;
-    whole.multipliers = coordinates_.add_shared(6, true);
+    add_axes(whole);
     const Point& r = spec.initial.rotation;
-    damped_attitudes_.push_back(std::make_shared<dynamics::Attitude>());
-    damped_attitudes_.back()->base = math::quaternion({r[0], r[1], r[2]});
-    whole.f.attitude = damped_attitudes_.back();
+    axes_attitudes_.back().second->base = math::quaternion({r[0], r[1], r[2]});
     if (!corotated(whole.bodies.front()) || !has_modal_damping(spec)) continue;
     whole.modal = full_order_modal_damping(plan_, whole.bodies.front(), {}, coordinates_);
     whole.alpha = std::max(whole.alpha, min_mass_damping(*whole.modal));
@@ -64,8 +61,8 @@ std::vector<CarriedMass> SpatialAssembly::add_masses(const DampedWhole& whole, i
     all.push_back({axes, elastic, in, body.origin + body.axes * x, body.axes});
   };
   if (slot.corotated) {
-    for (const auto& [at, inertia, x] : slot.corotated->masses())
-      add({at.coordinates[0], at.coordinates[3], at.attitude}, {}, inertia, x);
+    for (const CarriedMass& mass : corotated_masses(b))
+      add(mass.axes, {}, mass.inertia, body.axes.transpose() * (mass.X - body.origin));
     return all;
   }
   const MovingAxes frame{slot.frame, slot.frame + 3, slot.attitude};
@@ -83,7 +80,7 @@ std::vector<CarriedMass> SpatialAssembly::add_masses(const DampedWhole& whole, i
   return all;
 }
 
-std::vector<ConstrainedPlace> SpatialAssembly::constrained_places(const DampedWhole& whole, int b) {
+std::vector<ConstrainedPlace> SpatialAssembly::constrained_places(const WholeAxes& whole, int b) {
   const PlannedBody& body = plan_.bodies[b];
   const Slot& slot = slots_[b];
   std::map<PetscInt, std::vector<int>> of_node;
@@ -129,12 +126,8 @@ void SpatialAssembly::add_damping(const DampedWhole& whole, Model& model) {
   const dynamics::System layout(coordinates_, {});
   Eigen::VectorXd v;
   layout.gather(model.V, v);
-  const Eigen::VectorXd rate = begin(whole, rows, start_, v, coordinates_.comm());
-  const std::vector<int> own = whole.f.coordinates();
-  for (int i = 0; i < 6 && owner_; ++i)
-    check(VecSetValue(model.V, coordinates_.global()[own[i]], rate[i], INSERT_VALUES));
-  check(VecAssemblyBegin(model.V));
-  check(VecAssemblyEnd(model.V));
+  begin_at(rows, start_);
+  set_shared(whole.f.position, rates_of(whole, rows, start_, v, coordinates_.comm()), model.V);
   if (whole.modal) {
     const int b = whole.bodies.front();
     const PlannedBody& body = plan_.bodies[b];
@@ -146,11 +139,7 @@ void SpatialAssembly::add_damping(const DampedWhole& whole, Model& model) {
         },
         terms_);
     layout.gather(model.V, v);
-    const Eigen::VectorXd rates = begin_modal(whole, more, start_, v, coordinates_.comm());
-    for (int i = 0; i < static_cast<int>(rates.size()) && owner_; ++i)
-      check(VecSetValue(model.V, coordinates_.global()[whole.modal->y + i], rates[i], INSERT_VALUES));
-    check(VecAssemblyBegin(model.V));
-    check(VecAssemblyEnd(model.V));
+    set_shared(whole.modal->y, begin_modal(whole, more, start_, v, coordinates_.comm()), model.V);
     for (auto& term : more) terms_.push_back(std::move(term));
   }
   for (auto& term : rows) terms_.push_back(std::move(term));

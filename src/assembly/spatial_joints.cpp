@@ -184,15 +184,13 @@ void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<Mo
 void SpatialAssembly::refuse_loose_supports() const {
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
-    if (joint.kind != Kind::support || stands(static_cast<int>(j))) continue;
+    if (joint.kind != Kind::support || held_nodes_.contains(static_cast<int>(j)) || stands(static_cast<int>(j)))
+      continue;
     const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
     throw InputError(
-        fmt::format("{}: {}; expected supports and other joints to the ground that leave body {} no rigid "
-                    "motion, without probes and events of these",
-                    joint.where.text(),
-                    corotated(place.body) ? "formulation cfr does not have supports of single components"
-                                          : "its body can still move as a whole",
-                    plan_.bodies[place.body].spec.name));
+        fmt::format("{}: its body can still move as a whole; expected supports and other joints to the ground that "
+                    "leave body {} no rigid motion, without probes and events of these",
+                    joint.where.text(), plan_.bodies[place.body].spec.name));
   }
 }
 
@@ -211,7 +209,7 @@ void SpatialAssembly::add_joints(Model& model) {
     count_uses();
     for (int j = 0; j < static_cast<int>(plan_.joints.size()); ++j) {
       std::vector<PlacedJoint> placed = place_all(j);
-      placed_.push_back(placed.front());
+      placed_.push_back(placed.empty() ? PlacedJoint{} : placed.front());
       if (stands(j)) continue;
       all.push_back(j);
       int first = multipliers_[j];
@@ -233,7 +231,7 @@ void SpatialAssembly::add_joints(Model& model) {
     const std::vector<std::vector<int>> independent = rows.independent(notes, undetermined_);
     std::size_t next = 0;
     for (const int j : all)
-      if (placed_[j].constraint.rows.empty()) add_spring(j, placed_[j]);
+      if (placed_[j].constraint.rows.empty() && !held_nodes_.contains(j)) add_spring(j, placed_[j]);
     for (const Piece& piece : pieces) {
       std::vector<int> every(piece.placed.constraint.rows.size());
       std::iota(every.begin(), every.end(), 0);

@@ -18,9 +18,15 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   if (place.ground()) return SpatialMarker::ground(place.x);
   const PlannedBody& body = plan_.bodies[place.body];
   const Slot& slot = slots_[place.body];
-  if (slot.corotated)
-    return owner_ ? corotated_parts(place).front().first : SpatialMarker::ground(Eigen::Vector3d::Zero());
   SpatialMarker at;
+  if (slot.corotated && !owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());
+  if (slot.corotated) {
+    const auto mean = means_.find(mean_of(place));
+    if (mean == means_.end()) return corotated_parts(place).front().first;
+    at.coordinates = mean->second.second.f.coordinates();
+    at.attitude = mean->second.second.f.attitude;
+    return at;
+  }
   at.attitude = slot.attitude;
   at.origin = body.place;
   at.axes = body.attitude;
@@ -120,16 +126,17 @@ void SpatialAssembly::add_density(int b, Density density, const std::function<Ei
     markers.push_back(density_marker(b, density == Density::mass ? part->masses.mass : part->masses.line));
   else if (owner_)
     markers.push_back(density_marker(b, density == Density::mass ? reduced_[b].body.inertia : reduced_[b].body.line));
-  const Eigen::Matrix3d A = of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+  const bool other = of_body && slots_[b].corotated;
+  const Eigen::Matrix3d A = of_body && !other ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity();
+  const auto wrench = [A, force](double t) {
+    Wrench w = Wrench::Zero();
+    w.head<3>() = A * force(t);
+    return w;
+  };
   for (SpatialMarker& marker : markers) {
-    auto term = std::make_unique<SpatialForce>(
-        std::move(marker),
-        [A, force](double t) {
-          Wrench w = Wrench::Zero();
-          w.head<3>() = A * force(t);
-          return w;
-        },
-        of_body ? SpatialForce::Axes::body : SpatialForce::Axes::world);
+    auto term = other ? std::make_unique<SpatialForce>(std::move(marker), wrench, body_axes_.at(b).f)
+                      : std::make_unique<SpatialForce>(std::move(marker), wrench,
+                                                       of_body ? SpatialForce::Axes::body : SpatialForce::Axes::world);
     term->conservative = conservative;
     terms_.push_back(std::move(term));
   }
@@ -176,25 +183,29 @@ std::vector<std::unique_ptr<dynamics::Term>> SpatialAssembly::load_terms(
   const bool of_body = load.axes == Load::Axes::body, rotations = load.kind == Load::Kind::moment;
   std::vector<std::unique_ptr<dynamics::Term>> terms;
   std::vector<std::pair<SpatialMarker, double>> parts;
-  if (slots_[place.body].corotated) {
+  const bool corotated = slots_[place.body].corotated != nullptr, other = of_body && corotated;
+  if (corotated && load.axes != Load::Axes::place) {
     if (owner_) parts = corotated_parts(place);
   } else if (SpatialMarker at = marker(place); owner_ && !at.coordinates.empty()) {
     parts.emplace_back(std::move(at), 1.);
   }
   for (auto& [at, share] : parts) {
-    const Eigen::Matrix3d A = part.size * (rotations ? share : 1.) *
-                              (of_body ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
+    const Eigen::Matrix3d A =
+        part.size * (rotations ? share : 1.) *
+        (of_body && !other ? Eigen::Matrix3d(body.axes.transpose()) : Eigen::Matrix3d::Identity());
     at.D0 = body.axes.transpose();  // axes of a place are those of the mesh, carried by its nodes
-    terms.push_back(std::make_unique<SpatialForce>(
-        std::move(at),
-        [A, value, first = rotations ? 3 : 0](double t) {
-          Wrench w = Wrench::Zero();
-          w.segment<3>(first) = A * value(t);
-          return w;
-        },
-        of_body                          ? SpatialForce::Axes::body
-        : load.axes == Load::Axes::place ? SpatialForce::Axes::place
-                                         : SpatialForce::Axes::world));
+    const auto wrench = [A, value, first = rotations ? 3 : 0](double t) {
+      Wrench w = Wrench::Zero();
+      w.segment<3>(first) = A * value(t);
+      return w;
+    };
+    if (other)
+      terms.push_back(std::make_unique<SpatialForce>(std::move(at), wrench, body_axes_.at(place.body).f));
+    else
+      terms.push_back(std::make_unique<SpatialForce>(std::move(at), wrench,
+                                                     of_body                          ? SpatialForce::Axes::body
+                                                     : load.axes == Load::Axes::place ? SpatialForce::Axes::place
+                                                                                      : SpatialForce::Axes::world));
   }
   return terms;
 }

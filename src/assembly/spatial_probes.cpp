@@ -74,8 +74,6 @@ void SpatialAssembly::add_probes(Model& model) {
     const Probe& spec = plan_.scene.probes[p];
     const Anchor place = has_place(spec) ? plan_.probes[p][0] : Anchor{};
     SpatialProbe probe{marker(place), {}};
-    if (is_corotated_mean(place) && owner_)
-      for (auto& [at, share] : corotated_parts(place, true)) probe.mean.push_back(std::move(at));
     DrivenCoordinate drive;
     if (spec.quantity == Probe::Quantity::drive || spec.quantity == Probe::Quantity::power) {
       const std::size_t j = joint_index(plan_.scene, spec.joint);
@@ -95,9 +93,14 @@ void SpatialAssembly::add_probes(Model& model) {
     if (owner_) {
       for (SpatialMarker* at : {&probe.marker, probe.relative_to ? &*probe.relative_to : nullptr})
         if (at) at->D0 = at->D0 * start_of(*at).D.transpose();
-      probe.start = probe.mean.empty() ? start_of(probe.marker).p : Vector3d::Zero();
-      for (const SpatialMarker& share : probe.mean) probe.start += start_of(share).p;
+      probe.start = start_of(probe.marker).p;
       if (probe.relative_to) probe.start -= start_of(*probe.relative_to).p;
+    }
+    if (spec.quantity == Probe::Quantity::deflection && b >= 0 && corotated(b) && whole.empty()) {
+      const dynamics::MovingAxes& f = body_axes_.at(b).f;
+      probe.relative_to.emplace().coordinates = f.coordinates();
+      probe.relative_to->attitude = f.attitude;
+      probe.undeformed = plan_.bodies[b].origin + plan_.bodies[b].axes * place.x;
     }
     if (spec.of_section()) probe.marker.D0.setIdentity();  // the body's axes, as the place rotates
     model.probes.push_back({spec.name,

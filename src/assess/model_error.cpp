@@ -24,46 +24,6 @@ std::string words(const Thinning& one) {
   return one.mesh < 1 ? "elements half as long" : fmt::format("elements {:g} times as long", one.mesh);
 }
 
-/// Deflections in space from a mean-axis frame, which corotational bodies there do not have.
-bool only_in_frames(const Plan& plan, const Scene& scene, const Probe& probe) {
-  if (scene.dimension != 3 || probe.quantity != Probe::Quantity::deflection) return false;
-  for (std::size_t p = 0; p < plan.probes.size(); ++p) {
-    if (plan.scene.probes[p].name != probe.name) continue;
-    const PlannedBody& body = plan.bodies[plan.probes[p][0].body];
-    if (plan.probe_frames[p].empty()) return body.frame.kind == fem::ReferenceFrame::Kind::mean_axis;
-    return plan.probe_frames[p].size() > 1 &&
-           !std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& whole) {
-             return whole.name == probe.at.body && whole.frame.given && whole.frame.kind == FrameSpec::Kind::pinned;
-           });
-  }
-  return true;
-}
-
-/// The event that watches such a probe, and why there is no estimate then; empty: none does.
-std::string watched_deflection(const Plan& plan, const Scene& scene) {
-  for (const Event& event : scene.events)
-    for (const Probe& probe : scene.probes)
-      if (only_in_frames(plan, scene, probe) && event.probe.substr(0, event.probe.rfind('.')) == probe.name)
-        return fmt::format(
-            "event {} watches probe {}, a deflection from a mean-axis frame, which formulation cfr does not have in "
-            "space; watch a displacement relative to a place",
-            event.name, probe.name);
-  return "";
-}
-
-Scene comparable(const Plan& plan, Scene scene, std::vector<std::string>& notes) {
-  std::erase_if(scene.probes, [&](const Probe& probe) {
-    if (!only_in_frames(plan, scene, probe)) return false;
-    notes.push_back(
-        fmt::format("probe {}: formulation cfr has no mean-axis frame in space to measure a deflection from; measure a "
-                    "displacement "
-                    "relative to a place",
-                    probe.name));
-    return true;
-  });
-  return scene;
-}
-
 class ModelError {
  public:
   ModelError(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction, const ErrorPart& mesh,
@@ -76,7 +36,7 @@ class ModelError {
         time_(motion.comm, allowed),
         allowed_(allowed),
         took_(time_.of_first(motion.seconds)),
-        scene_(comparable(motion.model.offline->plan, motion.scene, part.notes)) {}
+        scene_(motion.scene) {}
 
   void estimate() {
     if (scene_.probes.empty()) {
@@ -267,7 +227,6 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
   else if (own.t.empty())
     part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
-  if (part.none.empty()) part.none = watched_deflection(motion.model.offline->plan, motion.scene);
   if (!part.none.empty()) return part;
   ModelError error(motion, own, reduction, mesh, allowed, part);
   fill_in(motion, part, [&] { error.estimate(); });

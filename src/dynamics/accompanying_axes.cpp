@@ -1,7 +1,7 @@
 #include "floe/dynamics/local_indices.h"
 #include "floe/dynamics/relative_damping.h"
 #include "floe/math/rotation.h"
-#include "moving_axes.h"
+#include "seen_axes.h"
 
 // With N = A_f B A' and ax M = (M_32 - M_23, M_13 - M_31, M_21 - M_12) the gradient of a row by displacements and
 // rotations of (R, A), of f, and by e_k is
@@ -89,6 +89,10 @@ void AccompanyingAxes::begin_at(const VectorXd& q) {
   const Motion motion{0, q, q, q};
   const SeenAxes at = see(axes_, coordinates_, motion), f = see(f_, coordinates_, motion);
   for (int i = 0; i < rows(); ++i) start_[i] = SeenRow(rows_[i], at, f, q.head(elastic_)).value;
+}
+
+void AccompanyingAxes::begin_at(const Vector3d& R, const Matrix3d& A) {
+  for (int i = 0; i < rows(); ++i) start_[i] = rows_[i].b.dot(R) + rows_[i].B.col(0).dot(A.reshaped());
 }
 
 void AccompanyingAxes::residual(const Motion& motion, VectorXd& r) const {

@@ -40,7 +40,7 @@ Rotated elastic(const Marker& marker, const Eigen::Matrix2Xd& S, const Eigen::Ve
 
 /// Q(x, x), both from the frame's entries on.
 Vector2d quadratic(const Marker& marker, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd e = x.tail(marker.S.cols());
+  const Eigen::VectorXd e = x.segment(marker.framed ? 3 : 0, marker.S.cols());
   return {e.dot(marker.Q[0] * e), e.dot(marker.Q[1] * e)};
 }
 
@@ -54,7 +54,7 @@ void see_place(const Marker& marker, const Eigen::VectorXd& q, Pose& out) {
   Rotated e = elastic(marker, marker.S, q);
   if (!marker.Q.empty()) {
     e.u += 0.5 * quadratic(marker, q);
-    math::multiply_forms(marker.Q, q.tail(k), out.S);
+    math::multiply_forms(marker.Q, q.segment(marker.framed ? 3 : 0, k), out.S);
     out.S += marker.S;
   }
   const Eigen::Matrix2Xd& S_of_q = directions(marker, out);
@@ -85,7 +85,7 @@ void see_place(const Marker& marker, const Eigen::VectorXd& q, Pose& out) {
 /// A Q v.
 void add_rate_of_directions(const Marker& marker, const Eigen::VectorXd& v, double angle, Eigen::Matrix3Xd& dyd) {
   Eigen::Matrix2Xd rates;
-  math::multiply_forms(marker.Q, v.tail(marker.S.cols()), rates);
+  math::multiply_forms(marker.Q, v.segment(marker.framed ? 3 : 0, marker.S.cols()), rates);
   dyd.topRightCorner(2, rates.cols()) += Eigen::Rotation2Dd(angle).toRotationMatrix() * rates;
 }
 
@@ -139,9 +139,9 @@ void add_geometric_stiffness(const Marker& marker, const Pose& at, const Eigen::
     if (i != 2) K(i, 2) += entry;
   }
   if (marker.Q.empty()) return;
-  const Eigen::Index k = marker.S.cols();
+  const Eigen::Index k = marker.S.cols(), frame = marker.framed ? 3 : 0;
   const Vector2d force = Eigen::Rotation2Dd(-at.angle) * Vector2d(wrench.head<2>());
-  K.bottomRightCorner(k, k) += weight * (force[0] * marker.Q[0] + force[1] * marker.Q[1]);
+  K.block(frame, frame, k, k) += weight * (force[0] * marker.Q[0] + force[1] * marker.Q[1]);
 }
 
 }  // namespace floe::dynamics

@@ -4,7 +4,7 @@
 
 #include "floe/dynamics/local_indices.h"
 #include "floe/math/rotation.h"
-#include "moving_axes.h"
+#include "seen_axes.h"
 
 namespace floe::dynamics {
 

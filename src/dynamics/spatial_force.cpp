@@ -1,24 +1,35 @@
 #include "floe/dynamics/spatial_force.h"
 
+#include "floe/dynamics/local_indices.h"
+#include "seen_axes.h"
+
 namespace floe::dynamics {
 
 using Eigen::Matrix3d;
 using math::skew;
 
 SpatialForce::SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, Axes axes)
-    : at_(std::move(at)), wrench_(std::move(wrench)), axes_(axes) {}
+    : at_(std::move(at)), wrench_(std::move(wrench)), axes_(axes), coordinates_(at_.coordinates) {}
+
+SpatialForce::SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, const MovingAxes& other)
+    : SpatialForce(std::move(at), std::move(wrench), Axes::other) {
+  other_ = other;
+  place_all(other.coordinates(), coordinates_);
+}
 
 Wrench SpatialForce::world(const Motion& motion) const {
   Wrench w = wrench_(motion.t);
   if (axes_ == Axes::world) return w;
-  const Matrix3d& axes = axes_ == Axes::body ? pose_.A : pose_.D;
+  const Matrix3d axes = axes_ == Axes::body    ? pose_.A
+                        : axes_ == Axes::place ? pose_.D
+                                               : see(other_, coordinates_, motion).A;
   return (Wrench() << axes * w.head<3>(), axes * w.tail<3>()).finished();
 }
 
 void SpatialForce::residual(const Motion& motion, Eigen::VectorXd& r) const {
   pose(at_, motion.q, motion.v, motion.a, pose_, EvaluationLevel::position);
   pull_back(at_, pose_, world(motion), rows_);
-  r -= rows_;
+  r.head(rows_.size()) -= rows_;
 }
 
 void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const {
@@ -36,6 +47,10 @@ void SpatialForce::tangent(const Motion& motion, Weights weights, Eigen::MatrixX
     change_.noalias() = rotating * pose_.P.bottomRows<3>();
     if (at_.framed()) change_.middleCols<3>(3) = (change_.middleCols<3>(3) * pose_.T).eval();
     J += pose_.P.transpose().lazyProduct(change_);
+  }
+  if (axes_ == Axes::other) {
+    const SeenAxes f = see(other_, coordinates_, motion);
+    J.block(0, f.o, pose_.P.cols(), f.n) += pose_.P.transpose() * (rotating * f.E * f.T);
   }
 }
 

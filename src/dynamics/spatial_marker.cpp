@@ -56,7 +56,7 @@ void see_place(const SpatialMarker& marker, const Eigen::VectorXd& q, SpatialPos
   const Elastic e = elastic(marker, marker.S, q);
   out.c = marker.x0 + e.u, out.beta = e.rotation;
   if (!marker.Q.empty()) {
-    const Eigen::VectorXd own = q.tail(marker.S.cols());
+    const Eigen::VectorXd own = q.segment(marker.framed() ? 6 : 0, marker.S.cols());
     math::multiply_forms(marker.Q, own, out.S);
     out.c += 0.5 * out.S * own;
     out.S += marker.S;
@@ -75,7 +75,7 @@ void see_motion(const SpatialMarker& marker, const Eigen::VectorXd& v, const Eig
   const Elastic ed = elastic(marker, directions(marker, out), v);
   Elastic edd = elastic(marker, directions(marker, out), a);
   if (!marker.Q.empty()) {
-    const Eigen::VectorXd own = v.tail(marker.S.cols());
+    const Eigen::VectorXd own = v.segment(marker.framed() ? 6 : 0, marker.S.cols());
     math::multiply_forms(marker.Q, own, out.Qed);
     edd.u += out.Qed * own;
   }
@@ -148,13 +148,13 @@ void add_geometric_stiffness(const SpatialMarker& marker, const SpatialPose& at,
   }
   if (!marker.Q.empty()) {
     const Vector3d force = weight * (at.A.transpose() * wrench.head<3>());
-    for (int a = 0; a < 3; ++a) K.bottomRightCorner(k, k) += force[a] * marker.Q[a];
+    for (int a = 0; a < 3; ++a) K.block(frame, frame, k, k) += force[a] * marker.Q[a];
   }
   if (k == 0 || moment.isZero(0)) return;
   const Matrix3d bent = rotation_tangent_derivative(at.beta, moment);
   for (Index j = 0; j < k; ++j) {
     const Vector3d rotated = bent * marker.psi.col(j);
-    K.col(frame + j).tail(k) += marker.psi.transpose().lazyProduct(rotated);
+    K.col(frame + j).segment(frame, k) += marker.psi.transpose().lazyProduct(rotated);
   }
 }
 

@@ -174,6 +174,13 @@ int CorotationalBody::piece_of(PetscInt node) const {
   return found == piece_.end() ? -1 : found->second;
 }
 
+Matrix3d CorotationalBody::of_rotation(PetscInt node, const Matrix3d& of_dofs) const {
+  for (const Link& link : links_)
+    if (link.node == node && !link.axis.isZero(0))
+      return of_dofs.col(fem::spin_slot(link.axis)) * link.axis.transpose();
+  return of_dofs;
+}
+
 SpatialMarker CorotationalBody::place_on_piece(int piece, const Vector3d& x) const {
   const auto& [independent_node, X] = independent_node_[piece];
   SpatialMarker at = place(independent_node);

@@ -89,6 +89,7 @@ TEST_CASE("supports: large deflections of a plate with edges that are immovable 
   CHECK(whole == Approx(W).epsilon(0.05));  // one mode of the uniform load
   CHECK(loaded(quarter, "0.5", "8", Formulation::nlffr) == Approx(whole).epsilon(1e-3));
   CHECK(loaded(immovable, "1", "16", Formulation::vm_md) == Approx(whole).epsilon(0.02));
+  CHECK(loaded(quarter, "0.5", "8", Formulation::cfr) == Approx(whole).epsilon(1e-2));
   // edges that move in their plane are softer
   CHECK(loaded(lateral + centre, "1", "16", Formulation::nlffr) > 1.2 * whole);
 }
@@ -108,7 +109,6 @@ TEST_CASE("supports: refused where the body can still move, and where they canno
              Catch::Contains("contains \"u\"; expected x, y, z, rx, ry, rz"));
   CHECK_THAT(refused(plate("  s: {type: support, between: [plate.left, plate.right], hold: [z]}\n")),
              Catch::Contains("expected the ground and a place of a body"));
-  CHECK_THAT(refused(plate(lateral + centre), Formulation::cfr), Catch::Contains("cfr"));
   CHECK_THAT(refused(plate(lateral + centre, "events: {off: {unlock: left, at: 1}}\n")),
              Catch::Contains("events.off.unlock: is \"left\", a support"));
 }

@@ -77,9 +77,8 @@ struct SpatialProbe {
       Eigen::Matrix3d::Identity();  ///< deflections are given in the axes of the mesh: these by frame axes
   std::optional<SpatialFrameByPlaces> frame = {};     ///< deflection of split bodies
   std::optional<dynamics::SpatialMarker> other = {};  ///< drive, power: the first place of the joint, marker its second
-  /// Places whose positions' sum is that of the probe, in place of `marker`: nodes by their shares in a mean, for
-  /// position, displacement, velocity and acceleration (cfr).
-  std::vector<dynamics::SpatialMarker> mean = {};
+  /// Deflection of a corotational body from axes that accompany it, which are `relative_to`: the place undeformed.
+  std::optional<Eigen::Vector3d> undeformed = {};
 };
 
 /// The free or driven coordinate of a joint, along which its drive acts.
@@ -116,6 +115,7 @@ struct ModelProbe {
   std::vector<ModelSection> sections = {};                     ///< of a section: one, or both sides
   std::shared_ptr<const ShellPoint> shell = {};                ///< of a shell
   std::optional<FrameByPlaces> frame = {};                     ///< deflection of corotational and split bodies
+  std::optional<Eigen::Vector2d> undeformed = {};              ///< as of SpatialProbe
   std::optional<dynamics::Marker> other = {};                  ///< drive, power: the first place of the joint
   DrivenCoordinate drive = {};                                 ///< likewise
   std::vector<const dynamics::Term*> terms = {};  ///< of a body's energy: this rank's, which are the system's

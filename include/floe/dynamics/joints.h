@@ -6,6 +6,7 @@
 #include "floe/dynamics/connection.h"
 #include "floe/dynamics/event.h"
 #include "floe/dynamics/marker_pair.h"
+#include "floe/dynamics/moving_axes.h"
 #include "floe/dynamics/time_function.h"
 
 namespace floe::dynamics {
@@ -89,11 +90,13 @@ class Spring final : public Connection {
 /// A force and moment of time on a marker (r_y -= (f, m)).
 class Force final : public Term {
  public:
-  /// World; rotating with the frame; rotating with the place, angle0 + theta + psi q.
-  enum class Axes { world, body, place };
+  /// World; rotating with the frame; rotating with the place, angle0 + theta + psi q; with other axes.
+  enum class Axes { world, body, place, other };
   /// @param force  (f_x, f_y, m)(t)
   Force(Marker at, std::function<Eigen::Vector3d(double)> force, Axes axes);
-  const std::vector<int>& coordinates() const override { return at_.coordinates; }
+  /// In other axes, whose angle follows the coordinates of the place.
+  Force(Marker at, std::function<Eigen::Vector3d(double)> force, const MovingAxes& other);
+  const std::vector<int>& coordinates() const override { return coordinates_; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
@@ -105,6 +108,8 @@ class Force final : public Term {
   Marker at_;
   std::function<Eigen::Vector3d(double)> force_;
   Axes axes_;
+  double angle_ = 0;  // of other axes
+  std::vector<int> coordinates_;
   mutable Pose pose_;
 };
 

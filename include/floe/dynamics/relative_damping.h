@@ -2,24 +2,10 @@
 #include <memory>
 #include <optional>
 
-#include "floe/dynamics/attitude.h"
+#include "floe/dynamics/moving_axes.h"
 #include "floe/dynamics/term.h"
 
 namespace floe::dynamics {
-
-/// Axes that rotate rigidly, among a system's local coordinates: of a floating frame, or of a node without one.
-///
-/// In space R (3) and x (3) with A = attitude(x); in the plane R (2) and an angle: A = R_z(angle + coordinate). R =
-/// origin + coordinates.
-struct MovingAxes {
-  int position = 0, rotation = 0;                    ///< local index of the first of R, of the rotation
-  std::shared_ptr<const Attitude> attitude = {};     ///< null: in the plane
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of displacements; zero where R itself is a coordinate
-  double angle = 0;                                  ///< in the plane [rad]
-
-  bool spatial() const { return attitude != nullptr; }
-  std::vector<int> coordinates() const;
-};
 
 /// Mass-proportional damping of inertia on its motion relative to axes f, or to the ground without them:
 ///
@@ -73,6 +59,8 @@ class AccompanyingAxes final : public Term {
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   /// c_0 from the term's own coordinates.
   void begin_at(const Eigen::VectorXd& q);
+  /// c_0 where f is at the origin, unrotated, with R and A as given and e = 0.
+  void begin_at(const Eigen::Vector3d& R, const Eigen::Matrix3d& A);
   int rows() const { return static_cast<int>(rows_.size()); }
 
  private:

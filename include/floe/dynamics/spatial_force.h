@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "floe/dynamics/moving_axes.h"
 #include "floe/dynamics/spatial_marker.h"
 #include "floe/dynamics/term.h"
 
@@ -11,11 +12,13 @@ namespace floe::dynamics {
 /// The moment works on the spin of the place: on elastic coordinates it acts by psi' T(beta).
 class SpatialForce final : public Term {
  public:
-  /// World axes; rotating with the body's frame A; or following the rotation of the place, D.
-  enum class Axes { world, body, place };
+  /// World axes; rotating with the body's frame A; following the rotation of the place, D; or that of other axes.
+  enum class Axes { world, body, place, other };
   /// @param wrench  (f, m)(t) in those axes [N, N m]
   SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, Axes axes);
-  const std::vector<int>& coordinates() const override { return at_.coordinates; }
+  /// In other axes, whose coordinates follow those of the place.
+  SpatialForce(SpatialMarker at, std::function<Wrench(double)> wrench, const MovingAxes& other);
+  const std::vector<int>& coordinates() const override { return coordinates_; }
   void residual(const Motion& motion, Eigen::VectorXd& r) const override;
   void tangent(const Motion& motion, Weights weights, Eigen::MatrixXd& J) const override;
   Energy energy(const Motion& motion) const override;
@@ -27,6 +30,8 @@ class SpatialForce final : public Term {
   SpatialMarker at_;
   std::function<Wrench(double)> wrench_;
   Axes axes_;
+  MovingAxes other_;
+  std::vector<int> coordinates_;
   mutable SpatialPose pose_;
   mutable Matrix6Xd change_;
   mutable Eigen::VectorXd rows_;

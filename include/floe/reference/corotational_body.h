@@ -46,6 +46,9 @@ class CorotationalBody {
   dynamics::SpatialMarker place(PetscInt node) const;
   /// The places of a cell's corners.
   std::vector<dynamics::SpatialMarker> places(const fem::Mesh::Cell& cell) const;
+  /// A linear function of a node's rotation from one of its dofs 3 to 5, of which a node of a hinge line has one, that
+  /// about the line.
+  Eigen::Matrix3d of_rotation(PetscInt node, const Eigen::Matrix3d& of_dofs) const;
   /// Index of the piece of a node; -1: none.
   int piece_of(PetscInt node) const;
   /// A point of a rigid piece, body axes. On the last rank.

@@ -44,6 +44,30 @@ TEST_CASE("spatial force tangents are the differences of the residual along the 
   }
 }
 
+TEST_CASE("forces in other axes: tangents are differences of the residual, in space and in the plane") {
+  Random random(226);
+  for (const SpatialMarker& marker : markers()) {
+    const int n = static_cast<int>(marker.coordinates.size());
+    const dynamics::MovingAxes axes{n, n + 3, testing::attitude(random)};
+    const SpatialForce force(marker, push, axes);
+    const State s(random, size(force));
+    REQUIRE(s.q.size() == n + 6);
+    CHECK(testing::tangent_error(force, s) < 1e-8);
+    const Matrix3d A = axes.attitude->axes(s.q.segment<3>(n + 3));
+    dynamics::SpatialPose at;
+    dynamics::pose(marker, s.q.head(n), s.v.head(n), s.a.head(n), at);
+    const Vector3d f = A * push(s.t).head<3>(), m = A * push(s.t).tail<3>();
+    CHECK(-testing::rows_of(force, s).dot(s.v) == Approx(f.dot(at.velocity) + m.dot(at.spin)).epsilon(1e-12));
+  }
+  const auto flat = testing::framed_marker(random, 0);
+  const int n = static_cast<int>(flat.coordinates.size());
+  dynamics::MovingAxes axes{n, n + 2};
+  axes.angle = 0.3;
+  const dynamics::Force force(
+      flat, [](double t) { return Vector3d(1 + t, -2, 0.4); }, axes);
+  CHECK(testing::tangent_error(force, State(random, n + 1)) < 1e-8);
+}
+
 TEST_CASE("the power of a wrench is f.velocity + m.spin, with f and m turned as their axes say") {
   const SpatialForce::Axes axes = any_axes();
   Random random(223);

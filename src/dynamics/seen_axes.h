@@ -1,5 +1,6 @@
 #pragma once
-#include "floe/dynamics/relative_damping.h"
+#include "floe/dynamics/moving_axes.h"
+#include "floe/dynamics/term.h"
 
 namespace floe::dynamics {
 
