@@ -20,7 +20,8 @@ using Pieces = std::vector<std::vector<PetscInt>>;
 
 namespace {
 
-bool leads(const AveragingWeight& weight) { return weight.share != 0; }
+/// A node may move a place by its rotation alone: in the middle of an edge under an odd load.
+bool leads(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
 
 /// a of an averaging weight's arm, which maps theta to theta x a in the plane of a shell.
 Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
@@ -146,7 +147,10 @@ void SpatialAssembly::add_corotated(int b) {
 
 std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place) const {
   const reference::CorotationalBody& body = *slots_[place.body].corotated;
-  if (place.nodes.size() == 1 && body.has_frame(place.nodes.front())) return {{body.place(place.nodes.front()), 1.}};
+  const bool by_arm = std::any_of(place.averaging_weights.begin(), place.averaging_weights.end(),
+                                  [](const AveragingWeight& weight) { return !weight.arm.isZero(0); });
+  if (place.nodes.size() == 1 && body.has_frame(place.nodes.front()) && !by_arm)
+    return {{body.place(place.nodes.front()), 1.}};
   std::vector<std::pair<SpatialMarker, double>> parts;
   int piece = -1;
   bool one = place.nodes.size() > 1;
