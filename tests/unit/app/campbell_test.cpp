@@ -1,0 +1,162 @@
+#include "../../../src/app/campbell.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "../../../src/app/campbell_tracks.h"
+#include "printed.h"
+
+using namespace floe;
+using namespace floe::app;
+using Catch::Matchers::Contains;
+using scene::Formulation;
+using testing::contents;
+using testing::OwnFolder;
+using testing::printed;
+
+namespace {
+
+/// L = EI = rhoA = 1 on a driven root; in space as stiff in both directions, about z.
+std::string planar(const std::string& joint = "type: driven, angle: \"2*t\"", const std::string& modes = "6") {
+  return "bodies:\n  beam:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}\n"
+         "    section: {EA: 1e6, EI: 1, rhoA: 1}\n    frame: {type: clamped, at: start}\n    reduction: {modes: " +
+         modes + "}\njoints: {root: {" + joint + ", between: [ground, beam.start]}}\n";
+}
+std::string spatial(const std::string& joint, const std::string& modes = "6") {
+  return "bodies:\n  beam:\n    mesh: {line: {from: [0, 0, 1], to: [1, 0, 1], elements: 8}}\n"
+         "    section: {A: 1, Iy: 1e-6, Iz: 1e-6, J: 2e-6, orientation: [0, 1, 0]}\n"
+         "    material: {E: 1e6, G: 4e5, rho: 1}\n    reduction: {modes: " +
+         modes + "}\njoints: {root: {" + joint + ", between: [ground, beam.start]}}\n";
+}
+
+CampbellDiagram diagram(const std::string& text, Formulation formulation, const CampbellRequest& request) {
+  std::exception_ptr fault;
+  CampbellDiagram found =
+      campbell(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, request, fault);
+  if (fault) std::rethrow_exception(fault);
+  return found;
+}
+
+CampbellRequest at(const std::string& speeds, int modes, bool estimate = false) {
+  CampbellRequest request;
+  request.speeds = speeds, request.modes = modes, request.estimate = estimate;
+  return request;
+}
+
+// First flap frequencies of a clamped beam, hub radius 0, at Omega = 0, 2, 6; lag: sqrt(flap^2 - Omega^2).
+constexpr double flap[] = {3.5160153, 4.1373196, 7.3603730};
+
+}  // namespace
+
+TEST_CASE("campbell: a driven beam in the plane, in every formulation; its estimated error is small") {
+  for (const auto formulation : {Formulation::nlffr, Formulation::vm_md}) {
+    INFO(scene::name_of(formulation));
+    const CampbellDiagram found = diagram(planar(), formulation, at("0,2,6", 2, true));
+    REQUIRE(found.points.size() == 3);
+    for (int s = 0; s < 3; ++s) {
+      REQUIRE(found.points[s].fault == "");
+      const double omega = found.points[s].vibrations.at(0).omega, speed = s == 0 ? 0 : s == 1 ? 2 : 6;
+      CHECK(omega == Approx(std::sqrt(flap[s] * flap[s] - speed * speed)).epsilon(4e-3));
+      CHECK(found.points[s].vibrations[0].track == 1);
+    }
+    CHECK(found.axis.direction == Eigen::Vector3d::UnitZ());
+    CHECK(found.estimate.errors.empty() == (formulation == Formulation::nlffr));
+    for (const FrequencyError& one : found.estimate.errors) CHECK(one.relative < 1e-3);
+    if (formulation == Formulation::vm_md) CHECK(found.estimate.coordinates > found.model.coordinates);
+  }
+}
+
+TEST_CASE("campbell: a driven beam in space flaps and lags, by any way to name the axis") {
+  const std::string driven = spatial("type: driven, axis: [0, 0, 2], angle: \"t\"");
+  CampbellRequest named = at("2", 2);
+  named.about = "[0,0,3]", named.through = "0,0,1";
+  for (const auto formulation : {Formulation::nlffr, Formulation::cfr}) {
+    const CampbellDiagram by_joint = diagram(driven, formulation, at("2", 2)),
+                          by_hand = diagram(driven, formulation, named);
+    CHECK((by_joint.axis.point - Eigen::Vector3d(0, 0, 1)).norm() < 1e-12);
+    CHECK((by_joint.axis.direction - by_hand.axis.direction).norm() < 1e-15);
+    for (const auto* found : {&by_joint, &by_hand}) {
+      REQUIRE(found->points.at(0).fault == "");
+      CHECK(found->points[0].vibrations.at(0).omega == Approx(std::sqrt(flap[1] * flap[1] - 4)).epsilon(3e-3));
+      CHECK(found->points[0].vibrations.at(1).omega == Approx(flap[1]).epsilon(3e-3));
+    }
+  }
+}
+
+TEST_CASE("campbell: axes that are missing or wrong are refused with what was expected") {
+  const std::string driven = "type: driven, angle: \"t\"";
+  const auto refusal = [](const std::string& text, const CampbellRequest& request,
+                          Formulation formulation = Formulation::vm_md) {
+    try {
+      diagram(text, formulation, request);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CampbellRequest request = at("1", 1);
+  CHECK_THAT(refusal(planar(), request, Formulation::cfr), Contains("cfr has no rotating frames in the plane"));
+  request.about = "0,0,0";
+  CHECK_THAT(refusal(planar(), request), Contains("--about: is the zero vector"));
+  request.about = "0,1,1";
+  CHECK_THAT(refusal(planar(), request), Contains("a planar scene rotates about [0,0,1]"));
+  request.about.reset();
+  // held twice: no joint to the ground alone
+  const std::string fixed = "type: fixed";
+  CHECK_THAT(refusal(planar(fixed), request), Contains("expected --through X,Y"));
+  CHECK_THAT(refusal(spatial(fixed), request), Contains("the axis is not that of one driven or revolute joint"));
+}
+
+TEST_CASE("campbell: an instability of a poor reduced model is checked with the full-order model") {
+  // one mode without derivatives does not stiffen: omega^2 = 3.516^2 - Omega^2 about z in the plane, below 0 at 5
+  const CampbellDiagram linear = diagram(planar(), Formulation::lffr, at("3,5", 1));
+  CHECK(linear.points[0].vibrations.at(0).omega == Approx(std::sqrt(flap[0] * flap[0] - 9)).epsilon(0.02));
+  std::string text = planar("type: driven, angle: \"2*t\"", "{count: 2}, derivatives: none");
+  const CampbellDiagram poor = diagram(text, Formulation::vm_md, at("3,5", 1));
+  bool unstable = false;
+  for (const auto& one : poor.points[1].vibrations) unstable = unstable || one.unstable();
+  REQUIRE(unstable);
+  std::string warnings;
+  for (const std::string& one : poor.model.warnings) warnings += one + "\n";
+  CHECK_THAT(warnings, Contains("the instability at 5 rad/s is an artefact of the reduced model"));
+}
+
+TEST_CASE("campbell: tables and summaries have remarks, tracks and what is missing") {
+  const OwnFolder own;
+  const auto folder = own.results("out");
+  // a free pendulum about its pin: one rigid-body mode of frequency 0
+  const scene::Scene scene = scene::parse_scene(planar("type: revolute"), "scene");
+  CampbellRequest request = at("1,4", 2, true);
+  const std::string said =
+      printed([&] { campbell_one(scene, Formulation::vm_md, PETSC_COMM_WORLD, request, folder); });
+  CHECK_THAT(said, Contains("rigid-body mode") && Contains("Estimated reduction error of the frequencies at 4 rad/s"));
+  const auto summary = nlohmann::json::parse(contents(folder.summary()));
+  CHECK(summary["status"] == "finished");
+  CHECK(summary["estimate"]["rad_per_s"] == 4);
+  bool zero = false;
+  for (const auto& one : summary["speeds"][0]["vibrations"])
+    if (one["zero"] == true) zero = one["below_rad_per_s"].get<double>() > 0;
+  CHECK(zero);
+  CHECK(summary["speeds"][1]["vibrations"][1].contains("assurance"));
+}
+
+TEST_CASE("campbell: vibrations are followed through a crossing by their shapes") {
+  const auto vibration = [](double omega, int which) {
+    TrackedVibration one;
+    one.omega = omega;
+    one.shape = Eigen::VectorXcd::Zero(2);
+    one.shape[which] = 1;
+    one.momentum = one.shape;
+    return one;
+  };
+  CampbellTracks tracks;
+  CampbellPoint first{1, {}, 0, {}}, second{2, {}, 0, {}}, none{3, {}, 0, {}}, third{4, {}, 0, {}};
+  first.vibrations = {vibration(1, 0), vibration(2, 1)};
+  second.vibrations = {vibration(1.8, 1), vibration(2.2, 0)};  // they have crossed
+  third.vibrations = {vibration(1.7, 1)};
+  tracks.follow(first), tracks.follow(second), tracks.follow(none), tracks.follow(third);
+  CHECK((first.vibrations[0].track == 1 && first.vibrations[1].track == 2));
+  CHECK((second.vibrations[0].track == 2 && second.vibrations[1].track == 1));
+  CHECK(second.vibrations[0].assurance == Approx(1));
+  CHECK(third.vibrations[0].track == 2);
+}
