@@ -33,6 +33,10 @@ std::vector<std::size_t> unlike(const std::vector<ResidualLoad>& loads, int most
   return chosen;
 }
 
+/// Of the largest deformation, in the norm of M: responses below are round-off of the residuals, and directions that
+/// the basis has already or that its frame excludes.
+constexpr double round_off = 1e-8;
+
 }  // namespace
 
 reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced,
@@ -60,6 +64,16 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
     if (u.empty()) u = reduced.statics->solve(met[i]);
     std::move(u.begin(), u.end(), std::back_inserter(all));
   }
+  double largest = 0;
+  for (const ResidualLoad& one : loads) largest = std::max(largest, one.eta.norm());
+  const petsc::MatHandle M = fem::mass(body.structure, {});
+  const petsc::VecHandle product = fem::field(body.structure);
+  std::erase_if(all, [&](const petsc::VecHandle& u) {
+    double square = 0;
+    check(MatMult(M, u, product));
+    check(VecDot(u, product, &square));
+    return !(std::sqrt(std::max(square, 0.)) > round_off * largest);
+  });
   if (unbent)
     notes.push_back(fmt::format(
         "body {}: the tangent stiffness of the deformed body was not factored; that of the undeformed body is used",
@@ -69,6 +83,7 @@ reduction::Columns responses(const PlannedBody& body, const ReducedBody& reduced
 
 reduction::Columns main_columns(const fem::Structure& structure, const reduction::Columns& u, int most) {
   const Eigen::Index n = static_cast<Eigen::Index>(u.size());
+  if (n == 0) return {};
   std::vector<Vec> bare(u.begin(), u.end());
   Eigen::MatrixXd products(n, n);
   const petsc::MatHandle M = fem::mass(structure, {});
@@ -78,7 +93,7 @@ reduction::Columns main_columns(const fem::Structure& structure, const reduction
     check(VecMDot(force, static_cast<PetscInt>(n), bare.data(), products.col(i).data()));
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (products + products.transpose()));
-  const double greatest = n > 0 ? eigen.eigenvalues()[n - 1] : 0;
+  const double greatest = eigen.eigenvalues()[n - 1];
   reduction::Columns columns;
   for (Eigen::Index i = n - 1; i >= 0 && std::ssize(columns) < most; --i) {
     if (!(eigen.eigenvalues()[i] > 1e-8 * greatest)) break;

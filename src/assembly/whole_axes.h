@@ -73,9 +73,9 @@ using AxesTerms = std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>;
 /// whole. They are zero where f has moved with the undeformed body.
 /// @param masses  adds the dampers of a body's masses to the model, and returns the masses
 /// @param places  of a body
-AxesTerms conditions(
-    const WholeAxes& whole, int dofs_per_node, const std::function<std::vector<CarriedMass>(int)>& masses,
-    const std::function<std::vector<ConstrainedPlace>(int)>& places);
+AxesTerms conditions(const WholeAxes& whole, int dofs_per_node,
+                     const std::function<std::vector<CarriedMass>(int)>& masses,
+                     const std::function<std::vector<ConstrainedPlace>(int)>& places);
 
 /// f and its multipliers, as rows of a joint: what models of the same scene have in common.
 JointMultipliers unknowns_of(const WholeAxes& whole);

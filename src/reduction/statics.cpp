@@ -159,7 +159,7 @@ void Statics::correct(Mat loads, Mat u) const {
     check(MatAXPY(u, 1, more, SAME_NONZERO_PATTERN));
     const double before = left;
     left = missing(loads, u);
-    if (left > 0.1 * before) break;
+    if (left > 0.5 * before) break;
   }
   // forces of the exact K are rounded, too: of thin folds eps (L/h)^2 (L/r)^2, which is 1e-5 at r/L = 1e-6
   if (!(left < 1e-4)) throw too_fine(structure, "its static solutions do not converge");

@@ -69,7 +69,8 @@ double difference(const History& a, const History& b, const std::vector<std::str
 TEST_CASE("cfr axes: loads in axes of the body and deflections, against the full-order model") {
   for (const std::string frame : {"mean-axis", "pinned", "clamped"}) {
     INFO(frame);
-    const std::string flat = planar_beam(frame, frame == "mean-axis" ? "" : "h: {type: revolute, between: [ground, b.start]}"),
+    const std::string flat = planar_beam(frame,
+                                         frame == "mean-axis" ? "" : "h: {type: revolute, between: [ground, b.start]}"),
                       joint = frame == "mean-axis" ? "" : "h: {type: spherical, between: [ground, b.start]}",
                       space = spatial_beam(frame == "clamped" ? "{type: clamped, at: start}" : frame, joint);
     const History plane = move(flat, Formulation::cfr), exact = move(flat, Formulation::nlffr);

@@ -87,7 +87,8 @@ probes:
 
 // Until it is released, a clamp holds every node of its edge, as one that never is.
 TEST_CASE("cfr edges: a clamp that an event releases") {
-  const std::string gravity = "gravity: [0, 0, -9.81]\n", probes = "probes: {tip: {at: strip.p2}, left: {at: strip.left}}\n";
+  const std::string gravity = "gravity: [0, 0, -9.81]\n",
+                    probes = "probes: {tip: {at: strip.p2}, left: {at: strip.left}}\n";
   const auto moved = [&](const std::string& events) {
     return move(strip("", "", gravity + probes + events), Formulation::cfr);
   };
@@ -138,6 +139,5 @@ probes: {tip: {at: b.right, quantity: position}, a: {at: a.right, quantity: posi
 )yaml",
                           Formulation::cfr);
   CHECK(drift(at) < 1e-3);
-  for (std::size_t i = 0; i < at.t.size(); ++i)
-    CHECK((vector_at(at, "a", i) - vector_at(at, "b", i)).norm() < 1e-8);
+  for (std::size_t i = 0; i < at.t.size(); ++i) CHECK((vector_at(at, "a", i) - vector_at(at, "b", i)).norm() < 1e-8);
 }

@@ -11,7 +11,8 @@ struct ResidualLoad {
 
 /// What the loads do to a body, x = K_T(V eta)^-1 P' f: K_T is that of the maximum deformation, of up to `tangents`
 /// unlike ones where they differ much, and of rest; each load meets the one that its own deformation is nearest to.
-/// Where K_T has no factor, that of rest, and a note reports it. Collective. A factorisation for each tangent.
+/// Where K_T has no factor, that of rest, and a note reports it. Those below 1e-8 of the maximum deformation, which are
+/// round-off, are left out. Collective. A factorisation for each tangent.
 ///
 /// K at rest alone would lock: what bends a wide thin shell further stretches it, unless the same column holds the way
 /// out, and that depends on how far it is bent.

@@ -31,8 +31,7 @@ std::string spatial(const std::string& joint, const std::string& modes = "6") {
 
 CampbellDiagram diagram(const std::string& text, Formulation formulation, const CampbellRequest& request) {
   std::exception_ptr fault;
-  CampbellDiagram found =
-      campbell(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, request, fault);
+  CampbellDiagram found = campbell(scene::parse_scene(text, "scene"), formulation, PETSC_COMM_WORLD, request, fault);
   if (fault) std::rethrow_exception(fault);
   return found;
 }
@@ -127,8 +126,7 @@ TEST_CASE("campbell: tables and summaries have remarks, tracks and what is missi
   // a free pendulum about its pin: one rigid-body mode of frequency 0
   const scene::Scene scene = scene::parse_scene(planar("type: revolute"), "scene");
   CampbellRequest request = at("1,4", 2, true);
-  const std::string said =
-      printed([&] { campbell_one(scene, Formulation::vm_md, PETSC_COMM_WORLD, request, folder); });
+  const std::string said = printed([&] { campbell_one(scene, Formulation::vm_md, PETSC_COMM_WORLD, request, folder); });
   CHECK_THAT(said, Contains("rigid-body mode") && Contains("Estimated reduction error of the frequencies at 4 rad/s"));
   const auto summary = nlohmann::json::parse(contents(folder.summary()));
   CHECK(summary["status"] == "finished");

@@ -20,9 +20,13 @@ std::string beam(const std::string& F, const std::string& body = "", const std::
                  const std::string& joint = "fixed", const std::string& elements = "4") {
   return "bodies:\n  beam:\n    mesh: {line: {from: [0, 0], to: [1, 0], elements: " + elements +
          "}}\n    section: {EA: 1e5, EI: 1, rhoA: 1}\n    reduction: {modes: 3}\n" + body +
-         "joints: {clamp: {type: " + joint + ", between: [ground, beam.start]}}\n"
-         "loads: {tip: {type: force, at: beam.end, force: [0, \"" + F + "*sin(2*t)\"]}}\n"
-         "motion: {end: 0.8, step: 0.02}\nprobes: {tip: " + probe + "}\n";
+         "joints: {clamp: {type: " + joint +
+         ", between: [ground, beam.start]}}\n"
+         "loads: {tip: {type: force, at: beam.end, force: [0, \"" +
+         F +
+         "*sin(2*t)\"]}}\n"
+         "motion: {end: 0.8, step: 0.02}\nprobes: {tip: " +
+         probe + "}\n";
 }
 
 Series moved(const scene::Scene& scene, Formulation formulation) {
@@ -129,14 +133,13 @@ TEST_CASE("total accuracy: a mesh from a file is not refined, which is said") {
   own.write("line.inp",
             "*NODE\n1, 0, 0, 0\n2, 0.25, 0, 0\n3, 0.5, 0, 0\n4, 0.75, 0, 0\n5, 1, 0, 0\n*ELEMENT, TYPE=B31, ELSET=all\n"
             "1, 1, 2\n2, 2, 3\n3, 3, 4\n4, 4, 5\n*NSET, NSET=root\n1,\n*NSET, NSET=tip\n5,\n");
-  const std::string file = own.write(
-      "scene.yaml",
-      "bodies:\n  body:\n    mesh: {file: {path: line.inp}}\n"
-      "    section: {A: 1e-3, Iy: 1e-8, Iz: 1e-8, J: 2e-8, orientation: [0, 1, 0]}\n"
-      "    material: {E: 7e10, G: 2.6e10, rho: 2700}\n    reduction: {modes: 2}\n"
-      "joints: {clamp: {type: fixed, between: [ground, body.root]}}\n"
-      "loads: {push: {type: force, at: body.tip, force: [0, 0, \"100*sin(20*t)\"]}}\n"
-      "motion: {end: 0.08, step: 2e-3}\nprobes: {tip: {at: body.tip}}\n");
+  const std::string file = own.write("scene.yaml",
+                                     "bodies:\n  body:\n    mesh: {file: {path: line.inp}}\n"
+                                     "    section: {A: 1e-3, Iy: 1e-8, Iz: 1e-8, J: 2e-8, orientation: [0, 1, 0]}\n"
+                                     "    material: {E: 7e10, G: 2.6e10, rho: 2700}\n    reduction: {modes: 2}\n"
+                                     "joints: {clamp: {type: fixed, between: [ground, body.root]}}\n"
+                                     "loads: {push: {type: force, at: body.tip, force: [0, 0, \"100*sin(20*t)\"]}}\n"
+                                     "motion: {end: 0.08, step: 2e-3}\nprobes: {tip: {at: body.tip}}\n");
   Chosen chosen = choose(scene::read_scene(file), {0.05, true}, PETSC_COMM_WORLD);
   CHECK(std::any_of(chosen.unbounded.begin(), chosen.unbounded.end(), [](const auto& one) {
     return one.first == "mesh" && one.second.find("does not refine imported meshes (body body)") != std::string::npos;
@@ -151,8 +154,9 @@ TEST_CASE("discretised scenes have other elements, frames and strains in their t
   const auto text_of = [](const std::string& mesh, const std::string& more) {
     return "bodies:\n  b:\n    mesh: {" + mesh + "}\n" + more + "    reduction: {modes: 3, derivatives: [[1, 1]]}\n";
   };
-  const std::string tube = "    section: {shape: tube, radius: 0.02, wall: 0.005, orientation: [0, 0, 1]}\n"
-                           "    material: {E: 7e10, nu: 0.3, rho: 2700}\n";
+  const std::string tube =
+      "    section: {shape: tube, radius: 0.02, wall: 0.005, orientation: [0, 0, 1]}\n"
+      "    material: {E: 7e10, nu: 0.3, rho: 2700}\n";
   const auto changed = [](const std::string& text, const Discretised& to) {
     const scene::Scene scene = scene::parse_scene(text, "scene.yaml");
     return discretised(scene, {to}).bodies.at(0);

@@ -54,7 +54,8 @@ TEST_CASE("error budget: the table has a row for each probe, marks totals that l
   CHECK_THAT(some, Contains("10 *") && Contains("3.3 *"));
   CHECK_THAT(some, Contains("* total without the model error\n"));
   CHECK_THAT(some, Contains("No estimate of the model error: takes too long\n"));
-  CHECK_THAT(some, Contains("mesh: twice the elements, to t = 0.25 s (computed in 0.5 s)\nNote (mesh error): a note\n"));
+  CHECK_THAT(some,
+             Contains("mesh: twice the elements, to t = 0.25 s (computed in 0.5 s)\nNote (mesh error): a note\n"));
   j["total"]["missing"] = {{"end", {"step"}}};
   CHECK_THAT(budget_words(j, 1), Contains("* total without the step error: end\n"));
 }

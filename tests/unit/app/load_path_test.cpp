@@ -114,7 +114,8 @@ TEST_CASE("static: a truss that snaps through is reported with its jump") {
   CHECK(x.front() == Approx(rise));
   CHECK(x[1] > 0);
   CHECK(x.back() < -rise);
-  for (std::size_t i = 0; i < x.size(); ++i) CHECK(load_at(x[i]) == Approx(limit * 2 / 3 * static_cast<double>(i)).margin(1e-4 * limit));
+  for (std::size_t i = 0; i < x.size(); ++i)
+    CHECK(load_at(x[i]) == Approx(limit * 2 / 3 * static_cast<double>(i)).margin(1e-4 * limit));
   REQUIRE(steps.summary["jumps"].size() == 1);
   CHECK(steps.summary["jumps"][0]["from"].get<double>() <= limit * (1 + 1e-9));
   CHECK(steps.summary["jumps"][0]["to"].get<double>() >= limit * (1 - 1e-9));

@@ -17,7 +17,8 @@ namespace {
 
 /// A strip of 1 x 0.3 x 0.01, nu = 0, clamped at one end, under 10 N/m along it and a bending moment of -0.2 N.
 std::string strip(const std::string& cells, const std::string& body = "") {
-  return "bodies:\n  strip:\n    mesh: {plate: {along: [1, 0, 0], across: [0, 0.3, 0], elements: [6, 3], cells: " + cells +
+  return "bodies:\n  strip:\n    mesh: {plate: {along: [1, 0, 0], across: [0, 0.3, 0], elements: [6, 3], cells: " +
+         cells +
          "}}\n    section: {thickness: 0.01}\n    material: {E: 7e10, nu: 0, rho: 2700}\n"
          "    reduction: {modes: 4, attachment: all}\n" +
          body +
@@ -111,16 +112,19 @@ TEST_CASE("stress: the layers of a laminate, of elements of first and second ord
       for (int j = 0; j <= 4; j += quadratic ? 1 : 2) deck += number(i, j) + (j < 4 ? ", " : "\n");
     };
     edge("root", 0), edge("tip", 8);
-    deck += "*MATERIAL, NAME=SOFT\n*ELASTIC\n2e9, 0\n*DENSITY\n1000,\n*MATERIAL, NAME=HARD\n*ELASTIC\n6e9, 0\n*DENSITY\n1000,\n"
-            "*SHELL SECTION, ELSET=skin, COMPOSITE\n0.005, , SOFT\n0.005, , HARD\n";
+    deck +=
+        "*MATERIAL, NAME=SOFT\n*ELASTIC\n2e9, 0\n*DENSITY\n1000,\n*MATERIAL, NAME=HARD\n*ELASTIC\n6e9, "
+        "0\n*DENSITY\n1000,\n"
+        "*SHELL SECTION, ELSET=skin, COMPOSITE\n0.005, , SOFT\n0.005, , HARD\n";
     own.write("deck.inp", deck);
     // the neutral plane is (6 - 2)/(6 + 2) h/4 above the middle: a force there does not bend
-    auto at = at_rest(own,
-                      "bodies:\n  strip:\n    mesh: {file: {path: deck.inp}}\n    reduction: {modes: 4, attachment: all}\n"
-                      "joints: {clamp: {type: fixed, between: [ground, strip.root]}}\nloads:\n"
-                      "  pull: {type: force, at: strip.tip, force: [10, 0, 0]}\n"
-                      "  end: {type: moment, at: strip.tip, moment: [0, 0.0125, 0]}\nmotion: {end: 1, step: 1}\n",
-                      Formulation::lffr, "strip:1.1,0.5,0");
+    auto at =
+        at_rest(own,
+                "bodies:\n  strip:\n    mesh: {file: {path: deck.inp}}\n    reduction: {modes: 4, attachment: all}\n"
+                "joints: {clamp: {type: fixed, between: [ground, strip.root]}}\nloads:\n"
+                "  pull: {type: force, at: strip.tip, force: [10, 0, 0]}\n"
+                "  end: {type: moment, at: strip.tip, moment: [0, 0.0125, 0]}\nmotion: {end: 1, step: 1}\n",
+                Formulation::lffr, "strip:1.1,0.5,0");
     const double stretch = 10 / (0.005 * 8e9);
     CHECK(at["membrane_force.xx"] == Approx(10).epsilon(1e-3));
     CHECK(at["stress_layer_1.xx"] == Approx(2e9 * stretch).epsilon(2e-3));
@@ -156,7 +160,8 @@ TEST_CASE("stress: a beam in space and in the plane, at any attitude of formulat
     // up along y in the plane
     at = at_rest(own,
                  "bodies:\n  beam:\n    mesh: {line: {from: [0, 0], to: [2, 0], elements: 10}}\n"
-                 "    section: {A: 8e-4, I: 1.0666666667e-7, fibre: 0.02}\n    material: {E: 2e11, rho: 7800}\n    initial: {angle: pi/2}\n" +
+                 "    section: {A: 8e-4, I: 1.0666666667e-7, fibre: 0.02}\n    material: {E: 2e11, rho: 7800}\n    "
+                 "initial: {angle: pi/2}\n" +
                      rest + "loads: {tip: {type: force, at: beam.end, force: [0.03, 5]}}\n",
                  formulation, "beam:0.9,0,0");
     CHECK(at["section_force.N"] == Approx(5).epsilon(1e-3));
@@ -167,12 +172,13 @@ TEST_CASE("stress: a beam in space and in the plane, at any attitude of formulat
 
 TEST_CASE("stress: corners, ends of clamped edges and points of loads are remarked beside the regular maximum") {
   const OwnFolder own;
-  const std::string file = own.write(
-      "scene.yaml",
-      "bodies:\n  plate:\n    mesh: {plate: {along: [1, 0, 0], across: [0, 1, 0], elements: [6, 6]}}\n"
-      "    section: {thickness: 0.01}\n    material: {E: 7e10, nu: 0.3, rho: 2700}\n"
-      "joints: {clamp: {type: fixed, between: [ground, plate.left]}}\n"
-      "loads: {push: {type: force, at: {body: plate, node: [1, 1, 0]}, force: [0, 0, 5]}}\nmotion: {end: 1, step: 1}\n");
+  const std::string file =
+      own.write("scene.yaml",
+                "bodies:\n  plate:\n    mesh: {plate: {along: [1, 0, 0], across: [0, 1, 0], elements: [6, 6]}}\n"
+                "    section: {thickness: 0.01}\n    material: {E: 7e10, nu: 0.3, rho: 2700}\n"
+                "joints: {clamp: {type: fixed, between: [ground, plate.left]}}\n"
+                "loads: {push: {type: force, at: {body: plate, node: [1, 1, 0]}, force: [0, 0, 5]}}\nmotion: {end: 1, "
+                "step: 1}\n");
   const auto folder = own.results("out");
   printed([&] {
     app::solve_static(scene::read_scene(file), Formulation::lffr, PETSC_COMM_WORLD, {1, 1}, folder, false);
@@ -182,13 +188,13 @@ TEST_CASE("stress: corners, ends of clamped edges and points of loads are remark
   const std::string said = printed([&] { app::stress(request, PETSC_COMM_WORLD); });
   CHECK_THAT(said, Contains("maximum") && Contains("elsewhere"));
   request.force = true;
-  for (const auto& [place, why] : std::map<std::string, std::string>{
-           {"plate", "names no body with stresses"},
-           {"plate:1", "coordinates in the axes of its mesh"},
-           {"plate:1,x,0", "coordinates in the axes of its mesh"},
-           {"plate:1,0;0", "coordinates in the axes of its mesh"},
-           {"plate:1,0,nan", "coordinates in the axes of its mesh"},
-           {"plate:1,0,0,0", "has more than three coordinates"}}) {
+  for (const auto& [place, why] :
+       std::map<std::string, std::string>{{"plate", "names no body with stresses"},
+                                          {"plate:1", "coordinates in the axes of its mesh"},
+                                          {"plate:1,x,0", "coordinates in the axes of its mesh"},
+                                          {"plate:1,0;0", "coordinates in the axes of its mesh"},
+                                          {"plate:1,0,nan", "coordinates in the axes of its mesh"},
+                                          {"plate:1,0,0,0", "has more than three coordinates"}}) {
     INFO(place);
     request.histories = {place};
     CHECK_THROWS_WITH(printed([&] { app::stress(request, PETSC_COMM_WORLD); }), Contains(why));

@@ -96,12 +96,11 @@ TEST_CASE("trade-off: full-order models that would take too long are not simulat
   request.most_seconds = 0;
   scene::Scene shorter = scene;
   shorter.motion.step /= 4;
-  const std::vector<ModelVariant> all =
-      TradeoffRun(scene, request, reference, own, "", PETSC_COMM_WORLD)
-          .evaluate_all({{"full order", "nlffr", shorter, Formulation::nlffr},
-                         {"full order", "lffr", scene, Formulation::lffr},
-                         {"step", "shorter", shorter, Formulation::vm_md},
-                         {"cfr", "cfr", scene, Formulation::cfr}});
+  const std::vector<ModelVariant> all = TradeoffRun(scene, request, reference, own, "", PETSC_COMM_WORLD)
+                                            .evaluate_all({{"full order", "nlffr", shorter, Formulation::nlffr},
+                                                           {"full order", "lffr", scene, Formulation::lffr},
+                                                           {"step", "shorter", shorter, Formulation::vm_md},
+                                                           {"cfr", "cfr", scene, Formulation::cfr}});
   CHECK_THAT(all[0].stopped, Contains("not simulated: would take about") && Contains("(limit 0 s)"));
   CHECK(all[1].stopped.empty());  // as long as the scene's own
   CHECK(all[1].total == vector_errors(moved(scene, Formulation::lffr).series, reference.series));

@@ -157,7 +157,8 @@ probes:
   }
 }
 
-TEST_CASE("loads of sensors: a force that depends on its place finds the equilibrium of a spring, in every formulation") {
+TEST_CASE(
+    "loads of sensors: a force that depends on its place finds the equilibrium of a spring, in every formulation") {
   // (10 - 40 u) at a tip of stiffness 3 EI/L^3 = 60
   const std::string flat = R"yaml(
 bodies:
@@ -196,12 +197,14 @@ probes:
 
 TEST_CASE("loads of joints: a torque that holds an angle, in the plane and in space") {
   // weight 2 kg, 10 m/s2 at 0.5 m: 10 cos(a) against 100 a
-  const std::string loads = "loads: {motor: {type: moment, joint: hinge, moment: \"-100*hinge.angle - 3*hinge.rate\"}}\n"
-                            "probes:\n  a: {joint: hinge, quantity: angle}\n  m: {joint: hinge, quantity: moment}\n"
-                            "  d: {joint: hinge, quantity: drive}\n";
-  const std::string flat = "bodies: {arm: {rigid: {mass: 2, centre: [0.5, 0], inertia: 1}}}\ngravity: [0, -10]\n"
-                           "joints: {hinge: {type: revolute, between: [ground, {body: arm, node: [0, 0]}]}}\n" +
-                           loads;
+  const std::string loads =
+      "loads: {motor: {type: moment, joint: hinge, moment: \"-100*hinge.angle - 3*hinge.rate\"}}\n"
+      "probes:\n  a: {joint: hinge, quantity: angle}\n  m: {joint: hinge, quantity: moment}\n"
+      "  d: {joint: hinge, quantity: drive}\n";
+  const std::string flat =
+      "bodies: {arm: {rigid: {mass: 2, centre: [0.5, 0], inertia: 1}}}\ngravity: [0, -10]\n"
+      "joints: {hinge: {type: revolute, between: [ground, {body: arm, node: [0, 0]}]}}\n" +
+      loads;
   const std::string space =
       "bodies: {arm: {rigid: {mass: 2, centre: [0.5, 0, 0], inertia: [1, 1, 1]}}}\ngravity: [0, -10, 0]\n"
       "joints: {hinge: {type: revolute, axis: [0, 0, 1], between: [ground, {body: arm, node: [0, 0, 0]}]}}\n" +

@@ -92,11 +92,10 @@ TEST_CASE("joints in space leave a body the accelerations of their free directio
 
 TEST_CASE("joints whose places are apart, or that have no line, are refused with where they are") {
   const auto said = [](const std::string& joint) {
-    return testing::complaint(
-        fill("bodies: {b: {rigid: {mass: 2, centre: [0, 0, 0], inertia: [3, 4, 5]}}}\n"
-             "joints: {j: {$joint}}\nmotion: {end: 1, step: 0.1}\n",
-             {{"joint", joint}}),
-        Formulation::vm_md);
+    return testing::complaint(fill("bodies: {b: {rigid: {mass: 2, centre: [0, 0, 0], inertia: [3, 4, 5]}}}\n"
+                                   "joints: {j: {$joint}}\nmotion: {end: 1, step: 0.1}\n",
+                                   {{"joint", joint}}),
+                              Formulation::vm_md);
   };
   using Catch::Matchers::Contains;
   CHECK_THAT(said("type: spherical, between: [{body: ground, node: [0, 0, 1]}, b.centre]"),
@@ -111,8 +110,7 @@ TEST_CASE("joints whose places are apart, or that have no line, are refused with
 TEST_CASE("friction and stops of joints in space act on their coordinate alone") {
   // 2 kg at 0.5 m/s along x against 4 N and 2 N s/m; 5 kg m2 at 2 rad/s about x is beyond its stop by 0.1 rad
   const auto start = [](const std::string& joint, const std::string& rates) {
-    return at_start(testing::built(
-        fill(R"yaml(
+    return at_start(testing::built(fill(R"yaml(
 bodies:
   b:
     rigid: {mass: 2, centre: [0, 0, 0], inertia: [5, 4, 3]}
@@ -123,8 +121,8 @@ probes:
   a: {at: b.centre, quantity: acceleration}
   w: {at: b.centre, quantity: angular_acceleration}
 )yaml",
-             {{"joint", joint}, {"rates", rates}}),
-        Formulation::vm_md));
+                                        {{"joint", joint}, {"rates", rates}}),
+                                   Formulation::vm_md));
   };
   auto at = start("type: prismatic, friction: {level: 4, speed: 1e-3, viscosity: 2}", "velocity: [0.5, 0, 0]");
   CHECK(at.at("a.x") == Approx(-(4 + 2 * 0.5) / 2).epsilon(1e-9));
@@ -157,8 +155,7 @@ TEST_CASE("joints in the plane leave a body the accelerations of their free dire
   for (const auto& one : cases)
     for (const auto formulation : testing::all_formulations()) {
       INFO(one.joint << " " << scene::name_of(formulation));
-      const assembly::Model model = testing::built(
-          fill(R"yaml(
+      const assembly::Model model = testing::built(fill(R"yaml(
 bodies: {block: {rigid: {mass: 2, centre: [0, 0], inertia: 5}, initial: {position: [1, 2], angle: 0.3}}}
 joints: {j: {between: [ground, block.centre], $joint}}
 loads:
@@ -171,8 +168,8 @@ probes:
   f: {joint: j, quantity: force}
   m: {joint: j, quantity: moment}
 )yaml",
-               {{"joint", one.joint}}),
-          formulation);
+                                                        {{"joint", one.joint}}),
+                                                   formulation);
       CHECK(model.multipliers == one.rows);
       auto at = at_start(model);
       CHECK(at.at("a.x") == Approx(one.x).margin(1e-9));
