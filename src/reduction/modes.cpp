@@ -73,7 +73,7 @@ void refine(EPS eps, Mat exact, Mat M, double shift, const fem::Structure& struc
   check(STSetMatMode(st, ST_MATMODE_SHELL));
   check(STSetPreconditionerMat(st, factored));
   check(STGetKSP(st, &ksp));
-  iterate(ksp, KSPCG);
+  iterate(ksp, KSPGMRES);
 }
 
 /// Where the user's options iterate: K - shift M as their preconditioner takes it.

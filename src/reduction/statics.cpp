@@ -81,7 +81,7 @@ KSP Statics::solver() const {
   factor_error_ = measured_error();
   if (iterates()) {
     check(KSPSetOperators(ksp_, exact_, K_));
-    iterate(ksp_, KSPCG);
+    iterate(ksp_, KSPGMRES);
     petsc::check_options(KSPSetFromOptions(ksp_), "derivatives_");
   }
   return ksp_;

@@ -14,7 +14,7 @@ using Columns = std::vector<petsc::VecHandle>;
 /// K stands under Holding::statics: where joints hold the body they restrict u (an axially immovable end stays put),
 /// where they leave it free any supplement gives the same answer, because P' f is self-equilibrated. KSP prefix
 /// derivatives_ (default: Cholesky by MUMPS, blocks of right-hand sides; where round-off touches the factor, corrected
-/// with the exact operator; where it spoils it, conjugate gradients on that operator, preconditioned by the factor).
+/// with the exact operator; where it spoils it, GMRES on that operator, preconditioned by the factor).
 class Statics {
  public:
   /// Factors K at the first solve. Collective.
