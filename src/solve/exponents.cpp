@@ -65,9 +65,9 @@ std::optional<Complex> confirmed(const Quadratic& problem, const Complex s, doub
   const double size = std::abs(s);
   const bool real = s.imag() == 0;
   const auto none = [&](double growth) { return !real && std::abs(growth) <= small + 1e-7 * size; };
+  if (none(s.real())) return Complex(0, s.imag());
   const auto [exact, uncertainty] = refined(problem, s);
   const double moved = std::abs(exact - s), growth = std::abs(exact.real());
-  if (none(s.real())) return Complex(0, moved <= 1e-2 * size ? exact.imag() : s.imag());
   if (!(moved <= 1e-2 * size) || (real && uncertainty > growth && moved > 1e-6 * size)) return {};
   const bool agreed = growth > uncertainty || std::abs(exact.real() - s.real()) <= 0.1 * growth;
   return none(exact.real()) || (!real && !agreed) ? Complex(0, exact.imag()) : exact;

@@ -8,9 +8,10 @@
 //                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
 //                   slow motions and 0 for stiff ones; what the constraints see of A' stays
-//   A_0 resolved    J^-1 M shift_a A_0 in the place of A_0 where this removes more than half of A_0 in the norm of M: a
-//                   joint was released, or a force begins. Of stiff motions A_0 is -omega^2 times their amplitude, and
-//                   h A_0 would make omega h times the velocities that they can have (overshoot)
+//   A_0 of events   A_0 - A, A before the event, is replaced by J^-1 M shift_a (A_0 - A) where this removes more than
+//   half
+//                   of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
+//                   amplitude, and h A_0 would make omega h times the velocities that they can have (overshoot)
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
@@ -208,25 +209,28 @@ PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
   PetscFunctionReturn(0);
 }
 
-// A_0 of a start, with its J in the solver. What is removed must not change momentum; the derivative of M A_0 with
-// respect to q would, and is as large as A_0.
-PetscErrorCode resolve_accelerations(TS ts) {
+// A_0 after an event, with its J in the solver; `before`: A at its instant. What is removed must not change momentum;
+// the derivative of M A_0 with respect to q would, and is as large as A_0.
+PetscErrorCode resolve_accelerations(TS ts, Vec before) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason reason;
   PetscReal whole, lost;
 
   PetscFunctionBegin;
-  PetscCall(VecCopy(data->A0, data->work_U));
+  PetscCall(VecWAXPY(data->V1, -1, before, data->A0));
+  PetscCall(VecCopy(data->V1, data->work_U));
+  PetscCall(inertia_norm(ts, 1, data->V1, &whole));
   PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
   if (reason < 0) PetscFunctionReturn(0);
-  PetscCall(VecWAXPY(data->V1, -1, data->work_U, data->A0));
-  PetscCall(inertia_norm(ts, 1, data->A0, &whole));
+  PetscCall(VecAXPY(data->V1, -1, data->work_U));
   PetscCall(inertia_norm(ts, 1, data->V1, &lost));
   if (!(lost > 0.5 * whole)) PetscFunctionReturn(0);
   PetscCall(jacobian_of_beginning(ts, nullptr));
-  PetscCall(leave_out_stiff(ts, 1, data->A0, &reason));
+  PetscCall(VecWAXPY(data->work_U, -1, before, data->A0));
+  PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(VecWAXPY(data->A0, 1, before, data->work_U));
   PetscFunctionReturn(0);
 }
 
@@ -274,11 +278,16 @@ PetscErrorCode project_velocity(TS ts) {
 PetscErrorCode start_consistently(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   Mat inertia = nullptr;
+  Vec before = nullptr;
 
   PetscFunctionBegin;
   PetscCheck(data->start || !data->multipliers, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_WRONGSTATE,
              "A constrained system needs TSGeneralizedAlphaSetStart for its initial accelerations and multipliers");
   set_step(data, ts->time_step);
+  if (data->started) {
+    PetscCall(VecDuplicate(data->A0, &before));
+    PetscCall(VecCopy(data->A0, before));
+  }
   PetscCall(VecSet(data->A0, 0));
   if (data->start) PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(measure_scales(ts, data->start ? nullptr : &inertia));
@@ -288,9 +297,10 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(mark_origin(ts));
-  PetscCall(resolve_accelerations(ts));
+  if (before) PetscCall(resolve_accelerations(ts, before));
   PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));
+  PetscCall(VecDestroy(&before));
   data->fresh = data->started = PETSC_TRUE;
   data->equal_steps = 0;
   data->unresolved = PETSC_FALSE;
@@ -308,7 +318,6 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
-  PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
   data->fresh = PETSC_TRUE;
   data->equal_steps = 0;

@@ -409,12 +409,13 @@ TEST_CASE("campbell: the steady stretch has its closed form") {
   }
 }
 
+// Round-off of the stiff coordinates of a basis reaches 1.3e-6 of the first frequency on some processors.
 TEST_CASE("campbell: at rest the frequencies are those of the supported body") {
   for (const std::string& text : {planar("pinned", driven, "16"),
                                   spatial("16", "type: driven, axis: [0, 0, 1], angle: \"t\""), plate("8", "5")}) {
     const auto at = omega(diagram(text, Formulation::vm_md, "0", 4).points.at(0));
     const auto modes = omega_of(text);
-    for (int i = 0; i < 4; ++i) CHECK(at.at(i) == Approx(modes.at(i)).epsilon(1e-6));
+    for (int i = 0; i < 4; ++i) CHECK(at.at(i) == Approx(modes.at(i)).epsilon(4e-6));
   }
 }
 
