@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "at_base.h"
 #include "floe/petsc/values.h"
@@ -43,17 +44,16 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 }
 
 void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
-  if (count_ == 0) start_ = energy;
+  if (count_ == 0) start_ = lowest_ = energy;
+  lowest_ = std::min(lowest_, energy);
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
     const double power = external_power(system, t, 1e-3 * h, U, V, A), before = known_ != 0 ? power_ : power;
     work_ += 0.5 * h * (before + power);
     turnover_ += 0.5 * h * (std::abs(before) + std::abs(power));
-    growth_ = std::max(growth_, energy - start_ - work_);
+    growth_ = std::max(growth_, std::min(energy - start_ - work_, energy - lowest_));
     power_ = power, known_ = 1;
   }
-  if (count_ > 0) rise_ += std::max(0., energy - energy_ - std::max(0., work_ - work_then_));
-  energy_ = energy, work_then_ = work_;
   const double exchanged = std::max(turnover_, max_part);
   if (growth() <= 0.5 * exchanged) accounted_ = exchanged;
   beyond_ = growth() > most_growth * accounted_ ? beyond_ + 1 : 0;
@@ -63,17 +63,17 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
 void EnergyBalance::pass_event(double energy) {
   work_ += energy, turnover_ += std::abs(energy);
   known_ = 0;
+  lowest_ = std::numeric_limits<double>::infinity();
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_,  t_,      power_,     known_, start_,     work_,  turnover_,
-          growth_, energy_, work_then_, rise_,  accounted_, beyond_};
+  return {count_, t_, power_, known_, start_, work_, turnover_, growth_, lowest_, accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], power_ = saved[2], known_ = saved[3];
   start_ = saved[4], work_ = saved[5], turnover_ = saved[6], growth_ = saved[7];
-  energy_ = saved[8], work_then_ = saved[9], rise_ = saved[10], accounted_ = saved[11], beyond_ = saved[12];
+  lowest_ = saved[8], accounted_ = saved[9], beyond_ = saved[10];
 }
 
 }  // namespace floe::solve

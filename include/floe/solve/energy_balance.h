@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <array>
 
 #include "floe/dynamics/system.h"
@@ -18,12 +17,11 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 
 /// What of the total energy's growth no load and no drive has brought: sampled along a motion.
 ///
-///   growth = min(max over t of E(t) - E(0) - W(t),  sum over instants of max(0, dE - max(0, dW))),
+///   growth = max over t of min(E(t) - E(0) - W(t), E(t) - min E since the last event),
 ///   W = int P dt by the trapezoidal rule
 ///
 /// The integrator takes energy away and adds none; a motion whose energy grows by itself is none. The first alone would
-/// count dissipation of vibrations that steps do not resolve, which the trapezoidal rule gets wrong, the second alone
-/// the errors of coarse samples.
+/// count dissipation of vibrations that steps do not resolve, which the trapezoidal rule gets wrong.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Collective.
@@ -33,24 +31,24 @@ class EnergyBalance {
   /// An event, where the power jumps: W over the step that contains it is h times the power at the step's end, not the
   /// trapezoidal rule. `energy` [J]: what impulses of drives bring there, which belongs to W.
   void pass_event(double energy);
-  double work() const { return work_; }                       ///< W [J]
-  double growth() const { return std::min(growth_, rise_); }  ///< [J]
-  double turnover() const { return turnover_; }               ///< int |P| dt [J]
+  double work() const { return work_; }          ///< W [J]
+  double growth() const { return growth_; }      ///< [J]
+  double turnover() const { return turnover_; }  ///< int |P| dt [J]
   /// Whether the growth was more than `most_growth` times what the motion had and exchanged while its balance was met,
   /// at two instants in a row (one may be round-off of a motion that begins from rest), and more than `floor` [J].
   bool runs_away(double floor) const { return beyond_ >= 2 && growth() > floor; }
   static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 13;
+  static constexpr int numbers = 11;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
  private:
   double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
-  double energy_ = 0, work_then_ = 0, rise_ = 0;  // of the instant before: E, W; the second growth
-  double accounted_ = 0, beyond_ = 0;             // energy while growth was less than half of it; instants in a row
+  double lowest_ = 0;                  // E since the last event
+  double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 
 }  // namespace floe::solve

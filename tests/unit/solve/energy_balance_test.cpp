@@ -103,4 +103,8 @@ TEST_CASE("dissipation that samples overestimate is no growth of energy") {
   CHECK(balance.growth() == 0);
   balance.add(system, 1.1, U, V, A, 15, 20);
   CHECK(balance.growth() == Approx(5));
+  balance.pass_event(0);  // from where rises count again
+  balance.add(system, 1.2, U, V, A, 19, 20);
+  balance.add(system, 1.3, U, V, A, 25, 25);
+  CHECK(balance.growth() == Approx(6));
 }
