@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "at_base.h"
 #include "floe/petsc/values.h"
@@ -44,7 +43,7 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 }
 
 void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
-  if (count_ == 0) start_ = lowest_ = energy;
+  if (count_ == 0) start_ = energy;
   lowest_ = std::min(lowest_, energy);
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {

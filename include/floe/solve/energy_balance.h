@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 
 #include "floe/dynamics/system.h"
 
@@ -17,11 +18,11 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 
 /// What of the total energy's growth no load and no drive has brought: sampled along a motion.
 ///
-///   growth = max over t of min(E(t) - E(0) - W(t), E(t) - min E since the last event),
-///   W = int P dt by the trapezoidal rule
+///   growth = max over t of E(t) - E(0) - W(t),   W = int P dt by the trapezoidal rule
 ///
-/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none. The first alone would
-/// count dissipation of vibrations that steps do not resolve, which the trapezoidal rule gets wrong.
+/// and after an event at most the rise of E above its minimum since then: what an event sets free vibrates in motions
+/// that steps do not resolve, whose dissipation the rule overestimates.
+/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Collective.
@@ -47,7 +48,7 @@ class EnergyBalance {
  private:
   double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
-  double lowest_ = 0;                  // E since the last event
+  double lowest_ = -std::numeric_limits<double>::infinity();  // E since the last event; before the first: no bound
   double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 
