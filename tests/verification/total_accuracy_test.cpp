@@ -80,12 +80,37 @@ TEST_CASE("total accuracy: the selected model is as close to geometrically exact
   }
 }
 
-TEST_CASE("total accuracy: all parts of a deflection in a mean-axis frame are bounded by elements and more") {
+TEST_CASE("total accuracy: all parts of a deflection in a mean-axis frame are bounded") {
   const app::Chosen chosen = app::choose(scene_of({{"kind", "mean-axis"}}), {0.02, true}, PETSC_COMM_WORLD);
   CHECK(chosen.unbounded.empty());
   CHECK(chosen.within());
   CHECK(!chosen.before["total"].contains("missing"));
   CHECK_THAT(app::budget_words(chosen.before, 0.6), !Catch::Contains("without the model error"));
+}
+
+// Formulation cfr has no steady rotations in the plane.
+TEST_CASE("total accuracy: parts that cannot be bounded are named, the others are bounded") {
+  const std::string rotating = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 3}}
+    section: {A: 1e-4, I: 2e-10}
+    material: {E: 7e8, rho: 2700}
+    reduction: {modes: 4}
+joints: {hub: {type: driven, between: [ground, beam.start], angle: "3*t"}}
+loads: {push: {type: force, at: beam.end, force: [0, "0.1*sin(5*t)"]}}
+motion: {end: 0.6, step: 2e-3, start: steady_rotation}
+probes: {tip: {at: beam.end, quantity: displacement}}
+)yaml";
+  const app::Chosen chosen = app::choose(scene::parse_scene(rotating, "scene"), {0.02, true}, PETSC_COMM_WORLD);
+  REQUIRE(chosen.unbounded.size() == 1);
+  CHECK(chosen.unbounded[0].first == "model");
+  CHECK_THAT(chosen.unbounded[0].second, Catch::Contains("formulation cfr"));
+  CHECK(chosen.within());
+  CHECK(chosen.before["total"]["missing"]["tip"].dump() == "[\"model\"]");
+  CHECK_THAT(app::budget_words(chosen.before, 0.6), Catch::Contains("* total without the model error"));
+  CHECK(std::any_of(chosen.decisions.begin(), chosen.decisions.end(),
+                    [](const app::Decision& one) { return one.what == "elements"; }));
 }
 
 TEST_CASE("discretised scenes: frames, elements and strains as text") {
