@@ -102,6 +102,7 @@ void Recorder::continue_files(const output::Checkpoint& from) {
   energy_start_ = record[1], energy_now_ = record[2], max_energy_ = record[3];
   change_ = record[4], violation_ = record[5], velocity_violation_ = record[6];
   std::array<double, solve::EnergyBalance::numbers> balance{};
+  if (record.size() != 7 + balance.size()) throw RunError("the checkpoint belongs to another version of floe");
   std::copy_n(record.begin() + 7, balance.size(), balance.begin());
   balance_.load(balance);
   first_step_ = kept_step_ = from.words.at("step");
