@@ -132,6 +132,14 @@ void Recorder::note(const dynamics::EventReport& event) {
   result_.summary["events"].push_back(j);
 }
 
+// Kinks of loads, which are not in the list, have such errors, too: those long after an event are not its own.
+void Recorder::note_error(const solve::Instant& instant) {
+  if (instant.event_error == 0 || result_.summary["events"].empty()) return;
+  ordered_json& event = result_.summary["events"].back();
+  if (instant.t - event["t"].get<double>() > 2.5 * scene_.motion.step) return;
+  event["step_error"] = std::max(event.value("step_error", 0.), instant.event_error);
+}
+
 void Recorder::checkpoint_if_due(const solve::Instant& instant, const std::function<bool()>& ending) {
   if (!folder_ || !checkpoint_every_.any() || !instant.state) return;
   const auto [steps, seconds] = checkpoint_every_;
@@ -220,6 +228,7 @@ bool Recorder::due(const solve::Instant& instant) const {
 }
 
 void Recorder::observe(const solve::Instant& instant) {
+  note_error(instant);
   bool some = false;  // stored within the step
   if (scene_.motion.output && instant.between && !result_.series.t.empty()) {
     const double interval = *scene_.motion.output, last = result_.series.t.back();
@@ -289,6 +298,21 @@ std::string Recorder::growth_warning() const {
       "(limit {:.0f} %): the equations of motion are not satisfied; take a smaller motion.step, and remove options "
       "-motion_snes_... that stop Newton's method early",
       growth, balance_.work(), 100 * growth / scale, 100 * limit);
+}
+
+std::string Recorder::event_warning() const {
+  constexpr double limit = 0.15;
+  const ordered_json* worst = nullptr;
+  if (!result_.summary.contains("events")) return "";
+  for (const ordered_json& event : result_.summary["events"])
+    if (event.value("step_error", 0.) > (worst ? worst->value("step_error", 0.) : limit)) worst = &event;
+  if (!worst) return "";
+  return fmt::format(
+      "event {} ({}) at t = {:.4g} s: the step after it has an estimated error of {:.0f} % of its path (limit {:.0f} "
+      "%), which remains in the velocities: motion.step does not resolve the vibrations that the event excites; take "
+      "a smaller motion.step, or a motion.tolerance",
+      worst->value("name", ""), worst->value("what", ""), worst->value("t", 0.), 100 * worst->value("step_error", 0.),
+      100 * limit);
 }
 
 void Recorder::store(double t, Vec U, Vec V, Vec A, const Measured& now) {

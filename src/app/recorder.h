@@ -36,6 +36,8 @@ class Recorder {
   void conclude_alone(const std::string& why) noexcept;
   /// A warning where the total energy has grown by what no load and no drive has brought; empty: it has not.
   std::string growth_warning() const;
+  /// A warning where steps do not resolve what an event sets free, of the worst event; empty: there is none.
+  std::string event_warning() const;
   MPI_Comm comm() const { return comm_; }
   /// Wall time that recording took. [s]
   double seconds() const { return seconds_; }
@@ -61,6 +63,8 @@ class Recorder {
   /// @throws RunError  total energy grows by itself (EnergyBalance::runs_away)
   void refuse_runaway() const;
   bool due(const solve::Instant& instant) const;
+  /// The error of a step after an event, to this event.
+  void note_error(const solve::Instant& instant);
   const scene::Scene& scene_;
   const assembly::Model& model_;
   MPI_Comm comm_;

@@ -201,7 +201,8 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     result.motion_processor *= report.processor_seconds / report.seconds;  // recording has the same share
   if (!petsc::all_arrive(comm, fault ? 10 : std::numeric_limits<double>::infinity()))
     std::rethrow_exception(fault);  // a fault of this rank alone: the others cannot help to finish the files
-  if (const std::string warning = recorder.growth_warning(); !warning.empty()) result.warnings.push_back(warning);
+  for (const std::string& warning : {recorder.growth_warning(), recorder.event_warning()})
+    if (!warning.empty()) result.warnings.push_back(warning);
   if (plan.keep_states) result.states = kept.states();
   if (plan.estimate && plan.from) result.estimate.none = "the run was restarted from a checkpoint";
   if (plan.estimate && !plan.from && changes_joints(scene)) result.estimate.none = "events change the joints";

@@ -32,7 +32,8 @@ constexpr Vec Data::*vectors[] = {&Data::U0,        &Data::V0,
                                   &Data::tangent_U, &Data::tangent_V,
                                   &Data::tangent_A, &Data::work_U,
                                   &Data::work_V,    &Data::work_A,
-                                  &Data::work_F,    &Data::column};
+                                  &Data::work_F,    &Data::column,
+                                  &Data::A_before};
 
 PetscErrorCode mark_dynamic_rows(Data* data) {
   PetscFunctionBegin;
@@ -145,6 +146,12 @@ PetscErrorCode get_acceleration(TS ts, Vec* A) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode get_event_error(TS ts, PetscReal* error) {
+  PetscFunctionBegin;
+  *error = generalized_alpha_data(ts)->event_error;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode set_from_options(TS ts, PetscOptionItems* PetscOptionsObject) {
   PetscReal rho = generalized_alpha_data(ts)->rho;
   PetscBool set;
@@ -178,6 +185,7 @@ constexpr const char* set_start_name = "TSGeneralizedAlphaSetStart_C";
 constexpr const char* set_rotations_name = "TSGeneralizedAlphaSetRotations_C";
 constexpr const char* interpolate_name = "TSGeneralizedAlphaInterpolate_C";
 constexpr const char* get_acceleration_name = "TSGeneralizedAlphaGetAcceleration_C";
+constexpr const char* get_event_error_name = "TSGeneralizedAlphaGetEventError_C";
 
 PetscErrorCode destroy(TS ts) {
   PetscFunctionBegin;
@@ -187,7 +195,7 @@ PetscErrorCode destroy(TS ts) {
   delete generalized_alpha_data(ts);
   ts->data = nullptr;
   for (const char* name : {set_multipliers_name, set_radius_name, set_start_name, set_rotations_name,
-                           get_acceleration_name, interpolate_name})
+                           get_acceleration_name, get_event_error_name, interpolate_name})
     PetscCall(PetscObjectComposeFunction((PetscObject)ts, name, nullptr));
   PetscFunctionReturn(0);
 }
@@ -240,6 +248,7 @@ PetscErrorCode create(TS ts) {
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_start_name, set_start));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, set_rotations_name, set_rotations));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_acceleration_name, get_acceleration));
+  PetscCall(PetscObjectComposeFunction((PetscObject)ts, get_event_error_name, get_event_error));
   PetscCall(PetscObjectComposeFunction((PetscObject)ts, interpolate_name, interpolate_all));
   PetscFunctionReturn(0);
 }
@@ -285,6 +294,13 @@ PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A) {
   PetscFunctionBegin;
   *A = nullptr;
   PetscTryMethod(ts, "TSGeneralizedAlphaGetAcceleration_C", (TS, Vec*), (ts, A));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TSGeneralizedAlphaGetEventError(TS ts, PetscReal* error) {
+  PetscFunctionBegin;
+  *error = 0;
+  PetscTryMethod(ts, "TSGeneralizedAlphaGetEventError_C", (TS, PetscReal*), (ts, error));
   PetscFunctionReturn(0);
 }
 

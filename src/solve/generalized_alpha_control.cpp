@@ -198,4 +198,29 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode measure_event_error(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+  double sums[3] = {0, 0, 0};
+  PetscBool fixed;
+
+  PetscFunctionBegin;
+  data->event_error = 0;
+  PetscCall(PetscObjectTypeCompare((PetscObject)ts->adapt, TSADAPTNONE, &fixed));
+  if (!fixed || !data->after_event || data->h <= (1 + 1e-9) * data->h_resolved) PetscFunctionReturn(0);
+  PetscCall(estimate_error(ts));
+  {
+    const Entries e(data->work_U), U0(data->U0), U1(data->U1), origin(data->origin), mass(data->mass),
+        dynamic(data->dynamic);
+    for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
+      sums[0] += dynamic[i] * mass[i] * PetscSqr(e[i]);
+      sums[1] += dynamic[i] * mass[i] * PetscSqr(U1[i] - U0[i]);
+      sums[2] += dynamic[i] * mass[i] * PetscSqr(U1[i] - origin[i]);
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)ts)));
+  const PetscReal path = PetscSqrtReal(PetscMax(sums[1], 1e-8 * sums[2]));
+  if (path > 0) data->event_error = PetscSqrtReal(sums[0]) / path;
+  PetscFunctionReturn(0);
+}
+
 }  // namespace floe::solve

@@ -30,7 +30,15 @@ struct GeneralizedAlpha {
   // After a start (and for constrained systems after a change of h): rate of A that it resolves; h^2 normal is what v_n
   // is away from v(t_n) normal to the constraints.
   PetscBool fresh = PETSC_FALSE, from_rest = PETSC_FALSE;
+  PetscReal h_start = 0;  // the step that they were made for
   Vec jerk = nullptr, normal = nullptr;
+
+  // After an event: A before the first event that was not followed by a step of the size of the coming one, and the
+  // longest step since. What a step of a greater size does not resolve of A - A_before is left out.
+  PetscBool after_event = PETSC_FALSE;
+  Vec A_before = nullptr;
+  PetscReal h_resolved = 0;
+  PetscReal event_error = 0;  // TSGeneralizedAlphaGetEventError
 
   // Constants of the step under way: a_n as used, and what the rates are affine in.
   Vec a_used = nullptr, base_q = nullptr, base_v = nullptr, base_A = nullptr;
@@ -109,6 +117,9 @@ inline PetscInt local_size(Vec vec) {
 /// Fills U0 (multipliers), A0, jerk, normal and the constants of scaling from (ts->ptime, U0, V0). Collective.
 PetscErrorCode start_consistently(TS ts);
 
+/// A0 is that before an event; start_consistently follows. Collective.
+PetscErrorCode note_event(TS ts);
+
 /// The same for a constrained system whose step size changes; V0 also loses what violates dC/dt = 0. Collective.
 PetscErrorCode smooth_rates(TS ts);
 
@@ -166,5 +177,7 @@ PetscErrorCode form_jacobian(SNES snes, Vec U, Mat J, Mat P, TS ts);
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context);
 PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error);
+/// Sets event_error for the step that was accepted. Collective.
+PetscErrorCode measure_event_error(TS ts);
 
 }  // namespace floe::solve

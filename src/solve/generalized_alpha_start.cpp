@@ -8,10 +8,11 @@
 //                   rotations have (generalized_alpha_rotations.cpp)
 //   A'_resolved     A' without what the step cannot resolve: (J^-1 M shift_a)^2 A', J = M shift_a + K, 1 - O(h^2) for
 //                   slow motions and 0 for stiff ones; what the constraints see of A' stays
-//   A_0 of events   A_0 - A, A before the event, is replaced by J^-1 M shift_a (A_0 - A) where this removes more than
-//   half
-//                   of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
-//                   amplitude, and h A_0 would make omega h times the velocities that they can have (overshoot)
+//   A_0 after events
+//                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
+//                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
+//                   amplitude, and h A_0 would make omega h times the velocities that they can have (overshoot).
+//                   Also later, when steps become longer than any since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
@@ -209,15 +210,23 @@ PetscErrorCode jacobian_of_beginning(TS ts, Vec A) {
   PetscFunctionReturn(0);
 }
 
-// A_0 after an event, with its J in the solver; `before`: A at its instant. What is removed must not change momentum;
-// the derivative of M A_0 with respect to q would, and is as large as A_0.
-PetscErrorCode resolve_accelerations(TS ts, Vec before) {
+// x <- A_0 - A_before.
+PetscErrorCode jump_of_accelerations(GeneralizedAlpha* data, Vec x) {
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(x, -1, data->A_before, data->A0));
+  PetscFunctionReturn(0);
+}
+
+// A_0 without what a step that is longer than any since the event does not resolve; J of A_0 is in the solver. What is
+// removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
+PetscErrorCode resolve_accelerations(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason reason;
   PetscReal whole, lost;
 
   PetscFunctionBegin;
-  PetscCall(VecWAXPY(data->V1, -1, before, data->A0));
+  if (!data->after_event || data->h <= (1 + 1e-9) * data->h_resolved) PetscFunctionReturn(0);
+  PetscCall(jump_of_accelerations(data, data->V1));
   PetscCall(VecCopy(data->V1, data->work_U));
   PetscCall(inertia_norm(ts, 1, data->V1, &whole));
   PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
@@ -226,11 +235,11 @@ PetscErrorCode resolve_accelerations(TS ts, Vec before) {
   PetscCall(inertia_norm(ts, 1, data->V1, &lost));
   if (!(lost > 0.5 * whole)) PetscFunctionReturn(0);
   PetscCall(jacobian_of_beginning(ts, nullptr));
-  PetscCall(VecWAXPY(data->work_U, -1, before, data->A0));
+  PetscCall(jump_of_accelerations(data, data->work_U));
   PetscCall(leave_out_stiff(ts, 1, data->work_U, &reason));
   PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
              "Consistent start: the linear solve failed (%s)", KSPConvergedReasons[reason]);
-  PetscCall(VecWAXPY(data->A0, 1, before, data->work_U));
+  PetscCall(VecWAXPY(data->A0, 1, data->A_before, data->work_U));
   PetscFunctionReturn(0);
 }
 
@@ -275,19 +284,25 @@ PetscErrorCode project_velocity(TS ts) {
 
 }  // namespace
 
+PetscErrorCode note_event(TS ts) {
+  GeneralizedAlpha* data = generalized_alpha_data(ts);
+
+  PetscFunctionBegin;
+  if (data->after_event && data->h_resolved < (1 - 1e-9) * ts->time_step) PetscFunctionReturn(0);
+  PetscCall(VecCopy(data->A0, data->A_before));
+  data->h_resolved = 0;
+  data->after_event = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode start_consistently(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   Mat inertia = nullptr;
-  Vec before = nullptr;
 
   PetscFunctionBegin;
   PetscCheck(data->start || !data->multipliers, PetscObjectComm((PetscObject)ts), PETSC_ERR_ARG_WRONGSTATE,
              "A constrained system needs TSGeneralizedAlphaSetStart for its initial accelerations and multipliers");
   set_step(data, ts->time_step);
-  if (data->started) {
-    PetscCall(VecDuplicate(data->A0, &before));
-    PetscCall(VecCopy(data->A0, before));
-  }
   PetscCall(VecSet(data->A0, 0));
   if (data->start) PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(measure_scales(ts, data->start ? nullptr : &inertia));
@@ -297,11 +312,11 @@ PetscErrorCode start_consistently(TS ts) {
   PetscCall(take_jacobian(ts));
   if (data->multipliers) PetscCall(split_normal(ts));
   PetscCall(mark_origin(ts));
-  if (before) PetscCall(resolve_accelerations(ts, before));
+  PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
   PetscCall(MatDestroy(&inertia));
-  PetscCall(VecDestroy(&before));
   data->fresh = data->started = PETSC_TRUE;
+  data->h_start = data->h;
   data->equal_steps = 0;
   data->unresolved = PETSC_FALSE;
   data->rate = 1;
@@ -318,8 +333,10 @@ PetscErrorCode smooth_rates(TS ts) {
   PetscCall(accelerations(ts, nullptr, ts->ptime, data->U0, data->V0, data->A0));
   PetscCall(differentiate(ts, nullptr));
   PetscCall(split_normal(ts));
+  PetscCall(resolve_accelerations(ts));
   PetscCall(resolve_jerk(ts));
   data->fresh = PETSC_TRUE;
+  data->h_start = data->h;
   data->equal_steps = 0;
   PetscFunctionReturn(0);
 }

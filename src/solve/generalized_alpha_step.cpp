@@ -63,7 +63,9 @@ PetscErrorCode prepare(TS ts, PetscReal h) {
   PetscFunctionBegin;
   set_step(data, h);
   if (PetscAbsReal(h - data->h_a0) > 1e-9 * data->h_a0) data->equal_steps = 0;
-  if (!data->fresh && data->multipliers && PetscAbsReal(h - data->h_a0) > 1e-6 * data->h_a0)
+  if (data->fresh && PetscAbsReal(h - data->h_start) > 1e-6 * data->h_start)
+    PetscCall(start_consistently(ts));
+  else if (!data->fresh && data->multipliers && PetscAbsReal(h - data->h_a0) > 1e-6 * data->h_a0)
     PetscCall(smooth_rates(ts));
   else if (PetscAbsReal(h - data->h_scale) > 0.05 * data->h_scale)
     PetscCall(set_scales(ts));
@@ -251,11 +253,14 @@ PetscErrorCode step(TS ts) {
   end_in_time(ts);
   next = ts->time_step;
   if (!ts->steprollback) PetscCall(begin(ts));
+  if (ts->steprestart && data->started) PetscCall(note_event(ts));
   if (ts->steprestart || !data->started) PetscCall(start_consistently(ts));
   do {
     PetscCall(attempt(ts, &next, &accepted));
     if (accepted) {
       data->reach = PetscMax(data->reach, data->reach_tried);
+      PetscCall(measure_event_error(ts));
+      data->h_resolved = PetscMax(data->h_resolved, data->h);
       next = keep_if_close(ts, next);
       ts->ptime += ts->time_step;
       ts->time_step = next;

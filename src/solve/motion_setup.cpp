@@ -94,11 +94,13 @@ PetscErrorCode monitor(TS ts, PetscInt step, PetscReal t, Vec U, void* context) 
     if (step == 0) t = 0;                                  // not behind a kink that the motion begins with
     Vec V = nullptr, A = nullptr;
     check(TS2GetSolution(ts, nullptr, &V));
+    double event_error = 0;
     check(TSGeneralizedAlphaGetAcceleration(ts, &A));
+    check(TSGeneralizedAlphaGetEventError(ts, &event_error));
     refuse_not_finite(U, V);
     c.observe({t, step, U, V, A, t >= c.end * (1 - 1e-12),
                c.state && !(c.crossings && c.crossings->arrived()) ? &c.state : nullptr,
-               c.between && A ? &c.between : nullptr});
+               c.between && A ? &c.between : nullptr, false, event_error});
   });
 }
 

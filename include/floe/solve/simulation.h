@@ -35,7 +35,8 @@ struct Instant {
   /// U, V and A at a time within the step that ends here (TSGeneralizedAlphaInterpolate); null at the start and with
   /// other types of TS. Attitudes are relative to the bases that stand. Collective.
   const std::function<void(double t, Vec U, Vec V, Vec A)>* between = nullptr;
-  bool at_rest = false;  ///< an equilibrium: all rates are zero
+  bool at_rest = false;    ///< an equilibrium: all rates are zero
+  double event_error = 0;  ///< TSGeneralizedAlphaGetEventError of the step that ends here
   /// The accelerations, where they are known. @return  null: they are not
   Vec accelerations() const { return at_rest ? V : A; }
 };
