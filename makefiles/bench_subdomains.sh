@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # make bench-subdomains: domain decomposition against the direct solver; writes docs/benchmarks/subdomains.md.
-# Sooner done, with fewer plates: makefiles/bench_subdomains.sh build --cells 70 --large 0
+# Faster, with fewer plates: makefiles/bench_subdomains.sh build --cells 70 --large 0
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source makefiles/mpi_environment.sh

@@ -55,6 +55,29 @@ def table(lines):
     return "\n".join(["| " + " | ".join(line) + " |" for line in [head, ["---"] + ["---:"] * (len(head) - 1), *lines]])
 
 
+def missed(values, most, text):
+    """`text` of the least and the greatest value, and in how many cases these are above the goal."""
+    above = sum(value > most for value in values)
+    return ((f"missed in {above} of {len(values)} cases: " if above else f"met in {len(values)} cases: ")
+            + text.format(min(values), max(values)))
+
+
+def goals(lines):
+    """The goals for large models, against those meshes that have the least and the greatest number of ranks."""
+    ranks = sorted({int(line[3]) for line in lines if line[3].isdigit()})
+    few, many = (({tuple(line[:3]): line for line in lines if line[3] == str(n)}) for n in (ranks[0], ranks[-1]))
+    both = [(few[key], many[key]) for key in few if key in many]
+    growth = [int(b[4]) / int(a[4]) for a, b in both if a[4].isdigit() and b[4].isdigit()]
+    stage = [[float(line[10]) for line in pair] for pair in zip(*both)]
+    memory = [[float(line[12]) for line in pair] for pair in zip(*both)]
+    rows = [[f"iterations grow by at most 1.5 from {ranks[0]} to {ranks[-1]} ranks", missed(growth, 1.5, "{:.2f} to {:.2f}")]]
+    for n, ratios, sizes in zip((ranks[0], ranks[-1]), stage, memory):
+        rows.append([f"at most 5 times the direct solver's processor time for the stage, {n} ranks",
+                     missed(ratios, 5, "{:.0f} to {:.0f} times")])
+        rows.append([f"at most 2 GB per million dofs, {n} ranks", missed(sizes, 2, "{:.1f} to {:.1f}")])
+    return "\n".join("| " + " | ".join(row) + " |" for row in [["goal", "result"], ["---", "---"], *rows])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", required=True)
@@ -70,12 +93,13 @@ def main():
                 lines += case(arguments.program, cells, shape, thickness, arguments.ranks)
     if arguments.large:
         lines += case(arguments.program, arguments.large, "curved", "1e-3", [4])
+    load = os.getloadavg()[2]
     commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
     notes = (pathlib.Path(__file__).parent / NOTES).read_text()
     (arguments.out / "subdomains.md").write_text(
         f"# Domain decomposition\n\n{datetime.date.today()}, commit {commit}, {os.cpu_count()} cores, mean load "
-        f"{os.getloadavg()[2]:.1f}. `make bench-subdomains` writes this page.\n\n"
-        + notes.replace("TABLE\n", table(lines) + "\n"))
+        f"{load:.1f}. `make bench-subdomains` writes this page.\n\n"
+        + notes.replace("TABLE\n", table(lines) + "\n").replace("GOALS\n", goals(lines) + "\n"))
 
 
 main()
