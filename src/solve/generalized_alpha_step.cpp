@@ -11,7 +11,8 @@ namespace {
 // The time that the step under way ends at.
 PetscReal end_time(TS ts) { return ts->ptime + generalized_alpha_data(ts)->h; }
 
-// The state becomes the step's beginning. Multipliers have no rates, whatever the user's V holds there.
+// The state becomes the step's beginning; the step before counts from now on, for none takes it back any more.
+// Multipliers have no rates, whatever the user's V holds there.
 PetscErrorCode begin(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
@@ -22,6 +23,7 @@ PetscErrorCode begin(TS ts) {
   std::swap(data->A0, data->A1);
   std::swap(data->a0, data->a1);
   data->h_a0 = data->h;
+  data->h_resolved = PetscMax(data->h_resolved, data->h);
   ++data->equal_steps;
   data->fresh = data->from_rest = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -260,7 +262,6 @@ PetscErrorCode step(TS ts) {
     if (accepted) {
       data->reach = PetscMax(data->reach, data->reach_tried);
       PetscCall(measure_event_error(ts));
-      data->h_resolved = PetscMax(data->h_resolved, data->h);
       next = keep_if_close(ts, next);
       ts->ptime += ts->time_step;
       ts->time_step = next;
