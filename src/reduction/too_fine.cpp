@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 #include "floe/fem/element_count.h"
 #include "floe/reduction/statics.h"
@@ -92,12 +93,62 @@ PetscInt lone_quadrilaterals(const fem::Structure& structure) {
   return sum;
 }
 
-/// Whether parts of the body may move relative to each other without stiffness.
+/// Sets of nodes that are connected.
+class Components {
+ public:
+  explicit Components(PetscInt nodes) : parent_(static_cast<std::size_t>(nodes)) {
+    std::iota(parent_.begin(), parent_.end(), PetscInt{0});
+  }
+  PetscInt of(PetscInt node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void connect(PetscInt a, PetscInt b) { parent_[of(a)] = of(b); }
+
+ private:
+  std::vector<PetscInt> parent_;
+};
+
+/// Pairs of the global numbers of nodes that cells connect: a, b, a, b, ...
+std::vector<PetscInt> connections(const fem::Mesh& mesh, bool of_springs) {
+  std::vector<PetscInt> pairs;
+  for (const fem::Mesh::Cell& cell : mesh.cells)
+    for (const int node : cell.nodes())
+      if ((cell.kind == fem::CellKind::spring) == of_springs)
+        pairs.insert(pairs.end(), {mesh.global_node(cell.nodes().front()), mesh.global_node(node)});
+  return pairs;
+}
+
+std::vector<PetscInt> gather(const std::vector<PetscInt>& values, MPI_Comm comm) {
+  int ranks = 1, count = static_cast<int>(values.size());
+  MPI_Comm_size(comm, &ranks);
+  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts);
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
+  std::vector<PetscInt> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Allgatherv(values.data(), count, MPIU_INT, all.data(), counts.data(), starts.data(), MPIU_INT, comm);
+  return all;
+}
+
+/// Whether a spring connects nodes that no other elements do; not those of a straight edge. Collective.
+bool springs_connect(const fem::Mesh& mesh) {
+  const std::vector<PetscInt> springs = gather(connections(mesh, true), mesh.comm);
+  if (springs.empty()) return false;
+  Components components(mesh.node_count);
+  const std::vector<PetscInt> others = gather(connections(mesh, false), mesh.comm);
+  for (std::size_t i = 0; i < others.size(); i += 2) components.connect(others[i], others[i + 1]);
+  for (std::size_t i = 0; i < springs.size(); i += 2)
+    if (components.of(springs[i]) != components.of(springs[i + 1])) return true;
+  return false;
+}
+
+/// Whether parts of the body may move relative to each other without stiffness. Collective.
 bool may_be_loose(const fem::Structure& structure) {
-  return std::any_of(structure.sections.begin(), structure.sections.end(), [](const fem::Section& section) {
+  const bool released = std::any_of(structure.sections.begin(), structure.sections.end(), [](const auto& section) {
     const auto* beam = std::get_if<fem::SpatialBeam>(&section);
-    return std::holds_alternative<fem::NodeSpring>(section) || (beam && beam->releases.any());
+    return beam && beam->releases.any();
   });
+  return released || springs_connect(structure.mesh);
 }
 
 }  // namespace

@@ -139,3 +139,28 @@ TEST_CASE("numbers that do not suffice: the words say whether the mesh is too fi
       reduction::too_fine(straight, "so it is").what(),
       Catch::Equals("the mesh of 20 elements is finer than double precision resolves: so it is; take fewer elements"));
 }
+
+TEST_CASE("numbers that do not suffice: springs are a cause only where no other elements connect their nodes") {
+  const generate::Polyline lines{
+      {{0, 0, 0}, {1, 0, 0}, {1.8, 0.4, 0.5}, {2, 0, 0}, {3, 0, 0}}, {{0, 1}, {1, 2}, {3, 4}}, {5, 4, 2}, {}};
+  const fem::SpatialBeam beam{
+      {1, 2.5e-9, 2.5e-9, 0, 4e-9, 1, 2.5e-9, 2.5e-9, 0, {0, 0}, {0, 0}}, Vector3d(0.3, 0.2, 1), {}};
+  fem::NodeSpring spring;
+  spring.stiffness.setOnes(), spring.axes.setIdentity();
+  const auto said = [&](PetscInt a, PetscInt b) {
+    mesh::RawMesh raw = generate::polyline(PETSC_COMM_WORLD, lines);
+    raw.parts.push_back("spring");
+    if (raw.first_node == 0) {  // the first rank
+      raw.cells.push_back({mesh::CellKind::spring, mesh::no_nodes<PetscInt>(), 1});
+      raw.cells.back().nodes[0] = a, raw.cells.back().nodes[1] = b;
+      raw.cell_labels.resize(raw.cells.size());
+    } else {
+      ++raw.first_cell;
+    }
+    ++raw.cell_count;
+    return std::string(
+        reduction::too_fine(testing::structure_of(raw, {beam, spring}, Spread::shuffled), "so it is").what());
+  };
+  CHECK_THAT(said(0, end), Catch::StartsWith("the body is thinner than double precision resolves: so it is"));
+  CHECK_THAT(said(end, end + 1), Catch::StartsWith("so it is: springs, released ends"));
+}
