@@ -67,7 +67,7 @@ void PlanarAssembly::start_body_axes(Model& model) {
     Eigen::VectorXd q, v;
     layout.gather(model.U, q);
     q(own) << mesh_axes_at_start(body).R.head<2>(), body.pose[2] - body.frame_angle;
-    place_axes(axes, rows, nullptr, q, coordinates_.comm());
+    place_axes(axes, rows, "body " + body.spec.name, nullptr, q, coordinates_.comm());
     const Eigen::VectorXd start = q(own);
     set_shared(own, {start.begin(), start.end()}, model.U);
     layout.gather(model.V, v);

@@ -88,7 +88,7 @@ class SpatialAssembly {
   std::vector<CarriedMass> corotated_masses(int body) const;
   AxesTerms rows_of_mean(const WholeAxes& mean, const Anchor& place) const;
   void start_corotated_axes(Model& model);
-  void start_axes(const WholeAxes& axes, AxesTerms rows, Model& model);
+  void start_axes(int body, const WholeAxes& axes, AxesTerms rows, Model& model);
   void set_shared(int first, const Eigen::VectorXd& values, Vec into) const;
   /// What says which nodes a place is the mean of, and how.
   using MeanOf = std::tuple<int, std::vector<PetscInt>, std::vector<double>, const void*>;

@@ -99,10 +99,10 @@ void SpatialAssembly::set_shared(int first, const Eigen::VectorXd& values, Vec i
 }
 
 /// Places the axes where their rows put them, with the velocity that these have.
-void SpatialAssembly::start_axes(const WholeAxes& axes, AxesTerms rows, Model& model) {
+void SpatialAssembly::start_axes(int body, const WholeAxes& axes, AxesTerms rows, Model& model) {
   const auto attitude = std::find_if(axes_attitudes_.begin(), axes_attitudes_.end(),
                                      [&](const auto& one) { return one.first == axes.f.rotation; });
-  place_axes(axes, rows, attitude->second.get(), start_, coordinates_.comm());
+  place_axes(axes, rows, "body " + plan_.bodies[body].spec.name, attitude->second.get(), start_, coordinates_.comm());
   set_shared(axes.f.position, start_.segment<6>(axes.f.position), model.U);
   const dynamics::System layout(coordinates_, {});
   Eigen::VectorXd v;
@@ -113,13 +113,13 @@ void SpatialAssembly::start_axes(const WholeAxes& axes, AxesTerms rows, Model& m
 
 void SpatialAssembly::start_corotated_axes(Model& model) {
   for (const auto& [b, axes] : body_axes_)
-    start_axes(axes,
+    start_axes(b, axes,
                conditions(
                    axes, 6, [&](int body) { return corotated_masses(body); },
                    [&, &whole = axes](int body) { return constrained_places(whole, body); }),
                model);
   for (const auto& [key, mean] : means_)
-    start_axes(mean.second, owner_ ? rows_of_mean(mean.second, mean.first) : AxesTerms{}, model);
+    start_axes(mean.first.body, mean.second, owner_ ? rows_of_mean(mean.second, mean.first) : AxesTerms{}, model);
 }
 
 }  // namespace floe::assembly

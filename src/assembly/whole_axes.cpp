@@ -1,8 +1,11 @@
 #include "whole_axes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
+#include "floe/error.h"
 #include "floe/fem/assembly.h"
 #include "floe/math/rotation.h"
 
@@ -245,11 +248,14 @@ VectorXd rates_of(const WholeAxes& whole, const AxesTerms& terms, const VectorXd
   return -J.fullPivLu().solve(open);
 }
 
-void place_axes(const WholeAxes& whole, const AxesTerms& terms, dynamics::Attitude* attitude, VectorXd& q,
-                MPI_Comm comm) {
+void place_axes(const WholeAxes& whole, const AxesTerms& terms, const std::string& name, dynamics::Attitude* attitude,
+                VectorXd& q, MPI_Comm comm) {
+  constexpr int most = 20;
+  constexpr double limit = 1e-9;  // far above round-off
   const std::vector<int> own = whole.f.coordinates();
   const VectorXd still = VectorXd::Zero(q.size());
-  for (int iteration = 0; iteration < 20; ++iteration) {
+  double left = 0;
+  for (int iteration = 0; iteration < most; ++iteration) {
     const auto [open, J] = rows_at(whole, terms, q, still, dynamics::ConstraintLevel::position, comm);
     VectorXd change = -J.fullPivLu().solve(open);
     if (attitude) {
@@ -257,8 +263,14 @@ void place_axes(const WholeAxes& whole, const AxesTerms& terms, dynamics::Attitu
       change.tail<3>().setZero();
     }
     q(own) += change;
-    if (open.norm() <= 1e-13 * J.norm()) return;
+    left = open.norm() / J.norm();
+    if (left <= 1e-13) return;
   }
+  if (!(left <= limit * (1 + q(own).norm())))
+    throw RunError(
+        fmt::format("the axes of {} were not found within {} iterations (residual {:.2g}, limit {:.2g}): its initial "
+                    "deformation rotates its parts too far relative to each other; take a smaller one",
+                    name, most, left, limit * (1 + q(own).norm())));
 }
 
 }  // namespace floe::assembly

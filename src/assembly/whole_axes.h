@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "floe/assembly/model.h"
@@ -89,8 +90,10 @@ Eigen::VectorXd rates_of(const WholeAxes& whole, const AxesTerms& terms, const E
 
 /// Moves f to where all rows together are zero, from nearby: its coordinates in q, and in space its attitude's base.
 /// Collective.
-void place_axes(const WholeAxes& whole, const AxesTerms& terms, dynamics::Attitude* attitude, Eigen::VectorXd& q,
-                MPI_Comm comm);
+/// @param name  of the body
+/// @throws floe::RunError  on all ranks, where Newton's method does not converge
+void place_axes(const WholeAxes& whole, const AxesTerms& terms, const std::string& name, dynamics::Attitude* attitude,
+                Eigen::VectorXd& q, MPI_Comm comm);
 
 /// The place and attitude of f at the start.
 struct StartOfAxes {
