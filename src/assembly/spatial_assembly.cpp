@@ -366,7 +366,7 @@ Model SpatialAssembly::model() {
   for (const DampedWhole& whole : damped_)
     if (!whole.fixed) model.joints.push_back(unknowns_of(whole));
   for (const auto& [b, axes] : body_axes_) model.joints.push_back(unknowns_of(axes));
-  for (const auto& [key, mean] : means_) model.joints.push_back(unknowns_of(mean.second));
+  for (const MeanAxes& mean : means_) model.joints.push_back(unknowns_of(mean.axes));
   model.switches = switches_;
   model.multipliers = coordinates_.multiplier_count();
   model.coordinates = coordinates_.global_size() - model.multipliers;

@@ -90,9 +90,12 @@ class SpatialAssembly {
   void start_corotated_axes(Model& model);
   void start_axes(int body, const WholeAxes& axes, AxesTerms rows, Model& model);
   void set_shared(int first, const Eigen::VectorXd& values, Vec into) const;
-  /// What says which nodes a place is the mean of, and how.
-  using MeanOf = std::tuple<int, std::vector<PetscInt>, std::vector<double>, const void*>;
-  static MeanOf mean_of(const Anchor& place);
+  struct MeanAxes {
+    Anchor place;
+    WholeAxes axes;
+  };
+  /// Of the same nodes with the same weights; null: none.
+  const MeanAxes* find_mean(const Anchor& place) const;
   void add_gravity(int body, const BodyPart* part = nullptr);
   void add_density(int body, reference::Density density, const std::function<Eigen::Vector3d(double)>& force,
                    bool of_body, bool conservative, const BodyPart* part);
@@ -152,14 +155,14 @@ class SpatialAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
-  std::map<int, std::vector<HeldNode>> held_nodes_;       // of joints
-  std::map<int, WholeAxes> body_axes_;                    // of corotational bodies, in the axes of their meshes
-  std::map<MeanOf, std::pair<Anchor, WholeAxes>> means_;  // of corotational bodies, in the axes of their frames
-  dynamics::Attitudes axes_attitudes_;                    // of all these
-  std::vector<int> multipliers_;                          // of each joint, the first
-  std::vector<PlacedJoint> placed_;                       // every joint
-  std::map<std::pair<int, PetscInt>, int> uses_;          // of a body's node, by rows of joints
-  Eigen::VectorXd start_;                                 // local coordinates at the start
+  std::map<int, std::vector<HeldNode>> held_nodes_;  // of joints
+  std::map<int, WholeAxes> body_axes_;               // of corotational bodies, in the axes of their meshes
+  std::vector<MeanAxes> means_;                      // of corotational bodies, in the axes of their frames
+  dynamics::Attitudes axes_attitudes_;               // of all these
+  std::vector<int> multipliers_;                     // of each joint, the first
+  std::vector<PlacedJoint> placed_;                  // every joint
+  std::map<std::pair<int, PetscInt>, int> uses_;     // of a body's node, by rows of joints
+  Eigen::VectorXd start_;                            // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::vector<std::shared_ptr<const reference::SpatialElements>> elements_;  // that are apart
   std::vector<std::vector<const dynamics::Term*>> body_terms_;               // of each body, among terms_

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "floe/math/rotation.h"
 #include "floe/petsc/error.h"
 #include "probe_sources.h"
@@ -20,8 +22,13 @@ MovingAxes axes_of(const dynamics::SpatialMarker& at) { return {at.coordinates[0
 
 }  // namespace
 
-SpatialAssembly::MeanOf SpatialAssembly::mean_of(const Anchor& place) {
-  return {place.body, place.nodes, place.factors, place.weights.get()};
+const SpatialAssembly::MeanAxes* SpatialAssembly::find_mean(const Anchor& place) const {
+  const auto found = std::find_if(means_.begin(), means_.end(), [&](const MeanAxes& mean) {
+    const Anchor& other = mean.place;
+    return other.body == place.body && other.nodes == place.nodes && other.factors == place.factors &&
+           other.weights == place.weights;
+  });
+  return found == means_.end() ? nullptr : &*found;
 }
 
 void SpatialAssembly::add_axes(WholeAxes& axes) {
@@ -43,9 +50,9 @@ void SpatialAssembly::add_corotated_axes() {
     axes_attitudes_.back().second->base = Eigen::Quaterniond(mesh_axes_at_start(plan_.bodies[b]).A).normalized();
   }
   const auto add = [&](const Anchor& place) {
-    if (!is_corotated_mean(place) || means_.contains(mean_of(place))) return;
+    if (!is_corotated_mean(place) || find_mean(place)) return;
     coordinates_.belongs_to("a place of body " + plan_.bodies[place.body].spec.name);
-    add_axes(means_.emplace(mean_of(place), std::pair(place, WholeAxes{})).first->second.second);
+    add_axes(means_.emplace_back(MeanAxes{place, {}}).axes);
     axes_attitudes_.back().second->base = Eigen::Quaterniond(plan_.bodies[place.body].attitude).normalized();
   };
   for (const auto& joint : plan_.joints)
@@ -118,8 +125,8 @@ void SpatialAssembly::start_corotated_axes(Model& model) {
                    axes, 6, [&](int body) { return corotated_masses(body); },
                    [&, &whole = axes](int body) { return constrained_places(whole, body); }),
                model);
-  for (const auto& [key, mean] : means_)
-    start_axes(mean.first.body, mean.second, owner_ ? rows_of_mean(mean.second, mean.first) : AxesTerms{}, model);
+  for (const auto& [place, axes] : means_)
+    start_axes(place.body, axes, owner_ ? rows_of_mean(axes, place) : AxesTerms{}, model);
 }
 
 }  // namespace floe::assembly

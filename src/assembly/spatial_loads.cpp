@@ -21,10 +21,10 @@ SpatialMarker SpatialAssembly::marker(const Anchor& place) {
   SpatialMarker at;
   if (slot.corotated && !owner_) return SpatialMarker::ground(Eigen::Vector3d::Zero());
   if (slot.corotated) {
-    const auto mean = means_.find(mean_of(place));
-    if (mean == means_.end()) return corotated_parts(place).front().first;
-    at.coordinates = mean->second.second.f.coordinates();
-    at.attitude = mean->second.second.f.attitude;
+    const MeanAxes* mean = find_mean(place);
+    if (!mean) return corotated_parts(place).front().first;
+    at.coordinates = mean->axes.f.coordinates();
+    at.attitude = mean->axes.f.attitude;
     return at;
   }
   at.attitude = slot.attitude;

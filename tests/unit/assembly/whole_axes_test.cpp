@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "building.h"
 #include "floe/error.h"
 
 using namespace floe;
@@ -54,4 +55,21 @@ TEST_CASE("axes that no place satisfies are an error that names the body") {
   Following axes(2);
   CHECK_THROWS_AS(axes.place(), RunError);
   CHECK_THROWS_WITH(axes.place(), Catch::Contains("the axes of body arm were not found within 20 iterations"));
+}
+
+TEST_CASE("axes of places of several nodes are unknowns in the order in which the scene names the places") {
+  const assembly::Model model = testing::built(R"yaml(
+bodies:
+  strip:
+    mesh: {plate: {along: [1, 0, 0], across: [0, 0.2, 0], elements: [3, 2]}}
+    section: {thickness: 0.01}
+    material: {E: 2e9, nu: 0.3, rho: 1000}
+probes:
+  a: {at: strip.right, quantity: rotation}
+  b: {at: strip.left, quantity: rotation}
+motion: {end: 0.1, step: 1e-2}
+)yaml",
+                                               scene::Formulation::cfr);
+  REQUIRE(model.joints.size() == 2);
+  CHECK(model.joints[0].first < model.joints[1].first);
 }
