@@ -195,6 +195,18 @@ void check_target(const std::filesystem::path& target, const std::filesystem::pa
   if (!overwrite) throw InputError(name + ": exists; expected another name, or --force");
 }
 
+namespace {
+
+std::vector<std::string> made_rigid(const scene::Scene& selected, const scene::Scene& scene) {
+  std::vector<std::string> names;
+  for (const scene::Body& body : selected.bodies)
+    for (const scene::Body& other : scene.bodies)
+      if (other.name == body.name && body.rigid && !other.rigid) names.push_back(body.name);
+  return names;
+}
+
+}  // namespace
+
 void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Comm comm,
                 const output::ResultFolder& folder, const std::optional<std::string>& explicit_scene, bool overwrite) {
   std::vector<std::string> written;
@@ -209,6 +221,7 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     plan.measured = true;
     plan.estimate = chosen.total;
     if (chosen.total) plan.required = chosen.asked;
+    plan.made_rigid = made_rigid(chosen.scene, scene);
     plan.budget = !chosen.candidates->has_responses(chosen.selection);  // no scene on another mesh names them
     plan.offline_processor = chosen.building;
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);

@@ -116,7 +116,7 @@ void put_largest(const assess::FinishedMotion& motion, const assess::ErrorPart* 
                                         parts[largest], probe, math::percent(error), math::percent(limit), what));
 }
 
-/// Rigid bodies have no error but that of the step.
+/// Rigid bodies have no error but that of the step, unless a selection made them rigid.
 bool all_rigid(const scene::Scene& scene) {
   return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const scene::Body& body) { return body.rigid; });
 }
@@ -127,10 +127,18 @@ output::Cell marked(const output::Cell& cell) {
                                               : std::get<std::string>(cell) + " *";
 }
 
+/// Whether a probe's total lacks a part, or the errors of bodies that became rigid.
+bool lacks_some(const ordered_json& total, const std::string& probe) {
+  return total.contains("made_rigid") || (total.contains("missing") && total["missing"].contains(probe));
+}
+
 /// `* without the model error: inner` of each part.
 std::string missing_words(const ordered_json& total) {
-  if (!total.contains("missing")) return "";
   std::string words;
+  if (total.contains("made_rigid"))
+    words = fmt::format("* total without the deformation of bodies that the selection made rigid: {}\n",
+                        fmt::join(total["made_rigid"].get<std::vector<std::string>>(), ", "));
+  if (!total.contains("missing")) return words;
   for (const char* part : parts) {
     std::vector<std::string> probes;
     for (const auto& [probe, lacks] : total["missing"].items())
@@ -162,7 +170,8 @@ output::Cell cell_of(const ordered_json& part, const std::string& probe) {
 }  // namespace
 
 ordered_json error_budget(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
-                          const std::string& no_model, RunResult& result, std::optional<double> required) {
+                          const std::string& no_model, RunResult& result, std::optional<double> required,
+                          const std::vector<std::string>& made_rigid) {
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
@@ -194,9 +203,10 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   if (!within) put_largest(motion, all, j, result);
   put_probes(total, motion.model, j["total"]);
   j["total"]["parts"] = names;
+  if (!made_rigid.empty()) j["total"]["made_rigid"] = made_rigid;
   for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
     ordered_json lacks = ordered_json::array();
-    for (int i = all_rigid(motion.scene) ? 3 : 0; i < count; ++i)
+    for (int i = all_rigid(motion.scene) && made_rigid.empty() ? 3 : 0; i < count; ++i)
       if (!all[i]->none.empty() || std::isnan(all[i]->probes[p])) lacks.push_back(parts[i]);
     if (!lacks.empty()) j["total"]["missing"][motion.model.probes[p].name] = lacks;
   }
@@ -221,7 +231,8 @@ std::string budget_line(const ordered_json& estimate) {
     const bool known = part.is_object() && part.contains("probes") && part["probes"].contains(worst);
     all.push_back(fmt::format("{} {}", name, known ? words(part["probes"][worst]) : "not known"));
   }
-  return fmt::format("total {}: {}", words(total["probes"][worst]), fmt::join(all, ", "));
+  return fmt::format("{} {}: {}", lacks_some(total, worst) ? "total of the known parts" : "total",
+                     words(total["probes"][worst]), fmt::join(all, ", "));
 }
 
 std::string budget_words(const ordered_json& estimate, double end) {
@@ -235,11 +246,10 @@ std::string budget_words(const ordered_json& estimate, double end) {
   if (has_total)
     for (const auto& [probe, error] : estimate["total"]["probes"].items()) {
       const output::Cell total = cell_of(estimate["total"], probe);
-      const bool lacks = estimate["total"].contains("missing") && estimate["total"]["missing"].contains(probe);
       std::vector<output::Cell>& row = table.rows.emplace_back(1, probe);
       for (const char* name : parts)
         if (has_part(estimate, name)) row.push_back(cell_of(part_in(estimate, name), probe));
-      row.push_back(lacks ? marked(total) : total);
+      row.push_back(lacks_some(estimate["total"], probe) ? marked(total) : total);
     }
   std::string words = has_total ? "\n" + output::to_text(table) + missing_words(estimate["total"]) : "";
   for (const char* name : {"model", "mesh", "step"}) {

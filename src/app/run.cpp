@@ -230,7 +230,7 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
       if (start)
         budget = error_budget({scene, model, *start, how, report.steps, report.processor_seconds,
                                plan.offline_processor.value_or(offline_seconds), comm},
-                              kept, plan.no_model, result, plan.required);
+                              kept, plan.no_model, result, plan.required, plan.made_rigid);
     }
   } catch (const std::exception& error) {  // of this rank alone: the others cannot help to say so
     recorder.conclude_alone(error.what());

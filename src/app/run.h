@@ -44,6 +44,7 @@ struct RunPlan {
   bool estimate = false;                         ///< of the error, of reduced formulations (assess::estimate_error)
   bool budget = true;                            ///< with the estimate: all parts of the error (error_budget.h)
   std::optional<double> required = {};           ///< total error that the model was selected for
+  std::vector<std::string> made_rigid = {};      ///< bodies that the selection made rigid
   std::string no_model = {};                     ///< why the error of the model is not to be estimated
   std::optional<double> estimate_seconds = {};   ///< that it may take; else a tenth of all the rest
   bool check_range = true;                       ///< assess::out_of_range

@@ -73,3 +73,27 @@ TEST_CASE("run with a total accuracy: the selected model is as close to geometri
   CHECK(app::worst_error(series, exact(Formulation::cfr, 48)) < 0.02);
   CHECK_THAT(said, Contains("error before") && Contains("error after"));
 }
+
+TEST_CASE("run with a total accuracy: the total of bodies that became rigid is marked") {
+  const OwnFolder own;
+  const std::string said = printed([&] {
+    app::run_chosen(scene::parse_scene(R"yaml(
+bodies:
+  arm:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {EA: 1e9, EI: 1e7, rhoA: 1}
+    reduction: {modes: 2}
+joints: {hinge: {type: revolute, between: [ground, arm.start]}}
+gravity: [0, -9.81]
+motion: {end: 0.1, step: 1e-3}
+probes: {tip: {at: arm.end, quantity: position}}
+)yaml",
+                                       "scene.yaml"),
+                    {0.05, true}, PETSC_COMM_WORLD, own.results("rigid"), std::nullopt, false);
+  });
+  CHECK_THAT(said, Contains(" *\n* total without the deformation of bodies that the selection made rigid: arm\n"));
+  CHECK_THAT(said, Contains("total of the known parts"));
+  const auto total = nlohmann::json::parse(contents(own.path / "rigid/summary.json"))["estimate"]["total"];
+  CHECK(total["missing"]["tip"].dump() == R"(["reduction","model","mesh"])");
+  CHECK(total["made_rigid"].dump() == R"(["arm"])");
+}

@@ -58,6 +58,18 @@ TEST_CASE("error budget: the table has a row for each probe, marks totals that l
              Contains("mesh: twice the elements, to t = 0.25 s (computed in 0.5 s)\nNote (mesh error): a note\n"));
   j["total"]["missing"] = {{"end", {"step"}}};
   CHECK_THAT(budget_words(j, 1), Contains("* total without the step error: end\n"));
+  CHECK_THAT(budget_line(j), Contains("total 10 %: "));  // of tip
+  j["total"]["missing"]["tip"] = {"model"};
+  CHECK_THAT(budget_line(j), Contains("total of the known parts 10 %: "));
+}
+
+TEST_CASE("error budget: totals lack the deformation of bodies that the selection made rigid") {
+  ordered_json j = whole();
+  j["total"]["made_rigid"] = {"arm", "rod"};
+  const std::string words = budget_words(j, 1);
+  CHECK_THAT(words, Contains("10 *") && Contains("3.3 *"));
+  CHECK_THAT(words, Contains("* total without the deformation of bodies that the selection made rigid: arm, rod\n"));
+  CHECK_THAT(budget_line(j), Contains("total of the known parts 10 %: "));
 }
 
 TEST_CASE("error budget: errors that are no finite numbers, and parts that are not known, in the table") {
