@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # make bench-offline: times the offline stage and writes docs/benchmarks/offline.md and offline.png.
 # The comparison with CalculiX needs ccx (packages_benchmark.txt); it is left out where that is missing.
-# Sooner done, without the large plates: makefiles/bench_offline.sh build --small
+# Without the large plates it takes less time: makefiles/bench_offline.sh build --small
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source makefiles/mpi_environment.sh

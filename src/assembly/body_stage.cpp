@@ -179,12 +179,12 @@ void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>
       for (const std::string& label : labels[b]) all.push_back(label_of_piece(plan.bodies[b].spec, label));
   }
   std::vector<std::string> faults;
-  std::set<std::pair<int, int>> told;  // lines and columns: copies of a body have those of the original
+  std::set<std::pair<int, int>> reported;  // lines and columns: copies of a body have those of the original
   for (std::size_t b = 0; b < labels.size(); ++b) {
     const ReductionSpec& spec = plan.bodies[b].spec.reduction;
     const std::pair<int, int> line{spec.columns_where.line, spec.columns_where.column};
     const std::string name = whole_name(plan.bodies[b].spec);
-    if (labels[b].empty() || (b > 0 && name == whole_name(plan.bodies[b - 1].spec)) || told.count(line)) continue;
+    if (labels[b].empty() || (b > 0 && name == whole_name(plan.bodies[b - 1].spec)) || reported.count(line)) continue;
     const std::vector<std::string>& all = known[name];
     for (const std::string& label : spec.columns) {
       if (std::find(all.begin(), all.end(), label) != all.end()) continue;
@@ -192,7 +192,7 @@ void refuse_unknown(const Plan& plan, const std::vector<std::vector<std::string>
       faults.push_back(fmt::format(
           "{}: body {} has no basis vector \"{}\"; expected one that `floe run` lists in summary.json{}",
           spec.columns_where.text(), name, label, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-      told.insert(line);
+      reported.insert(line);
     }
   }
   if (!faults.empty()) throw InputError(faults);

@@ -74,9 +74,9 @@ std::vector<Eigen::MatrixXd> interactions(const Plan& plan, const std::vector<Re
 void refuse_meshless(const Scene& scene, Formulation formulation) {
   if (is_reduced(formulation) || formulation == Formulation::lffr) return;
   std::vector<std::string> faults;
-  std::set<std::pair<int, int>> told;  // lines and columns: copies of a body have those of the original
+  std::set<std::pair<int, int>> reported;  // lines and columns: copies of a body have those of the original
   for (const Body& body : scene.bodies)
-    if (body.reduced && told.emplace(body.reduced->where.line, body.reduced->where.column).second)
+    if (body.reduced && reported.emplace(body.reduced->where.line, body.reduced->where.column).second)
       faults.push_back(fmt::format("{}: has no mesh, but formulation {} needs one; expected vm+md, vm or lffr",
                                    body.reduced->where.text(), name_of(formulation)));
   if (!faults.empty()) throw InputError(faults);

@@ -39,8 +39,8 @@ void rank_pairs(const PlannedBody& body, Stage& stage, const Eigen::MatrixXd& in
   }
 }
 
-/// Whether the ground holds more than the rigid motions, so that bending has to stretch the body. In space one clamped
-/// edge holds many dofs and lets the rest of the body follow: there two joints, on nodes of their own.
+/// Whether more than the rigid motions is constrained to the ground, so that bending has to stretch the body. In space
+/// one clamped edge holds many dofs and lets the rest of the body follow: there two joints, on nodes of their own.
 bool constrained_lengthwise(const Plan& plan, int index) {
   const PlannedBody& body = plan.bodies[index];
   if (body.structure.dimension() == 2) return body.constrained.size() > 3;

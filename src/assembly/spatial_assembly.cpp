@@ -158,7 +158,7 @@ void SpatialAssembly::add_frame(int b) {
 }
 
 void SpatialAssembly::add_coordinates() {
-  find_held_nodes();
+  find_constrained_nodes();
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
     Slot& slot = slots_[b];

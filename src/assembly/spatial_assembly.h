@@ -17,8 +17,8 @@ namespace floe::assembly {
 
 /// Turns planned bodies in space into coordinates, terms, joints and a state at the start.
 ///
-/// A body whose frame the ground clamps stands still: it has elastic coordinates only, and what the ground holds is
-/// left out of them. Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's
+/// A body whose frame is clamped to the ground has elastic coordinates only, without the dofs that are constrained to
+/// the ground. Reduced systems are built on PETSC_COMM_SELF by every rank alike; full-order ones on the scene's
 /// communicator, where the last rank holds what is shared.
 class SpatialAssembly {
  public:
@@ -51,7 +51,7 @@ class SpatialAssembly {
   void refuse() const;
   bool compact(int body) const;    // described by a ReducedBody
   bool corotated(int body) const;  // a CorotationalBody
-  bool stands(int joint) const;    // the ground holds a body that stands still there: nothing is left to do
+  bool stands(int joint) const;    // it fixes a fixed-frame body to the ground: nothing is left to do
   const fem::Conditions& constrained(int body) const;
   int owner_of_frame(std::size_t body) const;  // itself, or the body whose frame it has
   std::vector<PetscInt> visited(int body) const;
@@ -61,14 +61,14 @@ class SpatialAssembly {
   reference::SpatialFrame frame_of(int body) const;
 
   std::vector<std::vector<PetscInt>> clamped_edges(int body) const;
-  /// Of joints that hold nodes of a corotational body one by one: supports, and clamps of edges until they are
+  /// Of joints that constrain nodes of a corotational body one by one: supports, and clamps of edges until they are
   /// released. Which dofs, in the axes of the mesh.
-  struct HeldNode {
+  struct ConstrainedNode {
     PetscInt node;
     std::vector<int> dofs;
   };
-  void find_held_nodes();
-  std::vector<PlacedJoint> place_held_nodes(int joint);
+  void find_constrained_nodes();
+  std::vector<PlacedJoint> place_constrained_nodes(int joint);
   void add_corotated(int body);
   void add_corotated_pressure(const Load& load, int body, const fem::Mesh::Cell& cell);
 
@@ -155,14 +155,14 @@ class SpatialAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
-  std::map<int, std::vector<HeldNode>> held_nodes_;  // of joints
-  std::map<int, WholeAxes> body_axes_;               // of corotational bodies, in the axes of their meshes
-  std::vector<MeanAxes> means_;                      // of corotational bodies, in the axes of their frames
-  dynamics::Attitudes axes_attitudes_;               // of all these
-  std::vector<int> multipliers_;                     // of each joint, the first
-  std::vector<PlacedJoint> placed_;                  // every joint
-  std::map<std::pair<int, PetscInt>, int> uses_;     // of a body's node, by rows of joints
-  Eigen::VectorXd start_;                            // local coordinates at the start
+  std::map<int, std::vector<ConstrainedNode>> constrained_nodes_;  // of joints
+  std::map<int, WholeAxes> body_axes_;            // of corotational bodies, in the axes of their meshes
+  std::vector<MeanAxes> means_;                   // of corotational bodies, in the axes of their frames
+  dynamics::Attitudes axes_attitudes_;            // of all these
+  std::vector<int> multipliers_;                  // of each joint, the first
+  std::vector<PlacedJoint> placed_;               // every joint
+  std::map<std::pair<int, PetscInt>, int> uses_;  // of a body's node, by rows of joints
+  Eigen::VectorXd start_;                         // local coordinates at the start
   std::vector<std::unique_ptr<dynamics::Term>> terms_;
   std::vector<std::shared_ptr<const reference::SpatialElements>> elements_;  // that are apart
   std::vector<std::vector<const dynamics::Term*>> body_terms_;               // of each body, among terms_

@@ -21,7 +21,7 @@ using Pieces = std::vector<std::vector<PetscInt>>;
 namespace {
 
 /// A node may move a place by its rotation alone: in the middle of an edge under an odd load.
-bool leads(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
+bool has_weight(const AveragingWeight& weight) { return weight.share != 0 || !weight.arm.isZero(0); }
 
 /// a of an averaging weight's arm, which maps theta to theta x a in the plane of a shell.
 Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -weight.arm(0, 2), -weight.arm(1, 0)}; }
@@ -29,14 +29,14 @@ Vector3d arm_of(const AveragingWeight& weight) { return {-weight.arm(2, 1), -wei
 bool in(const std::vector<PetscInt>& piece, const Anchor& place) {
   return std::all_of(place.averaging_weights.begin(), place.averaging_weights.end(),
                      [&](const AveragingWeight& weight) {
-                       return !leads(weight) || std::binary_search(piece.begin(), piece.end(), weight.node);
+                       return !has_weight(weight) || std::binary_search(piece.begin(), piece.end(), weight.node);
                      });
 }
 
 /// Whether the place is the mean of nodes that move by themselves.
 bool is_mean(const Anchor& place, const Pieces& pieces) {
   return place.nodes.size() > 1 && !place.line &&
-         std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), leads) > 1 &&
+         std::count_if(place.averaging_weights.begin(), place.averaging_weights.end(), has_weight) > 1 &&
          std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) { return in(piece, place); });
 }
 
@@ -51,11 +51,11 @@ std::vector<std::vector<PetscInt>> SpatialAssembly::clamped_edges(int b) const {
     if (!place || place->body != b || !plan_.joint_constrained[j] || !clamps(joint)) continue;
     if (is_unlocked(plan_.scene, joint.name)) continue;  // its edge deforms when it is free
     if (place->nodes.size() < 2 ||
-        std::count_if(place->averaging_weights.begin(), place->averaging_weights.end(), leads) < 2)
+        std::count_if(place->averaging_weights.begin(), place->averaging_weights.end(), has_weight) < 2)
       continue;
     std::vector<PetscInt> piece;
     for (const AveragingWeight& weight : place->averaging_weights)
-      if (leads(weight)) piece.push_back(weight.node);
+      if (has_weight(weight)) piece.push_back(weight.node);
     std::sort(piece.begin(), piece.end());
     for (std::size_t p = 0; p < pieces.size();) {
       std::vector<PetscInt> both;
@@ -77,9 +77,9 @@ bool SpatialAssembly::is_corotated_mean(const Anchor& place) const {
          is_mean(place, clamped_edges(place.body));
 }
 
-void SpatialAssembly::find_held_nodes() {
+void SpatialAssembly::find_constrained_nodes() {
   if (formulation_ != Formulation::cfr) return;
-  std::set<std::array<PetscInt, 3>> held;  // each dof once: edges may have nodes in common
+  std::set<std::array<PetscInt, 3>> constrained;  // each dof once: edges may have nodes in common
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
     const Anchor* place = constrained_place(plan_, j);
@@ -89,34 +89,34 @@ void SpatialAssembly::find_held_nodes() {
     for (const Probe& probe : plan_.scene.probes)
       if (probe.joint == joint.name && probe.quantity != Probe::Quantity::force)
         throw InputError(
-            fmt::format("{}: measures joint {}, which in formulation cfr holds each node of its edge until "
+            fmt::format("{}: measures joint {}, which in formulation cfr constrains each node of its edge until "
                         "an event releases it; expected quantity: force, or a place of one node",
                         probe.where.text(), joint.name));
-    std::vector<HeldNode>& nodes = held_nodes_[static_cast<int>(j)];
+    std::vector<ConstrainedNode>& nodes = constrained_nodes_[static_cast<int>(j)];
     const Pieces pieces = clamped_edges(place->body);
     for (const AveragingWeight& weight : place->averaging_weights) {
       const bool clamped = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
         return std::binary_search(piece.begin(), piece.end(), weight.node);
       });
-      if (!leads(weight) || clamped) continue;
-      HeldNode one{weight.node, {}};
+      if (!has_weight(weight) || clamped) continue;
+      ConstrainedNode one{weight.node, {}};
       for (int dof = 0; dof < 6; ++dof)
-        if ((released || joint.hold[dof]) && held.insert({place->body, weight.node, dof}).second)
+        if ((released || joint.hold[dof]) && constrained.insert({place->body, weight.node, dof}).second)
           one.dofs.push_back(dof);
       if (!one.dofs.empty()) nodes.push_back(std::move(one));
     }
   }
 }
 
-/// A component of the displacement along the held body's axes at the start; the rotation about such an axis by the two
-/// others: y of the other place stays normal to x of the node, and so on.
-std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_held_nodes(int j) {
-  const Anchor& held = *constrained_place(plan_, j);
-  const bool first = &held == &plan_.joints[j][0];
-  const PlannedBody& body = plan_.bodies[held.body];
+/// A component of the displacement along the constrained body's axes at the start; the rotation about such an axis by
+/// the two others: y of the other place stays normal to x of the node, and so on.
+std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_constrained_nodes(int j) {
+  const Anchor& place = *constrained_place(plan_, j);
+  const bool first = &place == &plan_.joints[j][0];
+  const PlannedBody& body = plan_.bodies[place.body];
   const Eigen::Matrix3d W = body.attitude * body.axes.transpose();
   std::vector<PlacedJoint> all;
-  for (const HeldNode& one : held_nodes_.at(j)) {
+  for (const ConstrainedNode& one : constrained_nodes_.at(j)) {
     PlacedJoint piece;
     for (const int dof : one.dofs)
       if (dof < 3)
@@ -124,7 +124,8 @@ std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_held_nodes(int 
       else
         piece.constraint.rows.push_back(dynamics::Product{(dof + 2) % 3, (dof + 1) % 3});
     if (owner_) {
-      SpatialMarker node = slots_[held.body].corotated->place(one.node), other = marker(plan_.joints[j][first ? 1 : 0]);
+      SpatialMarker node = slots_[place.body].corotated->place(one.node),
+                    other = marker(plan_.joints[j][first ? 1 : 0]);
       if (std::isnan(other.x0.x())) other.x0.setZero();  // the ground
       const dynamics::SpatialPose at = start_of(node), from = start_of(other);
       other.x0 += from.A.transpose() * (at.p - from.p);
@@ -155,7 +156,7 @@ std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(c
   int piece = -1;
   bool one = place.nodes.size() > 1;
   for (const AveragingWeight& weight : place.averaging_weights) {
-    if (!leads(weight)) continue;
+    if (!has_weight(weight)) continue;
     const int other = body.piece_of(weight.node);
     one = one && other >= 0 && (parts.empty() || other == piece);
     piece = other;

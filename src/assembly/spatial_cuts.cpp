@@ -26,9 +26,9 @@ SpatialConstraint vanishing_forces() { return {{Along{0}, Along{1}, Along{2}}}; 
 
 int SpatialAssembly::row_count(int j) const {
   if (stands(j)) return 0;
-  if (const auto held = held_nodes_.find(j); held != held_nodes_.end())
-    return std::accumulate(held->second.begin(), held->second.end(), 0,
-                           [](int sum, const HeldNode& one) { return sum + static_cast<int>(one.dofs.size()); });
+  if (const auto found = constrained_nodes_.find(j); found != constrained_nodes_.end())
+    return std::accumulate(found->second.begin(), found->second.end(), 0,
+                           [](int sum, const ConstrainedNode& one) { return sum + static_cast<int>(one.dofs.size()); });
   const Interface& cut = interface_of(plan_, j);
   if (cut.empty()) return spatial_rows(plan_.scene.joints[j].kind);
   return 6 * static_cast<int>(is_reduced(formulation_) ? cut.factors.cols() : std::ssize(cut.pairs));
@@ -47,8 +47,8 @@ void SpatialAssembly::count_uses() {
 }
 
 bool SpatialAssembly::stands_apart(int j, std::size_t piece) const {
-  if (const auto held = held_nodes_.find(j); held != held_nodes_.end())
-    return uses_.at({constrained_place(plan_, j)->body, held->second[piece].node}) == 1;
+  if (const auto found = constrained_nodes_.find(j); found != constrained_nodes_.end())
+    return uses_.at({constrained_place(plan_, j)->body, found->second[piece].node}) == 1;
   const Interface& cut = interface_of(plan_, j);
   if (cut.empty() || is_reduced(formulation_)) return false;
   const auto free = [&](const Anchor& node) {
@@ -62,7 +62,7 @@ bool SpatialAssembly::stands_apart(int j, std::size_t piece) const {
 
 std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_all(int j) {
   const Interface& cut = interface_of(plan_, j);
-  if (held_nodes_.contains(j)) return place_held_nodes(j);
+  if (constrained_nodes_.contains(j)) return place_constrained_nodes(j);
   std::vector<PlacedJoint> all;
   if (cut.empty() || is_reduced(formulation_)) all.push_back(place(j, plan_.joints[j]));
   if (cut.empty()) return all;

@@ -184,7 +184,7 @@ void SpatialAssembly::add_stops(int j, const PlacedJoint& placed, std::vector<Mo
 void SpatialAssembly::refuse_loose_supports() const {
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
     const Joint& joint = plan_.scene.joints[j];
-    if (joint.kind != Kind::support || held_nodes_.contains(static_cast<int>(j)) || stands(static_cast<int>(j)))
+    if (joint.kind != Kind::support || constrained_nodes_.contains(static_cast<int>(j)) || stands(static_cast<int>(j)))
       continue;
     const Anchor& place = plan_.joints[j][joint.first.ground() ? 1 : 0];
     throw InputError(
@@ -231,7 +231,7 @@ void SpatialAssembly::add_joints(Model& model) {
     const std::vector<std::vector<int>> independent = rows.independent(notes, undetermined_);
     std::size_t next = 0;
     for (const int j : all)
-      if (placed_[j].constraint.rows.empty() && !held_nodes_.contains(j)) add_spring(j, placed_[j]);
+      if (placed_[j].constraint.rows.empty() && !constrained_nodes_.contains(j)) add_spring(j, placed_[j]);
     for (const Piece& piece : pieces) {
       std::vector<int> every(piece.placed.constraint.rows.size());
       std::iota(every.begin(), every.end(), 0);

@@ -18,10 +18,10 @@ using namespace plan;
 ///   0,  (t, w) in the rest
 ///
 /// with d the motion of a dof from f. f has three unknowns in the plane and six in space, and as many multipliers;
-/// none where the ground holds the body altogether.
+/// none where the body is fixed to the ground.
 struct WholeAxes {
   std::vector<int> bodies;  ///< of the plan
-  bool fixed = false;       ///< the ground holds it: f is the ground
+  bool fixed = false;       ///< to the ground: f is the ground
   dynamics::MovingAxes f;
   int multipliers = -1;  ///< local index of the first: of `seen`, then of `free`
   double length = 1;
@@ -52,7 +52,7 @@ struct CarriedMass {
   Eigen::Matrix3d A0;  ///< axes of the undeformed part, in mesh axes
 };
 
-/// A place of a part, dofs of which a joint holds.
+/// A place of a part, dofs of which a joint constrains.
 struct ConstrainedPlace {
   dynamics::MovingAxes axes;
   std::vector<int> elastic;
@@ -70,8 +70,8 @@ Eigen::Vector3d undeformed_origin(const PlannedBody& body);
 /// The rows of f, a term for each part.
 using AxesTerms = std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>;
 
-/// The rows of f that the masses and the constrained places of all bodies add to; none where the ground holds the
-/// whole. They are zero where f has moved with the undeformed body.
+/// The rows of f that the masses and the constrained places of all bodies add to; none where the whole is
+/// fixed to the ground. They are zero where f has moved with the undeformed body.
 /// @param masses  adds the dampers of a body's masses to the model, and returns the masses
 /// @param places  of a body
 AxesTerms conditions(const WholeAxes& whole, int dofs_per_node,

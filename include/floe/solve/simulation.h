@@ -18,7 +18,7 @@ struct Integration {
   std::string prefix = "motion_";
   double newton_tolerance = 0;     ///< of Newton's updates, relative to a step's increment, where the usual one is less
   std::vector<Event> events = {};  ///< those that do not repeat happen once, in the order of their times
-  std::function<void(const EventReport&)> on_event = {};  ///< told of each that happens
+  std::function<void(const EventReport&)> on_event = {};  ///< called for each that happens
   std::vector<Kink> kinks = {};                           ///< ascending, none within another
   const MotionState* from = nullptr;  ///< a motion to be taken up again, of the same system with the same options
 };

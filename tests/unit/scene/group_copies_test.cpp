@@ -292,7 +292,7 @@ TEST_CASE("copies of groups: faults of values are reported once, at their own li
   CHECK_THAT(fault_of(with(plane, "[upper.end, fore.start]", "[upper.end, fore.stat]")),
              Catch::Contains("scene:12:48: joints.elbow.between[2]: fore has no place") &&
                  Catch::Contains("did you mean \"start\"?"));
-  // texts and columns of copies differ: the copies' faults are told once the originals are mended
+  // texts and columns of copies differ: the copies' faults are reported once the originals are mended
   const auto once = [](const std::string& text, const std::string& fault) {
     const std::string found = fault_of(text);
     CHECK_THAT(found, Catch::StartsWith(fault) && !Catch::Contains("two_") && !Catch::Contains("\n"));
