@@ -39,6 +39,11 @@ class PlanarAssembly {
   void add_damping(const DampedWhole& whole, Model& model);
   /// Dampers of a body's masses. Returns these where they say how the axes of the damping move.
   std::vector<CarriedMass> add_masses(const DampedWhole& whole, int body);
+  /// In the body's frame.
+  CarriedMass add_mass(const DampedWhole& whole, int body, const std::vector<int>& elastic,
+                       const body::Inertia& inertia);
+  CarriedMass add_element_mass(const DampedWhole& whole, int body, const fem::Mesh::Cell& cell);
+  void add_corotational_mass(const DampedWhole& whole, int body, const fem::Mesh::Cell& cell);
   std::vector<ConstrainedPlace> constrained_places(const WholeAxes& whole, int body);
   std::vector<CarriedMass> corotational_masses(int body) const;
   void add_axes(WholeAxes& axes);

@@ -110,58 +110,65 @@ std::vector<CarriedMass> PlanarAssembly::corotational_masses(int b) const {
   return all;
 }
 
-std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, int b) {
+CarriedMass PlanarAssembly::add_mass(const DampedWhole& whole, int b, const std::vector<int>& elastic,
+                                     const body::Inertia& inertia) {
   const PlannedBody& body = plan_.bodies[b];
-  const Slot& slot = slots_[b];
-  const Eigen::Matrix3d A0 = undeformed_axes(body);
-  const Eigen::Vector3d X0 = undeformed_origin(body);
+  const MovingAxes axes{slots_[b].frame, slots_[b].frame + 2};
+  std::vector<int> coordinates = axes.coordinates();
+  coordinates.insert(coordinates.end(), elastic.begin(), elastic.end());
+  terms_.push_back(std::make_unique<RelativeDamping>(
+      std::make_unique<dynamics::FloatingBody>(coordinates, body::planar(inertia), no_elasticity(inertia.S.cols())),
+      std::vector<MovingAxes>{axes}, whole.axes(), whole.alpha));
+  return {axes, elastic, inertia, undeformed_origin(body), undeformed_axes(body)};
+}
+
+CarriedMass PlanarAssembly::add_element_mass(const DampedWhole& whole, int b, const fem::Mesh::Cell& cell) {
+  const PlannedBody& body = plan_.bodies[b];
+  const fem::Structure& s = body.structure;
+  const std::vector<int> dofs = s.cell_dofs(cell);
+  std::vector<int> elastic;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t i = 0; i < dofs.size(); ++i) {
+    if (std::binary_search(body.frame.conditions.begin(), body.frame.conditions.end(), s.global_dof(dofs[i]))) continue;
+    kept.push_back(static_cast<Eigen::Index>(i));
+    elastic.push_back(slots_[b].nodes->of_local_node(dofs[i] / 3) + dofs[i] % 3);
+  }
+  const auto n = static_cast<Eigen::Index>(dofs.size());
+  return add_mass(whole, b, elastic, fem::inertia(s.maps(cell), Eigen::MatrixXd::Identity(n, n)(Eigen::all, kept)));
+}
+
+void PlanarAssembly::add_corotational_mass(const DampedWhole& whole, int b, const fem::Mesh::Cell& cell) {
+  const PlannedBody& body = plan_.bodies[b];
+  const fem::Structure& s = body.structure;
+  const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
+  const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]};
+  std::vector<MovingAxes> nodes;
+  std::vector<int> coordinates;
+  for (const int i : {0, 1}) {
+    nodes.push_back(node_axes(b, slots_[b].nodes->of_local_node(cell.nodes()[i]), ends[i]));
+    for (int coordinate : nodes.back().coordinates()) coordinates.push_back(coordinate);
+  }
+  terms_.push_back(std::make_unique<RelativeDamping>(
+      std::make_unique<reference::CorotationalBeamMass>(
+          coordinates, undeformed_place(body, ends[0]), undeformed_place(body, ends[1]),
+          reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, 0, section.GA}),
+      nodes, whole.axes(), whole.alpha));
+}
+
+std::vector<CarriedMass> PlanarAssembly::add_masses(const DampedWhole& whole, int b) {
   std::vector<CarriedMass> all;
-  const auto add = [&](const std::vector<int>& elastic, const body::Inertia& inertia) {
-    const MovingAxes axes{slot.frame, slot.frame + 2};
-    std::vector<int> coordinates = axes.coordinates();
-    coordinates.insert(coordinates.end(), elastic.begin(), elastic.end());
-    terms_.push_back(std::make_unique<RelativeDamping>(
-        std::make_unique<dynamics::FloatingBody>(coordinates, body::planar(inertia), no_elasticity(inertia.S.cols())),
-        std::vector<MovingAxes>{axes}, whole.axes(), whole.alpha));
-    all.push_back({axes, elastic, inertia, X0, A0});
-  };
   if (compact(b)) {
-    std::vector<int> elastic;
-    for (int i = 0; i < reduced_[b].body.coordinates(); ++i) elastic.push_back(slot.elastic + i);
-    if (owner_) add(elastic, reduced_[b].body.inertia);
+    std::vector<int> elastic(static_cast<std::size_t>(reduced_[b].body.coordinates()));
+    std::iota(elastic.begin(), elastic.end(), slots_[b].elastic);
+    if (owner_) all.push_back(add_mass(whole, b, elastic, reduced_[b].body.inertia));
     return all;
   }
-  const fem::Structure& s = body.structure;
-  for (const auto& cell : s.mesh.cells) {
-    if (formulation_ != Formulation::cfr) {
-      const std::vector<int> dofs = s.cell_dofs(cell);
-      std::vector<int> elastic;
-      std::vector<Eigen::Index> kept;
-      for (std::size_t i = 0; i < dofs.size(); ++i) {
-        if (std::binary_search(body.frame.conditions.begin(), body.frame.conditions.end(), s.global_dof(dofs[i])))
-          continue;
-        kept.push_back(static_cast<Eigen::Index>(i));
-        elastic.push_back(slot.nodes->of_local_node(dofs[i] / 3) + dofs[i] % 3);
-      }
-      const auto n = static_cast<Eigen::Index>(dofs.size());
-      add(elastic, fem::inertia(s.maps(cell), Eigen::MatrixXd::Identity(n, n)(Eigen::all, kept)));
-      continue;
-    }
-    const auto& section = std::get<fem::BeamSection>(s.sections[cell.part]);
-    const Eigen::Vector3d ends[2] = {s.mesh.positions[cell.place[0]], s.mesh.positions[cell.place[1]]};
-    std::vector<MovingAxes> nodes;
-    std::vector<int> coordinates;
-    for (const int i : {0, 1}) {
-      nodes.push_back(node_axes(b, slot.nodes->of_local_node(cell.nodes()[i]), ends[i]));
-      for (int coordinate : nodes.back().coordinates()) coordinates.push_back(coordinate);
-    }
-    terms_.push_back(std::make_unique<RelativeDamping>(
-        std::make_unique<reference::CorotationalBeamMass>(
-            coordinates, undeformed_place(body, ends[0]), undeformed_place(body, ends[1]),
-            reference::CorotationalBeam::Properties{section.EA, section.EI, section.rhoA, section.rhoI, 0, section.GA}),
-        nodes, whole.axes(), whole.alpha));
+  const auto& cells = plan_.bodies[b].structure.mesh.cells;
+  if (formulation_ == Formulation::cfr) {
+    for (const fem::Mesh::Cell& cell : cells) add_corotational_mass(whole, b, cell);
+    return corotational_masses(b);
   }
-  if (formulation_ == Formulation::cfr) return corotational_masses(b);
+  for (const fem::Mesh::Cell& cell : cells) all.push_back(add_element_mass(whole, b, cell));
   return all;
 }
 
