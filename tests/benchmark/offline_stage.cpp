@@ -2,18 +2,19 @@
 // costs bare: analysis, factorisation, 26 single solves and the blocked solves of the derivatives. One line of JSON.
 //   offline_stage -cells 96 (along; half as many across) -modes 10 -bare 1
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <string>
 
+#include "benchmark.h"
 #include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
 #include "floe/output/reduced_file.h"
-#include "floe/petsc/factorisation.h"
 #include "floe/reduction/reduce.h"
 
 using namespace floe;
+using benchmark::option;
+using benchmark::processor_seconds;
 using petsc::check;
 
 namespace {
@@ -22,18 +23,9 @@ struct Clock {
   double wall, cpu;
 };
 
-double processor_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-/// Greatest amount of memory so far, of all ranks together [bytes].
+/// Maximum amount of memory so far, of all ranks together [bytes].
 double memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  double sum = 1024.0 * double(usage.ru_maxrss);
+  double sum = benchmark::memory();
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
   return sum;
 }
@@ -65,11 +57,6 @@ class Report {
  private:
   std::string text_;
 };
-
-PetscInt option(const char* name, PetscInt value) {
-  check(PetscOptionsGetInt(nullptr, nullptr, name, &value, nullptr));
-  return value;
-}
 
 /// All dofs of the nodes at x = 0.
 fem::Conditions left_edge(const mesh::RawMesh& raw, const fem::Structure& structure) {
@@ -177,8 +164,8 @@ double energy(const body::FlexibleBody& body) {
 }
 
 void run() {
-  const PetscInt cells = option("-cells", 48);
-  const int modes = static_cast<int>(option("-modes", 10));
+  const PetscInt cells = option("-cells", PetscInt(48));
+  const int modes = static_cast<int>(option("-modes", PetscInt(10)));
   Report report;
   generate::Plate plate;
   plate.a = {2, 0, 0}, plate.b = {0, 1, 0};
@@ -220,23 +207,10 @@ void run() {
   report.note("residual", fmt::format("{:.3g}", generators.modes.residual.back()));
   report.note("energy", fmt::format("{:.14g}", energy(body)));
   note_messages(report);
-  if (option("-bare", 1)) bare(statics->stiffness(), 26, block, report);
+  if (option("-bare", PetscInt(1))) bare(statics->stiffness(), 26, block, report);
   report.print();
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
-  petsc::collect_errors();
-  petsc::prepare_mumps();
-  int code = 0;
-  try {
-    run();
-  } catch (const std::exception& error) {
-    PetscPrintf(PETSC_COMM_WORLD, "%s\n", error.what());
-    code = 1;
-  }
-  SlepcFinalize();
-  return code;
-}
+int main(int argc, char** argv) { return benchmark::execute(argc, argv, run); }

@@ -7,33 +7,27 @@
 
 #include <fmt/format.h>
 #include <petsc/private/pcbddcimpl.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "benchmark.h"
 #include "floe/fem/subdomains.h"
 #include "floe/generate/generate.h"
 #include "floe/mesh/partition.h"
-#include "floe/petsc/factorisation.h"
 #include "floe/petsc/stage.h"
 #include "floe/reduction/statics.h"
 
 using namespace floe;
+using benchmark::option;
+using benchmark::processor_seconds;
 using petsc::check;
 
 namespace {
 
 double waited = 0;  ///< processor seconds within MPI
 int depth = 0;
-
-double processor_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 template <class Call>
 int timed(Call&& call) {
@@ -113,22 +107,7 @@ double seconds(Work&& work) {
   return of_all(processor_seconds() - waited - start, MPI_SUM);
 }
 
-/// The maximum so far of this rank [MB].
-double memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1.024e-3 * double(usage.ru_maxrss);
-}
-
-PetscInt option(const char* name, PetscInt value) {
-  check(PetscOptionsGetInt(nullptr, nullptr, name, &value, nullptr));
-  return value;
-}
-
-double option(const char* name, double value) {
-  check(PetscOptionsGetReal(nullptr, nullptr, name, &value, nullptr));
-  return value;
-}
+double megabytes() { return 1e-6 * benchmark::memory(); }
 
 /// A cantilever, clamped at x = 0; curved: a quarter of a cylinder.
 fem::Structure structure_of(PetscInt cells, double thickness, bool curved) {
@@ -183,7 +162,7 @@ void run() {
   const fem::ReferenceFrame frame = fem::reference_frame(structure, fem::ReferenceFrame::Kind::clamped, clamp, clamp);
   const petsc::VecHandle f = load(structure, conditions), u = fem::field(structure);
   const int times = static_cast<int>(option("-solves", PetscInt(2)));
-  const double before = memory();
+  const double before = megabytes();
   int size = 1;
   MPI_Comm_size(PETSC_COMM_WORLD, &size);
   petsc::MatHandle K;
@@ -219,7 +198,7 @@ void run() {
     check(MatSetRandom(B, nullptr));
     block = seconds([&] { check(KSPMatSolve(ksp, B, X)); }) / 55;
   }
-  const double most = of_all(memory() - before, MPI_MAX), sum = of_all(memory() - before, MPI_SUM);
+  const double most = of_all(megabytes() - before, MPI_MAX), sum = of_all(megabytes() - before, MPI_SUM);
   check(PetscPrintf(PETSC_COMM_WORLD,
                     "{\"dofs\": %d, \"ranks\": %d, \"iterations\": %d, \"reason\": \"%s\", \"coarse\": %d, \"setup\": "
                     "%.4f, \"solve\": %.5f, \"block\": %.5f, \"memory\": [%.1f, %.1f], \"deflection\": %.12g}\n",
@@ -229,17 +208,4 @@ void run() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  check(SlepcInitialize(&argc, &argv, nullptr, nullptr));
-  petsc::collect_errors();
-  petsc::prepare_mumps();
-  int code = 0;
-  try {
-    run();
-  } catch (const std::exception& error) {
-    PetscPrintf(PETSC_COMM_WORLD, "%s\n", error.what());
-    code = 1;
-  }
-  SlepcFinalize();
-  return code;
-}
+int main(int argc, char** argv) { return benchmark::execute(argc, argv, run); }
