@@ -1,16 +1,8 @@
 #include "../../../src/app/arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <catch2/catch.hpp>
 
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using testing::columns_of;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

@@ -1,18 +1,11 @@
 #include "../../../src/app/campbell.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "../../../src/app/campbell_tracks.h"
-#include "printed.h"
+#include "command_tests.h"
 
-using namespace floe;
 using namespace floe::app;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
 
 namespace {
 

@@ -1,17 +1,12 @@
 #include <algorithm>
-#include <catch2/catch.hpp>
 
 #include "../../../src/app/choose.h"
 #include "../../../src/app/compare_table.h"
 #include "../../../src/app/discretisation.h"
 #include "../../../src/app/exact_motion.h"
-#include "printed.h"
+#include "command_tests.h"
 
-using namespace floe;
 using namespace floe::app;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::OwnFolder;
 
 namespace {
 

@@ -1,17 +1,8 @@
 #include "../../../src/app/choose.h"
 
-#include <catch2/catch.hpp>
-
 #include "../../../src/app/commands.h"
 #include "../../../src/app/compare_table.h"
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

@@ -1,19 +1,10 @@
 #include "../../../src/app/commands.h"
 
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "../../../src/app/equilibrium.h"
 #include "../../../src/app/restart.h"
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::columns_of;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

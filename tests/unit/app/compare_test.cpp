@@ -1,16 +1,6 @@
 #include "../../../src/app/compare.h"
 
-#include <catch2/catch.hpp>
-
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::columns_of;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
 #include <cmath>
 
 #include "../../../src/app/campbell.h"
 #include "../../../src/app/run.h"
 #include "../../../src/app/sweep.h"
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using testing::columns_of;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

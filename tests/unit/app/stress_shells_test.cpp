@@ -1,17 +1,9 @@
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "../../../src/app/equilibrium.h"
 #include "../../../src/app/run.h"
 #include "../../../src/app/stress.h"
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::columns_of;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 namespace {
 

@@ -1,16 +1,7 @@
 #include "../../../src/app/stress.h"
 
-#include <catch2/catch.hpp>
-
 #include "../../../src/app/equilibrium.h"
-#include "printed.h"
-
-using namespace floe;
-using Catch::Matchers::Contains;
-using testing::columns_of;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
+#include "command_tests.h"
 
 // A cantilever of 2 m, A = 1e-3 m^2, I = 1e-7 m^4, c = 0.02 m, under 500 N along it and 3 N across: N / A + M c / I.
 TEST_CASE("stress: the maximum at the root, and a history elsewhere") {

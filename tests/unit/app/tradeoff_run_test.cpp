@@ -1,19 +1,12 @@
 #include "../../../src/app/tradeoff_run.h"
 
-#include <catch2/catch.hpp>
 #include <map>
 
 #include "../../../src/app/compare_table.h"
 #include "../../../src/app/refined.h"
-#include "printed.h"
+#include "command_tests.h"
 
-using namespace floe;
 using namespace floe::app;
-using Catch::Matchers::Contains;
-using scene::Formulation;
-using testing::contents;
-using testing::OwnFolder;
-using testing::printed;
 
 namespace {
 

@@ -23,15 +23,17 @@ std::string rod(bool space, int frames, const std::string& u) {
 
 }  // namespace
 
-// eps = w'^2/2 = 0.005 x^2 and w'' = 0.1: U / U_1 = 1 + EA 5e-6 / (EI 0.01) = 6, and 5.9 with averaged strains of 8 elements
+// eps = w'^2/2 = 0.005 x^2 and w'' = 0.1: U / U_1 = 1 + EA 5e-6 / (EI 0.01) = 6, and 5.9 with averaged strains of 8
+// elements
 TEST_CASE("an initial deflection without its shortening is reported with its energy, in the plane and in space") {
   const bool space = GENERATE(false, true);
   const int frames = GENERATE(1, 2);
   for (const Formulation formulation : {Formulation::cfr, Formulation::nlffr, Formulation::vm_md}) {
     INFO(space << " " << frames << " " << scene::name_of(formulation));
     const assembly::Model model = built(rod(space, frames, "0"), formulation);
-    CHECK_THAT(model.stretched_start,
-               Catch::StartsWith("initial.deformation of rod: its strain energy is 5.9 times that of its linear strains"));
+    CHECK_THAT(
+        model.stretched_start,
+        Catch::StartsWith("initial.deformation of rod: its strain energy is 5.9 times that of its linear strains"));
     CHECK(std::count(model.warnings.begin(), model.warnings.end(), model.stretched_start) == 1);
   }
   // u' = -w'^2/2

@@ -33,7 +33,8 @@ struct Following {
     std::vector<AccompanyingAxes::Row> rows{{Vector3d::UnitX(), none.reshaped()},
                                             {Vector3d::UnitY(), none.reshaped()},
                                             {Vector3d::Zero(), of_sine.reshaped()}};
-    terms.push_back(std::make_unique<AccompanyingAxes>(dynamics::MovingAxes{0, 2}, std::vector<int>{}, whole.f, 6, rows));
+    terms.push_back(
+        std::make_unique<AccompanyingAxes>(dynamics::MovingAxes{0, 2}, std::vector<int>{}, whole.f, 6, rows));
     terms.back()->begin_at(Vector3d::Zero(), sine * of_sine);
   }
   void place() { assembly::place_axes(whole, terms, "body arm", nullptr, q, PETSC_COMM_WORLD); }
