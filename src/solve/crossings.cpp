@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "floe/petsc/handle.h"
+#include "floe/solve/generalized_alpha.h"
 
 namespace floe::solve {
 
@@ -32,17 +35,40 @@ void Crossings::begin(TS ts) {
   check(TSGetTime(ts, &t));
   check(TS2GetSolution(ts, &U, &V));
   searched_ = -1, back_ = arrived_ = false;
+  located_.assign(events_.size(), 0);
   before_ = see(t, U, V);
   for (std::size_t i = 0; i < events_.size(); ++i)
     if (events_[i].repeats() && happened_[i] == 0) happened_[i] = before_.value[i] < 0 ? -1 : 1;
 }
 
+namespace {
+
+/// The state within the last step. Rates of other types than generalized-alpha are those of the interpolant.
+void interpolate(TS ts, double begin, double end, double t, Vec U, Vec V) {
+  petsc::VecHandle A;
+  check(VecDuplicate(U, A.out()));
+  TSType type = nullptr;
+  check(TSGetType(ts, &type));
+  if (type == std::string(generalized_alpha)) return check(TSGeneralizedAlphaInterpolate(ts, t, U, V, A));
+  const double h = 1e-3 * (end - begin), low = std::max(begin, t - h), high = std::min(end, t + h);
+  check(TSInterpolate(ts, low, A));
+  check(TSInterpolate(ts, high, V));
+  check(VecAXPBY(V, -1 / (high - low), 1 / (high - low), A));
+  check(TSInterpolate(ts, t, U));
+}
+
+/// Events within this share of a step are at one instant.
+constexpr double same = 1e-6;
+
+}  // namespace
+
 /// The event's function on the step's interpolant.
 double Crossings::within(const Step& step, std::size_t event, double t) const {
-  petsc::VecHandle U;
+  petsc::VecHandle U, V;
   check(VecDuplicate(step.U, U.out()));
-  check(TSInterpolate(step.ts, t, U));
-  return events_[event].repeats() ? events_[event].gap(t, U, step.V)[0] : events_[event].crosses(t, U, step.V);
+  check(VecDuplicate(step.U, V.out()));
+  interpolate(step.ts, step.begin, step.end, t, U, V);
+  return events_[event].repeats() ? events_[event].gap(t, U, V)[0] : events_[event].crosses(t, U, V);
 }
 
 /// Where the event's function vanishes on the step's interpolant: regula falsi, Illinois variant.
@@ -112,6 +138,16 @@ std::optional<double> Crossings::crossing(const Step& step, std::size_t i, const
   return locate(step, i, step.begin, step.end, before_.value[i], now.value[i]);
 }
 
+/// The events that have happened since the step's beginning, where it ends at the first of them: beside this one those
+/// that the interpolant has at the same instant, and those whose functions have changed their signs.
+void Crossings::mark_located(const Seen& now) {
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    if (events_[i].repeats() || !events_[i].crosses || happened_[i] != 0) continue;
+    const bool passed = before_.value[i] != 0 && now.value[i] * before_.value[i] <= 0;
+    if (passed || searched_ == static_cast<int>(i)) located_[i] = 1;
+  }
+}
+
 void Crossings::tell(std::size_t i, double t, double rate) {
   EventReport report{events_[i].name, happened_[i] > 0 ? events_[i].what : events_[i].what_back, t};
   report.speed = std::abs(rate);
@@ -150,7 +186,10 @@ void Crossings::after_step(TS ts) {
       check(TSGetTimeStep(ts, &next));
       return check(TSSetTimeStep(ts, std::min(next, target_ - step.end)));
     }
-    if (!events_[searched_].repeats()) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+    if (!events_[searched_].repeats()) {
+      mark_located(see(step.end, step.U, step.V));
+      return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
+    }
     before_ = see(step.end, step.U, step.V);
     const double rate = before_.rate[searched_], short_of = rate != 0 ? -before_.value[searched_] / rate : 0;
     if (short_of <= close * whole_)  // else the force set in or ended within the step, and the next one finds it
@@ -160,6 +199,7 @@ void Crossings::after_step(TS ts) {
   }
   const Seen now = see(step.end, step.U, step.V);
   double first = step.end;
+  std::vector<double> instants(events_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < events_.size(); ++i) {
     std::optional<double> at = crossing(step, i, now);
     if (at && events_[i].repeats() && *at - step.begin <= close * h) {
@@ -167,6 +207,7 @@ void Crossings::after_step(TS ts) {
       at = crossing(step, i, now);                          // it may come back within the step
       if (at && *at - step.begin <= close * h) at.reset();  // seen in the next one
     }
+    if (at && !events_[i].repeats()) instants[i] = *at;
     if (!at || (searched_ >= 0 && *at >= first)) continue;
     searched_ = static_cast<int>(i), first = *at;
   }
@@ -175,8 +216,10 @@ void Crossings::after_step(TS ts) {
     return;
   }
   const bool repeats = events_[searched_].repeats();
+  for (std::size_t i = 0; i < events_.size(); ++i) located_[i] = !repeats && instants[i] <= first + same * h;
   arrived_ = step.end - first <= (repeats ? close : 1e-9) * h;  // the step's end
   if (arrived_) {
+    if (!repeats) mark_located(now);
     before_ = now;
     if (!repeats) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
     tell(searched_, first, now.rate[searched_]);

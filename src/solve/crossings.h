@@ -30,8 +30,8 @@ class Crossings {
   bool going_back() const { return back_; }
   /// Whether the motion is where an event happens that has not been dealt with.
   bool arrived() const { return arrived_; }
-  /// Whether this event is where the motion is now.
-  bool located(std::size_t event) const { return arrived_ && searched_ == static_cast<int>(event); }
+  /// Whether this event is where the motion is now: several may be at one instant.
+  bool located(std::size_t event) const { return arrived_ && located_[event] != 0; }
 
  private:
   /// A step: its ends, and what is searched between.
@@ -49,16 +49,18 @@ class Crossings {
   double locate(const Step& step, std::size_t event, double low, double high, double before, double after) const;
   std::optional<double> crossing(const Step& step, std::size_t event, const Seen& now) const;
   std::optional<double> change_of_side(const Step& step, std::size_t event, const Seen& now) const;
+  void mark_located(const Seen& now);
   void tell(std::size_t event, double t, double rate);
   void go_on(const Step& step);
   const std::vector<Event>& events_;
   std::vector<double>& happened_;
   double step_;
   const std::function<void(const EventReport&)>& tell_;
-  Seen before_;        // at the end of the last step
-  int searched_ = -1;  // the event that a step is taken again for
-  double target_ = 0;  // where it shall end [s]
-  double whole_ = 0;   // how long it was before it was taken back [s]
+  Seen before_;                // at the end of the last step
+  int searched_ = -1;          // the event that a step is taken again for
+  std::vector<char> located_;  // of each event: it is at the same instant
+  double target_ = 0;          // where it shall end [s]
+  double whole_ = 0;           // how long it was before it was taken back [s]
   bool back_ = false, arrived_ = false;
 };
 
