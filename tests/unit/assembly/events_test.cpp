@@ -22,6 +22,7 @@ probes:
   turn: {at: rod.end, quantity: rotation}
   end: {at: rod.end, quantity: velocity}
   middle: {at: rod.middle, quantity: position}
+  pull: {joint: hinge, quantity: force}
 events: {$events}
 )yaml",
               {{"motion", motion}, {"events", events}});
@@ -43,6 +44,7 @@ probes:
   turn: {at: rod.end, quantity: rotation}
   end: {at: rod.end, quantity: velocity}
   middle: {at: rod.middle, quantity: position}
+  pull: {joint: hinge, quantity: force}
 events: {$events}
 )yaml",
               {{"events", events}});
@@ -164,6 +166,47 @@ TEST_CASE("a motion stops where a probe passes a value") {
   CHECK(history.t.back() == Approx(1.2345 / 2).epsilon(1e-5));  // the step's own error in the rotation
   CHECK(history["turn.angle"].back() == Approx(1.2345).epsilon(1e-8));
   for (std::size_t i = 1; i < history.t.size(); ++i) CHECK(history.t[i] > history.t[i - 1]);
+}
+
+// v_y = 3 cos 2t at the rod's end.
+TEST_CASE("a motion stops where a velocity passes a value") {
+  const double at = 0.5 * std::acos(2. / 3);
+  const std::string stop = "enough: {stop: true, probe: end.y, crosses: 2}";
+  for (const std::string& text : {rod(stop), rod(stop, "{end: 1, step: 0.02}"),
+                                  rod(stop, "{end: 1, step: 3e-3, tolerance: 1e-6}"), rod_in_space(stop)}) {
+    const History history = move(text, Formulation::vm_md);
+    REQUIRE(history.events.size() == 1);
+    CHECK(history.t.back() == history.events[0].t);
+    CHECK(history.t.back() == Approx(at).epsilon(2e-4));
+    CHECK(history["end.y"].back() == Approx(2).epsilon(1e-5));
+    REQUIRE(history.t.size() > 2);
+    CHECK(history.t.back() - history.t[history.t.size() - 2] > 1e-6);
+  }
+}
+
+// The hinge holds the rod by m l w^2 / 2 = 6 N, also in the row of the event, whose step is shorter than those before.
+TEST_CASE("reactions where an event is found within a step are those of the motion") {
+  for (const std::string angle : {"1.2", "1.21", "1.225", "1.2345"})
+    for (const bool space : {false, true}) {
+      INFO(angle << (space ? " in space" : ""));
+      const std::string stop =
+          "enough: {stop: true, probe: turn." + std::string(space ? "rz" : "angle") + ", crosses: " + angle + "}";
+      const History history = move(space ? rod_in_space(stop) : rod(stop, "{end: 1, step: 0.02}"), Formulation::vm_md);
+      REQUIRE(history.events.size() == 1);
+      CHECK(std::hypot(history["pull.x"].back(), history["pull.y"].back()) == Approx(6).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("events whose probes pass their values at one instant, or nearly, all happen") {
+  for (const std::string second : {"0.5", "0.500000000001", "0.49999999999", "0.50000001", "0.500001", "0.5001"})
+    for (const std::string motion : {"{end: 1, step: 3e-3}", "{end: 1, step: 3e-3, tolerance: 1e-4}"}) {
+      INFO(second << " " << motion);
+      const std::string unlock = "first: {unlock: hinge, probe: middle.y, crosses: 0.5}, ";
+      const History history = move(
+          rod(unlock + "second: {stop: true, probe: middle.y, crosses: " + second + "}", motion), Formulation::vm_md);
+      CHECK(history.events.size() == 2);
+      CHECK(history.t.back() == Approx(0.5 * std::asin(2. / 3)).epsilon(1e-3));
+    }
 }
 
 TEST_CASE("adaptive steps meet events, too") {
