@@ -85,14 +85,25 @@ PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
 }
 
 // Relative to the maximum weight: smaller weights are those of unknowns without mass or stiffness, such as axes that
-// accompany a body.
+// accompany a body; they are round-off, or zero, and count as zero.
 constexpr PetscReal round_off = 1e-20;
 
-void weigh(GeneralizedAlpha* data) {
-  const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
+// Collective.
+PetscErrorCode weigh(GeneralizedAlpha* data) {
+  PetscReal greatest;
+
+  PetscFunctionBegin;
+  {
+    const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
+    Changed weight(data->weight);
+    for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
+      weight[i] = dynamic[i] * (stiffness[i] + data->shift_a * mass[i]);
+  }
+  PetscCall(VecMax(data->weight, nullptr, &greatest));
   Changed weight(data->weight);
   for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
-    weight[i] = dynamic[i] * (stiffness[i] + data->shift_a * mass[i]);
+    if (weight[i] <= round_off * greatest) weight[i] = 0;
+  PetscFunctionReturn(0);
 }
 
 }  // namespace
@@ -116,7 +127,7 @@ PetscErrorCode measure_scales(TS ts, Mat* inertia) {
     PetscCall(MatAYPX(*inertia, -1, P, SAME_NONZERO_PATTERN));
     PetscCall(MatScale(*inertia, 1 / data->shift_a));
   }
-  weigh(data);
+  PetscCall(weigh(data));
   PetscCall(measure_constraint_rows(data, P));
   PetscFunctionReturn(0);
 }
@@ -125,9 +136,7 @@ PetscErrorCode set_scales(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  weigh(data);
-  PetscReal max_weight;
-  PetscCall(VecMax(data->weight, nullptr, &max_weight));
+  PetscCall(weigh(data));
   const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
   Changed scale(data->scale);
   const PetscReal of_row = PetscSqrtReal(data->shift_a);
@@ -135,7 +144,7 @@ PetscErrorCode set_scales(TS ts) {
     if (dynamic[i] == 0)
       scale[i] = of_row * row[i];
     else
-      scale[i] = weight[i] > round_off * max_weight ? 1 / PetscSqrtReal(weight[i]) : 1;
+      scale[i] = weight[i] > 0 ? 1 / PetscSqrtReal(weight[i]) : 1;
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);
