@@ -156,15 +156,19 @@ std::vector<std::string> loads_in_axes_of_parts(const Scene& split) {
 Model assembled(const Plan& plan, const ReducedBodies& reduced) {
   Model model = assemble(plan, reduced.formulation, reduced.bodies);
   model.warnings.insert(model.warnings.end(), reduced.warnings.begin(), reduced.warnings.end());
+  warn_of_scene(plan, model);
+  return model;
+}
+
+}  // namespace
+
+void warn_of_scene(const Plan& plan, Model& model) {
   for (std::string& words : middles_beside_nodes(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : loads_in_axes_of_parts(plan.scene)) model.warnings.push_back(std::move(words));
   for (std::string& words : smoothed_drives(plan.scene)) model.warnings.push_back(std::move(words));
   model.stretched_start = stretched_start(plan, model);
   if (!model.stretched_start.empty()) model.warnings.push_back(model.stretched_start);
-  return model;
 }
-
-}  // namespace
 
 void give_structures(const std::shared_ptr<const Offline>& offline, Model& model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)

@@ -220,6 +220,7 @@ Model CandidateBasis::model(const Selection& selection, bool keep_offline) const
   }
   Model model = assemble(offline->plan, Formulation::vm_md, bodies);
   give_structures(offline, model);
+  warn_of_scene(offline->plan, model);
   if (!keep_offline) return model;
   offline->reduced = std::move(bodies);
   model.offline = offline;

@@ -7,8 +7,8 @@
 
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/offline.h"
-#include "floe/assess/candidate_basis.h"
 #include "floe/assembly/start_vectors.h"
+#include "floe/assess/candidate_basis.h"
 
 namespace floe::assess {
 

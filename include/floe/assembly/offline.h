@@ -18,4 +18,8 @@ struct Offline {
 /// BodyReport::structure of a model of these bodies.
 void give_structures(const std::shared_ptr<const Offline>& offline, Model& model);
 
+/// Adds to the model's warnings those that depend on the scene, not on the basis: places beside nodes, axes of parts,
+/// smoothed drives, and a start that stretches a body, which is also put into `stretched_start`. Collective.
+void warn_of_scene(const Plan& plan, Model& model);
+
 }  // namespace floe::assembly
