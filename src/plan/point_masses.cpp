@@ -8,6 +8,7 @@
 #include "floe/error.h"
 #include "floe/fem/point_mass.h"
 #include "floe/math/nearest.h"
+#include "floe/scene/places.h"
 
 namespace floe::plan {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 using scene::MassSpec;
 
 /// The node at a point, to 1e-6 of the mesh. Collective.
-PetscInt node_at(const mesh::RawMesh& raw, const MassSpec& mass) {
-  const Eigen::Vector3d point = Eigen::Vector3d::Map(mass.at.point->data());
+PetscInt node_at(const mesh::RawMesh& raw, const MassSpec& mass, const scene::Point& at) {
+  const Eigen::Vector3d point = Eigen::Vector3d::Map(at.data());
   struct {
     double distance = std::numeric_limits<double>::infinity();
     int rank = 0;
@@ -38,9 +39,11 @@ PetscInt node_at(const mesh::RawMesh& raw, const MassSpec& mass) {
   return node;
 }
 
-PetscInt node_of(const mesh::RawMesh& raw, const std::map<std::string, std::vector<PetscInt>>& places,
-                 const MassSpec& mass) {
-  if (mass.at.point) return node_at(raw, mass);
+PetscInt node_of(const mesh::RawMesh& raw, const scene::Body& body,
+                 const std::map<std::string, std::vector<PetscInt>>& places, const MassSpec& mass) {
+  if (mass.at.point) return node_at(raw, mass, *mass.at.point);
+  if (mass.at.name == "middle" && scene::unbranched(body.mesh))
+    return node_at(raw, mass, scene::place_point(body.mesh, mass.at));
   const auto place = places.find(mass.at.name);
   if (place != places.end() && place->second.size() == 1) return place->second.front();
   std::vector<std::string> names;
@@ -63,7 +66,7 @@ void add_masses(const scene::Body& body, const std::map<std::string, std::vector
   int rank = 0;
   MPI_Comm_rank(raw.comm, &rank);
   for (const MassSpec& mass : body.masses) {
-    const PetscInt node = node_of(raw, places, mass);
+    const PetscInt node = node_of(raw, body, places, mass);
     fem::PointMass point{mass.mass};
     const auto& J = mass.inertia;
     point.inertia << J[0], J[3], J[4], J[3], J[1], J[5], J[4], J[5], J[2];

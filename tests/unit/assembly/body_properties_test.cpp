@@ -108,3 +108,11 @@ TEST_CASE("point masses and what they are linked to count with their places") {
   CHECK(own.centre.norm() < 1e-12);
   check_near(own.inertia, inertia);
 }
+
+TEST_CASE("a mass at the middle of a line is at its middle node") {
+  const auto own = properties(bar("    masses: {m: {at: middle, mass: 5}}\n")),
+             same = properties(bar("    masses: {m: {at: [2, 2, 3], mass: 5}}\n"));
+  CHECK(own.mass == Approx(width * height * length * rho + 5));
+  check_near(own.inertia, same.inertia);
+  check_near(own.centre, Eigen::Vector3d(2, 2, 3));
+}
