@@ -85,16 +85,18 @@ PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
 }
 
 // Relative to the maximum weight: smaller weights are those of unknowns without mass or stiffness, such as axes that
-// accompany a body; they are round-off, or zero, and count as zero.
+// accompany a body.
 constexpr PetscReal round_off = 1e-20;
 
-// Collective.
+// Of unknowns without mass whose stiffness is round-off (multipliers of axes that accompany a body times the curvature
+// of their constraints) it is zero: constraint rows that see them would be scaled by its square root. The limit alone
+// would depend on units. Collective.
 PetscErrorCode weigh(GeneralizedAlpha* data) {
   PetscReal greatest;
 
   PetscFunctionBegin;
+  const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
   {
-    const Entries dynamic(data->dynamic), stiffness(data->stiffness), mass(data->mass);
     Changed weight(data->weight);
     for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
       weight[i] = dynamic[i] * (stiffness[i] + data->shift_a * mass[i]);
@@ -102,7 +104,7 @@ PetscErrorCode weigh(GeneralizedAlpha* data) {
   PetscCall(VecMax(data->weight, nullptr, &greatest));
   Changed weight(data->weight);
   for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
-    if (weight[i] <= round_off * greatest) weight[i] = 0;
+    if (mass[i] == 0 && weight[i] <= round_off * greatest) weight[i] = 0;
   PetscFunctionReturn(0);
 }
 
@@ -136,7 +138,9 @@ PetscErrorCode set_scales(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
+  PetscReal max_weight;
   PetscCall(weigh(data));
+  PetscCall(VecMax(data->weight, nullptr, &max_weight));
   const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
   Changed scale(data->scale);
   const PetscReal of_row = PetscSqrtReal(data->shift_a);
@@ -144,7 +148,7 @@ PetscErrorCode set_scales(TS ts) {
     if (dynamic[i] == 0)
       scale[i] = of_row * row[i];
     else
-      scale[i] = weight[i] > 0 ? 1 / PetscSqrtReal(weight[i]) : 1;
+      scale[i] = weight[i] > round_off * max_weight ? 1 / PetscSqrtReal(weight[i]) : 1;
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);
