@@ -84,13 +84,12 @@ PetscErrorCode measure_constraint_rows(GeneralizedAlpha* data, Mat J) {
   PetscFunctionReturn(0);
 }
 
-// Relative to the maximum weight: smaller weights are those of unknowns without mass or stiffness, such as axes that
-// accompany a body.
+// Relative to the maximum weight.
 constexpr PetscReal round_off = 1e-20;
 
-// Of unknowns without mass whose stiffness is round-off (multipliers of axes that accompany a body times the curvature
-// of their constraints) it is zero: constraint rows that see them would be scaled by its square root. The limit alone
-// would depend on units. Collective.
+// Of unknowns without mass (but for round-off of the sums of several ranks) whose stiffness is round-off (multipliers
+// of axes that accompany a body times the curvature of their constraints) it is zero: their rows, and constraint rows
+// that see them, would be scaled by its square root. The limit alone would depend on units. Collective.
 PetscErrorCode weigh(GeneralizedAlpha* data) {
   PetscReal greatest;
 
@@ -104,7 +103,7 @@ PetscErrorCode weigh(GeneralizedAlpha* data) {
   PetscCall(VecMax(data->weight, nullptr, &greatest));
   Changed weight(data->weight);
   for (PetscInt i = 0, n = local_size(data->weight); i < n; ++i)
-    if (mass[i] == 0 && weight[i] <= round_off * greatest) weight[i] = 0;
+    if (data->shift_a * mass[i] <= 1e-12 * stiffness[i] && weight[i] <= round_off * greatest) weight[i] = 0;
   PetscFunctionReturn(0);
 }
 
@@ -138,9 +137,7 @@ PetscErrorCode set_scales(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  PetscReal max_weight;
   PetscCall(weigh(data));
-  PetscCall(VecMax(data->weight, nullptr, &max_weight));
   const Entries dynamic(data->dynamic), weight(data->weight), row(data->row);
   Changed scale(data->scale);
   const PetscReal of_row = PetscSqrtReal(data->shift_a);
@@ -148,7 +145,7 @@ PetscErrorCode set_scales(TS ts) {
     if (dynamic[i] == 0)
       scale[i] = of_row * row[i];
     else
-      scale[i] = weight[i] > round_off * max_weight ? 1 / PetscSqrtReal(weight[i]) : 1;
+      scale[i] = weight[i] > 0 ? 1 / PetscSqrtReal(weight[i]) : 1;
   }
   data->h_scale = data->h;
   renew_jacobian(ts->snes, 0);

@@ -134,7 +134,7 @@ TEST_CASE("movable straight edges: the series in its limits, and its convergence
   CHECK(Levy(4).centre(1e-6) / 1e-6 == Approx(0.00406235).epsilon(1e-3));  // Navier
 }
 
-TEST_CASE("movable straight edges: large deflection of a simply supported square plate, full order and reduced") {
+TEST_CASE("movable straight edges: large deflection of a simply supported square plate, full-order and reduced") {
   const Levy levy(4);
   for (const double load : {12.1, 56.9, 161.}) {
     INFO(load);
