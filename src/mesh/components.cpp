@@ -2,26 +2,12 @@
 
 #include <algorithm>
 
+#include "floe/math/disjoint_sets.h"
 #include "floe/mesh/exchange.h"
 #include "floe/mesh/labels.h"
 
 namespace floe::mesh {
 namespace {
-
-// Disjoint sets of 0..n-1; the root is the least.
-struct Forest {
-  std::vector<PetscInt> parent;
-  explicit Forest(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
-  PetscInt root(PetscInt i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(PetscInt a, PetscInt b) {
-    a = root(a);
-    b = root(b);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-};
 
 struct Proposal {
   PetscInt node, least;
@@ -40,7 +26,7 @@ std::vector<PetscInt> least_nodes(const RawMesh& mesh, const std::vector<std::ar
                                   const std::vector<PetscInt>& starts) {
   const Translation here = nodes_here(mesh, connections);
   const std::size_t count = here.keys().size();
-  Forest forest(count);
+  math::DisjointSets<PetscInt> forest(count);
   for (const auto& cell : mesh.cells)
     for (int i = 1; i < node_count(cell.kind); ++i)
       forest.join(here.position(cell.nodes[0]), here.position(cell.nodes[i]));

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "floe/error.h"
+#include "floe/math/disjoint_sets.h"
 #include "floe/math/nearest.h"
 #include "floe/scene/places.h"
 
@@ -68,23 +69,6 @@ std::vector<double> planes(const Body& body, const RawMesh& mesh, const std::vec
   return planes;
 }
 
-/// Disjoint sets of numbers; the least of each leads it.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int a, int b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 /// Of each element with an extent its piece, numbered by slices and in each by the first element; -1: a point mass or
 /// spring.
 std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
@@ -102,7 +86,7 @@ std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
   std::iota(independent_node.begin(), independent_node.end(), 0);
   for (const mesh::DependentNode& link : whole.links)
     independent_node[link.node] = static_cast<int>(link.independent_node);
-  Sets sets(mesh.cells.size());
+  math::DisjointSets<int> sets(mesh.cells.size());
   std::map<std::pair<int, int>, int> first;  // of a slice and a node
   for (std::size_t c = 0; c < slice.size(); ++c)
     for (int i = 0; slice[c] >= 0 && i < mesh::node_count(mesh.cells[c].kind); ++i) {
@@ -118,12 +102,12 @@ std::vector<int> pieces_of_elements(const Body& body, const WholeMesh& whole) {
     }
   std::map<std::pair<int, int>, int> number;  // of a slice and the first element
   for (std::size_t c = 0; c < slice.size(); ++c)
-    if (slice[c] >= 0) number.emplace(std::pair(slice[c], sets.find(static_cast<int>(c))), 0);
+    if (slice[c] >= 0) number.emplace(std::pair(slice[c], sets.root(static_cast<int>(c))), 0);
   int next = 0;
   for (auto& [key, piece] : number) piece = next++;
   std::vector<int> pieces(slice.size(), -1);
   for (std::size_t c = 0; c < slice.size(); ++c)
-    if (slice[c] >= 0) pieces[c] = number.at({slice[c], sets.find(static_cast<int>(c))});
+    if (slice[c] >= 0) pieces[c] = number.at({slice[c], sets.root(static_cast<int>(c))});
   return pieces;
 }
 
@@ -183,10 +167,10 @@ std::vector<int> pieces_of_links(const Body& body, const WholeMesh& whole, std::
 }
 
 void refuse_unconnected(const Body& body, int pieces, const std::vector<CutMesh::Cut>& cuts) {
-  Sets sets(static_cast<std::size_t>(pieces));
+  math::DisjointSets<int> sets(static_cast<std::size_t>(pieces));
   for (const CutMesh::Cut& cut : cuts) sets.join(cut.first, cut.second);
   for (int piece = 0; piece < pieces; ++piece)
-    if (sets.find(piece) != 0)
+    if (sets.root(piece) != 0)
       throw InputError(
           fmt::format("{}: the mesh of body {} has unconnected parts; expected one connected mesh (join "
                       "them by common nodes)",

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "floe/fem/element_count.h"
+#include "floe/math/disjoint_sets.h"
 #include "floe/reduction/statics.h"
 
 namespace floe::reduction {
@@ -93,22 +94,6 @@ PetscInt lone_quadrilaterals(const fem::Structure& structure) {
   return sum;
 }
 
-/// Sets of nodes that are connected.
-class Components {
- public:
-  explicit Components(PetscInt nodes) : parent_(static_cast<std::size_t>(nodes)) {
-    std::iota(parent_.begin(), parent_.end(), PetscInt{0});
-  }
-  PetscInt of(PetscInt node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void connect(PetscInt a, PetscInt b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<PetscInt> parent_;
-};
-
 /// Pairs of the global numbers of nodes that cells connect: a, b, a, b, ...
 std::vector<PetscInt> connections(const fem::Mesh& mesh, bool of_springs) {
   std::vector<PetscInt> pairs;
@@ -134,11 +119,11 @@ std::vector<PetscInt> gather(const std::vector<PetscInt>& values, MPI_Comm comm)
 bool springs_connect(const fem::Mesh& mesh) {
   const std::vector<PetscInt> springs = gather(connections(mesh, true), mesh.comm);
   if (springs.empty()) return false;
-  Components components(mesh.node_count);
+  math::DisjointSets<PetscInt> components(static_cast<std::size_t>(mesh.node_count));
   const std::vector<PetscInt> others = gather(connections(mesh, false), mesh.comm);
-  for (std::size_t i = 0; i < others.size(); i += 2) components.connect(others[i], others[i + 1]);
+  for (std::size_t i = 0; i < others.size(); i += 2) components.join(others[i], others[i + 1]);
   for (std::size_t i = 0; i < springs.size(); i += 2)
-    if (components.of(springs[i]) != components.of(springs[i + 1])) return true;
+    if (components.root(springs[i]) != components.root(springs[i + 1])) return true;
   return false;
 }
 

@@ -23,19 +23,24 @@ solve::EnergyBalance balance_of(const dynamics::System& system, Vec U, Vec V, do
   return balance;
 }
 
+/// A force across the end of a rod of length l, which follows it.
+testing::Terms across_rod(double l, double force) {
+  testing::Terms load;
+  load.push_back(std::make_unique<dynamics::Force>(
+      testing::on_rod(l),
+      [force](double) -> Eigen::Vector3d {
+        return {0, force, 0};
+      },
+      dynamics::Force::Axes::body));
+  return load;
+}
+
 }  // namespace
 
 // A force F across a hinged rod that follows it does the work F l per angle; gravity and the hinge do none.
 TEST_CASE("the work of a follower force on a pendulum is its moment times the angle") {
   const double m = 2, l = 1.5, g = 9.81, F = 7;
-  testing::Terms load;
-  load.push_back(std::make_unique<dynamics::Force>(
-      testing::on_rod(l),
-      [F](double) -> Eigen::Vector3d {
-        return {0, F, 0};
-      },
-      dynamics::Force::Axes::body));
-  const dynamics::System system = testing::pendulum(m, l, g, std::move(load));
+  const dynamics::System system = testing::pendulum(m, l, g, across_rod(l, F));
   const petsc::VecHandle U = vector_of(system, {0, 0, -1, 0, 0}), V = system.create_vector();
   const solve::EnergyBalance balance = balance_of(system, U, V, 2, 1e-3);
   const double angle = numbers_of(U)[2] + 1;
@@ -92,14 +97,7 @@ TEST_CASE("energy that grows without work is seen, also by a balance that was sa
 // After an event, work of -3 J and an energy that falls by 1 J at each instant: samples overestimate the dissipation.
 TEST_CASE("dissipation that samples overestimate is no growth of energy after an event, and rises from it on are") {
   const double l = 1.5, force = 20, rate = -1;  // -30 W
-  testing::Terms load;
-  load.push_back(std::make_unique<dynamics::Force>(
-      testing::on_rod(l),
-      [force](double) -> Eigen::Vector3d {
-        return {0, force, 0};
-      },
-      dynamics::Force::Axes::body));
-  const dynamics::System system = testing::pendulum(2, l, 0, std::move(load));
+  const dynamics::System system = testing::pendulum(2, l, 0, across_rod(l, force));
   const petsc::VecHandle U = system.create_vector(), V = vector_of(system, {0, 0, rate, 0, 0}),
                          A = system.create_vector();
   solve::EnergyBalance balance;
