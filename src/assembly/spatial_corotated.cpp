@@ -120,9 +120,10 @@ std::vector<SpatialAssembly::PlacedJoint> SpatialAssembly::place_constrained_nod
     PlacedJoint piece;
     for (const int dof : one.dofs)
       if (dof < 3)
-        piece.constraint.rows.push_back(dynamics::Along{dof});
+        piece.constraint.rows.emplace_back(std::in_place_type<dynamics::Along>, dynamics::Along{dof});
       else
-        piece.constraint.rows.push_back(dynamics::Product{(dof + 2) % 3, (dof + 1) % 3});
+        piece.constraint.rows.emplace_back(std::in_place_type<dynamics::Product>,
+                                           dynamics::Product{(dof + 2) % 3, (dof + 1) % 3});
     if (owner_) {
       SpatialMarker node = slots_[place.body].corotated->place(one.node),
                     other = marker(plan_.joints[j][first ? 1 : 0]);

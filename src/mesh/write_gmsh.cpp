@@ -136,7 +136,7 @@ class Writer {
   }
 
   void write_head() {
-    std::string text = std::string("$MeshFormat\n4.1 ") + (binary_ ? "1" : "0") + " 8\n";
+    std::string text = binary_ ? "$MeshFormat\n4.1 1 8\n" : "$MeshFormat\n4.1 0 8\n";
     if (binary_) numbers_.integer(text, 1), text += '\n';
     text += "$EndMeshFormat\n$PhysicalNames\n" + std::to_string(groups_.size()) + "\n";
     for (const Group& group : groups_)
