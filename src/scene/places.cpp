@@ -184,6 +184,8 @@ std::vector<std::string> middles_beside_nodes(const Scene& scene) {
   };
   for (const Joint& joint : scene.joints) look(joint.first), look(joint.second);
   for (const Load& load : scene.loads) look(load.at);
+  for (const Body& body : scene.bodies)
+    for (const MassSpec& mass : body.masses) look(mass.at);
   for (const Probe& probe : scene.probes) {
     look(probe.at);
     if (probe.relative_to) look(*probe.relative_to);

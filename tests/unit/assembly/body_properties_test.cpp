@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "floe/scene/places.h"
 #include "scene_motion.h"
 #include "spatial_scene.h"
 
@@ -115,4 +116,11 @@ TEST_CASE("a mass at the middle of a line is at its middle node") {
   CHECK(own.mass == Approx(width * height * length * rho + 5));
   check_near(own.inertia, same.inertia);
   check_near(own.centre, Eigen::Vector3d(2, 2, 3));
+  std::string odd = bar("    masses: {m: {at: middle, mass: 5}}\n");
+  CHECK(scene::middles_beside_nodes(scene::parse_scene(odd, "scene.yaml")).empty());
+  odd.replace(odd.find("elements: 40"), 12, "elements: 5");
+  const std::vector<std::string> words = scene::middles_beside_nodes(scene::parse_scene(odd, "scene.yaml"));
+  REQUIRE(words.size() == 1);
+  CHECK_THAT(words[0],
+             Catch::Contains("place bar.middle: no node at half of the length") && Catch::Contains("0.2 m, 10 %"));
 }
