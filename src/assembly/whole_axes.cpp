@@ -263,8 +263,8 @@ void place_axes(const WholeAxes& whole, const AxesTerms& terms, const std::strin
       change.tail<3>().setZero();
     }
     q(own) += change;
+    if (open.norm() <= 1e-13 * J.norm()) return;
     left = open.norm() / J.norm();
-    if (left <= 1e-13) return;
   }
   if (!(left <= limit * (1 + q(own).norm())))
     throw RunError(
