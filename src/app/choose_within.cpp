@@ -262,7 +262,11 @@ class Search {
     if (!candidates_->columns().empty()) {
       const Trial& rigid = trials_.tried(trials_.first_of(order_, 0), step_);
       if (count_ == 0) {
-        decide("bodies", "rigid", "error " + words(rigid));
+        const std::vector<std::string> deformed = candidates_->deformed();
+        decide(
+            "bodies",
+            deformed.empty() ? "rigid" : fmt::format("rigid, but {}, deformed at the start", fmt::join(deformed, ", ")),
+            "error " + words(rigid));
       } else {
         decide("bodies", "flexible", "rigid: " + words(rigid));
         Selection less = trials_.first_of(order_, count_ - 1);

@@ -51,6 +51,13 @@ CandidateBasis::Parts::Parts(const Scene& scene, MPI_Comm communicator)
       comm(communicator),
       offline(std::make_shared<Offline>(generous(scene, communicator), communicator)) {}
 
+std::set<std::string> CandidateBasis::Parts::deformed() const {
+  std::set<std::string> names;
+  for (std::size_t b = 0; b < sources.size(); ++b)
+    if (flexible(b) && starts_deformed(body(b))) names.insert(whole_name(body(b).spec));
+  return names;
+}
+
 /// The body on those of its columns that are taken, in their order.
 const ReducedBody& CandidateBasis::Parts::reduced_body(std::size_t b, const std::vector<char>& taken) const {
   const auto found = reduced.find({b, taken});
@@ -278,7 +285,13 @@ std::vector<EnergyContribution> CandidateBasis::energy_contribution(const Model&
 }
 
 std::string CandidateBasis::text(const Selection& selection, const Motion& motion) const {
-  return candidates_text(parts_->whole, columns(), selection, motion, {}, parts_->shares_frames(selection));
+  return candidates_text(parts_->whole, columns(), selection, motion, {}, parts_->shares_frames(selection),
+                         parts_->deformed());
+}
+
+std::vector<std::string> CandidateBasis::deformed() const {
+  const std::set<std::string> names = parts_->deformed();
+  return {names.begin(), names.end()};
 }
 
 bool CandidateBasis::has_responses(const Selection& selection) const {
@@ -331,7 +344,7 @@ std::vector<std::string> CandidateBasis::write(const Selection& selection, const
   }
   const std::string text =
       candidates_text(parts.whole, columns(), selection, motion, files, parts.shares_frames(selection),
-                      std::filesystem::absolute(scene).parent_path()) +
+                      parts.deformed(), std::filesystem::absolute(scene).parent_path()) +
       "\n";
   petsc::agree(parts.comm, [&] {
     int rank = 0;

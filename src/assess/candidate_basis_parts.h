@@ -76,6 +76,8 @@ struct CandidateBasis::Parts {
     const std::vector<char> all = made_rigid(selection);
     return std::find(all.begin(), all.end(), 1) == all.end() ? offline : offline_of(all);
   }
+  /// Bodies of the scene that begin deformed.
+  std::set<std::string> deformed() const;
   bool shares_frames(const Selection& selection) const { return offline_of(selection)->scene.share_frames; }
   reduction::Pairs leading_pairs(std::size_t b, const std::vector<EnergyContribution>& order) const;
   void add_derivatives(std::size_t b, const std::set<std::string>& offered);

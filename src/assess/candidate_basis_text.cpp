@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "floe/scene/copies.h"
 
@@ -65,7 +66,7 @@ class MovedPaths {
 
 std::string candidates_text(const Scene& scene, const std::vector<CandidateVector>& columns, const Selection& selection,
                             const Motion& motion, const std::map<std::string, std::string>& files, bool share_frames,
-                            const std::filesystem::path& folder) {
+                            const std::set<std::string>& deformed, const std::filesystem::path& folder) {
   YAML::Node root = load_resolved(scene);
   if (!folder.empty()) MovedPaths(std::filesystem::path(scene.file).parent_path(), folder).move(root);
   for (const Body& body : scene.bodies) {
@@ -85,7 +86,8 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
     int responses = 0;  // a scene gives all pieces as many
     for (const auto& [piece, count] : responses_of) responses = std::max(responses, count);
     for (const auto& [piece, one] : pieces)
-      if (!one.first && any) labels.push_back(one.second);  // as CandidateBasis::model has it
+      if (!one.first && (any || deformed.contains(body.name)))
+        labels.push_back(one.second);  // as CandidateBasis::model has it
     YAML::Node node = root["bodies"][body.name];
     if (const auto file = files.find(body.name); file != files.end()) {
       const YAML::Node initial = node["initial"];
@@ -95,7 +97,7 @@ std::string candidates_text(const Scene& scene, const std::vector<CandidateVecto
       root["bodies"][body.name] = from_file;
       continue;
     }
-    if (!any) {
+    if (!any && !deformed.contains(body.name)) {
       node["rigid"] = true;
       continue;
     }

@@ -57,6 +57,8 @@ class CandidateBasis {
   /// The scene with `columns` (and `rigid`, `elastic_force`) in its bodies and the steps of a motion, as text of a
   /// scene file; with responses among the basis vectors, without words for these.
   std::string text(const Selection& selection, const Motion& motion) const;
+  /// Bodies that begin deformed: without a column that is taken they have their first one, and are not made rigid.
+  std::vector<std::string> deformed() const;
   /// Whether it has correction vectors that no scene names.
   bool has_responses(const Selection& selection) const;
   /// That text into a file. Bodies with responses are written beside it, NAME-BODY.h5, and read from there.

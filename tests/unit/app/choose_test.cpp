@@ -88,3 +88,33 @@ probes: {tip: {at: arm.end, quantity: position}}
   CHECK(total["missing"]["tip"].dump() == R"(["reduction","model","mesh"])");
   CHECK(total["made_rigid"].dump() == R"(["arm"])");
 }
+
+// It cannot be rigid, and keeps one basis vector: so does the scene that is written.
+TEST_CASE("run with an accuracy: the written scene of a body that begins deformed is the model that was simulated") {
+  const OwnFolder own;
+  const std::string path = own.path / "written.yaml",
+                    said = printed([&] {
+                      app::run_chosen(scene::parse_scene(R"yaml(
+bodies:
+  rod:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 8}}
+    section: {EA: 1e4, EI: 1, rhoA: 1}
+    initial: {deformation: [0, "0.05*x^2"]}
+joints: {root: {type: fixed, between: [ground, rod.start]}}
+motion: {end: 0.5, step: 0.01}
+probes: {tip: {at: rod.end}}
+)yaml",
+                                                         "scene.yaml"),
+                                      {0.2, true}, PETSC_COMM_WORLD, own.results("deformed"), path, false);
+                    });
+  CHECK_THAT(said, !Contains("made rigid"));
+  CHECK_THAT(said, Contains("initial.deformation of rod"));  // a warning on the scene
+  const auto columns = testing::columns_of(own.path / "deformed/probes.csv");
+  app::RunPlan quiet;
+  quiet.quiet = true, quiet.check_range = false;
+  const app::Series again =
+      app::run(scene::read_scene(path), Formulation::vm_md, PETSC_COMM_WORLD, std::nullopt, quiet).series;
+  REQUIRE(again.t.size() == columns.at("t [s]").size());
+  for (std::size_t i = 0; i < again.t.size(); ++i)
+    CHECK(again.values[i][1] == Approx(std::stod(columns.at("tip.y [m]")[i])).margin(1e-9));
+}

@@ -24,7 +24,7 @@ motion: {end: 1, step: 0.1}
 )yaml";
   scene.motion.end = 1, scene.motion.step = 0.1;
   const YAML::Node moved =
-      YAML::Load(assess::candidates_text(scene, {}, {}, scene.motion, {}, true, "/models/results/today"));
+      YAML::Load(assess::candidates_text(scene, {}, {}, scene.motion, {}, true, {}, "/models/results/today"));
   const auto text = [](const YAML::Node& node) { return node.as<std::string>(); };
   CHECK(text(moved["functions"]["gust"]["file"]) == "../../wing/loads/gust.csv");
   CHECK(text(moved["functions"]["calm"]["file"]) == "/data/calm.csv");
