@@ -10,10 +10,15 @@ using nlohmann::ordered_json;
 
 // Kinks of loads, which are not in the list, have such errors, too: those long after an event are not its own.
 void Recorder::note_error(const solve::Instant& instant) {
-  if (instant.event_error == 0 || result_.summary["events"].empty()) return;
-  ordered_json& event = result_.summary["events"].back();
-  if (instant.t - event["t"].get<double>() > 2.5 * scene_.motion.step) return;
-  event["step_error"] = std::max(event.value("step_error", 0.), instant.event_error);
+  ordered_json& events = result_.summary["events"];
+  if (instant.event_error == 0 || events.empty()) return;
+  const auto event = std::find_if(events.rbegin(), events.rend(), [](const ordered_json& one) {
+    return !one.contains("speed") && !one.contains("kinetic_energy_gained");  // at stops the motion goes on
+  });
+  if (event == events.rend()) return;
+  const double since = instant.t - (*event)["t"].get<double>();
+  if (since <= 0 || since > 2.5 * scene_.motion.step) return;  // at its own instant the step before it ends
+  (*event)["step_error"] = std::max(event->value("step_error", 0.), instant.event_error);
 }
 
 // Where every step is recorded, no work is missed.

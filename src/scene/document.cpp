@@ -63,12 +63,12 @@ void Document::throw_faults() const {
   });
   std::set<std::string> entries;
   for (const auto& fault : sorted) entries.insert(fault.entry);
-  const auto of_original =
-      [&](const Fault& fault) {  // its own faults are reported once those of the original are mended
-        for (auto from = copied.find(fault.entry); from != copied.end(); from = copied.find(from->second))
-          if (entries.count(from->second)) return true;
-        return false;
-      };
+  // its own faults are reported once those of the original are mended
+  const auto of_original = [&](const Fault& fault) {
+    for (auto from = copied.find(fault.entry); from != copied.end(); from = copied.find(from->second))
+      if (entries.count(from->second)) return true;
+    return false;
+  };
   std::vector<std::string> texts;
   std::set<std::tuple<int, int, std::string>> said;  // once, however many copies have the value
   for (const auto& fault : sorted)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include "floe/petsc/handle.h"
 #include "floe/solve/generalized_alpha.h"
@@ -13,8 +12,8 @@ namespace floe::solve {
 using petsc::check;
 
 Crossings::Crossings(const std::vector<Event>& events, std::vector<double>& happened, double step,
-                     const std::function<void(const EventReport&)>& tell)
-    : events_(events), happened_(happened), step_(step), tell_(tell) {}
+                     const std::function<void(const EventReport&)>& on_event)
+    : events_(events), happened_(happened), step_(step), on_event_(on_event) {}
 
 Crossings::Seen Crossings::see(double t, Vec U, Vec V) const {
   Seen seen{std::vector<double>(events_.size(), 0), std::vector<double>(events_.size(), 0)};
@@ -43,20 +42,6 @@ void Crossings::begin(TS ts) {
 
 namespace {
 
-/// The state within the last step. Rates of other types than generalized-alpha are those of the interpolant.
-void interpolate(TS ts, double begin, double end, double t, Vec U, Vec V) {
-  petsc::VecHandle A;
-  check(VecDuplicate(U, A.out()));
-  TSType type = nullptr;
-  check(TSGetType(ts, &type));
-  if (type == std::string(generalized_alpha)) return check(TSGeneralizedAlphaInterpolate(ts, t, U, V, A));
-  const double h = 1e-3 * (end - begin), low = std::max(begin, t - h), high = std::min(end, t + h);
-  check(TSInterpolate(ts, low, A));
-  check(TSInterpolate(ts, high, V));
-  check(VecAXPBY(V, -1 / (high - low), 1 / (high - low), A));
-  check(TSInterpolate(ts, t, U));
-}
-
 /// Events within this share of a step are at one instant.
 constexpr double same = 1e-6;
 
@@ -64,10 +49,9 @@ constexpr double same = 1e-6;
 
 /// The event's function on the step's interpolant.
 double Crossings::within(const Step& step, std::size_t event, double t) const {
-  petsc::VecHandle U, V;
-  check(VecDuplicate(step.U, U.out()));
-  check(VecDuplicate(step.U, V.out()));
-  interpolate(step.ts, step.begin, step.end, t, U, V);
+  petsc::VecHandle U, V, A;
+  for (petsc::VecHandle* one : {&U, &V, &A}) check(VecDuplicate(step.U, one->out()));
+  check(TSGeneralizedAlphaInterpolate(step.ts, t, U, V, A));
   return events_[event].repeats() ? events_[event].gap(t, U, V)[0] : events_[event].crosses(t, U, V);
 }
 
@@ -148,11 +132,11 @@ void Crossings::mark_located(const Seen& now) {
   }
 }
 
-void Crossings::tell(std::size_t i, double t, double rate) {
-  EventReport report{events_[i].name, happened_[i] > 0 ? events_[i].what : events_[i].what_back, t};
-  report.speed = std::abs(rate);
+void Crossings::report(std::size_t i, double t, double rate) {
+  EventReport found{events_[i].name, happened_[i] > 0 ? events_[i].what : events_[i].what_back, t};
+  found.speed = std::abs(rate);
   happened_[i] = -happened_[i];
-  if (tell_) tell_(report);
+  if (on_event_) on_event_(found);
 }
 
 /// The next step after an event that changes nothing: as long as if it had not been.
@@ -165,45 +149,45 @@ void Crossings::go_on(const Step& step) {
 
 namespace {
 
-/// An event that repeats and is so near an end of its step, in shares of it, is told of and no step ends there: a
+/// An event that repeats and is so near an end of its step, in shares of it, is reported and no step ends there: a
 /// stop's force begins at zero with slope zero, and steps much smaller than their neighbours only spoil Newton's
 /// method.
 constexpr double close = 1e-3;
 
 }  // namespace
 
-void Crossings::after_step(TS ts) {
-  Step step{ts, 0, 0, nullptr, nullptr};
-  check(TSGetTime(ts, &step.end));
-  check(TS2GetSolution(ts, &step.U, &step.V));
-  check(TSGetPrevTime(ts, &step.begin));
+/// A step that was taken again: whether it has come to where the event is, and what happens there.
+void Crossings::after_step_again(const Step& step) {
   const double h = step.end - step.begin;
-  if (searched_ >= 0) {
-    back_ = false;
-    arrived_ = target_ - step.end <= 1e-9 * h;
-    if (!arrived_) {
-      double next = 0;  // the step was cut for other reasons
-      check(TSGetTimeStep(ts, &next));
-      return check(TSSetTimeStep(ts, std::min(next, target_ - step.end)));
-    }
-    if (!events_[searched_].repeats()) {
-      mark_located(see(step.end, step.U, step.V));
-      return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
-    }
-    before_ = see(step.end, step.U, step.V);
-    const double rate = before_.rate[searched_], short_of = rate != 0 ? -before_.value[searched_] / rate : 0;
-    if (short_of <= close * whole_)  // else the force set in or ended within the step, and the next one finds it
-      tell(searched_, step.end + std::max(short_of, -h), rate);
-    searched_ = -1, arrived_ = false;
-    return go_on(step);
+  back_ = false;
+  arrived_ = target_ - step.end <= 1e-9 * h;
+  if (!arrived_) {
+    double next = 0;  // the step was cut for other reasons
+    check(TSGetTimeStep(step.ts, &next));
+    return check(TSSetTimeStep(step.ts, std::min(next, target_ - step.end)));
   }
   const Seen now = see(step.end, step.U, step.V);
+  if (!events_[searched_].repeats()) {
+    mark_located(now);
+    return check(TSSetConvergedReason(step.ts, TS_CONVERGED_USER));
+  }
+  before_ = now;
+  const double rate = before_.rate[searched_], short_of = rate != 0 ? -before_.value[searched_] / rate : 0;
+  if (short_of <= close * whole_)  // else the force set in or ended within the step, and the next one finds it
+    report(searched_, step.end + std::max(short_of, -h), rate);
+  searched_ = -1, arrived_ = false;
+  go_on(step);
+}
+
+/// Where the first event of the step is, which becomes the one that is searched; those at the same instant are located.
+double Crossings::find_first(const Step& step, const Seen& now) {
+  const double h = step.end - step.begin;
   double first = step.end;
   std::vector<double> instants(events_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < events_.size(); ++i) {
     std::optional<double> at = crossing(step, i, now);
     if (at && events_[i].repeats() && *at - step.begin <= close * h) {
-      tell(i, *at, before_.rate[i]);
+      report(i, *at, before_.rate[i]);
       at = crossing(step, i, now);                          // it may come back within the step
       if (at && *at - step.begin <= close * h) at.reset();  // seen in the next one
     }
@@ -211,18 +195,31 @@ void Crossings::after_step(TS ts) {
     if (!at || (searched_ >= 0 && *at >= first)) continue;
     searched_ = static_cast<int>(i), first = *at;
   }
+  const bool repeats = searched_ >= 0 && events_[searched_].repeats();
+  for (std::size_t i = 0; i < events_.size(); ++i) located_[i] = !repeats && instants[i] <= first + same * h;
+  return first;
+}
+
+void Crossings::after_step(TS ts) {
+  Step step{ts, 0, 0, nullptr, nullptr};
+  check(TSGetTime(ts, &step.end));
+  check(TS2GetSolution(ts, &step.U, &step.V));
+  check(TSGetPrevTime(ts, &step.begin));
+  if (searched_ >= 0) return after_step_again(step);
+  const double h = step.end - step.begin;
+  const Seen now = see(step.end, step.U, step.V);
+  const double first = find_first(step, now);
   if (searched_ < 0) {
     before_ = now;
     return;
   }
   const bool repeats = events_[searched_].repeats();
-  for (std::size_t i = 0; i < events_.size(); ++i) located_[i] = !repeats && instants[i] <= first + same * h;
   arrived_ = step.end - first <= (repeats ? close : 1e-9) * h;  // the step's end
   if (arrived_) {
     if (!repeats) mark_located(now);
     before_ = now;
     if (!repeats) return check(TSSetConvergedReason(ts, TS_CONVERGED_USER));
-    tell(searched_, first, now.rate[searched_]);
+    report(searched_, first, now.rate[searched_]);
     searched_ = -1, arrived_ = false;
     return;
   }

@@ -11,16 +11,16 @@ using namespace dynamics;
 
 /// Finds within a step where events happen whose time is not known before: the step is taken back and again, to there.
 ///
-/// Events that repeat are told of here, and the motion goes on: nothing changes at them. Such an event is on one side
+/// Events that repeat are reported here, and the motion goes on: nothing changes at them. Such an event is on one side
 /// of its zero, +1 or -1, and happens where it comes to the other. A step may also begin and end on one side and visit
 /// the other between: by its rates at both ends that is seen, too.
 class Crossings {
  public:
   /// @param happened  of each event whether it has; of one that repeats its side, 0: not known
   /// @param step      that fixed steps go on with after an event; 0: steps are adaptive
-  /// @param tell      called where an event that repeats happens. All outlive this.
+  /// @param on_event  called where an event that repeats happens. All outlive this.
   Crossings(const std::vector<Event>& events, std::vector<double>& happened, double step,
-            const std::function<void(const EventReport&)>& tell);
+            const std::function<void(const EventReport&)>& on_event);
   /// Where a motion, or a part of it, begins. Collective.
   void begin(TS ts);
   /// After a step that stands: takes it back if an event is within it; at its end, when it was taken again, the solve
@@ -49,13 +49,15 @@ class Crossings {
   double locate(const Step& step, std::size_t event, double low, double high, double before, double after) const;
   std::optional<double> crossing(const Step& step, std::size_t event, const Seen& now) const;
   std::optional<double> change_of_side(const Step& step, std::size_t event, const Seen& now) const;
+  void after_step_again(const Step& step);
+  double find_first(const Step& step, const Seen& now);
   void mark_located(const Seen& now);
-  void tell(std::size_t event, double t, double rate);
+  void report(std::size_t event, double t, double rate);
   void go_on(const Step& step);
   const std::vector<Event>& events_;
   std::vector<double>& happened_;
   double step_;
-  const std::function<void(const EventReport&)>& tell_;
+  const std::function<void(const EventReport&)>& on_event_;
   Seen before_;                // at the end of the last step
   int searched_ = -1;          // the event that a step is taken again for
   std::vector<char> located_;  // of each event: it is at the same instant

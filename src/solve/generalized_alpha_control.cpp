@@ -91,10 +91,10 @@ bool has_left(const GeneralizedAlpha* data, const Norms& norms, PetscInt lag, Pe
 // Converged when the error that is left is under rtol min(|q_1 - q_0|, |q_1 - q_0 - h v_0|) and slack, in the norm
 // sqrt(sum |J_ii| q_i^2); the error after an update d with the rate theta is theta/(1 - theta) |d| (Hairer and Wanner,
 // Solving Ordinary Differential Equations II, IV.8). Slack is 4 eps |q_1|, and less with a Jacobian kept from before,
-// whose errors have the same sign step after step. What is left after a first update is told by all unknowns: q may be
-// predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small
-// and do not fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led
-// away from the solution, and solve() begins again without it.
+// whose errors have the same sign step after step. What is left after a first update is measured in all unknowns: q may
+// be predicted better than multipliers. Round-off: three updates in a row with a new Jacobian that are small and do not
+// fall any more. A Jacobian kept from before is replaced when the rate is bad; when updates grow, it has led away from
+// the solution, and solve() begins again without it.
 PetscErrorCode newton_converged(SNES snes, PetscInt iteration, PetscReal, PetscReal, PetscReal residual,
                                 SNESConvergedReason* reason, void* context) {
   GeneralizedAlpha* data = generalized_alpha_data(static_cast<TS>(context));
@@ -143,11 +143,10 @@ namespace {
 // e = J^-1 shift_a M e0, e0 = h^2 (b - 1/6) (a_1 - a_0) - h^3/12 [v, A]: Newmark's error of q in the step, without what
 // is stiff or normal to the constraints (there q is exact, and the estimate would be noise of the multipliers). Into
 // work_U. M e0 is F(t, U, V, A + e0), for F is linear in A and F(t, U, V, A) = 0.
-PetscErrorCode estimate_error(TS ts) {
+PetscErrorCode estimate_error(TS ts, KSPConvergedReason* reason) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   const PetscReal h = data->h, factor = data->shift_a * h * h * (data->beta - 1. / 6);
   KSP ksp;
-  KSPConvergedReason reason;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(data->work_A, -1, data->a_used, data->a1));
@@ -161,9 +160,7 @@ PetscErrorCode estimate_error(TS ts) {
   }
   PetscCall(SNESGetKSP(ts->snes, &ksp));
   PetscCall(solve_scaled(ts, data->work_F, data->work_U));
-  PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
-             "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
+  PetscCall(KSPGetConvergedReason(ksp, reason));
   PetscFunctionReturn(0);
 }
 
@@ -178,9 +175,12 @@ PetscErrorCode local_error(TS ts, NormType, PetscInt* order, PetscReal* error) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   constexpr PetscReal least = 1e-9;
   double sums[3] = {0, 0, 0};
+  KSPConvergedReason reason;
 
   PetscFunctionBegin;
-  PetscCall(estimate_error(ts));
+  PetscCall(estimate_error(ts, &reason));
+  PetscCheck(reason >= 0, PetscObjectComm((PetscObject)ts), PETSC_ERR_NOT_CONVERGED,
+             "Error of the step: the linear solve failed (%s)", KSPConvergedReasons[reason]);
   {
     const Entries e(data->work_U), U1(data->U1), origin(data->origin), mass(data->mass), dynamic(data->dynamic);
     for (PetscInt i = 0, n = local_size(data->U1); i < n; ++i) {
@@ -202,12 +202,14 @@ PetscErrorCode measure_event_error(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   double sums[3] = {0, 0, 0};
   PetscBool fixed;
+  KSPConvergedReason reason;
 
   PetscFunctionBegin;
   data->event_error = 0;
   PetscCall(PetscObjectTypeCompare((PetscObject)ts->adapt, TSADAPTNONE, &fixed));
-  if (!fixed || !data->after_event || data->h <= (1 + 1e-9) * data->h_resolved) PetscFunctionReturn(0);
-  PetscCall(estimate_error(ts));
+  if (!fixed || passed_since_event(ts, data->h)) PetscFunctionReturn(0);
+  PetscCall(estimate_error(ts, &reason));
+  if (reason < 0) PetscFunctionReturn(0);
   {
     const Entries e(data->work_U), U0(data->U0), U1(data->U1), origin(data->origin), mass(data->mass),
         dynamic(data->dynamic);

@@ -33,11 +33,12 @@ struct GeneralizedAlpha {
   PetscReal h_start = 0;  // the step that they were made for
   Vec jerk = nullptr, normal = nullptr;
 
-  // After an event: A before the first event that was not followed by a step of the size of the coming one, and the
-  // longest step since. What a step of a greater size does not resolve of A - A_before is left out.
+  // A before the last event, and its time; of events that follow each other within the coming step, the first. Of a
+  // step that is longer than the time since then (passed_since_event), what it does not resolve of A - A_before is left
+  // out.
   PetscBool after_event = PETSC_FALSE;
   Vec A_before = nullptr;
-  PetscReal h_resolved = 0;
+  PetscReal t_event = 0;
   PetscReal event_error = 0;  // TSGeneralizedAlphaGetEventError
 
   // Constants of the step under way: a_n as used, and what the rates are affine in.
@@ -72,6 +73,12 @@ struct GeneralizedAlpha {
 };
 
 inline GeneralizedAlpha* generalized_alpha_data(TS ts) { return static_cast<GeneralizedAlpha*>(ts->data); }
+
+/// Whether a step of size h from now on is no longer than the time since the last event.
+inline bool passed_since_event(TS ts, PetscReal h) {
+  const GeneralizedAlpha* data = generalized_alpha_data(ts);
+  return !data->after_event || h <= (1 + 1e-9) * (ts->ptime - data->t_event);
+}
 
 /// The step under way gets the size h.
 inline void set_step(GeneralizedAlpha* data, PetscReal h) {

@@ -12,7 +12,7 @@
 //                   A_0 - A_before is replaced by J^-1 M shift_a (A_0 - A_before) where the step does not resolve more
 //                   than half of it in the norm of M: a joint was released. Of stiff motions it is -omega^2 times their
 //                   amplitude, and h A_0 would make omega h times the velocities that they can have (overshoot).
-//                   Also later, when steps become longer than any since the event
+//                   Also later, where a step of a constrained system is longer than the time since the event
 // What the step makes of A' and normal: fresh_rates in generalized_alpha_step.cpp. A constrained system is started
 // anew whenever its step size changes: the rates that suit one size would leave a transient in the multipliers, which
 // grows while steps shrink.
@@ -217,15 +217,15 @@ PetscErrorCode jump_of_accelerations(GeneralizedAlpha* data, Vec x) {
   PetscFunctionReturn(0);
 }
 
-// A_0 without what a step that is longer than any since the event does not resolve; J of A_0 is in the solver. What is
-// removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
+// A_0 without what a step that is longer than the time since the event does not resolve; J of A_0 is in the solver.
+// What is removed must not change momentum; the derivative of M A_0 with respect to q would, and is as large as A_0.
 PetscErrorCode resolve_accelerations(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
   KSPConvergedReason reason;
   PetscReal whole, lost;
 
   PetscFunctionBegin;
-  if (!data->after_event || data->h <= (1 + 1e-9) * data->h_resolved) PetscFunctionReturn(0);
+  if (passed_since_event(ts, data->h)) PetscFunctionReturn(0);
   PetscCall(jump_of_accelerations(data, data->V1));
   PetscCall(VecCopy(data->V1, data->work_U));
   PetscCall(inertia_norm(ts, 1, data->V1, &whole));
@@ -288,9 +288,9 @@ PetscErrorCode note_event(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
   PetscFunctionBegin;
-  if (data->after_event && data->h_resolved < (1 - 1e-9) * ts->time_step) PetscFunctionReturn(0);
+  if (!passed_since_event(ts, ts->time_step)) PetscFunctionReturn(0);
   PetscCall(VecCopy(data->A0, data->A_before));
-  data->h_resolved = 0;
+  data->t_event = ts->ptime;
   data->after_event = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -11,8 +11,7 @@ namespace {
 // The time that the step under way ends at.
 PetscReal end_time(TS ts) { return ts->ptime + generalized_alpha_data(ts)->h; }
 
-// The state becomes the step's beginning; the step before counts from now on, for none takes it back any more.
-// Multipliers have no rates, whatever the user's V holds there.
+// The state becomes the step's beginning. Multipliers have no rates, whatever the user's V holds there.
 PetscErrorCode begin(TS ts) {
   GeneralizedAlpha* data = generalized_alpha_data(ts);
 
@@ -23,7 +22,6 @@ PetscErrorCode begin(TS ts) {
   std::swap(data->A0, data->A1);
   std::swap(data->a0, data->a1);
   data->h_a0 = data->h;
-  data->h_resolved = PetscMax(data->h_resolved, data->h);
   ++data->equal_steps;
   data->fresh = data->from_rest = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -242,10 +240,6 @@ PetscErrorCode attempt(TS ts, PetscReal* next, PetscBool* accepted) {
   }
   PetscFunctionReturn(0);
 }
-
-}  // namespace
-
-namespace {
 
 // Whether the step needs a consistent start. TS asks for one, too, where its post-step function took the step back,
 // which changed nothing: then the rates that the step began with stand, and follow its new size.

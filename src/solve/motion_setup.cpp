@@ -133,7 +133,8 @@ void save_factorisations(SNES snes, Mat J, double coarse) {
 
 /// What -motion_ts_type may say: a type for motions, which are of second order, and one that knows rotations in space.
 /// Newton's convergence test measures Newton's updates; a step that passes the end, or an event, would be lost.
-void refuse_other_types(TS ts, const System& system, const std::string& prefix) {
+void refuse_other_types(TS ts, const System& system, const Integration& how) {
+  const std::string& prefix = how.prefix;
   SNES snes = nullptr;
   SNESType newton = nullptr;
   KSP ksp = nullptr;
@@ -165,6 +166,13 @@ void refuse_other_types(TS ts, const System& system, const std::string& prefix) 
   if (system.has_attitudes() && type != std::string(generalized_alpha))
     throw InputError(fmt::format("option -{}ts_type {}: adds spatial rotations like vectors; expected {}", prefix, type,
                                  generalized_alpha));
+  const auto watched =
+      std::find_if(how.events.begin(), how.events.end(), [](const Event& one) { return one.watched(); });
+  if (watched != how.events.end() && type != std::string(generalized_alpha))
+    throw InputError(
+        fmt::format("option -{}ts_type {}: does not interpolate within steps, where the time of event {} is found; "
+                    "expected {}",
+                    prefix, type, watched->name, generalized_alpha));
 }
 
 }  // namespace
@@ -213,7 +221,7 @@ void set_up_motion(TS ts, const System& system, const Integration& how, MotionCo
   save_factorisations(snes, J, how.newton_tolerance);
   petsc::check_options(TSSetFromOptions(ts), how.prefix);
   check(TSGetMaxTime(ts, &context.end));
-  refuse_other_types(ts, system, how.prefix);
+  refuse_other_types(ts, system, how);
 }
 
 }  // namespace floe::solve

@@ -36,7 +36,7 @@ void each_number(TS ts, Visit&& visit) {
   visit(ts->ksp_its), visit(ts->reject), visit(ts->num_snes_failures), visit(ts->steprestart);
   visit(ts->adapt->timestepjustdecreased);
   visit(snes->lagjacobian), visit(snes->lagpreconditioner), visit(snes->jac_iter), visit(snes->pre_iter);
-  visit(data->h), visit(data->h_a0), visit(data->h_resolved), visit(data->h_scale), visit(data->started);
+  visit(data->h), visit(data->h_a0), visit(data->t_event), visit(data->h_scale), visit(data->started);
   visit(data->equal_steps), visit(data->unresolved), visit(data->after_event);
   visit(data->rate), visit(data->rate_update), visit(data->rate_of_old_jacobian);
   visit(data->reach), visit(data->reach_tried);

@@ -1,5 +1,6 @@
 """The table of the failure tests."""
 import dataclasses
+import json
 import os
 import pathlib
 import signal
@@ -290,6 +291,14 @@ PATIENT = {"OMPI_MCA_odls_base_sigkill_timeout": "4"}
 RELEASED = {"bodies.beam.initial": {"deformation": ["-0.3^2*9/8*(4/3*x^3 - x^4 + x^5/5)", "0.3*(3*x^2 - x^3)/2"]},
             "bodies.beam.section.EA": 1e7, "loads": {}, "motion.end": 1}
 STIFF_START = {**RELEASED, "bodies.beam.damping": {"stiffness": 2e-4}, "motion.tolerance": 1e-3}
+def errors_after_events(*ranges):
+    """The step_error of each event is between two numbers."""
+    def check(folder):
+        found = [event.get("step_error", 0) for event in json.loads((folder / "out/summary.json").read_text())["events"]]
+        assert len(found) == len(ranges) and all(low <= one <= high for one, (low, high) in zip(found, ranges)), found
+    return check
+
+
 LET_GO = {"bodies.beam.mesh": {"line": {"from": [0, 0], "to": [1, 0], "elements": 12}},
           "bodies.beam.section": {"A": 1e-4, "I": 2.1e-10}, "bodies.beam.material": {"E": 2e9, "rho": 1000},
           "bodies.beam.damping": {"stiffness": 1e-4}, "motion.end": 2.5, "events": {"off": {"unlock": "clamp", "at": 1.7}},
@@ -334,6 +343,11 @@ FAULTS = [
           shows=("Note: event off (unlock joint clamp) at t = 1.7 s: the step after it has an estimated error of 7",
                  "take a smaller motion.step"),
           changes={**LET_GO, "motion.step": 0.005}, check=files("finished", rows=None)),
+    *case("an event follows the step that a bent beam is let go in", formulations=("nlffr",), lines=0,
+          changes={**LET_GO, "motion.step": 0.005, "bodies.other": {"rigid": {"mass": 1, "inertia": 1, "centre": [5, 5]}},
+                   "joints.other": {"type": "fixed", "between": [{"body": "ground", "node": [5, 5]}, "other.centre"]},
+                   "events": {"off": {"unlock": "clamp", "at": 1.7}, "second": {"unlock": "other", "at": 1.705}}},
+          check=lambda folder: (files("finished", rows=None)(folder), errors_after_events([0.5, 2], [0, 0.2])(folder))),
     *case("a bent beam with dampers is let go in short steps", formulations=("nlffr",), lines=0,
           never=("total energy", "event off (unlock joint clamp) at"),
           changes={**LET_GO, "motion.step": 0.00125}, check=files("finished", rows=None)),
@@ -434,6 +448,10 @@ OPTIONS = [
     *case("type of TS of PETSc", options=("-motion_ts_type", "alpha2"), lines=0,
           shows=("Note: -motion_ts_type alpha2",),
           check=files("finished", 51)),
+    *case("type of TS of PETSc and an event of a probe", formulations=("vm+md", "nlffr"), codes=2, lines=1,
+          options=("-motion_ts_type", "alpha2"), check=no_results,
+          says=("-motion_ts_type alpha2: does not interpolate within steps, where the time of event enough is found",),
+          changes={"events": {"enough": {"stop": True, "probe": "tip.y", "crosses": 2e-4}}}),
     *case("spectral radius 1", codes=2, lines=1, options=("-motion_ts_generalized_alpha_radius", "1"),
           says=("spectral radius",)),
 ]

@@ -58,10 +58,10 @@ PetscErrorCode TSGeneralizedAlphaSetRotations(TS ts, const TSGeneralizedAlphaRot
 /// and for other types.
 PetscErrorCode TSGeneralizedAlphaGetAcceleration(TS ts, Vec* A);
 
-/// Of the first step after a restart (TSRestartStep), and of later ones that are longer than all since: the estimated
-/// local error over the step's path |q_1 - q_0|, both in the norm sqrt(sum M_ii q_i^2). The path counts at least as
-/// 1e-4 of the distance from where the run began. It is about the relative error that velocities keep from then on. 0
-/// for other steps, with adaptive steps and for other types.
+/// Of the first step after a restart (TSRestartStep), and of later ones that are longer than the time since: the
+/// estimated local error over the step's path |q_1 - q_0|, both in the norm sqrt(sum M_ii q_i^2). The path counts at
+/// least as 1e-4 of the distance from where the run began. It is about the relative error that velocities keep from
+/// then on. 0 for other steps, with adaptive steps and for other types.
 PetscErrorCode TSGeneralizedAlphaGetEventError(TS ts, PetscReal* error);
 
 /// U and its rates V within the last step, cubic polynomials between its ends (errors of fourth order in the step);
