@@ -29,7 +29,7 @@ std::optional<scene::Scene> on_larger_bases(const scene::Scene& scene) {
   scene::Scene larger = scene;
   bool any = false;
   for (scene::Body& body : larger.bodies)
-    if (meshed(body)) enlarge(body.reduction), any = true;
+    if (is_meshed(body)) enlarge(body.reduction), any = true;
   return any ? std::optional(larger) : std::nullopt;
 }
 

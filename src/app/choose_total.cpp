@@ -44,7 +44,6 @@ class TotalSearch {
     if (!exact_.none.empty()) return without_exact();
     decide("reference", fmt::format("cfr, {}steps {}", mesh_words(), step_words()),
            fmt::format("estimated error of the reference: {}", math::percent(exact_.error)));
-    if (!exact_.mesh_refined) note_imported();
     if (full_order()) {
       lengthen_steps();
       choose_frames_and_elements();
@@ -77,27 +76,15 @@ class TotalSearch {
     }
   }
 
-  std::string mesh_words() const {
-    if (!exact_.mesh_refined) return "";
-    return fmt::format("elements 1/{} as long, ", 1 << (exact_.of_mesh.size() - 1));
-  }
+  std::string mesh_words() const { return fmt::format("elements 1/{} as long, ", 1 << (exact_.of_mesh.size() - 1)); }
   std::string step_words() const { return fmt::format("1/{} as long, extrapolated", 1 << exact_.halved_steps); }
-
-  void note_imported() {
-    std::vector<std::string> names;
-    for (const scene::Body& body : scene_.bodies)
-      if (!body.rigid && body.mesh.file) names.push_back(body.name);
-    unbounded_.push_back({"mesh", fmt::format("floe does not refine imported meshes (body {}); compare with a mesh of "
-                                              "elements half as long, whose error is a quarter",
-                                              fmt::join(names, ", "))});
-  }
 
   /// Whether full-order models of all flexible bodies are cheap: lines.
   bool full_order() const {
     int elements = 0;
     for (const scene::Body& body : scene_.bodies) {
       if (body.rigid) continue;
-      if (!generated(body) || body.mesh.plate) return false;
+      if (!is_meshed(body) || body.mesh.plate || body.mesh.file) return false;
       for (const int one : body.mesh.elements) elements += one;
     }
     return elements <= most_elements;
@@ -160,7 +147,7 @@ class TotalSearch {
     if (std::any_of(bodies.begin(), bodies.end(), [](const Discretised& one) { return one.elements >= most_times; }))
       return bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b)
-      if (generated(scene_.bodies[b])) bodies[b].elements *= 2;
+      if (is_meshed(scene_.bodies[b])) bodies[b].elements *= 2;
     return bodies;
   }
 
@@ -183,7 +170,7 @@ class TotalSearch {
   Discretisation with_strains(Discretisation bodies, fem::Strains strains) const {
     if (scene_.dimension == 3)
       for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (generated(scene_.bodies[b])) bodies[b].strains = strains;
+        if (is_meshed(scene_.bodies[b])) bodies[b].strains = strains;
     return bodies;
   }
 
@@ -223,22 +210,27 @@ class TotalSearch {
     int halvings = 0;
     while (halvings + 1 < static_cast<int>(exact_.of_mesh.size()) && exact_.of_mesh[halvings] > wanted) ++halvings;
     for (std::size_t b = 0; b < chosen_.size(); ++b)
-      if (generated(scene_.bodies[b])) chosen_[b].elements = 1 << halvings;
+      if (is_meshed(scene_.bodies[b])) chosen_[b].elements = 1 << halvings;
     for (std::size_t h = 0; h < exact_.of_mesh.size(); ++h)
       tried_.push_back(fmt::format("{}: {}", h == 0 ? "as given" : fmt::format("{} times as many", 1 << h),
                                    math::percent(exact_.of_mesh[h])));
+  }
+
+  static std::string imported_words(int times) {
+    return times == 1 ? "imported mesh" : fmt::format("imported mesh, elements 1/{} as long", times);
   }
 
   std::string words(const Discretisation& bodies) const {
     std::vector<std::string> all;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const scene::Body& body = scene_.bodies[b];
-      if (!generated(body)) continue;
+      if (!is_meshed(body)) continue;
       std::vector<int> counts = body.mesh.elements;
       if (body.mesh.plate) counts = {body.mesh.plate->elements[0], body.mesh.plate->elements[1]};
       for (int& count : counts) count *= bodies[b].elements;
-      std::string one = fmt::format("{}{} elements", scene_.bodies.size() > 1 ? body.name + ": " : "",
-                                    fmt::join(counts, body.mesh.plate ? "x" : "+"));
+      std::string one = scene_.bodies.size() > 1 ? body.name + ": " : "";
+      one += body.mesh.file ? imported_words(bodies[b].elements)
+                            : fmt::format("{} elements", fmt::join(counts, body.mesh.plate ? "x" : "+"));
       if (body.mesh.segments.size() == 1)
         one += fmt::format(" in {} frame{}", bodies[b].frames, bodies[b].frames > 1 ? "s" : "");
       if (bodies[b].strains)
@@ -257,7 +249,7 @@ class TotalSearch {
     if (!choice.empty())
       decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));
     for (const scene::Body& body : scene_.bodies)
-      if (generated(body) && body.mesh.segments.size() == 1 && !divisible(body))
+      if (is_meshed(body) && body.mesh.segments.size() == 1 && !divisible(body))
         decide("  " + body.name, fmt::format("{} frames", body.frames), "not divided: it has an interface");
   }
 
@@ -265,10 +257,7 @@ class TotalSearch {
   Chosen without_exact() {
     unbounded_.push_back({"model", exact_.none});
     double of_mesh = 0;
-    if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                    [](const scene::Body& body) { return !body.rigid && body.mesh.file.has_value(); }))
-      note_imported();
-    if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), generated)) of_mesh = refine_mesh();
+    if (std::any_of(scene_.bodies.begin(), scene_.bodies.end(), scene::is_meshed)) of_mesh = refine_mesh();
     const scene::Scene scene = discretised(scene_, chosen_);
     return finished(choose_within(scene, accuracy_, comm_, {true, nullptr, of_mesh, 0}));
   }

@@ -125,7 +125,7 @@ void compare(const scene::Scene& as_written, const std::vector<Formulation>& for
   Compared own;
   if (reference_error && !references.empty()) {
     own.name = references.front()->name;
-    own.refined = refined_words(scene);
+    own.refined = "mesh and step halved";
     try {
       own.result = run(refined(scene), scene::formulation_of(own.name), comm, std::nullopt);
     } catch (const RunError& error) {

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "floe/scene/copies.h"
 
@@ -20,6 +21,7 @@ void write_elements(YAML::Node mesh, const Body& body, int times) {
     for (const int elements : counts) list.push_back(elements * times);
     return list;
   };
+  if (body.mesh.file) mesh["file"]["refine"] = body.mesh.file->refine + std::ilogb(times);
   for (const char* kind : {"line", "polyline", "segments", "plate"}) {
     if (!mesh[kind].IsDefined()) continue;
     if (body.mesh.plate)
@@ -46,10 +48,8 @@ void write_frames(YAML::Node node, const Body& body, int frames) {
 
 }  // namespace
 
-bool generated(const Body& body) { return !body.rigid && !body.reduced && !body.mesh.file; }
-
 bool divisible(const Body& body) {
-  return generated(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty();
+  return is_meshed(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty();
 }
 
 Discretisation discretisation_of(const Scene& scene) {

@@ -8,16 +8,14 @@ namespace floe::app {
 /// What a choice for the total error changes of a body beside its reduced model.
 struct Discretised {
   int frames = 1;
-  int elements = 1;                          ///< times as many as the scene has, along each edge
+  int elements = 1;  ///< times as many as the scene has, along each edge; of imported meshes a power of 2
   std::optional<fem::Strains> strains = {};  ///< absent: as the scene has them
   bool operator==(const Discretised&) const = default;
 };
 
-/// Of each body; those that are rigid or from files do not change.
+/// Of each body; those that are rigid or reduced in files do not change.
 using Discretisation = std::vector<Discretised>;
 
-/// Whether a body is flexible, and its mesh is generated.
-bool generated(const scene::Body& body);
 /// Whether it is one straight line whose floating frame may be divided.
 bool divisible(const scene::Body& body);
 

@@ -85,11 +85,7 @@ class Refinement {
       }
     }
     const RunResult own = moved(scene_, scene::Formulation::cfr, std::nullopt, comm_, accuracy_);
-    exact.mesh_refined = std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const scene::Body& body) {
-      return body.mesh.file.has_value() && !body.rigid;
-    });
-    const double of_mesh = exact.mesh_refined ? limit(own, true, exact.in_own_steps, exact) : 0;
-    if (!exact.mesh_refined) exact.in_own_steps = own.series;
+    const double of_mesh = limit(own, true, exact.in_own_steps, exact);
     Series limit_of_steps;
     const double left_of_step = limit(own, false, limit_of_steps, exact);
     exact.of_step = worst_error(own.series, limit_of_steps);
@@ -107,7 +103,7 @@ class Refinement {
       scene::Scene finer = scene_;
       if (mesh) assess::scale_meshes(finer, 1 << halving);
       if (!mesh) finer.motion.step /= 1 << halving;
-      const double growth = mesh && plates() ? 5 : 2;
+      const double growth = mesh && shells() ? 5 : 2;
       if (growth * took > most_) {
         if (halving == 1)
           throw RunError(fmt::format("{} halved would take about {:.2g} s (limit {:.2g} s)",
@@ -132,9 +128,9 @@ class Refinement {
     return left;
   }
 
-  bool plates() const {
+  bool shells() const {
     return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [](const scene::Body& body) { return body.mesh.plate.has_value(); });
+                       [](const scene::Body& body) { return body.mesh.plate || (body.mesh.file && is_meshed(body)); });
   }
 
   scene::Scene scene_;

@@ -22,7 +22,6 @@ struct ExactMotion {
   double of_step = 0;           ///< error of the scene's step, of the worst probe
   int halved_steps = 0;         ///< how often
   bool mesh_ordered = true;     ///< `series` is extrapolated from the last two meshes
-  bool mesh_refined = true;     ///< false: a mesh is imported, of which the error is not known
 };
 
 /// @param accuracy  that is asked for: halvings end where the error is below a tenth of it, or would take too long

@@ -14,8 +14,6 @@ using scene::Formulation;
 using scene::Scene;
 using Choice = scene::DerivativesSpec::Choice;
 
-bool meshed(const Body& body) { return !body.rigid && !body.reduced; }
-
 namespace {
 
 constexpr int most_columns = 60;   // of a body with all derivatives
@@ -25,7 +23,7 @@ constexpr double products = 0.03;  // of the displacement, that omitted products
 template <class Change>
 Scene changed(Scene scene, Change&& change) {
   for (Body& body : scene.bodies)
-    if (meshed(body)) change(body);
+    if (is_meshed(body)) change(body);
   return scene;
 }
 
@@ -49,7 +47,7 @@ namespace {
 int greatest_modes(const Scene& scene) {
   int most = 0;
   for (const Body& body : scene.bodies)
-    if (meshed(body)) most = std::max({most, body.reduction.modes.count, body.reduction.modes.alone});
+    if (is_meshed(body)) most = std::max({most, body.reduction.modes.count, body.reduction.modes.alone});
   return most;
 }
 
@@ -88,7 +86,7 @@ void add_attachments(const Scene& scene, std::vector<Candidate>& members) {
              {Attachment::all, "attachment modes at joints and loads"}};
   for (const auto& [kind, name] : all) {
     if (std::none_of(scene.bodies.begin(), scene.bodies.end(),
-                     [kind = kind](const Body& body) { return meshed(body) && body.reduction.attachment != kind; }))
+                     [kind = kind](const Body& body) { return is_meshed(body) && body.reduction.attachment != kind; }))
       continue;
     members.push_back({"attachment modes", name,
                        changed(scene, [kind = kind](Body& body) { body.reduction.attachment = kind; }),
@@ -110,7 +108,7 @@ void add_responses(const Scene& scene, std::vector<Candidate>& members) {
 void add_forces(const Scene& scene, std::vector<Candidate>& members) {
   members.push_back({"elastic force", "linear elastic force",
                      changed(scene, [](Body& body) { body.reduction.linear = true; }), Formulation::vm_md});
-  const auto omits = [](const Body& body) { return meshed(body) && body.reduction.products.value_or(0) > 0; };
+  const auto omits = [](const Body& body) { return is_meshed(body) && body.reduction.products.value_or(0) > 0; };
   const bool some = std::any_of(scene.bodies.begin(), scene.bodies.end(), omits);
   members.push_back({"elastic force", some ? "all products" : fmt::format("products {:g} %", 100 * products),
                      changed(scene, [&](Body& body) { body.reduction.products = some ? 0 : products; }),

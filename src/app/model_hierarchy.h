@@ -3,9 +3,6 @@
 
 namespace floe::app {
 
-/// Whether a body is flexible, and reduced by floe.
-bool meshed(const scene::Body& body);
-
 /// The scene with m modes and these derivatives in all its flexible bodies.
 scene::Scene with_modes(const scene::Scene& scene, int m, scene::DerivativesSpec::Choice derivatives, int count = 0);
 

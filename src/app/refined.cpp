@@ -20,10 +20,4 @@ scene::Scene at_equal_times(const scene::Scene& scene) {
   return other;
 }
 
-std::string refined_words(const scene::Scene& scene) {
-  for (const scene::Body& body : scene.bodies)
-    if (body.mesh.file) return "step halved";  // a file has one mesh
-  return "mesh and step halved";
-}
-
 }  // namespace floe::app

@@ -61,7 +61,7 @@ struct TradeoffReference {
   std::string why;    ///< why it is not cfr; empty: it is, or was requested
   Series series;
   double error = 0;         ///< of its own, estimated, of the worst probe
-  std::string error_lacks;  ///< what that does not contain: `the error of the imported mesh`
+  std::string error_lacks;  ///< what that does not contain: `the error of strains and floating frames`
 };
 
 /// Formulation cfr, converged in mesh and step (exact_motion.h), for errors down to the smallest required one; where it

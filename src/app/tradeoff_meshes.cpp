@@ -65,7 +65,7 @@ std::vector<Variant> in_all_frames(const Scene& scene) {
 /// Elements twice as long, where their number can be divided, and half as long.
 std::vector<Variant> on_other_meshes(const Scene& scene) {
   std::vector<Variant> variants;
-  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), generated)) return variants;
+  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed)) return variants;
   for (const double factor : {0.5, 2.0}) {
     Variant variant{factor < 1 ? "half the elements" : "twice the elements", scene, ""};
     if (assess::scale_meshes(variant.scene, factor)) variants.push_back(std::move(variant));
@@ -82,7 +82,7 @@ Scene in_longer_steps(const Scene& scene, int times) {
 /// Whether all meshes are lines: the reduction of plates with strains of second order takes minutes.
 bool of_lines_in_space(const Scene& scene) {
   return scene.dimension == 3 && std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
-           return !meshed(body) || (!body.mesh.plate && !body.mesh.file);
+           return !is_meshed(body) || (!body.mesh.plate && !body.mesh.file);
          });
 }
 
@@ -93,7 +93,7 @@ void add_strains(const Scene& scene, std::vector<Candidate>& members) {
     Scene other = scene;
     bool changes = false;
     for (Body& body : other.bodies)
-      if (meshed(body) && body.strains != strains) body.strains = strains, changes = true;
+      if (is_meshed(body) && body.strains != strains) body.strains = strains, changes = true;
     if (changes) members.push_back({"strains", name, other, Formulation::vm_md});
   }
 }

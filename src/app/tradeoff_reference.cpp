@@ -16,16 +16,7 @@ namespace {
 
 constexpr double smallest_required = 0.002;  // of the models that are selected
 
-bool has_imported_mesh(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const scene::Body& body) { return body.mesh.file.has_value() && !body.rigid; });
-}
-bool has_generated_mesh(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const scene::Body& body) { return !body.mesh.file && !body.rigid && !body.reduced; });
-}
-
-/// The scene on elements half as long, where they are generated, in steps of a quarter, stored as often.
+/// The scene on elements half as long, in steps of a quarter, stored as often.
 Scene finer(const Scene& scene) {
   Scene fine = refined(scene);
   fine.motion = scene.motion;
@@ -39,11 +30,9 @@ TradeoffReference of_exact(const ExactMotion& exact) {
   TradeoffReference reference;
   reference.formulation = Formulation::cfr;
   const int halvings = static_cast<int>(exact.of_mesh.size()) - 1;
-  reference.words = fmt::format("cfr, {}steps 1/{} as long, extrapolated",
-                                exact.mesh_refined ? fmt::format("elements 1/{} as long, ", 1 << halvings) : "",
+  reference.words = fmt::format("cfr, elements 1/{} as long, steps 1/{} as long, extrapolated", 1 << halvings,
                                 1 << exact.halved_steps);
   reference.series = exact.series, reference.error = exact.error;
-  if (!exact.mesh_refined) reference.error_lacks = "the error of the imported mesh";
   return reference;
 }
 
@@ -52,13 +41,12 @@ TradeoffReference of_exact(const ExactMotion& exact) {
 TradeoffReference of_full_order(const Scene& scene, const Series& own, MPI_Comm comm) {
   TradeoffReference reference;
   reference.formulation = Formulation::nlffr;
-  const bool halved = has_generated_mesh(scene);
+  const bool halved = std::any_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed);
   reference.words = fmt::format("nlffr, {}steps 1/4 as long", halved ? "elements 1/2 as long, " : "");
   if (scene.motion.tolerance) reference.words += ", a sixteenth of the tolerance";
   reference.series = run(finer(scene), Formulation::nlffr, comm, std::nullopt).series;
   reference.error = worst_error(own, reference.series) / (halved ? 3 : 15);
   reference.error_lacks = "the error of strains and floating frames";
-  if (has_imported_mesh(scene)) reference.error_lacks += ", the error of the imported mesh";
   return reference;
 }
 

@@ -13,7 +13,6 @@
 namespace floe::assess {
 
 /// Whether its mesh is in the scene.
-inline bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
 
 /// What one body may have.
 struct Source {

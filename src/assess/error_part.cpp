@@ -156,11 +156,11 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
                   fmt::format("the motion in steps {} times as long", times), part);
 }
 
-std::vector<std::string> meshed_bodies(const Scene& scene, bool imported) {
-  std::vector<std::string> names;
-  for (const Body& body : scene.bodies)
-    if (!body.rigid && !body.reduced && body.mesh.file.has_value() == imported) names.push_back(body.name);
-  return names;
+bool any_mesh(const Scene& scene) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed); }
+
+bool any_shells(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& body) { return is_meshed(body) && (body.mesh.plate || body.mesh.file); });
 }
 
 bool scale_meshes(Scene& scene, double factor) {
@@ -172,6 +172,11 @@ bool scale_meshes(Scene& scene, double factor) {
   };
   for (Body& body : scene.bodies) {
     if (body.rigid && factor < 1) continue;
+    if (body.mesh.file && is_meshed(body)) {
+      const int refine = body.mesh.file->refine + std::ilogb(factor);
+      divided = divided && refine >= 0;
+      body.mesh.file->refine = std::max(0, refine);
+    }
     for (int& elements : body.mesh.elements) scale(elements);
     if (body.mesh.plate)
       for (int& elements : body.mesh.plate->elements) scale(elements);

@@ -59,7 +59,9 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
 /// part out on all of them, with the reason. @return whether there was none. Collective.
 bool fill_in(const FinishedMotion& motion, ErrorPart& part, const std::function<void()>& work);
 
-/// Names of bodies with a mesh, generated or from a file.
-std::vector<std::string> meshed_bodies(const Scene& scene, bool imported);
+/// Whether a body has a mesh, and whether one may be of shells: the number of elements grows with the square of their
+/// number along an edge.
+bool any_mesh(const Scene& scene);
+bool any_shells(const Scene& scene);
 
 }  // namespace floe::assess

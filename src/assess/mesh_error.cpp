@@ -1,9 +1,9 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "error_part.h"
+#include "floe/error.h"
 
 namespace floe::assess {
 
@@ -11,20 +11,8 @@ namespace {
 
 constexpr double power = 4;  // 2^2: errors of order 2 in the elements' length
 
-std::string why_none(const Scene& scene) {
-  if (!meshed_bodies(scene, false).empty()) return "";
-  const std::vector<std::string> imported = meshed_bodies(scene, true);
-  if (imported.empty()) return "no body has a mesh";
-  return fmt::format("floe does not refine imported meshes (body {}); compare with a finer mesh",
-                     fmt::join(imported, ", "));
-}
-
 /// How many times as many elements the refined bodies have.
-double growth(const Scene& scene) {
-  const bool plates = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                  [](const Body& body) { return body.mesh.plate.has_value(); });
-  return plates ? 4 : 2;
-}
+double growth(const Scene& scene) { return any_shells(scene) ? 4 : 2; }
 
 void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double allowed,
               ErrorPart& part) {
@@ -37,7 +25,14 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBu
     return;
   }
   if (finer) scale_meshes(other, 2);
-  const Model model = built(motion, other, motion.model.formulation);
+  part.by = finer ? "elements half as long" : "elements twice as long";
+  const Model model = [&] {
+    try {
+      return built(motion, other, motion.model.formulation);
+    } catch (const InputError& fault) {  // of every rank: a node of the scene's mesh that the other does not have
+      throw RunError(fmt::format("on {}: {}", part.by, first_line(fault.what())));
+    }
+  }();
   int step = 1;
   const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
   if (can_lengthen(motion))
@@ -46,7 +41,6 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBu
   if (const double share = time.left() / needs(); share < 1) end *= std::max(share, min_fraction);
   solve::Integration how = motion.how;
   how.step *= step, how.end = end;
-  part.by = finer ? "elements half as long" : "elements twice as long";
   if (step > 1) part.by += fmt::format(", steps {} times as long", step);
   const ProbeHistory history = simulated(motion, time, other, model, how, own.t,
                                          [&](const solve::Instant&, double spent) { return spent > 2 * allowed; });
@@ -68,12 +62,10 @@ void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBu
 
 ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& own, double allowed) {
   ErrorPart part;
-  part.none = why_none(motion.scene);
+  part.none = any_mesh(motion.scene) ? "" : "no body has a mesh";
   if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
   if (part.none.empty() && motion.scene.probes.empty()) part.none = "no probes";
   if (!part.none.empty()) return part;
-  if (const std::vector<std::string> imported = meshed_bodies(motion.scene, true); !imported.empty())
-    part.notes.push_back(fmt::format("the imported mesh of body {} is not refined", fmt::join(imported, ", ")));
   for (const Body& body : motion.scene.bodies)
     if (body.reduced) part.notes.push_back(fmt::format("body {} comes from a file without its mesh", body.name));
   const TimeBudget time(motion.comm, allowed);

@@ -106,7 +106,7 @@ class ModelError {
   void extrapolate(Thinning used, Exact& exact) {
     for (const double mesh : {0.5, 2.0}) {
       const Thinning other{mesh, used.step};
-      if (part_.apart || (mesh > 1 && !plates())) continue;
+      if (part_.apart || (mesh > 1 && !any_shells(scene_))) continue;
       if (mesh_.errors.size() < exact.probes.values.size() || !can_scale(mesh)) continue;  // e_mesh is subtracted
       if (time_.of_first(needs(other)) > time_.left()) continue;
       std::optional<Exact> second;
@@ -157,12 +157,7 @@ class ModelError {
 
   bool can_scale(double mesh) const {
     Scene scaled = scene_;
-    return mesh == 1 || (meshed_bodies(scene_, true).empty() && scale_meshes(scaled, 1 / mesh));
-  }
-
-  bool plates() const {
-    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [](const Body& body) { return body.mesh.plate.has_value(); });
+    return mesh == 1 || scale_meshes(scaled, 1 / mesh);
   }
 
   /// Lower bound for the whole motion on any machine, of each rank: whether a large model is worth building.
@@ -172,11 +167,11 @@ class ModelError {
     return min_step_seconds * static_cast<double>(motion_.steps) * elements_of(*motion_.model.offline) / ranks;
   }
   /// By thinning (affordable()).
-  double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (plates() ? 1 : 4); }
+  double most_times_faster() const { return (can_lengthen(motion_) ? 4 : 1) * (any_shells(scene_) ? 1 : 4); }
 
   /// Processor time of both models [s].
   double needs(Thinning thinning) const {
-    const double fewer = plates() ? thinning.mesh * thinning.mesh : thinning.mesh;
+    const double fewer = any_shells(scene_) ? thinning.mesh * thinning.mesh : thinning.mesh;
     const double harder = thinning.step > 1 ? 1.5 : 1;  // long steps take more iterations
     return harder * (each_ * static_cast<double>(motion_.steps) / fewer + took_) / thinning.step +
            (thinning.mesh != 1 ? motion_.offline / fewer : 0);
@@ -185,7 +180,7 @@ class ModelError {
   /// The least thinning that the time allows, or the most with the first part of the motion.
   std::optional<Thinning> affordable() {
     std::vector<Thinning> all;
-    for (const int mesh : plates() ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
+    for (const int mesh : any_shells(scene_) ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
       for (const int step : {1, 2, 4})
         if (mesh * step > 1 && can_scale(mesh) && (step == 1 || can_lengthen(motion_)))
           all.push_back({static_cast<double>(mesh), step});
@@ -222,7 +217,7 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
   ErrorPart part;
   part.apart = false;
   part.none.clear();
-  if (meshed_bodies(motion.scene, false).empty() && meshed_bodies(motion.scene, true).empty())
+  if (!any_mesh(motion.scene))
     part.none = "no body has a mesh";
   else if (own.t.empty())
     part.none = "the integrator provides no accelerations";

@@ -64,22 +64,16 @@ RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh:
     number[node] = used ? static_cast<PetscInt>(nodes.size()) : -1;
     if (used) nodes.push_back(static_cast<PetscInt>(node));
   }
-  int rank = 0, ranks = 1;
-  MPI_Comm_rank(whole.comm, &rank);
-  MPI_Comm_size(whole.comm, &ranks);
   RawMesh mesh;
   mesh.comm = whole.comm, mesh.source = whole.source, mesh.parts = whole.parts;
   mesh.node_count = static_cast<PetscInt>(nodes.size()), mesh.cell_count = static_cast<PetscInt>(cells.size());
-  const mesh::Share of_nodes = mesh::share_of(mesh.node_count, rank, ranks),
-                    of_cells = mesh::share_of(mesh.cell_count, rank, ranks);
-  mesh.first_node = of_nodes.first, mesh.first_cell = of_cells.first;
-  for (PetscInt i = of_nodes.first; i < of_nodes.first + of_nodes.count; ++i) {
-    mesh.positions.push_back(whole.positions[nodes[i]]);
-    mesh.node_labels.push_back(whole.node_labels[nodes[i]]);
+  for (const PetscInt node : nodes) {
+    mesh.positions.push_back(whole.positions[node]);
+    mesh.node_labels.push_back(whole.node_labels[node]);
   }
-  for (PetscInt i = of_cells.first; i < of_cells.first + of_cells.count; ++i) {
-    mesh.cells.push_back(whole.cells[cells[i]]);
-    mesh.cell_labels.push_back(whole.cell_labels[cells[i]]);
+  for (const PetscInt cell : cells) {
+    mesh.cells.push_back(whole.cells[cell]);
+    mesh.cell_labels.push_back(whole.cell_labels[cell]);
     for (PetscInt& node : mesh.cells.back().nodes)
       if (node >= 0) node = number[node];
   }
@@ -95,7 +89,7 @@ RawMesh piece_of(const RawMesh& whole, const MeshPiece& piece, std::vector<mesh:
   for (mesh::DependentNode& link : own)
     link.node = number[link.node], link.independent_node = number[link.independent_node];
   links = std::move(own);
-  return mesh;
+  return mesh::share_of_whole(mesh);
 }
 
 }  // namespace floe::plan

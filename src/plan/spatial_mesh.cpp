@@ -11,6 +11,7 @@
 #include "floe/generate/generate.h"
 #include "floe/math/nearest.h"
 #include "floe/mesh/gmsh.h"
+#include "floe/mesh/halved.h"
 #include "floe/mesh/inp.h"
 #include "floe/mesh/inspect.h"
 #include "floe/mesh/nastran.h"
@@ -68,6 +69,18 @@ mesh::DeckRequest request_of(const Body& body) {
   return {named, named.size() < body.parts.size(), body.mesh.file->ignore};
 }
 
+/// Elements halved as often as the scene wants; beams with released ends remain whole, as halves would be released,
+/// too. Collective.
+void refine(int times, Source& source) {
+  if (times == 0) return;
+  std::vector<char> undivided(source.mesh.parts.size(), 0);
+  for (const auto& [part, section] : source.parts)
+    if (const auto* beam = std::get_if<fem::SpatialBeam>(&section)) undivided[part] = beam->releases.any();
+  mesh::RawMesh whole = on_every_rank(source.mesh);
+  for (int i = 0; i < times; ++i) whole = mesh::halved(whole, source.dependent_nodes, undivided);
+  source.mesh = mesh::share_of_whole(whole);
+}
+
 Source read_file(const Body& body, MPI_Comm comm) {
   const MeshFileSpec& file = *body.mesh.file;
   Source source;
@@ -93,6 +106,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
                                  body.mesh.where.text(), file.path));
   }
   for (Eigen::Vector3d& x : source.mesh.positions) x *= file.scale;
+  refine(file.refine, source);
   return source;
 }
 

@@ -35,6 +35,13 @@ const SchemaSection file_section{
          "factor on all coordinates, but not on sections, materials and masses of a deck", positive},
         {"ignore", Type::texts, "", "",
          "decks: types of elements that are left out with the nodes that only they use, as C3D20R or CTETRA"},
+        {"refine",
+         Type::integer,
+         "",
+         "0",
+         "how many times all elements are halved, on their own edges and surfaces: 1 for elements half as long, four "
+         "times as many shells",
+         {0, 8}},
     }};
 
 const SchemaSection part_section{"part",

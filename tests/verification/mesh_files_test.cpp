@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 
+#include "../../src/app/run.h"
 #include "floe/generate/generate.h"
 #include "floe/mesh/write_gmsh.h"
 #include "spatial_scenes.h"
@@ -25,8 +26,8 @@ joints: {root: {type: fixed, between: [ground, plate.left]}}
                   folder + "/scene.yaml");
 }
 
-mesh::RawMesh plate(bool triangles, double size) {
-  generate::Plate plate{{0, 0, 0}, {2 * size, 0, 0}, {0, size, 0}, na, nb};
+mesh::RawMesh plate(bool triangles, double size, int times = 1) {
+  generate::Plate plate{{0, 0, 0}, {2 * size, 0, 0}, {0, size, 0}, times * na, times * nb};
   plate.cells = triangles ? generate::ShellCells::triangles : generate::ShellCells::quadrilaterals;
   return generate::plate(PETSC_COMM_SELF, plate);
 }
@@ -81,11 +82,66 @@ TEST_CASE("a plate from a .msh or .inp file has the frequencies of the generated
   }
 }
 
+TEST_CASE("a mesh file that is refined has the frequencies of the generated mesh of twice as many elements") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string(),
+                    keys = "section: {thickness: 0.002}\n    material: {E: 7e10, nu: 0.3, rho: 2700}";
+  const auto expected = frequencies(
+      fmt::format("plate: {{along: [2, 0, 0], across: [0, 1, 0], elements: [{}, {}], cells: quadrilaterals}}", 4 * na,
+                  4 * nb),
+      keys, folder);
+  on_first_rank([&] { mesh::write_gmsh(folder + "/plate.msh", plate(false, 1)); });
+  write_text(folder + "/plate.inp", deck(plate(false, 1)));
+  for (const char* file : {"plate.msh", "plate.inp"}) {
+    const auto found = frequencies(fmt::format("file: {{path: {}, refine: 2}}", file), keys, folder);
+    for (int i = 0; i < 6; ++i) CHECK(found[i] == Approx(expected[i]).epsilon(1e-8));
+  }
+}
+
+// Mesh, load and probes are the same, so every part of the error is.
+TEST_CASE("the estimated error of an imported mesh is that of the generated one") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  on_first_rank([&] { mesh::write_gmsh(folder + "/plate.msh", plate(false, 1)); });
+  const auto estimate = [&](const std::string& mesh) {
+    app::RunPlan plan;
+    plan.quiet = true, plan.check_range = false, plan.estimate = true;
+    const std::string scene = fill(R"yaml(
+bodies:
+  plate:
+    mesh: {$mesh}
+    section: {thickness: 0.02}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    strains: von_karman
+    reduction: {modes: 3}
+joints: {root: {type: fixed, between: [ground, plate.left]}}
+loads: {tip: {type: force, at: plate.right, force: [0, 0, "100*sin(20*t)"]}}
+motion: {end: 0.05, step: 5e-4}
+probes: {tip: {at: plate.right}}
+)yaml",
+                                   {{"mesh", mesh}});
+    return app::run(scene::parse_scene(scene, folder + "/scene.yaml"), Formulation::vm_md, PETSC_COMM_SELF,
+                    std::nullopt, plan)
+        .summary["estimate"];
+  };
+  const auto generated = estimate(
+      fmt::format("plate: {{along: [2, 0, 0], across: [0, 1, 0], elements: [{}, {}], cells: quadrilaterals}}", na, nb));
+  const auto imported = estimate("file: {path: plate.msh}");
+  INFO(generated.dump());
+  REQUIRE(generated["mesh"].contains("probes"));
+  INFO(imported.dump());
+  REQUIRE(imported["mesh"].contains("probes"));
+  REQUIRE(generated["mesh"]["probes"]["tip"].get<double>() > 5e-4);
+  CHECK(imported["mesh"]["by"] == "elements half as long");
+  CHECK(imported["mesh"]["probes"]["tip"].get<double>() ==
+        Approx(generated["mesh"]["probes"]["tip"].get<double>()).epsilon(1e-3));
+}
+
 namespace {
 
 /// The deck's plate with a hub and a tip block: reference nodes that move the edges x = 0 and x = 2 rigidly.
-std::string linked_deck() {
-  const mesh::RawMesh raw = plate(false, 1);
+std::string linked_deck(int times = 1) {
+  const mesh::RawMesh raw = plate(false, 1, times);
   std::string text = deck(raw), right;
   for (PetscInt i = 0; i < raw.node_count; ++i)
     if (raw.positions[i][0] == 2) right += std::to_string(10 * (raw.node_count - i)) + ",\n";
@@ -158,6 +214,20 @@ TEST_CASE("a deck's point mass, and two on one node") {
       "joints: {c: {type: fixed, between: [ground, b.root]}}\n",
       folder + "/scene.yaml");
   CHECK(omega[0] == Approx(1.2479174 * 1.2479174 * std::sqrt(2e11 * 0.05 * 8e-6 / 12 / 7.8)).epsilon(1e-3));
+}
+
+// The edge between dependent nodes was rigid, and remains so.
+TEST_CASE("rigid links hold the edges of a refined mesh as those of a deck with as many elements") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  const auto omega = [&](int times, int refine) {
+    write_text(folder + "/plate.inp", linked_deck(times));
+    std::string scene = on_hub("node: [-0.3, 0.4, 0.1]", "");
+    scene.replace(scene.find("plate.inp}"), 10, fmt::format("plate.inp, refine: {}}}", refine));
+    return omega_of(scene, folder + "/scene.yaml");
+  };
+  const auto refined = omega(1, 1), fine = omega(2, 0);
+  for (int i = 0; i < 6; ++i) CHECK(refined[i] == Approx(fine[i]).epsilon(1e-8));
 }
 
 TEST_CASE("a load on a rigid tip block: full-order, reduced, and at dependent nodes") {

@@ -81,6 +81,9 @@ struct Share {
 };
 Share share_of(PetscInt count, int rank, int ranks);
 
+/// This rank's share of a mesh that is whole on every rank. Rank-local.
+RawMesh share_of_whole(const RawMesh& whole);
+
 /// First entry of every rank when this one holds `count`; one number more than ranks, the last is the total.
 /// Collective.
 std::vector<PetscInt> starts_of(MPI_Comm comm, PetscInt count);

@@ -48,6 +48,7 @@ struct MeshFileSpec {
   std::string path;
   std::vector<std::string> ignore;  ///< of a deck: types of elements that are left out
   double scale = 1;
+  int refine = 0;  ///< how many times its elements are halved
 };
 
 /// The piece of a mesh that one of several frames carries, and its places on the cuts.
@@ -206,5 +207,8 @@ struct Body {
   InitialSpec initial;
   Where where;
 };
+
+/// Whether a body is flexible, with elements.
+inline bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
 
 }  // namespace floe::scene

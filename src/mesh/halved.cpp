@@ -1,0 +1,234 @@
+#include "floe/mesh/halved.h"
+
+#include <algorithm>
+#include <map>
+
+namespace floe::mesh {
+
+namespace {
+
+using Eigen::Vector3d;
+using Edge = std::array<PetscInt, 2>;  // ascending
+
+Edge edge(PetscInt a, PetscInt b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// A new node and the nodes of the coarse mesh between which it lies: of an edge two, of an element its corners.
+struct Middle {
+  std::vector<PetscInt> between;
+  bool on_edge;
+};
+
+/// The shells at an edge of the coarse mesh, and whether it has lines.
+struct AtEdge {
+  std::vector<PetscInt> shells;
+  bool line = false;
+};
+
+std::vector<PetscInt> corners_of(const Cell& cell) {
+  return {cell.nodes.begin(), cell.nodes.begin() + corner_count(cell.kind)};
+}
+
+/// Corners that are the ends of edge i.
+Edge ends(const Cell& cell, int i) { return edge(cell.nodes[i], cell.nodes[(i + 1) % corner_count(cell.kind)]); }
+
+int edge_count(CellKind kind) { return is_line(kind) ? 1 : corner_count(kind); }
+
+/// Shape functions of quadrilateral8 at (r, s) in [-1, 1]^2: corners (-1, -1), (1, -1), (1, 1), (-1, 1), then middles.
+std::array<double, 8> serendipity(double r, double s) {
+  std::array<double, 8> N{};
+  const double R[] = {-1, 1, 1, -1, 0, 1, 0, -1}, S[] = {-1, -1, 1, 1, -1, 0, 1, 0};
+  for (int i = 0; i < 4; ++i) N[i] = (1 + r * R[i]) * (1 + s * S[i]) * (r * R[i] + s * S[i] - 1) / 4;
+  for (int i = 4; i < 8; ++i)
+    N[i] = R[i] == 0 ? (1 - r * r) * (1 + s * S[i]) / 2 : (1 - s * s) * (1 + r * R[i]) / 2;
+  return N;
+}
+
+class Halving {
+ public:
+  Halving(const RawMesh& whole, const std::vector<char>& undivided) : whole_(whole), undivided_(undivided) {
+    fine_ = whole;
+    fine_.cells.clear(), fine_.cell_labels.clear();
+    find_edges();
+    for (std::size_t c = 0; c < whole.cells.size(); ++c) divide(c);
+    fine_.node_count = static_cast<PetscInt>(fine_.positions.size());
+    fine_.cell_count = static_cast<PetscInt>(fine_.cells.size());
+    add_to_places();
+  }
+
+  std::vector<DependentNode> links(const std::vector<DependentNode>& coarse) const {
+    std::vector<DependentNode> all = coarse;
+    const auto region = [&](PetscInt node) {
+      const auto at = std::lower_bound(coarse.begin(), coarse.end(), node,
+                                       [](const DependentNode& link, PetscInt n) { return link.node < n; });
+      return at == coarse.end() || at->node != node ? node : at->spins() ? PetscInt(-1) : at->independent_node;
+    };
+    for (std::size_t i = 0; i < middles_.size(); ++i) {
+      const std::vector<PetscInt>& between = middles_[i].between;
+      const PetscInt first = region(between.front());
+      if (first >= 0 && std::all_of(between.begin(), between.end(), [&](PetscInt n) { return region(n) == first; }))
+        all.push_back({whole_.node_count + static_cast<PetscInt>(i), first});
+    }
+    return all;
+  }
+
+  RawMesh take() { return std::move(fine_); }
+
+ private:
+  bool stays(const Cell& cell) const {
+    return !has_extent(cell.kind) || (!undivided_.empty() && undivided_[static_cast<std::size_t>(cell.part)]);
+  }
+
+  void find_edges() {
+    for (std::size_t c = 0; c < whole_.cells.size(); ++c) {
+      const Cell& cell = whole_.cells[c];
+      for (int i = 0; has_extent(cell.kind) && i < edge_count(cell.kind); ++i) {
+        AtEdge& at = at_edge_[ends(cell, i)];
+        if (is_line(cell.kind))
+          at.line = true;
+        else
+          at.shells.push_back(static_cast<PetscInt>(c));
+        if (is_quadratic(cell.kind) && !stays(cell)) known_[ends(cell, i)] = cell.nodes[corner_count(cell.kind) + i];
+      }
+    }
+  }
+
+  const Vector3d& x(PetscInt node) const { return fine_.positions[static_cast<std::size_t>(node)]; }
+
+  PetscInt add(const Vector3d& at, Middle middle) {
+    fine_.positions.push_back(at);
+    fine_.node_labels.push_back(++label_);
+    middles_.push_back(std::move(middle));
+    return static_cast<PetscInt>(fine_.positions.size()) - 1;
+  }
+
+  /// The node at `at`, between two nodes of the fine mesh.
+  PetscInt between(PetscInt a, PetscInt b, const Vector3d& at, const Middle& middle) {
+    const auto [found, fresh] = known_.emplace(edge(a, b), -1);
+    if (fresh) found->second = add(at, middle);
+    return found->second;
+  }
+
+  void emit(std::size_t parent, CellKind kind, std::initializer_list<PetscInt> nodes) {
+    Cell cell{kind, no_nodes<PetscInt>(), whole_.cells[parent].part};
+    std::copy(nodes.begin(), nodes.end(), cell.nodes.begin());
+    fine_.cells.push_back(cell);
+    fine_.cell_labels.push_back(whole_.cell_labels[parent]);
+  }
+
+  void divide(std::size_t c) {
+    const Cell& cell = whole_.cells[c];
+    if (stays(cell)) {
+      fine_.cells.push_back(cell), fine_.cell_labels.push_back(whole_.cell_labels[c]);
+      return;
+    }
+    const int n = corner_count(cell.kind);
+    std::array<PetscInt, 4> m{}, before{}, after{};  // of each edge: its middle, and those of its halves
+    for (int i = 0; i < edge_count(cell.kind); ++i) {
+      const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % n];
+      const Middle middle{{std::min(a, b), std::max(a, b)}, true};
+      m[i] = between(a, b, (x(a) + x(b)) / 2, middle);
+      if (!is_quadratic(cell.kind)) continue;
+      before[i] = between(a, m[i], 0.375 * x(a) + 0.75 * x(m[i]) - 0.125 * x(b), middle);
+      after[i] = between(m[i], b, 0.375 * x(b) + 0.75 * x(m[i]) - 0.125 * x(a), middle);
+    }
+    const auto& v = cell.nodes;
+    const Middle within{corners_of(cell), false};
+    switch (cell.kind) {
+      case CellKind::line:
+        emit(c, cell.kind, {v[0], m[0]}), emit(c, cell.kind, {m[0], v[1]});
+        break;
+      case CellKind::line3:
+        emit(c, cell.kind, {v[0], m[0], before[0]}), emit(c, cell.kind, {m[0], v[1], after[0]});
+        break;
+      case CellKind::triangle:
+        for (int i = 0; i < 3; ++i) emit(c, cell.kind, {v[i], m[i], m[(i + 2) % 3]});
+        emit(c, cell.kind, {m[0], m[1], m[2]});
+        break;
+      case CellKind::triangle6: {
+        std::array<PetscInt, 3> k;  // between the middles of the edges that meet at corner i, whose opposite edge is i+1
+        for (int i = 0; i < 3; ++i)
+          k[i] = add((-x(v[(i + 1) % 3]) - x(v[(i + 2) % 3])) / 8 + (x(m[i]) + x(m[(i + 2) % 3])) / 2 +
+                         x(m[(i + 1) % 3]) / 4,
+                     within);
+        for (int i = 0; i < 3; ++i)
+          emit(c, cell.kind, {v[i], m[i], m[(i + 2) % 3], before[i], k[i], after[(i + 2) % 3]});
+        emit(c, cell.kind, {m[0], m[1], m[2], k[1], k[2], k[0]});
+        break;
+      }
+      case CellKind::quadrilateral: {
+        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, within);
+        for (int i = 0; i < 4; ++i) emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4]});
+        break;
+      }
+      case CellKind::quadrilateral8: {
+        const auto at = [&](double r, double s) {
+          const std::array<double, 8> N = serendipity(r, s);
+          Vector3d sum = Vector3d::Zero();
+          for (int i = 0; i < 8; ++i) sum += N[i] * x(v[i]);
+          return sum;
+        };
+        const PetscInt o = add(at(0, 0), within);
+        const double r[] = {0, 0.5, 0, -0.5}, s[] = {-0.5, 0, 0.5, 0};
+        std::array<PetscInt, 4> k;  // between the middle of each edge and o
+        for (int i = 0; i < 4; ++i) k[i] = add(at(r[i], s[i]), within);
+        for (int i = 0; i < 4; ++i)
+          emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4], before[i], k[i], k[(i + 3) % 4], after[(i + 3) % 4]});
+        break;
+      }
+      default:
+        break;
+    }
+  }
+
+  void add_to_places() {
+    std::vector<char> on_boundary(whole_.positions.size(), 0);
+    for (const auto& [nodes, at] : at_edge_)
+      if (at.shells.size() == 1) on_boundary[nodes[0]] = on_boundary[nodes[1]] = 1;
+    for (std::vector<PetscInt>& nodes : fine_.place_nodes) {
+      std::vector<char> in(whole_.positions.size(), 0);
+      for (const PetscInt node : nodes) in[node] = 1;
+      const bool rim = std::all_of(nodes.begin(), nodes.end(), [&](PetscInt node) { return on_boundary[node] != 0; });
+      for (std::size_t i = 0; i < middles_.size(); ++i) {
+        const Middle& middle = middles_[i];
+        if (!std::all_of(middle.between.begin(), middle.between.end(), [&](PetscInt node) { return in[node] != 0; }))
+          continue;
+        if (!middle.on_edge || along(at_edge_.at({middle.between[0], middle.between[1]}), in, rim))
+          nodes.push_back(whole_.node_count + static_cast<PetscInt>(i));
+      }
+    }
+  }
+
+  /// Whether an edge whose ends a place has lies along it or in it: not a chord of a boundary, next to an element at a
+  /// corner.
+  bool along(const AtEdge& at, const std::vector<char>& in, bool rim) const {
+    if (at.line || at.shells.size() < 2) return true;
+    const auto covered = [&](PetscInt shell) {
+      const std::vector<PetscInt> corners = corners_of(whole_.cells[shell]);
+      return std::all_of(corners.begin(), corners.end(), [&](PetscInt node) { return in[node] != 0; });
+    };
+    return !rim || std::all_of(at.shells.begin(), at.shells.end(), covered);
+  }
+
+  const RawMesh& whole_;
+  const std::vector<char>& undivided_;
+  RawMesh fine_;
+  std::map<Edge, AtEdge> at_edge_;      // of the coarse mesh, by corners
+  std::map<Edge, PetscInt> known_;      // nodes between two others
+  std::vector<Middle> middles_;         // of each new node
+  long long label_ = first_label(whole_);
+
+  static long long first_label(const RawMesh& mesh) {
+    const auto last = std::max_element(mesh.node_labels.begin(), mesh.node_labels.end());
+    return last == mesh.node_labels.end() ? 0 : *last;
+  }
+};
+
+}  // namespace
+
+RawMesh halved(const RawMesh& whole, std::vector<DependentNode>& links, const std::vector<char>& undivided) {
+  Halving halving(whole, undivided);
+  links = halving.links(links);
+  return halving.take();
+}
+
+}  // namespace floe::mesh
