@@ -25,8 +25,8 @@ void put_probes(const std::vector<double>& errors, const assembly::Model& model,
     if (!std::isnan(errors[p])) j["probes"][model.probes[p].name] = errors[p];
 }
 
-ordered_json step_part(const assess::FinishedMotion& motion, const assess::KeptMotion& kept, double allowed,
-                       assess::ErrorPart& part) {
+ordered_json step_part(const assess::FinishedMotion& motion, const assess::KeptMotion& kept,
+                       const assess::ProbeSeries& own, double allowed, assess::ErrorPart& part) {
   double took = motion.seconds;
   MPI_Bcast(&took, 1, MPI_DOUBLE, 0, motion.comm);
   assess::StepError error;
@@ -37,8 +37,11 @@ ordered_json step_part(const assess::FinishedMotion& motion, const assess::KeptM
   part.none = error.none;
   if (!error.none.empty()) return {{"none", error.none}};
   part.probes = error.probes, part.t = std::move(error.t), part.errors = std::move(error.errors);
+  part.until = error.until;
+  assess::leave_out_quiet(own, part);
   ordered_json j{{"deformation", error.deformation}};
-  put_probes(error.probes, motion.model, j);
+  if (!part.notes.empty()) j["notes"] = part.notes;
+  put_probes(part.probes, motion.model, j);
   j["by"] = error.halved ? "half the step" : "twice the step";
   j["until"] = error.until;
   j["seconds"] = error.seconds;
@@ -186,7 +189,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   ordered_json j;
   j["model"] = part_of(motion, model);
   j["mesh"] = part_of(motion, mesh);
-  if (!motion.at_rest) j["step"] = step_part(motion, kept, allowed, step);
+  if (!motion.at_rest) j["step"] = step_part(motion, kept, own, allowed, step);
   const int count = motion.at_rest ? 3 : 4;
   std::vector<const assess::ErrorPart*> known, beside;
   const assess::ErrorPart* all[] = {&reduction, &model, &mesh, &step};

@@ -1,6 +1,7 @@
 #include "error_part.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,30 @@ void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated&
   part.probes = errors.relative(part.until - part.t.front());
   for (double& error : part.probes)
     if (error > 100) error = std::numeric_limits<double>::infinity();
+  leave_out_quiet(own, part);
+}
+
+void leave_out_quiet(const ProbeSeries& own, ErrorPart& part) {
+  constexpr double quiet = 0.1;
+  if (own.t.empty() || part.probes.empty() || part.until >= 0.98 * own.t.back()) return;
+  std::vector<std::string> names;
+  for (std::size_t c = 0, p = 0; c < own.columns.size(); ++p) {
+    const std::string name = probe_of(own.columns[c]);
+    std::size_t end = c;
+    while (end < own.columns.size() && probe_of(own.columns[end]) == name) ++end;
+    double covered = 0, whole = 0;
+    for (std::size_t i = 0; i < own.t.size(); ++i) {
+      double moved = 0;
+      for (std::size_t k = c; k < end; ++k) moved += std::pow(own.values[i][k] - own.values[0][k], 2);
+      whole = std::max(whole, moved);
+      if (own.t[i] <= part.until * (1 + 1e-9)) covered = std::max(covered, moved);
+    }
+    if (covered < quiet * quiet * whole && !std::isnan(part.probes[p])) part.probes[p] = unknown, names.push_back(name);
+    c = end;
+  }
+  if (!names.empty())
+    part.notes.push_back(fmt::format("{} {} later than t = {:.3g} s, which this part does not cover",
+                                     fmt::join(names, ", "), names.size() > 1 ? "move" : "moves", part.until));
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

@@ -31,6 +31,10 @@ struct ErrorPart {
   std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, better model less this one
 };
 
+/// Leaves probes out of a part that covers only a beginning in which they move by less than a tenth of what they move
+/// later: its errors there say nothing. They are NaN and named in the notes.
+void leave_out_quiet(const ProbeSeries& own, ErrorPart& part);
+
 /// A finished motion of a reduced model, or its equilibria under loads that grow with t, `how.step` apart.
 struct FinishedMotion {
   const Scene& scene;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "floe/assess/budget.h"
+
 using namespace floe::assembly;
 using namespace floe::assess;
 
@@ -83,4 +85,25 @@ TEST_CASE("errors of formulas refer to those of the same unit") {
   CHECK(sizes[1] == 5e-3);  // 1e-7 of the power would be 0.2
   CHECK(sizes[2] == Approx(5e-10));
   CHECK(sizes[3] == 1e-3);
+}
+
+TEST_CASE("a part that covers only a beginning says nothing of probes that move later") {
+  ProbeSeries own;
+  own.columns = {{"tip.x", "m", 10}, {"tip.y", "m", 10}, {"middle.angle", "rad", 1}};
+  for (int i = 0; i <= 10; ++i) own.t.push_back(0.1 * i), own.values.push_back({1, i < 6 ? 0. : 1., 0.1 * i});
+  ErrorPart part;
+  part.none.clear();
+  part.probes = {0, 0.02}, part.until = 0.5;
+  leave_out_quiet(own, part);
+  CHECK(std::isnan(part.probes[0]));
+  CHECK(part.probes[1] == 0.02);
+  REQUIRE(part.notes.size() == 1);
+  CHECK_THAT(part.notes[0], Catch::Contains("tip moves later than t = 0.5 s"));
+  for (const double until : {0.6, 1.}) {  // it moves, or all of the motion is covered
+    ErrorPart more;
+    more.probes = {0.01, 0.02}, more.until = until;
+    leave_out_quiet(own, more);
+    CHECK(more.probes == std::vector<double>{0.01, 0.02});
+    CHECK(more.notes.empty());
+  }
 }
