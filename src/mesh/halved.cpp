@@ -38,8 +38,7 @@ std::array<double, 8> serendipity(double r, double s) {
   std::array<double, 8> N{};
   const double R[] = {-1, 1, 1, -1, 0, 1, 0, -1}, S[] = {-1, -1, 1, 1, -1, 0, 1, 0};
   for (int i = 0; i < 4; ++i) N[i] = (1 + r * R[i]) * (1 + s * S[i]) * (r * R[i] + s * S[i] - 1) / 4;
-  for (int i = 4; i < 8; ++i)
-    N[i] = R[i] == 0 ? (1 - r * r) * (1 + s * S[i]) / 2 : (1 - s * s) * (1 + r * R[i]) / 2;
+  for (int i = 4; i < 8; ++i) N[i] = R[i] == 0 ? (1 - r * r) * (1 + s * S[i]) / 2 : (1 - s * s) * (1 + r * R[i]) / 2;
   return N;
 }
 
@@ -145,11 +144,12 @@ class Halving {
         emit(c, cell.kind, {m[0], m[1], m[2]});
         break;
       case CellKind::triangle6: {
-        std::array<PetscInt, 3> k;  // between the middles of the edges that meet at corner i, whose opposite edge is i+1
+        std::array<PetscInt, 3>
+            k;  // between the middles of the edges that meet at corner i, whose opposite edge is i+1
         for (int i = 0; i < 3; ++i)
-          k[i] = add((-x(v[(i + 1) % 3]) - x(v[(i + 2) % 3])) / 8 + (x(m[i]) + x(m[(i + 2) % 3])) / 2 +
-                         x(m[(i + 1) % 3]) / 4,
-                     within);
+          k[i] = add(
+              (-x(v[(i + 1) % 3]) - x(v[(i + 2) % 3])) / 8 + (x(m[i]) + x(m[(i + 2) % 3])) / 2 + x(m[(i + 1) % 3]) / 4,
+              within);
         for (int i = 0; i < 3; ++i)
           emit(c, cell.kind, {v[i], m[i], m[(i + 2) % 3], before[i], k[i], after[(i + 2) % 3]});
         emit(c, cell.kind, {m[0], m[1], m[2], k[1], k[2], k[0]});
@@ -212,9 +212,9 @@ class Halving {
   const RawMesh& whole_;
   const std::vector<char>& undivided_;
   RawMesh fine_;
-  std::map<Edge, AtEdge> at_edge_;      // of the coarse mesh, by corners
-  std::map<Edge, PetscInt> known_;      // nodes between two others
-  std::vector<Middle> middles_;         // of each new node
+  std::map<Edge, AtEdge> at_edge_;  // of the coarse mesh, by corners
+  std::map<Edge, PetscInt> known_;  // nodes between two others
+  std::vector<Middle> middles_;     // of each new node
   long long label_ = first_label(whole_);
 
   static long long first_label(const RawMesh& mesh) {

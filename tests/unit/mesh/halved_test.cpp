@@ -56,17 +56,19 @@ TEST_CASE("a plate of quadrilaterals that is halved is the plate of twice as man
     const generate::Plate coarse{{1, 2, 3}, {4, 0, 0}, {1, 2, 0.5}, n, 2, generate::ShellCells::quadrilaterals};
     generate::Plate fine = coarse;
     fine.na *= 2, fine.nb *= 2;
-    const RawMesh expected = generate::plate(PETSC_COMM_SELF, fine), found = halved(generate::plate(PETSC_COMM_SELF, coarse));
+    const RawMesh expected = generate::plate(PETSC_COMM_SELF, fine),
+                  found = halved(generate::plate(PETSC_COMM_SELF, coarse));
     REQUIRE(found.node_count == expected.node_count);
     CHECK(found.cell_count == expected.cell_count);
     CHECK(shapes(found) == shapes(expected));
     CHECK(testing::topology_of(testing::whole(found)).euler == 1);  // and no edge is run along twice in one direction
-    REQUIRE(found.places.size() >= 8);  // of an even number of elements the centre, too
+    REQUIRE(found.places.size() >= 8);                              // of an even number of elements the centre, too
     for (std::size_t p = 0; p < found.places.size(); ++p) {
       INFO(found.places[p]);
       const auto same = std::find(expected.places.begin(), expected.places.end(), found.places[p]);
       REQUIRE(same != expected.places.end());
-      CHECK(points(found, found.place_nodes[p]) == points(expected, expected.place_nodes[same - expected.places.begin()]));
+      CHECK(points(found, found.place_nodes[p]) ==
+            points(expected, expected.place_nodes[same - expected.places.begin()]));
     }
     std::set<long long> labels(found.node_labels.begin(), found.node_labels.end());
     CHECK(static_cast<PetscInt>(labels.size()) == found.node_count);
@@ -125,9 +127,8 @@ TEST_CASE("elements of second order that are halved stay on their surface, with 
                                             on(0, -1),  on(1, 0),  on(0, 1), on(-1, 0)};
   const std::vector<Vector3d> triangles{on(-1, -1), on(1, -1), on(-1, 1), on(1, 1), on(0, -1),
                                         on(0, 0),   on(-1, 0), on(1, 0),  on(0, 1)};
-  for (const RawMesh& raw :
-       {elements(CellKind::quadrilateral8, quadrilateral, {{0, 1, 2, 3, 4, 5, 6, 7}}),
-        elements(CellKind::triangle6, triangles, {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 7, 8, 5}})}) {
+  for (const RawMesh& raw : {elements(CellKind::quadrilateral8, quadrilateral, {{0, 1, 2, 3, 4, 5, 6, 7}}),
+                             elements(CellKind::triangle6, triangles, {{0, 1, 2, 4, 5, 6}, {1, 3, 2, 7, 8, 5}})}) {
     const RawMesh fine = halved(raw), finest = halved(fine);
     CHECK(fine.cell_count == 4 * raw.cell_count);
     for (const RawMesh* one : {&fine, &finest}) {
@@ -155,10 +156,12 @@ TEST_CASE("elements of second order that are halved stay on their surface, with 
 }
 
 TEST_CASE("masses, springs and undivided parts remain, and rigid regions receive the nodes between theirs") {
-  RawMesh raw = elements(CellKind::line, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 1, 0}}, {{0, 1}, {1, 2}, {2, 3}});
+  RawMesh raw =
+      elements(CellKind::line, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 1, 0}}, {{0, 1}, {1, 2}, {2, 3}});
   raw.parts = {"beam", "pinned", "mass"};
   raw.cells[2].part = 1;
-  mesh::Cell mass{CellKind::point, mesh::no_nodes<PetscInt>(), 2}, spring{CellKind::spring, mesh::no_nodes<PetscInt>(), 2};
+  mesh::Cell mass{CellKind::point, mesh::no_nodes<PetscInt>(), 2},
+      spring{CellKind::spring, mesh::no_nodes<PetscInt>(), 2};
   mass.nodes[0] = 4, spring.nodes[0] = 0, spring.nodes[1] = 4;
   raw.cells.push_back(mass), raw.cells.push_back(spring);
   raw.cell_labels = {1, 2, 3, 4, 5}, raw.cell_count = 5;
