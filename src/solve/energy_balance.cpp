@@ -43,14 +43,15 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 }
 
 void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
-  if (count_ == 0) start_ = lowest_ = energy;
+  if (count_ == 0) start_ = energy;
   lowest_ = std::min(lowest_, energy);
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
     const double power = external_power(system, t, 1e-3 * h, U, V, A), before = known_ != 0 ? power_ : power;
     work_ += 0.5 * h * (before + power);
     turnover_ += 0.5 * h * (std::abs(before) + std::abs(power));
-    growth_ = std::max(growth_, std::min(energy - start_ - work_, energy - lowest_));
+    const double grown = energy - start_ - work_;
+    growth_ = std::max(growth_, events_ > 0 ? std::min(grown, energy - lowest_) : grown);
     power_ = power, known_ = 1;
   }
   const double exchanged = std::max(turnover_, max_part);
@@ -64,17 +65,19 @@ void EnergyBalance::pass_event(double energy) {
   known_ = 0;
   energy_ += energy;  // several events may be at one instant
   lowest_ = energy_;
+  ++events_;
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_, t_, power_, known_, start_, work_, turnover_, growth_, energy_, lowest_, accounted_, beyond_};
+  return {count_,  t_,      power_,  known_,  start_,     work_,  turnover_,
+          growth_, energy_, events_, lowest_, accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], power_ = saved[2], known_ = saved[3];
   start_ = saved[4], work_ = saved[5], turnover_ = saved[6], growth_ = saved[7];
-  energy_ = saved[8], lowest_ = saved[9];
-  accounted_ = saved[10], beyond_ = saved[11];
+  energy_ = saved[8], events_ = saved[9], lowest_ = saved[10];
+  accounted_ = saved[11], beyond_ = saved[12];
 }
 
 }  // namespace floe::solve

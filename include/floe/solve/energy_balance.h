@@ -19,9 +19,8 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
 ///
 ///   growth = max over t of E(t) - E(0) - W(t),   W = int P dt by the trapezoidal rule
 ///
-/// and at most the rise of E above its minimum since the start, or since the last instant before an event: what a
-/// sudden load excites and an event sets free vibrates in motions that steps do not resolve, whose dissipation the rule
-/// overestimates.
+/// and after an event at most the rise of E above its minimum since the last instant before it: what an event sets free
+/// vibrates in motions that steps do not resolve, whose dissipation the rule overestimates.
 /// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
@@ -41,15 +40,15 @@ class EnergyBalance {
   static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 12;
+  static constexpr int numbers = 13;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
  private:
   double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
-  double energy_ = 0;                  // E of the instant before
-  double lowest_ = 0;                  // E since the start, or since the instant before the last event
+  double energy_ = 0, events_ = 0;     // E of the instant before; how many events there were
+  double lowest_ = 0;                  // E since the instant before the last event; without one: not used
   double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 

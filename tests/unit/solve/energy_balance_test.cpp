@@ -94,8 +94,8 @@ TEST_CASE("energy that grows without work is seen, also by a balance that was sa
   CHECK(balance.growth() == Approx(0.5 * J * (16 - 1)).epsilon(1e-6));
 }
 
-// Work of -3 J and an energy that falls by 1 J at each instant: samples overestimate the dissipation.
-TEST_CASE("dissipation that samples overestimate is no growth of energy, and rises since an event are") {
+// After an event, work of -3 J and an energy that falls by 1 J at each instant: samples overestimate the dissipation.
+TEST_CASE("dissipation that samples overestimate is no growth of energy after an event, and rises from it on are") {
   const double l = 1.5, force = 20, rate = -1;  // -30 W
   const dynamics::System system = testing::pendulum(2, l, 0, across_rod(l, force));
   const petsc::VecHandle U = system.create_vector(), V = vector_of(system, {0, 0, rate, 0, 0}),
@@ -103,14 +103,7 @@ TEST_CASE("dissipation that samples overestimate is no growth of energy, and ris
   solve::EnergyBalance balance;
   balance.add(system, 0, U, V, A, 20, 20);
   balance.pass_event(0);
-  solve::EnergyBalance from_start;
-  from_start.add(system, 0, U, V, A, 20, 20);
-  for (int i = 1; i <= 10; ++i) {
-    balance.add(system, 0.1 * i, U, V, A, 20 - i, 20);
-    from_start.add(system, 0.1 * i, U, V, A, 20 - i, 20);
-    CHECK(!from_start.runs_away(0));
-  }
-  CHECK(from_start.growth() == 0);
+  for (int i = 1; i <= 10; ++i) balance.add(system, 0.1 * i, U, V, A, 20 - i, 20);
   CHECK(balance.work() == Approx(-30));
   CHECK(balance.growth() == 0);
   balance.add(system, 1.1, U, V, A, 15, 20);
