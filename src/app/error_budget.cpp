@@ -66,8 +66,7 @@ ordered_json part_of(const assess::FinishedMotion& motion, const assess::ErrorPa
 bool any_body(const scene::Scene& scene, bool (*is)(const scene::Body&)) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), is);
 }
-bool flexible(const scene::Body& body) { return !body.rigid && !body.reduced; }
-bool straight(const scene::Body& body) { return flexible(body) && body.mesh.segments.size() == 1; }
+bool straight(const scene::Body& body) { return is_meshed(body) && body.mesh.segments.size() == 1; }
 
 /// What makes the part `model` smaller: what the bodies do not have yet.
 std::string model_advice(const assess::FinishedMotion& motion, const assess::ErrorPart& part) {
@@ -77,7 +76,7 @@ std::string model_advice(const assess::FinishedMotion& motion, const assess::Err
   if (std::any_of(bodies.begin(), bodies.end(),
                   [](const auto& body) { return body.strains.starts_with("von_karman"); }))
     all.push_back("use strains: second_order");
-  if (any_body(motion.scene, motion.scene.dimension == 3 ? flexible : straight)) {
+  if (any_body(motion.scene, motion.scene.dimension == 3 ? scene::is_meshed : straight)) {
     const bool divided = any_body(motion.scene, [](const scene::Body& body) { return body.frames > 1; });
     all.push_back(divided ? "divide the body into more floating frames (frames: N)"
                           : "divide the body into floating frames (frames: N)");

@@ -103,7 +103,7 @@ class Refinement {
       scene::Scene finer = scene_;
       if (mesh) assess::scale_meshes(finer, 1 << halving);
       if (!mesh) finer.motion.step /= 1 << halving;
-      const double growth = mesh && shells() ? 5 : 2;
+      const double growth = mesh && assess::any_shells(scene_) ? 5 : 2;
       if (growth * took > most_) {
         if (halving == 1)
           throw RunError(fmt::format("{} halved would take about {:.2g} s (limit {:.2g} s)",
@@ -126,11 +126,6 @@ class Refinement {
     if (mesh)
       for (const Series& one : all) exact.of_mesh.push_back(worst_error(one, limit));
     return left;
-  }
-
-  bool shells() const {
-    return std::any_of(scene_.bodies.begin(), scene_.bodies.end(),
-                       [](const scene::Body& body) { return body.mesh.plate || (body.mesh.file && is_meshed(body)); });
   }
 
   scene::Scene scene_;

@@ -38,7 +38,7 @@ std::string offline_words(const scene::Scene& scene, scene::Formulation formulat
   if (!scene::is_reduced(formulation)) return "assembling " + scene::name_of(formulation);
   std::vector<std::string> names;
   for (const auto& body : scene.bodies)
-    if (!body.rigid && !body.reduced) names.push_back(body.name);
+    if (is_meshed(body)) names.push_back(body.name);
   if (names.empty()) return "assembling " + scene::name_of(formulation);
   if (names.size() == 1) return "reducing body " + names[0];
   return fmt::format("reducing {} bodies", names.size());

@@ -187,7 +187,7 @@ void warn_of_scene(const Plan& plan, Model& model) {
 
 void give_structures(const std::shared_ptr<const Offline>& offline, Model& model) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b)
-    if (const PlannedBody& body = offline->plan.bodies[b]; !body.spec.rigid && !body.spec.reduced)
+    if (const PlannedBody& body = offline->plan.bodies[b]; is_meshed(body.spec))
       model.bodies[b].structure = {offline, &body.structure};
 }
 

@@ -91,14 +91,13 @@ std::vector<std::string> write_matrices(const Scene& whole, MPI_Comm comm, const
   const Plan plan = prepare(scene, comm);
   std::vector<std::string> names;
   for (const PlannedBody& body : plan.bodies)
-    if (!body.spec.rigid && !body.spec.reduced) names.push_back(body.spec.name);
+    if (is_meshed(body.spec)) names.push_back(body.spec.name);
   if (names.empty())
     throw InputError(
         fmt::format("{}: no body is flexible and has a mesh; expected one whose matrices can be written", scene.file));
   const output::ResultFolder results = output::prepare_folder(comm, folder, overwrite);
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
-    if (!plan.bodies[b].spec.rigid && !plan.bodies[b].spec.reduced)
-      write_body_matrices(plan, static_cast<int>(b), results.path);
+    if (is_meshed(plan.bodies[b].spec)) write_body_matrices(plan, static_cast<int>(b), results.path);
   return names;
 }
 

@@ -159,7 +159,7 @@ std::vector<std::vector<double>> choose_by_count(const Plan& plan, Formulation f
   std::vector<std::vector<double>> weights(stages.size());
   auto chooses = [&](std::size_t b) {
     const Body& spec = plan.bodies[b].spec;
-    return !spec.rigid && !spec.reduced && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count &&
+    return is_meshed(spec) && spec.reduction.derivatives.choice == DerivativesSpec::Choice::count &&
            !(formulation == Formulation::vm && spec.reduction.modes.alone > 0);
   };
   bool any = false;

@@ -63,7 +63,7 @@ ReducedBody joined(const PlannedBody& body, const ReducedBody& reduced, const re
 
 bool has_responses(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& body) { return !body.rigid && !body.reduced && body.reduction.responses > 0; });
+                     [](const Body& body) { return is_meshed(body) && body.reduction.responses > 0; });
 }
 
 void add_residual_responses(Offline& offline, std::vector<std::string>& warnings) {

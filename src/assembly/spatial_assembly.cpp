@@ -331,7 +331,7 @@ Model SpatialAssembly::model() {
     if (!body.spec.reduced)
       report.nodes = mesh.node_count, report.elements = fem::element_count(mesh), report.dofs = body.structure.dofs();
     report.dimension = 3;
-    if (!body.spec.rigid && !body.spec.reduced) report.strains = body.strains;
+    if (is_meshed(body.spec)) report.strains = body.strains;
     report.first_coordinate = slots_[b].frame, report.first_elastic = slots_[b].elastic;
     report.frame = name_of(plan_.bodies[b].frame.kind);
     if (slots_[b].nodes) report.first_dof = slots_[b].nodes->first();

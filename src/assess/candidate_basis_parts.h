@@ -12,8 +12,6 @@
 
 namespace floe::assess {
 
-/// Whether its mesh is in the scene.
-
 /// What one body may have.
 struct Source {
   Stage stage;

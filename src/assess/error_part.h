@@ -59,9 +59,7 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
 /// part out on all of them, with the reason. @return whether there was none. Collective.
 bool fill_in(const FinishedMotion& motion, ErrorPart& part, const std::function<void()>& work);
 
-/// Whether a body has a mesh, and whether one may be of shells: the number of elements grows with the square of their
-/// number along an edge.
+/// Whether a body has a mesh.
 bool any_mesh(const Scene& scene);
-bool any_shells(const Scene& scene);
 
 }  // namespace floe::assess

@@ -114,24 +114,33 @@ class Halving {
     fine_.cell_labels.push_back(whole_.cell_labels[parent]);
   }
 
+  /// Nodes of each edge of an element: its middle and, of second order, those of its halves.
+  struct OnEdges {
+    std::array<PetscInt, 4> middle{}, before{}, after{};
+  };
+
+  OnEdges on_edges(const Cell& cell) {
+    OnEdges on;
+    for (int i = 0; i < edge_count(cell.kind); ++i) {
+      const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % corner_count(cell.kind)];
+      const Middle ends{{std::min(a, b), std::max(a, b)}, true};
+      const PetscInt m = on.middle[i] = between(a, b, (x(a) + x(b)) / 2, ends);
+      if (!is_quadratic(cell.kind)) continue;
+      on.before[i] = between(a, m, 0.375 * x(a) + 0.75 * x(m) - 0.125 * x(b), ends);
+      on.after[i] = between(m, b, 0.375 * x(b) + 0.75 * x(m) - 0.125 * x(a), ends);
+    }
+    return on;
+  }
+
   void divide(std::size_t c) {
     const Cell& cell = whole_.cells[c];
     if (stays(cell)) {
       fine_.cells.push_back(cell), fine_.cell_labels.push_back(whole_.cell_labels[c]);
       return;
     }
-    const int n = corner_count(cell.kind);
-    std::array<PetscInt, 4> m{}, before{}, after{};  // of each edge: its middle, and those of its halves
-    for (int i = 0; i < edge_count(cell.kind); ++i) {
-      const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % n];
-      const Middle middle{{std::min(a, b), std::max(a, b)}, true};
-      m[i] = between(a, b, (x(a) + x(b)) / 2, middle);
-      if (!is_quadratic(cell.kind)) continue;
-      before[i] = between(a, m[i], 0.375 * x(a) + 0.75 * x(m[i]) - 0.125 * x(b), middle);
-      after[i] = between(m[i], b, 0.375 * x(b) + 0.75 * x(m[i]) - 0.125 * x(a), middle);
-    }
+    const OnEdges on = on_edges(cell);
+    const auto& [m, before, after] = on;
     const auto& v = cell.nodes;
-    const Middle within{corners_of(cell), false};
     switch (cell.kind) {
       case CellKind::line:
         emit(c, cell.kind, {v[0], m[0]}), emit(c, cell.kind, {m[0], v[1]});
@@ -143,40 +152,55 @@ class Halving {
         for (int i = 0; i < 3; ++i) emit(c, cell.kind, {v[i], m[i], m[(i + 2) % 3]});
         emit(c, cell.kind, {m[0], m[1], m[2]});
         break;
-      case CellKind::triangle6: {
-        std::array<PetscInt, 3>
-            k;  // between the middles of the edges that meet at corner i, whose opposite edge is i+1
-        for (int i = 0; i < 3; ++i)
-          k[i] = add(
-              (-x(v[(i + 1) % 3]) - x(v[(i + 2) % 3])) / 8 + (x(m[i]) + x(m[(i + 2) % 3])) / 2 + x(m[(i + 1) % 3]) / 4,
-              within);
-        for (int i = 0; i < 3; ++i)
-          emit(c, cell.kind, {v[i], m[i], m[(i + 2) % 3], before[i], k[i], after[(i + 2) % 3]});
-        emit(c, cell.kind, {m[0], m[1], m[2], k[1], k[2], k[0]});
-        break;
-      }
       case CellKind::quadrilateral: {
-        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, within);
+        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, {corners_of(cell), false});
         for (int i = 0; i < 4; ++i) emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4]});
         break;
       }
-      case CellKind::quadrilateral8: {
-        const auto at = [&](double r, double s) {
-          const std::array<double, 8> N = serendipity(r, s);
-          Vector3d sum = Vector3d::Zero();
-          for (int i = 0; i < 8; ++i) sum += N[i] * x(v[i]);
-          return sum;
-        };
-        const PetscInt o = add(at(0, 0), within);
-        const double r[] = {0, 0.5, 0, -0.5}, s[] = {-0.5, 0, 0.5, 0};
-        std::array<PetscInt, 4> k;  // between the middle of each edge and o
-        for (int i = 0; i < 4; ++i) k[i] = add(at(r[i], s[i]), within);
-        for (int i = 0; i < 4; ++i)
-          emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4], before[i], k[i], k[(i + 3) % 4], after[(i + 3) % 4]});
+      case CellKind::triangle6:
+        divide_triangle(c, on);
         break;
-      }
+      case CellKind::quadrilateral8:
+        divide_quadrilateral(c, on);
+        break;
       default:
         break;
+    }
+  }
+
+  /// Of second order.
+  void divide_triangle(std::size_t c, const OnEdges& on) {
+    const Cell& cell = whole_.cells[c];
+    const auto& [m, before, after] = on;
+    const auto& v = cell.nodes;
+    std::array<PetscInt, 3> k;  // between the middles of the edges that meet at corner i; opposite lies edge i + 1
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, l = (i + 2) % 3;
+      k[i] = add((x(m[i]) + x(m[l])) / 2 + x(m[j]) / 4 - (x(v[j]) + x(v[l])) / 8, {corners_of(cell), false});
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int l = (i + 2) % 3;
+      emit(c, cell.kind, {v[i], m[i], m[l], before[i], k[i], after[l]});
+    }
+    emit(c, cell.kind, {m[0], m[1], m[2], k[1], k[2], k[0]});
+  }
+
+  /// Of second order.
+  void divide_quadrilateral(std::size_t c, const OnEdges& on) {
+    const Cell& cell = whole_.cells[c];
+    const auto& [m, before, after] = on;
+    const auto& v = cell.nodes;
+    const auto node_at = [&](double r, double s) {
+      const std::array<double, 8> N = serendipity(r, s);
+      Vector3d sum = Vector3d::Zero();
+      for (int i = 0; i < 8; ++i) sum += N[i] * x(v[i]);
+      return add(sum, {corners_of(cell), false});
+    };
+    const PetscInt o = node_at(0, 0);
+    const std::array<PetscInt, 4> k{node_at(0, -0.5), node_at(0.5, 0), node_at(0, 0.5), node_at(-0.5, 0)};  // m to o
+    for (int i = 0; i < 4; ++i) {
+      const int l = (i + 3) % 4;
+      emit(c, cell.kind, {v[i], m[i], o, m[l], before[i], k[i], k[l], after[l]});
     }
   }
 

@@ -147,7 +147,7 @@ std::vector<SharedReduction> same_reductions(const Plan& plan, const Attachments
     return found != loads.end() ? found->second
                                 : loads.emplace(b, that_act(plan.bodies[b], attachments(b))).first->second;
   };
-  const auto flexible = [&](int b) { return !plan.bodies[b].spec.rigid && !plan.bodies[b].spec.reduced; };
+  const auto flexible = [&](int b) { return is_meshed(plan.bodies[b].spec); };
   for (int b = 0; b < count; ++b)
     for (int a = 0; a < b && flexible(b) && all[b].of < 0; ++a) {
       const PlannedBody &one = plan.bodies[a], &other = plan.bodies[b];

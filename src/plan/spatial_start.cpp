@@ -253,7 +253,7 @@ void start_spatial_body(PlannedBody& body) {
   const InitialSpec& start = body.spec.initial;
   Pose pose{body.origin, body.axes};
   Eigen::Matrix<double, 6, 1> moves = Eigen::Matrix<double, 6, 1>::Zero();
-  if (!body.spec.rigid && !body.spec.reduced && (start.spatial_deformation || start.spatial_deformation_rate)) {
+  if (is_meshed(body.spec) && (start.spatial_deformation || start.spatial_deformation_rate)) {
     const Shape shape(body);
     if (start.spatial_deformation) {
       body.linear_start_energy = fem::ElementStiffness(body.structure).strain_energy(displacement(shape, pose));

@@ -106,7 +106,7 @@ const std::vector<std::pair<std::string, std::set<std::string>>> acting = {
 
 bool chooses_by_motion(const Scene& scene) {
   for (const Body& body : scene.bodies)
-    if (!body.rigid && !body.reduced &&
+    if (is_meshed(body) &&
         (body.reduction.derivatives.choice == DerivativesSpec::Choice::count || body.reduction.responses > 0))
       return true;
   return false;

@@ -134,7 +134,7 @@ probes: {tip: {at: plate.right}}
   REQUIRE(generated["mesh"]["probes"]["tip"].get<double>() > 5e-4);
   CHECK(imported["mesh"]["by"] == "elements half as long");
   CHECK(imported["mesh"]["probes"]["tip"].get<double>() ==
-        Approx(generated["mesh"]["probes"]["tip"].get<double>()).epsilon(1e-3));
+        Approx(generated["mesh"]["probes"]["tip"].get<double>()).epsilon(1e-6));
 }
 
 namespace {

@@ -5,7 +5,7 @@
 
 namespace floe::assembly {
 
-inline bool has_structure(const PlannedBody& body) { return !body.spec.rigid && !body.spec.reduced; }
+inline bool has_structure(const PlannedBody& body) { return is_meshed(body.spec); }
 
 /// Of all bodies with a mesh.
 PetscInt elements_of(const Offline& offline);

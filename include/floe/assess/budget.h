@@ -70,8 +70,8 @@ struct FinishedMotion {
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
                                const ErrorPart& mesh, double allowed);
 
-/// The error of the meshes: the reduced model is built and simulated on the mesh
-/// of elements half as long, or, where that takes too much time, twice as long. Errors of order 2 in the length,
+/// The error of the meshes: the reduced model is built and simulated on the mesh of elements half as long, or, where
+/// that takes too much time, twice as long. Errors of order 2 in the length,
 ///
 ///   e_mesh = 4/3 (y_h/2 - y_h)     or     1/3 (y_h - y_2h)
 ///
@@ -90,5 +90,7 @@ std::vector<double> total_error(const ProbeSeries& own, const std::vector<const 
 /// The scene with the meshes of its bodies refined (2, 4) or coarsened (0.5, 0.25).
 /// @return false: a number of elements cannot be divided, or an imported mesh is not refined so far
 bool scale_meshes(Scene& scene, double factor);
+/// Whether a mesh may be of shells, whose number grows with the square of the factor.
+bool any_shells(const Scene& scene);
 
 }  // namespace floe::assess
