@@ -8,6 +8,7 @@
 #include <set>
 
 #include "floe/fem/field_rows.h"
+#include "floe/fem/joint_frame.h"
 #include "floe/math/nearest.h"
 #include "floe/plan/attachments.h"
 #include "floe/plan/interface.h"
@@ -125,6 +126,11 @@ void begin_stage(const Plan& plan, int index, int modes, Stage& stage, BodyRepor
   stage.statics = std::make_unique<reduction::Statics>(body.structure, body.frame, stage.for_statics);
   stage.solver = std::make_unique<reduction::ModeSolver>(body.structure, body.frame, stage.for_modes, *stage.statics);
   stage.attachments = attachments(plan, index);
+  if (balanced_by_joints(plan, index)) {  // a torque at the end of a clamped shaft twists it uniformly
+    const fem::ReferenceFrame joints = fem::joint_frame(body.structure, body.frame, constrained_by_modes(plan, index));
+    for (const reduction::Attachment& attachment : stage.attachments)
+      if (attachment.load) fem::balance(joints, attachment.load);
+  }
   if (modes == as_the_body_has)
     modes = static_cast<int>(std::min<PetscInt>(body.spec.reduction.modes.count, stage.solver->available()));
   generate(plan, index, modes, stage, report);

@@ -7,6 +7,9 @@
 
 #include "floe/petsc/values.h"
 #include "floe/plan/fixed_frames.h"
+#include "floe/plan/hold_at_frame.h"
+#include "floe/plan/interface.h"
+#include "floe/scene/joint_events.h"
 #include "floe/scene/sensors.h"
 
 namespace floe::plan {
@@ -14,6 +17,17 @@ namespace floe::plan {
 using petsc::check;
 
 bool of_frame(const PlannedBody& body) { return body.spec.reduction.modes.of == ModesSpec::Of::frame; }
+
+bool balanced_by_joints(const Plan& plan, int index) {
+  const PlannedBody& body = plan.bodies[index];
+  if (body.structure.dimension() == 2 && body.frame.kind != fem::ReferenceFrame::Kind::mean_axis) return false;
+  if (of_frame(body) || constrained_by_modes(plan, index).empty()) return false;
+  for (std::size_t j = 0; j < plan.joints.size(); ++j)
+    if ((plan.joints[j][0].body == index || plan.joints[j][1].body == index) &&
+        is_unlocked(plan.scene, plan.scene.joints[j].name))
+      return false;
+  return true;
+}
 
 namespace {
 
@@ -182,9 +196,11 @@ void add_spatial_constraint_modes(const Plan& plan, int index, Attachments& all)
   const PlannedBody& body = plan.bodies[index];
   const bool still = has_fixed_frame(plan, index);
   const std::vector<Support> supports = supports_of(plan, index);
-  std::size_t constrained = 0;
+  fem::Conditions by_all = held_at_frame(plan, index);  // by modes of a frame that is clamped elsewhere, too
+  std::size_t constrained = by_all.size();
   for (const Support& support : supports) constrained += support.components.size();
-  const int holds = 6 - rigid_motions_left(body, body.constrained);
+  by_all.insert(by_all.end(), body.constrained.begin(), body.constrained.end());
+  const int holds = 6 - rigid_motions_left(body, by_all);
   for (const Support& support : supports) {
     const Joint& joint = plan.scene.joints[support.joint];
     const bool driven = joint.kind == Joint::Kind::driven || joint.kind == Joint::Kind::driven_slide;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "floe/fem/assembly.h"
+#include "floe/plan/attachments.h"
 #include "floe/plan/interface.h"
 #include "floe/reduction/statics.h"
 
@@ -46,6 +47,8 @@ bool whole(const fem::Conditions& conditions) {
 struct HeldConditions {
   fem::Conditions modes, statics;
   Eigen::Index free_motions;
+  bool balanced;
+  bool operator==(const HeldConditions&) const = default;
 };
 
 /// Collective.
@@ -55,7 +58,7 @@ HeldConditions conditions_of(const Plan& plan, int index) {
                      modes = body.spec.reduction.modes.of == ModesSpec::Of::frame
                                  ? fem::holding(body.structure, body.frame, body.frame.conditions)
                                  : statics;
-  return {modes.constrained, statics.statics, modes.left.cols()};
+  return {modes.constrained, statics.statics, modes.left.cols(), balanced_by_joints(plan, index)};
 }
 
 bool same_conditions(const Plan& plan, int first, int second, bool rotates) {
@@ -64,7 +67,7 @@ bool same_conditions(const Plan& plan, int first, int second, bool rotates) {
   if (a.frame_places[0].node != b.frame_places[0].node || a.frame_places[1].node != b.frame_places[1].node)
     return false;
   const HeldConditions one = conditions_of(plan, first), other = conditions_of(plan, second);
-  if (one.modes != other.modes || one.statics != other.statics || one.free_motions != other.free_motions) return false;
+  if (!(one == other)) return false;
   return !rotates || (whole(a.frame.conditions) && whole(one.modes) && whole(one.statics));
 }
 

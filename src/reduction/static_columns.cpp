@@ -153,7 +153,7 @@ std::string names(const std::vector<Share>& parts, const std::vector<Load*>& loa
 void respond(const fem::Structure& structure, const Statics& statics, const std::vector<Load*>& loads) {
   Columns f;
   for (const Load* load : loads) f.push_back(copy(load->f));
-  Columns u = statics.respond(f);
+  Columns u = statics.solve(f);
   for (std::size_t i = 0; i < loads.size(); ++i) {
     fem::separate(structure, u[i], 1e-9);
     loads[i]->u = std::move(u[i]);

@@ -25,7 +25,6 @@ bool holds_frame(const fem::ReferenceFrame& frame, const fem::Conditions& constr
 Statics::Statics(const fem::Structure& structure, const fem::ReferenceFrame& frame, const fem::Holding& holding)
     : frame_(frame),
       conditions_(holding.statics),
-      by_reactions_(frame.kind == fem::ReferenceFrame::Kind::mean_axis && holding.left.cols() == 0),
       K_(fem::stiffness(structure, holding.statics)),
       elements_(std::make_shared<fem::ElementStiffness>(structure)),
       exact_(fem::stiffness_operator(elements_, holding.statics)),
@@ -189,9 +188,9 @@ Columns Statics::solve(const Columns& loads) const {
   return solve(dense_of(loads));
 }
 
-/// P' f of each column, or f where it is balanced, under the conditions.
-void Statics::prepare(Mat loads, bool balanced) const {
-  const bool in_frame = balanced || holds_frame(frame_, conditions_);
+/// P' f of each column, under the conditions.
+void Statics::prepare(Mat loads) const {
+  const bool in_frame = holds_frame(frame_, conditions_);
   PetscInt count = 0;
   check(MatGetSize(loads, nullptr, &count));
   for (PetscInt j = 0; j < count; ++j) {
@@ -212,15 +211,6 @@ void Statics::finish(const Columns& u) const {
 Columns Statics::solve(petsc::MatHandle loads) const {
   prepare(loads);
   Columns u = corrected(std::move(loads));
-  finish(u);
-  return u;
-}
-
-Columns Statics::respond(const Columns& loads) const {
-  if (loads.empty()) return {};
-  petsc::MatHandle f = dense_of(loads);
-  prepare(f, by_reactions_);
-  Columns u = corrected(std::move(f));
   finish(u);
   return u;
 }

@@ -7,6 +7,10 @@ namespace floe::plan {
 /// Whether the modes are those of the body in its frame alone, not as joints hold it.
 bool of_frame(const PlannedBody& body);
 
+/// Whether the loads of its attachments are balanced by the joints that hold its modes, and by rigid accelerations only
+/// in motions that these leave free: in space (in the plane, of mean-axis frames), where no event unlocks a joint.
+bool balanced_by_joints(const Plan& plan, int index);
+
 /// The static columns that a body's `attachment` asks for. Collective.
 ///
 /// Unit loads where joints and loads act; a moment at a joint counts as the joint's, because no mode has a moment at a

@@ -25,10 +25,6 @@ class Statics {
   Columns solve(const Columns& loads) const;
   /// The same for the columns of a dense matrix, which is used up.
   Columns solve(petsc::MatHandle loads) const;
-  /// Static responses to loads at places. In a mean-axis frame loads have to be balanced, P' f: where joints to the
-  /// ground leave the body no rigid motion by their reactions, x = P K^-1 f, not by rigid accelerations, x = P K^-1 P'
-  /// f (a torque at the end of a clamped shaft twists it uniformly). Collective. One block solve.
-  Columns respond(const Columns& loads) const;
   /// Responses about a deformation q that the frame measures: x = P w with
   ///
   ///   P' K_T P w = P' f,   K_T = d2U/dq2 at q,   w = 0 where joints hold it
@@ -67,11 +63,10 @@ class Statics {
   double missing(Mat loads, Mat u) const;
   void correct(Mat loads, Mat u) const;
   Columns corrected(petsc::MatHandle loads) const;
-  void prepare(Mat loads, bool balanced = false) const;
+  void prepare(Mat loads) const;
   void finish(const Columns& u) const;
   const fem::ReferenceFrame& frame_;
   fem::Conditions conditions_;
-  bool by_reactions_;  ///< a mean-axis frame of a body that joints leave no rigid motion
   petsc::MatHandle K_;
   std::shared_ptr<const fem::ElementStiffness> elements_;
   petsc::MatHandle exact_;
