@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace floe::mesh {
 
@@ -15,7 +16,7 @@ Edge edge(PetscInt a, PetscInt b) { return {std::min(a, b), std::max(a, b)}; }
 /// A new node and the nodes of the coarse mesh between which it lies: of an edge two, of an element its corners.
 struct Middle {
   std::vector<PetscInt> between;
-  bool on_edge;
+  std::optional<Edge> edge = {};  ///< on which it lies, by its corners
 };
 
 /// The shells at an edge of the coarse mesh, and whether it has lines.
@@ -44,7 +45,7 @@ std::array<double, 8> serendipity(double r, double s) {
 
 class Halving {
  public:
-  Halving(const RawMesh& whole, const std::vector<char>& undivided) : whole_(whole), undivided_(undivided) {
+  Halving(const RawMesh& whole, const std::vector<Halved>& parts) : whole_(whole), parts_(parts) {
     fine_ = whole;
     fine_.cells.clear(), fine_.cell_labels.clear();
     find_edges();
@@ -55,17 +56,28 @@ class Halving {
   }
 
   std::vector<DependentNode> links(const std::vector<DependentNode>& coarse) const {
-    std::vector<DependentNode> all = coarse;
     const auto region = [&](PetscInt node) {
       const auto at = std::lower_bound(coarse.begin(), coarse.end(), node,
                                        [](const DependentNode& link, PetscInt n) { return link.node < n; });
       return at == coarse.end() || at->node != node ? node : at->spins() ? PetscInt(-1) : at->independent_node;
     };
+    std::map<Edge, std::vector<Edge>> between_regions;  // edges with an end that moves by itself
+    for (const auto& [ends, middle] : known_) {
+      if (ends[1] >= whole_.node_count) continue;
+      const PetscInt a = region(ends[0]), b = region(ends[1]);
+      if (a >= 0 && b >= 0 && a != b && (a == ends[0] || b == ends[1])) between_regions[edge(a, b)].push_back(ends);
+    }
+    std::vector<DependentNode> all = coarse;
     for (std::size_t i = 0; i < middles_.size(); ++i) {
       const std::vector<PetscInt>& between = middles_[i].between;
-      const PetscInt first = region(between.front());
-      if (first >= 0 && std::all_of(between.begin(), between.end(), [&](PetscInt n) { return region(n) == first; }))
-        all.push_back({whole_.node_count + static_cast<PetscInt>(i), first});
+      const PetscInt node = whole_.node_count + static_cast<PetscInt>(i), first = region(between.front()),
+                     second = region(between.back());
+      if (first < 0 || second < 0) continue;
+      if (std::all_of(between.begin(), between.end(), [&](PetscInt n) { return region(n) == first; }))
+        all.push_back({node, first});
+      else if (middles_[i].edge && between.front() != first && between.back() != second)
+        if (const auto beside = between_regions.find(edge(first, second)); beside != between_regions.end())
+          all.push_back({node, known_.at(nearest(beside->second, x(node)))});
     }
     return all;
   }
@@ -74,7 +86,9 @@ class Halving {
 
  private:
   bool stays(const Cell& cell) const {
-    return !has_extent(cell.kind) || (!undivided_.empty() && undivided_[static_cast<std::size_t>(cell.part)]);
+    if (!has_extent(cell.kind) || parts_.empty()) return !has_extent(cell.kind);
+    const Halved part = parts_[static_cast<std::size_t>(cell.part)];
+    return part == Halved::none || (part == Halved::along_shells && at_edge_.at(ends(cell, 0)).shells.empty());
   }
 
   void find_edges() {
@@ -86,9 +100,14 @@ class Halving {
           at.line = true;
         else
           at.shells.push_back(static_cast<PetscInt>(c));
-        if (is_quadratic(cell.kind) && !stays(cell)) known_[ends(cell, i)] = cell.nodes[corner_count(cell.kind) + i];
+        if (is_quadratic(cell.kind)) known_[ends(cell, i)] = cell.nodes[corner_count(cell.kind) + i];
       }
     }
+  }
+
+  Edge nearest(const std::vector<Edge>& edges, const Vector3d& at) const {
+    const auto far = [&](const Edge& one) { return (x(known_.at(one)) - at).squaredNorm(); };
+    return *std::min_element(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) { return far(a) < far(b); });
   }
 
   const Vector3d& x(PetscInt node) const { return fine_.positions[static_cast<std::size_t>(node)]; }
@@ -100,10 +119,10 @@ class Halving {
     return static_cast<PetscInt>(fine_.positions.size()) - 1;
   }
 
-  /// The node at `at`, between two nodes of the fine mesh.
-  PetscInt between(PetscInt a, PetscInt b, const Vector3d& at, const Middle& middle) {
+  /// The node at `at`, between two nodes on an edge.
+  PetscInt between(PetscInt a, PetscInt b, const Vector3d& at, const Edge& on) {
     const auto [found, fresh] = known_.emplace(edge(a, b), -1);
-    if (fresh) found->second = add(at, middle);
+    if (fresh) found->second = add(at, {{std::min(a, b), std::max(a, b)}, on});
     return found->second;
   }
 
@@ -123,11 +142,11 @@ class Halving {
     OnEdges on;
     for (int i = 0; i < edge_count(cell.kind); ++i) {
       const PetscInt a = cell.nodes[i], b = cell.nodes[(i + 1) % corner_count(cell.kind)];
-      const Middle ends{{std::min(a, b), std::max(a, b)}, true};
-      const PetscInt m = on.middle[i] = between(a, b, (x(a) + x(b)) / 2, ends);
+      const Edge own = edge(a, b);
+      const PetscInt m = on.middle[i] = between(a, b, (x(a) + x(b)) / 2, own);
       if (!is_quadratic(cell.kind)) continue;
-      on.before[i] = between(a, m, 0.375 * x(a) + 0.75 * x(m) - 0.125 * x(b), ends);
-      on.after[i] = between(m, b, 0.375 * x(b) + 0.75 * x(m) - 0.125 * x(a), ends);
+      on.before[i] = between(a, m, 0.375 * x(a) + 0.75 * x(m) - 0.125 * x(b), own);
+      on.after[i] = between(m, b, 0.375 * x(b) + 0.75 * x(m) - 0.125 * x(a), own);
     }
     return on;
   }
@@ -153,7 +172,7 @@ class Halving {
         emit(c, cell.kind, {m[0], m[1], m[2]});
         break;
       case CellKind::quadrilateral: {
-        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, {corners_of(cell), false});
+        const PetscInt o = add((x(v[0]) + x(v[1]) + x(v[2]) + x(v[3])) / 4, {corners_of(cell)});
         for (int i = 0; i < 4; ++i) emit(c, cell.kind, {v[i], m[i], o, m[(i + 3) % 4]});
         break;
       }
@@ -176,7 +195,7 @@ class Halving {
     std::array<PetscInt, 3> k;  // between the middles of the edges that meet at corner i; opposite lies edge i + 1
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, l = (i + 2) % 3;
-      k[i] = add((x(m[i]) + x(m[l])) / 2 + x(m[j]) / 4 - (x(v[j]) + x(v[l])) / 8, {corners_of(cell), false});
+      k[i] = add((x(m[i]) + x(m[l])) / 2 + x(m[j]) / 4 - (x(v[j]) + x(v[l])) / 8, {corners_of(cell)});
     }
     for (int i = 0; i < 3; ++i) {
       const int l = (i + 2) % 3;
@@ -194,7 +213,7 @@ class Halving {
       const std::array<double, 8> N = serendipity(r, s);
       Vector3d sum = Vector3d::Zero();
       for (int i = 0; i < 8; ++i) sum += N[i] * x(v[i]);
-      return add(sum, {corners_of(cell), false});
+      return add(sum, {corners_of(cell)});
     };
     const PetscInt o = node_at(0, 0);
     const std::array<PetscInt, 4> k{node_at(0, -0.5), node_at(0.5, 0), node_at(0, 0.5), node_at(-0.5, 0)};  // m to o
@@ -216,7 +235,7 @@ class Halving {
         const Middle& middle = middles_[i];
         if (!std::all_of(middle.between.begin(), middle.between.end(), [&](PetscInt node) { return in[node] != 0; }))
           continue;
-        if (!middle.on_edge || along(at_edge_.at({middle.between[0], middle.between[1]}), in, rim))
+        if (!middle.edge || along(at_edge_.at(*middle.edge), in, rim))
           nodes.push_back(whole_.node_count + static_cast<PetscInt>(i));
       }
     }
@@ -234,7 +253,7 @@ class Halving {
   }
 
   const RawMesh& whole_;
-  const std::vector<char>& undivided_;
+  const std::vector<Halved>& parts_;
   RawMesh fine_;
   std::map<Edge, AtEdge> at_edge_;  // of the coarse mesh, by corners
   std::map<Edge, PetscInt> known_;  // nodes between two others
@@ -249,8 +268,8 @@ class Halving {
 
 }  // namespace
 
-RawMesh halved(const RawMesh& whole, std::vector<DependentNode>& links, const std::vector<char>& undivided) {
-  Halving halving(whole, undivided);
+RawMesh halved(const RawMesh& whole, std::vector<DependentNode>& links, const std::vector<Halved>& parts) {
+  Halving halving(whole, parts);
   links = halving.links(links);
   return halving.take();
 }

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -69,15 +70,35 @@ mesh::DeckRequest request_of(const Body& body) {
   return {named, named.size() < body.parts.size(), body.mesh.file->ignore};
 }
 
-/// Elements halved as often as the scene wants; beams with released ends remain whole, as halves would be released,
-/// too. Collective.
-void refine(int times, Source& source) {
+/// Beams with released ends remain whole, as halves would be released, too; rods are divided where a shell holds the
+/// node between their halves.
+mesh::Halved division_of(const fem::Section& section) {
+  const auto* beam = std::get_if<fem::SpatialBeam>(&section);
+  if (!beam || beam->releases.none()) return mesh::Halved::all;
+  const bool rod = beam->releases[4] && beam->releases[5] && beam->releases[10] && beam->releases[11] &&
+                   !beam->releases[0] && !beam->releases[6];
+  return rod ? mesh::Halved::along_shells : mesh::Halved::none;
+}
+
+/// Elements halved as often as the scene wants. @throws InputError  too many. Collective.
+void refine(const Body& body, Source& source) {
+  constexpr double most = 1e7;  // every rank holds them all
+  const int times = body.mesh.file->refine;
   if (times == 0) return;
-  std::vector<char> undivided(source.mesh.parts.size(), 0);
-  for (const auto& [part, section] : source.parts)
-    if (const auto* beam = std::get_if<fem::SpatialBeam>(&section)) undivided[part] = beam->releases.any();
+  if (const double elements = std::ldexp(static_cast<double>(source.mesh.cell_count), 2 * times); elements > most)
+    throw InputError(
+        fmt::format("{}.file.refine: is {}, which makes up to {:.3g} elements of {}; expected at most {:g}",
+                    body.mesh.where.text(), times, elements, source.mesh.cell_count, most));
+  std::vector<mesh::Halved> parts(source.mesh.parts.size(), mesh::Halved::all);
+  for (const auto& [part, section] : source.parts) parts[part] = division_of(section);
   mesh::RawMesh whole = on_every_rank(source.mesh);
-  for (int i = 0; i < times; ++i) whole = mesh::halved(whole, source.dependent_nodes, undivided);
+  for (int i = 0; i < times; ++i) whole = mesh::halved(whole, source.dependent_nodes, parts);
+  const auto undivided = std::count_if(whole.cells.begin(), whole.cells.end(), [&](const mesh::Cell& cell) {
+    return cell.kind == mesh::CellKind::line && parts[cell.part] != mesh::Halved::all &&
+           std::max(cell.nodes[0], cell.nodes[1]) < source.mesh.node_count;
+  });
+  if (undivided > 0)
+    source.notices.push_back(fmt::format("refine: {} beams with released ends remain whole", undivided));
   source.mesh = mesh::share_of_whole(whole);
 }
 
@@ -106,7 +127,7 @@ Source read_file(const Body& body, MPI_Comm comm) {
                                  body.mesh.where.text(), file.path));
   }
   for (Eigen::Vector3d& x : source.mesh.positions) x *= file.scale;
-  refine(file.refine, source);
+  refine(body, source);
   return source;
 }
 

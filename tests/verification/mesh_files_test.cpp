@@ -230,6 +230,49 @@ TEST_CASE("rigid links hold the edges of a refined mesh as those of a deck with 
   for (int i = 0; i < 6; ++i) CHECK(refined[i] == Approx(fine[i]).epsilon(1e-8));
 }
 
+namespace {
+
+/// A plate of quadrilaterals with a bar along its middle, 20 mm above it; its edge x = 0 follows a hub.
+std::string stiffened_plate(int n, int m) {
+  const auto grid = [&](int i, int j) { return 1 + i * (m + 1) + j; };
+  std::string text = "BEGIN BULK\n";
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= m; ++j)
+      text += fmt::format("GRID,{},,{:.10g},{:.10g},0.0\n", grid(i, j), double(i) / n, 0.3 * j / m);
+  int element = 1;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j)
+      text += fmt::format("CQUAD4,{},1,{},{},{},{}\n", element++, grid(i, j), grid(i + 1, j), grid(i + 1, j + 1),
+                          grid(i, j + 1));
+  for (int i = 0; i < n; ++i)
+    text += fmt::format("CBAR,{},2,{},{},0.0,0.0,1.0,,\n,,,0.0,0.0,0.02,0.0,0.0,0.02\n", element++, grid(i, m / 2),
+                        grid(i + 1, m / 2));
+  text += "GRID,9001,,-0.05,0.15,0.0\nRBE2,9002,9001,123456,1";
+  for (int j = 1; j <= m; ++j) text += (j % 8 == 4 ? ",\n,," : ",") + std::to_string(grid(0, j));
+  return text +
+         "\nCONM2,9003,9001,,1.0-3\nPSHELL,1,1,0.001,1,,1\nPBAR,2,1,1.0-4,3.0-9,3.0-9,1.0-9\n"
+         "MAT1,1,7.0+10,,0.3,2700.0\nENDDATA\n";
+}
+
+}  // namespace
+
+// The nodes of a bar with offsets follow those of the plate, one by one; at the hub they follow the hub.
+TEST_CASE("bars with offsets on a refined deck are those of a deck with as many elements") {
+  const Scratch scratch;
+  const std::string folder = scratch.path.string();
+  const auto omega = [&](int n, int m, int refine) {
+    write_text(folder + "/plate.bdf", stiffened_plate(n, m));
+    return omega_of(
+        fmt::format("bodies: {{plate: {{mesh: {{file: {{path: plate.bdf, refine: {}}}}}, reduction: {{modes: 6}}}}}}\n"
+                    "joints: {{root: {{type: fixed, between: [ground, {{body: plate, node: [-0.05, 0.15, 0]}}]}}}}\n",
+                    refine),
+        folder + "/scene.yaml");
+  };
+  const auto coarse = omega(4, 2, 0), refined = omega(4, 2, 1), fine = omega(8, 4, 0);
+  CHECK(std::abs(coarse[0] / fine[0] - 1) > 0.01);
+  for (int i = 0; i < 6; ++i) CHECK(refined[i] == Approx(fine[i]).epsilon(1e-7));
+}
+
 TEST_CASE("a load on a rigid tip block: full-order, reduced, and at dependent nodes") {
   const Scratch scratch;
   const std::string folder = scratch.path.string();

@@ -166,7 +166,7 @@ TEST_CASE("masses, springs and undivided parts remain, and rigid regions receive
   raw.cells.push_back(mass), raw.cells.push_back(spring);
   raw.cell_labels = {1, 2, 3, 4, 5}, raw.cell_count = 5;
   std::vector<DependentNode> links{{1, 4}, {2, 4}};
-  const RawMesh fine = mesh::halved(raw, links, {0, 1, 0});
+  const RawMesh fine = mesh::halved(raw, links, {mesh::Halved::all, mesh::Halved::none, mesh::Halved::all});
   REQUIRE(fine.cell_count == 7);
   CHECK(fine.cell_labels == std::vector<long long>{1, 1, 2, 2, 3, 4, 5});
   CHECK(fine.cells[4].nodes == raw.cells[2].nodes);
