@@ -93,19 +93,6 @@ struct ReducedBodies {
 
 namespace {
 
-/// The ratios would be those of the modes of each part, which is stiffer than the whole body.
-void refuse_modal_damping_of_parts(const Scene& scene) {
-  std::vector<std::string> faults;
-  for (const Body& body : scene.bodies)
-    if (body.frames > 1 && is_meshed(body) && has_modal_damping(body))
-      faults.push_back(
-          fmt::format("{}.damping.modal: body {} is split into {} floating frames, whose modes are not those of the "
-                      "body; expected frames: 1, --formulation cfr, or damping: {{stiffness: BETA}} (a ratio "
-                      "BETA omega/2 of each mode)",
-                      body.where.text(), body.name, body.frames));
-  if (!faults.empty()) throw InputError(faults);
-}
-
 Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
   if (formulation == Formulation::cfr) return whole;
   refuse_modal_damping_of_parts(whole);

@@ -32,11 +32,6 @@ std::vector<std::unique_ptr<dynamics::AccompanyingAxes>> modal_rows(
 /// the tangent lose their digits.
 inline double min_mass_damping(const reference::ModalDamping& modal) { return 1e-9 * modal.viscosity.maxCoeff(); }
 
-/// Whether some mode of the body is damped.
-inline bool has_modal_damping(const Body& body) {
-  return std::any_of(body.damping.modal.begin(), body.damping.modal.end(), [](double ratio) { return ratio > 0; });
-}
-
 /// c_0 of these rows, and the rates of y at the start. Collective.
 Eigen::VectorXd begin_modal(const DampedWhole& whole, std::vector<std::unique_ptr<dynamics::AccompanyingAxes>>& rows,
                             const Eigen::VectorXd& q, const Eigen::VectorXd& v, MPI_Comm comm);

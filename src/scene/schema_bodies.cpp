@@ -272,8 +272,8 @@ const SchemaSection damping_section{
          "beta of Rayleigh damping: Kelvin-Voigt damping of the strain rates, damping ratios beta omega/2",
          nonnegative},
         {"modal", Type::numbers, "", "[]",
-         "damping ratios of the first modes (with an interface: of the fixed-interface modes); not with several "
-         "frames, but in cfr",
+         "damping ratios of the first modes (with an interface: of the fixed-interface modes); with several frames "
+         "in cfr only",
          nonnegative},
     }};
 

@@ -119,6 +119,10 @@ COMMANDS = [
            says=() if formulation == "cfr" else ("bodies.beam.damping.modal: body beam is split into 2 floating frames",),
            scene=scene({"bodies.beam.frames": 2, "bodies.beam.damping": {"modal": [0.01]}, "probes": None}))
       for formulation in ("vm+md", "nlffr", "cfr")),
+    *(Case(f"modal damping of a body in frames, accuracy {accuracy}", run("vm+md", "--accuracy", accuracy), 2, lines=1,
+           says=("bodies.beam.damping.modal: body beam is split into 2 floating frames",),
+           scene=scene({"bodies.beam.frames": 2, "bodies.beam.damping": {"modal": [0.01]}, "probes": {"tip": {"at": "beam.end"}}}))
+      for accuracy in ("5%", "reduction:5%")),
     Case("modes as they should be", ["modes", "scene.yaml"], lines=0, never=("Note: body beam: mode",)),
     Case("check without a motion", ["check", "scene.yaml"], lines=0, scene=scene({"motion": None}),
          shows=("1 joints", "no motion: sufficient for modes, reduce, static and campbell"), never=("steps of",)),

@@ -140,5 +140,8 @@ bool last_rank(MPI_Comm comm);
 /// Each split body (frames: N) as bodies `name#i` that are clamped together: a single line as N lines of equal length,
 /// another mesh in pieces (cut_mesh), whose joints have edges: nodes. @throws InputError  Collective.
 Scene split_frames(const Scene& scene, MPI_Comm comm);
+/// For models of split bodies: ratios of `damping.modal` would be those of the modes of each piece, which is stiffer
+/// than the whole. @throws InputError  a split body has modal damping. Rank-local.
+void refuse_modal_damping_of_parts(const Scene& scene);
 
 }  // namespace floe::plan

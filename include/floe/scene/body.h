@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -210,5 +211,9 @@ struct Body {
 
 /// Whether a body is flexible, with elements.
 inline bool is_meshed(const Body& body) { return !body.rigid && !body.reduced; }
+/// Whether some mode of the body is damped.
+inline bool has_modal_damping(const Body& body) {
+  return std::any_of(body.damping.modal.begin(), body.damping.modal.end(), [](double ratio) { return ratio > 0; });
+}
 
 }  // namespace floe::scene
