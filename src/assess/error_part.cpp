@@ -94,7 +94,8 @@ void leave_out_quiet(const ProbeSeries& own, ErrorPart& part) {
       whole = std::max(whole, moved);
       if (own.t[i] <= part.until * (1 + 1e-9)) covered = std::max(covered, moved);
     }
-    if (covered < quiet * quiet * whole && !std::isnan(part.probes[p])) part.probes[p] = unknown, names.push_back(name);
+    if (covered < quiet * quiet * whole && std::isfinite(part.probes[p]))
+      part.probes[p] = unknown, names.push_back(name);
     c = end;
   }
   if (!names.empty())

@@ -81,8 +81,7 @@ void refuse_not_finite(Vec U, Vec V) {
   check(VecNorm(V, NORM_2, &sizes[1]));
   if (!(sizes[0] < beyond_numbers && sizes[1] < beyond_numbers))
     throw RunError(
-        "the state is not finite, or beyond 1e50, where energies leave the range of double precision: the steps did "
-        "not "
+        "the state is not finite, or its numbers are beyond 1e50 (out of reach of double precision): the steps did not "
         "converge (unstable time integration). Try a smaller motion.step, remove options -motion_snes_... and "
         "-motion_ts_... that stop Newton's method early, or take units in which forces are smaller");
 }

@@ -121,7 +121,7 @@ joints:
   /// omega^2 of the equilibrium between two angles of torques of opposite sign.
   double square(double W, double low, double high) const {
     const bool rises = torque(W, high) > 0;
-    REQUIRE(rises != torque(W, low) > 0);
+    REQUIRE(rises != (torque(W, low) > 0));
     for (int i = 0; i < 60; ++i) ((torque(W, (low + high) / 2) > 0) == rises ? high : low) = (low + high) / 2;
     return -3 / L * (torque(W, low + 1e-6) - torque(W, low - 1e-6)) / 2e-6;
   }
