@@ -69,8 +69,9 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
   const bool in_world = model.formulation == scene::Formulation::cfr;
   std::vector<double> rows;
   for (std::size_t i = 0; i < mesh.shapes.nodes.size(); ++i) {
-    const int dof = body.first_dof + mesh.shapes.dofs_per_node * static_cast<int>(mesh.mover(i));
-    const Eigen::Vector3d arm = mesh.arm(i);
+    const bool framed = in_world && mesh.rotates_apart(i);  // has a frame of its own
+    const int dof = body.first_dof + mesh.shapes.dofs_per_node * static_cast<int>(framed ? i : mesh.mover(i));
+    const Eigen::Vector3d arm = framed ? Eigen::Vector3d::Zero().eval() : mesh.arm(i);
     rows.insert(rows.end(), {column_of(model, dof), arm.x(), arm.y(), arm.z()});
   }
   file.write_of_nodes(
@@ -85,17 +86,21 @@ void write_nodes(output::ResultFile& file, const std::string& group, const assem
            "dependent node"});
 }
 
-/// Of full order, the rotations about line hinges that nodes have of their own.
+/// Of full order, the rotations that nodes have of their own.
 void write_spins(output::ResultFile& file, const std::string& group, const assembly::Model& model,
                  const assembly::BodyReport& body) {
+  if (model.formulation == scene::Formulation::cfr) return;  // their dofs are those of frames of their own
   const assembly::BodyMesh& mesh = *body.mesh;
   const MPI_Comm comm = model.system->comm();
   std::vector<double> rows;
   for (const fem::Mesh::Spin& spin : mesh.spins) {
     if (spin.node >= static_cast<int>(mesh.shapes.nodes.size())) continue;
-    const int dof = body.first_dof + 6 * spin.node + 3 + fem::spin_slot(spin.axis);
-    rows.insert(rows.end(), {static_cast<double>(mesh.shapes.nodes[static_cast<std::size_t>(spin.node)]),
-                             column_of(model, dof), spin.axis.x(), spin.axis.y(), spin.axis.z()});
+    const Eigen::Matrix3d own = spin.own();
+    for (int i = 0; i < 3; ++i)
+      if (!own.col(i).isZero(0))
+        rows.insert(rows.end(),
+                    {static_cast<double>(mesh.shapes.nodes[static_cast<std::size_t>(spin.node)]),
+                     column_of(model, body.first_dof + 6 * spin.node + 3 + i), own(0, i), own(1, i), own(2, i)});
   }
   std::int64_t mine = std::ssize(rows) / 5, all = mine, first = 0;
   MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPI_INT64_T, MPI_SUM, comm);
@@ -104,7 +109,7 @@ void write_spins(output::ResultFile& file, const std::string& group, const assem
   MPI_Comm_rank(comm, &rank);
   if (all == 0) return;
   file.write_distributed_rows(group + "/spins_of_motion", all, 5, rank == 0 ? 0 : first, rows,
-                              {"", "node; column of motion/U of its own rotation about its line hinge; axis"});
+                              {"", "node; column of motion/U of a rotation of its own; axis"});
 }
 
 /// Whether local unknown x is a rotation of one of the body's own nodes.

@@ -80,7 +80,7 @@ std::vector<std::unique_ptr<AccompanyingAxes>> modal_rows(const DampedWhole& who
   for (const petsc::VecHandle& f : modal.forces) forces.push_back(std::make_unique<petsc::ConstValues>(f));
   std::vector<std::unique_ptr<AccompanyingAxes>> all;
   for (int node = 0; node < s.mesh.owned_nodes; ++node) {
-    const Vector3d* spin = n == 6 ? fem::spin_axis(s.mesh, node) : nullptr;
+    const fem::Mesh::Spin* spin = n == 6 ? fem::spin_of(s.mesh, node) : nullptr;
     std::vector<AccompanyingAxes::Row> rows;
     bool any = false;
     for (const auto& f : forces) {
@@ -91,7 +91,7 @@ std::vector<std::unique_ptr<AccompanyingAxes>> modal_rows(const DampedWhole& who
         if (!rotation)
           force[d] = value;
         else if (spin)
-          moment += d - 3 == fem::spin_slot(*spin) ? Vector3d(value * *spin) : Vector3d::Zero();
+          moment += value * spin->own().col(d - 3);
         else
           moment[n == 3 ? 2 : d - 3] = value;
         any = any || value != 0;

@@ -156,12 +156,12 @@ Eigen::MatrixXd following(const Mesh& mesh, const Mesh::Cell& cell) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n * static_cast<Eigen::Index>(corners.size()), size);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (cell.line[i] >= 0) {
-      const Eigen::Vector3d& axis = *spin_axis(mesh, corners[i]);
+      const Eigen::Matrix3d S = spin_of(mesh, corners[i])->own();
       const Eigen::Index own = 6 * static_cast<Eigen::Index>(i);
       T.block<6, 6>(own, own).setZero();
-      T.block<3, 3>(own + 3, own + 3) = spin(axis);
+      T.block<3, 3>(own + 3, own + 3) = S;
       T.block<6, 6>(own, 6 * static_cast<Eigen::Index>(cell.line[i])) =
-          line_arm(mesh.positions[corners[i]] - mesh.positions[nodes[cell.line[i]]], axis);
+          spin_arm(mesh.positions[corners[i]] - mesh.positions[nodes[cell.line[i]]], S);
       continue;
     }
     const Eigen::Vector3d arm = mesh.positions[corners[i]] - mesh.positions[nodes[i]];

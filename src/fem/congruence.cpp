@@ -64,8 +64,9 @@ bool same_followers(const Mesh& a, const Mesh& b, bool rotates) {
                     [](const auto& f, const auto& g) {
                       return f.node == g.node && f.independent_node == g.independent_node;
                     }) &&
-         std::equal(a.spins.begin(), a.spins.end(), b.spins.begin(), b.spins.end(),
-                    [&](const auto& s, const auto& t) { return !rotates && s.node == t.node && near(s.axis, t.axis); });
+         std::equal(a.spins.begin(), a.spins.end(), b.spins.begin(), b.spins.end(), [&](const auto& s, const auto& t) {
+           return !rotates && s.node == t.node && s.others == t.others && near(s.axis, t.axis);
+         });
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ std::vector<mesh::DependentNode> renumbered(const Mesh& mesh, const std::vector<
   const std::vector<PetscInt> found = global_nodes(mesh, originals);
   std::vector<mesh::DependentNode> all;
   for (std::size_t i = 0; i < found.size(); i += 2)
-    all.push_back({found[i], found[i + 1], dependent_nodes[i / 2].axis});
+    all.push_back({found[i], found[i + 1], dependent_nodes[i / 2].axis, dependent_nodes[i / 2].others});
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return all;
 }
@@ -125,7 +125,7 @@ bool spins(const std::vector<mesh::DependentNode>& links, PetscInt node) {
   return found != links.end() && found->node == node && found->spins();
 }
 
-/// The independent node of a corner on a hinge line among the nodes that the cell acts on.
+/// The independent node of a corner with rotations of its own among the nodes that the cell acts on.
 void lead(Mesh::Cell& cell, int corner, int independent_node) {
   const auto end = cell.moved.begin() + cell.moving;
   const auto found = std::find(cell.moved.begin(), end, independent_node);
@@ -168,7 +168,7 @@ Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks,
   for (const mesh::DependentNode& f : links) {
     if (f.node >= begin && f.node < end) mesh.dependent_nodes.push_back({local(f.node), local(f.independent_node)});
     if (f.spins() && is_local(f.node))
-      mesh.spins.push_back({local(f.node), Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2])});
+      mesh.spins.push_back({local(f.node), Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2]), f.others});
   }
   std::sort(mesh.spins.begin(), mesh.spins.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return mesh;
@@ -186,9 +186,11 @@ std::vector<PetscInt> global_nodes(const Mesh& mesh, const std::vector<PetscInt>
 std::vector<PetscInt> dependent_dofs(const Mesh& mesh, int dofs_per_node) {
   std::vector<PetscInt> mine;
   for (const Mesh::DependentNode& f : mesh.dependent_nodes) {
-    const Eigen::Vector3d* axis = spin_axis(mesh, f.node);
+    const Mesh::Spin* spin = spin_of(mesh, f.node);
+    const Eigen::Matrix3d own = spin ? spin->own() : Eigen::Matrix3d::Zero().eval();
     for (int d = 0; d < dofs_per_node; ++d)
-      if (!axis || d != 3 + spin_slot(*axis)) mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);
+      if (d < 3 || dofs_per_node == 3 || own.col(d - 3).isZero(0))
+        mine.push_back(dofs_per_node * mesh.global_node(f.node) + d);
   }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);

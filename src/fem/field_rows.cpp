@@ -119,19 +119,19 @@ constexpr Rotation planar_rotations[] = {{0, 2, 1, 1}, {1, 2, 0, -1}};
 constexpr Rotation spatial_rotations[] = {{0, 4, 2, -1}, {0, 5, 1, 1},  {1, 5, 0, -1},
                                           {1, 3, 2, 1},  {2, 3, 1, -1}, {2, 4, 0, 1}};
 
-/// A node's own rotation about a hinge line less that of the reference about it; rows of their rotations.
+/// A node's own rotations less those of the reference about the same axes; rows of their rotations.
 void take_rotated(const PieceRows::Spin& spin, const FieldRows& fields, const DofRanges& ranges, Eigen::Index own,
                   Eigen::Index reference, Eigen::Index out, Strained& strained) {
   for (int d = 0; d < 3; ++d) {
-    if (spin.slot[d] == 0) continue;
+    if (spin.own.col(d).isZero(0)) continue;
     double* to = strained.rows.row(out + d).data();
     const auto [begin, end] = ranges[3 + d];
     for (int j = begin; j < end; ++j) to[j] = fields(own + d, j);
     for (int i = 0; i < 3; ++i) {
       const ColumnRange& range = ranges[3 + i];
-      if (spin.axis[i] == 0 || range.empty()) continue;
+      if (spin.own(i, d) == 0 || range.empty()) continue;
       strained.ranges[3 + d].include(range);
-      add_multiple(-spin.slot[d] * spin.axis[i], fields.row(reference + i).data() + range.begin, to + range.begin,
+      add_multiple(-spin.own(i, d), fields.row(reference + i).data() + range.begin, to + range.begin,
                    range.end - range.begin);
     }
   }

@@ -88,6 +88,16 @@ std::array<double, 2> heights(const Structure& structure, const Vector3d& normal
   return {bounds[0], -bounds[1]};
 }
 
+/// Whether some node's own rotations are about axes neither in the plane nor normal to it. Collective.
+bool oblique_spins(const Mesh& mesh, const Vector3d& normal) {
+  bool oblique = std::any_of(mesh.spins.begin(), mesh.spins.end(), [&](const Mesh::Spin& spin) {
+    const Vector3d about = spin.own().transpose() * normal;
+    return about.norm() > 1e-9 && about.norm() < 1 - 1e-9;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &oblique, 1, MPI_C_BOOL, MPI_LOR, mesh.comm);
+  return oblique;
+}
+
 std::unique_ptr<const FlatBody> find(const Structure& structure) {
   if (!uncoupled_shells(structure)) return nullptr;
   const Vector3d sum = area(structure, one_normal(structure));
@@ -95,7 +105,7 @@ std::unique_ptr<const FlatBody> find(const Structure& structure) {
   auto flat = std::make_unique<FlatBody>();
   flat->axes = plane_axes(sum.normalized());
   const auto [low, high] = heights(structure, flat->axes.col(2));
-  if (!(high - low <= 1e-12 * extent(structure))) return nullptr;
+  if (!(high - low <= 1e-12 * extent(structure)) || oblique_spins(structure.mesh, flat->axes.col(2))) return nullptr;
   for (const Vector3d& x : structure.mesh.positions) {
     flat->positions.push_back(flat->axes.transpose() * x);
     flat->positions.back().z() = (low + high) / 2;
@@ -118,10 +128,10 @@ const FlatBody* flat_body(const Structure& structure) {
 
 namespace {
 
-/// A node's rotation, of one on a hinge line its own.
+/// A node's rotation, or those that are its own.
 Vector3d rotation_of(const Mesh& mesh, const Vector3d& dofs, Eigen::Index node) {
-  const Vector3d* axis = spin_axis(mesh, static_cast<int>(node));
-  return axis ? Vector3d(spin(*axis) * dofs) : dofs;
+  const Mesh::Spin* spin = spin_of(mesh, static_cast<int>(node));
+  return spin ? Vector3d(spin->own() * dofs) : dofs;
 }
 
 }  // namespace
@@ -148,8 +158,10 @@ void separate(const Structure& structure, Vec field, double share) {
     q.topRows<3>() = ((part == 0 ? along : across) * q.topRows<3>()).eval();
     const Eigen::Matrix3Xd rotations = q.bottomRows<3>();
     q.bottomRows<3>() = (part == 0 ? across : along) * rotations;
-    for (const Mesh::Spin& spin : structure.mesh.spins)  // about a line in the plane
-      if (spin.node < q.cols()) q.col(spin.node).tail<3>() = (part == 0 ? 0 : 1) * rotations.col(spin.node);
+    for (const Mesh::Spin& spin : structure.mesh.spins)
+      if (spin.node < q.cols())
+        q.col(spin.node).tail<3>() =
+            spin.own().transpose() * (part == 0 ? across : along) * spin.own() * rotations.col(spin.node);
   }
 }
 

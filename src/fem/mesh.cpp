@@ -91,10 +91,10 @@ void express_in_frame(Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Ma
   for (Mesh::Spin& spin : mesh.spins) spin.axis = rotation.transpose() * spin.axis;
 }
 
-const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local) {
+const Mesh::Spin* spin_of(const Mesh& mesh, int local) {
   const auto found = std::lower_bound(mesh.spins.begin(), mesh.spins.end(), local,
                                       [](const Mesh::Spin& spin, int node) { return spin.node < node; });
-  return found != mesh.spins.end() && found->node == local ? &found->axis : nullptr;
+  return found != mesh.spins.end() && found->node == local ? &*found : nullptr;
 }
 
 int spin_slot(const Eigen::Vector3d& axis) {
@@ -104,10 +104,18 @@ int spin_slot(const Eigen::Vector3d& axis) {
   return slot;
 }
 
-Eigen::Matrix3d spin(const Eigen::Vector3d& axis) {
-  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-  own.col(spin_slot(axis)) = axis;
-  return own;
+Eigen::Matrix3d Mesh::Spin::own() const {
+  Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
+  if (!others) {
+    S.col(spin_slot(axis)) = axis;
+  } else if (axis.isZero(0)) {
+    S.setIdentity();
+  } else {
+    const int slot = spin_slot(axis), next = (slot + 1) % 3;
+    S.col(next) = (Eigen::Vector3d::Unit(next) - axis[next] * axis).normalized();
+    S.col((slot + 2) % 3) = axis[slot] < 0 ? Eigen::Vector3d(S.col(next).cross(axis)) : axis.cross(S.col(next));
+  }
+  return S;
 }
 
 NearestNode nearest_node(const Mesh& mesh, const Eigen::Vector3d& point) {

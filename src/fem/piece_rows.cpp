@@ -51,15 +51,15 @@ std::vector<StrainRows::Term> terms_of(const StrainPoint& point, const Eigen::Ma
   return terms;
 }
 
-/// The axis of a hinge line and the dof that stands for the rotation about it, in the axes of the pieces.
+/// A node's own rotations by its dofs, in the axes of the pieces.
 PieceRows::Spin spin_of(const Structure& structure, int node, int at) {
-  const Eigen::Vector3d& axis = *spin_axis(structure.mesh, node);
-  const Eigen::Vector3d slot = Eigen::Vector3d::Unit(spin_slot(axis));
+  const Eigen::Matrix3d own = spin_of(structure.mesh, node)->own();
   const FlatBody* flat = flat_body(structure);
-  if (!flat) return {at, axis, slot};
-  Eigen::Vector3d in_plane = flat->axes.transpose() * axis;
-  in_plane.z() = 0;  // but for round-off, like all edges of a flat body
-  return {at, in_plane.normalized(), flat->axes.transpose() * slot};
+  if (!flat) return {at, own};
+  constexpr double round_off = 1e-14;
+  Eigen::Matrix3d S = flat->axes.transpose() * own * flat->axes;
+  if ((own.transpose() * flat->axes.col(2)).norm() < round_off) S.row(2).setZero();  // an axis in the plane
+  return {at, S};
 }
 
 /// Adds a strain, or where none of it is of second order rows of bending.
@@ -302,19 +302,19 @@ void rotate_arm(const Eigen::Vector3d& arm, int at, int led, bool strained, Piec
   }
 }
 
-/// Corner `at` of the piece as a node on a hinge line.
+/// Corner `at` of the piece as a node with rotations of its own.
 void spin_about(const Eigen::Vector3d& arm, int independent_node, PieceRows::Spin spin, bool second_order,
                 PieceRows& piece) {
   piece.spins.push_back(spin);
   const int led = place_of(independent_node, piece);
   rotate_arm(arm, spin.at, led, second_order, piece);
-  const Eigen::Matrix<double, 6, 6> T = line_arm(arm, spin.axis);
+  const Eigen::Matrix<double, 6, 6> T = spin_arm(arm, spin.own);
   each_rows(piece, [&](auto& rows) {
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
         rows.template middleCols<6>(6 * spin.at);
     rows.template middleCols<6>(6 * led) += own * T;
     rows.template middleCols<3>(6 * spin.at).setZero();
-    rows.template middleCols<3>(6 * spin.at + 3) = own.template rightCols<3>() * spin.axis * spin.slot.transpose();
+    rows.template middleCols<3>(6 * spin.at + 3) = own.template rightCols<3>() * spin.own;
   });
 }
 

@@ -78,10 +78,10 @@ Eigen::VectorXd nodal_motion(const Structure& structure, const double* owned, in
   if (!follows) return q;
   const Eigen::Vector3d arm = structure.mesh.positions[node] - structure.mesh.positions[found->independent_node];
   if (n == 3) return rigid_arm(Eigen::Vector2d(arm.head<2>())) * q;
-  const Eigen::Vector3d* axis = spin_axis(structure.mesh, node);
-  if (!axis) return rigid_arm(arm) * q;
-  Eigen::VectorXd moved = line_arm(arm, *axis) * q;
-  moved.tail<3>() += spin(*axis) * Eigen::Map<const Eigen::Vector3d>(owned + static_cast<std::ptrdiff_t>(6) * node + 3);
+  const Mesh::Spin* spin = spin_of(structure.mesh, node);
+  if (!spin) return rigid_arm(arm) * q;
+  Eigen::VectorXd moved = spin_arm(arm, spin->own()) * q;
+  moved.tail<3>() += spin->own() * Eigen::Map<const Eigen::Vector3d>(owned + static_cast<std::ptrdiff_t>(6) * node + 3);
   return moved;
 }
 
@@ -124,8 +124,8 @@ std::vector<petsc::VecHandle> rigid_motions(const Structure& structure) {
     for (const Mesh::DependentNode& dependent_node : structure.mesh.dependent_nodes) {
       double* at = values + static_cast<std::ptrdiff_t>(per_node) * dependent_node.node;
       std::fill_n(at, per_node, 0.0);
-      if (const Eigen::Vector3d* line = spin_axis(structure.mesh, dependent_node.node); line && motion >= d)
-        at[3 + spin_slot(*line)] = line->dot(axis);
+      if (const Mesh::Spin* spin = spin_of(structure.mesh, dependent_node.node); spin && motion >= d)
+        Eigen::Vector3d::Map(at + 3) = spin->own().transpose() * axis;
     }
     check(VecRestoreArray(motions.back(), &values));
   }

@@ -22,9 +22,9 @@ Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& a) {
   return T;
 }
 
-Eigen::Matrix<double, 6, 6> line_arm(const Eigen::Vector3d& arm, const Eigen::Vector3d& axis) {
+Eigen::Matrix<double, 6, 6> spin_arm(const Eigen::Vector3d& arm, const Eigen::Matrix3d& S) {
   Eigen::Matrix<double, 6, 6> T = rigid_arm(arm);
-  T.bottomRightCorner<3, 3>() -= axis * axis.transpose();
+  T.bottomRightCorner<3, 3>() -= S * S.transpose();
   return T;
 }
 

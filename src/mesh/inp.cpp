@@ -69,8 +69,8 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &ranks);
   Faults faults;
-  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {},
-                     {},     {},      {},   {},    {}, {}, {}, {}, {}, {}, {}, {}};
+  InpReading reading{faults, request, rank, ranks, {}, {}, {}, {}, {}, {}, {}, {}, {},
+                     {},     {},      {},   {},    {}, {}, {}, {}, {}, {}, {}, {}, {}};
   petsc::agree(comm, [&] {
     const InpBlocks deck = inp_blocks(path, faults);
     read_blocks(deck.blocks, reading);
@@ -85,6 +85,7 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   resolve_surfaces(comm, reading);
   add_places(reading);
   resolve_links(comm, reading);
+  resolve_equations(comm, reading);
   assign_thicknesses(comm, reading);
   assign_cylinders(comm, reading);
   faults.throw_together(comm);

@@ -42,6 +42,11 @@ void read_end_instance(const InpBlock&, InpReading& reading) {
     orientation.a = motion->linear() * orientation.a;
     orientation.b = motion->linear() * orientation.b;
   }
+  for (InpTransform& transform : reading.transforms) {
+    transform.a = transform.type == 'R' ? motion->linear() * transform.a : *motion * transform.a;
+    transform.b = transform.type == 'R' ? motion->linear() * transform.b : *motion * transform.b;
+  }
+  for (InpEquation& equation : reading.equations) equation.turned = !motion->linear().isIdentity(1e-12);
   for (InpCylinder& cylinder : reading.cylinders) {
     cylinder.a = *motion * cylinder.a;
     cylinder.b = *motion * cylinder.b;

@@ -29,17 +29,21 @@ void read_nodal_thickness(const InpBlock& block, InpReading& reading) {
 }
 
 void read_rigid_body(const InpBlock& block, InpReading& reading) {
-  for (const char* key : {"PINNSET", "ANALYTICALSURFACE"})
-    if (block.parameters.contains(key))
-      return reading.faults.add(block.where, "*RIGID BODY is read with NSET=, TIE NSET= or ELSET=, not with " +
-                                                 std::string(key == std::string("PINNSET") ? "PIN NSET" : key));
+  if (block.parameters.contains("ANALYTICALSURFACE"))
+    return reading.faults.add(block.where,
+                              "*RIGID BODY is read with NSET=, TIE NSET=, PIN NSET= or ELSET=, not with "
+                              "ANALYTICALSURFACE");
   const std::string reference = required(block, "REFNODE", reading);
-  const bool elements = block.parameters.contains("ELSET"), tie = block.parameters.contains("TIENSET");
-  const auto add = [&](const std::string& nodes) {
-    if (!reference.empty() && !nodes.empty()) reading.links.push_back({InpLink::rigid, block.where, reference, nodes});
+  const bool elements = block.parameters.contains("ELSET"), tie = block.parameters.contains("TIENSET"),
+             pin = block.parameters.contains("PINNSET");
+  const auto add = [&](const std::string& nodes, bool rotations = false) {
+    if (reference.empty() || nodes.empty()) return;
+    reading.links.push_back({InpLink::rigid, block.where, reference, nodes});
+    reading.links.back().free.others = rotations;
   };
   if (tie) add(required(block, "TIENSET", reading));
-  if (block.parameters.contains("NSET") || !(tie || elements)) add(required(block, "NSET", reading));
+  if (pin) add(required(block, "PINNSET", reading), true);
+  if (block.parameters.contains("NSET") || !(tie || pin || elements)) add(required(block, "NSET", reading));
   if (elements) {
     const std::string set = without_instance(required(block, "ELSET", reading), reading);
     reading.surfaces.push_back({"elements of " + set, block.where, {{block.where, set, ""}}});
@@ -55,12 +59,12 @@ void read_mpc(const InpBlock& block, InpReading& reading) {
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
     const std::string kind = fields.empty() ? "" : upper(fields[0]);
-    if (fields.size() != 3 || (kind != "BEAM" && kind != "TIE"))
+    if (fields.size() != 3 || (kind != "BEAM" && kind != "TIE" && kind != "PIN"))
       return reading.faults.add(
-          where, "*MPC expects BEAM or TIE, node (or set), reference node; found " + in_quotes(line) +
-                     (kind == "PIN" ? " (a PIN leaves rotations free: use two bodies and a joint)" : ""));
+          where, "*MPC expects BEAM, TIE or PIN, node (or set), reference node; found " + in_quotes(line));
     reading.links.push_back(
-        {kind == "TIE" ? InpLink::equal : InpLink::rigid, where, std::string(fields[2]), std::string(fields[1])});
+        {kind == "BEAM" ? InpLink::rigid : InpLink::equal, where, std::string(fields[2]), std::string(fields[1])});
+    reading.links.back().free.others = kind == "PIN";
   });
 }
 
@@ -71,7 +75,7 @@ void read_coupling(const InpBlock& block, InpReading& reading) {
 
 void read_kinematic(const InpBlock& block, InpReading& reading) {
   if (!reading.coupling) return reading.faults.add(block.where, "*KINEMATIC is given without a *COUPLING before it");
-  const InpLink link = *std::exchange(reading.coupling, std::nullopt);
+  InpLink link = *std::exchange(reading.coupling, std::nullopt);
   std::set<int> directions;
   const bool all = block.lines() == 0;
   block.each_line([&](Where where, std::string_view line) {
@@ -80,8 +84,15 @@ void read_kinematic(const InpBlock& block, InpReading& reading) {
     for (int i = 1; i <= 6; ++i)
       if (i >= range->front() && i <= range->back()) directions.insert(i);
   });
-  if (!all && directions.size() != 6)
-    reading.faults.add(block.where, "*KINEMATIC is read with all six directions (1, 6)");
+  std::vector<int> free;  // rotations
+  for (int i = 4; i <= 6 && !all; ++i)
+    if (!directions.contains(i)) free.push_back(i);
+  if (!all && directions.size() + free.size() != 6)
+    reading.faults.add(block.where, "*KINEMATIC is read with directions 1, 2, 3 and any of 4, 5, 6");
+  link.free.others = free.size() > 1;
+  constexpr int sum = 4 + 5 + 6;
+  if (free.size() == 1) link.free.axis[static_cast<std::size_t>(free[0]) - 4] = 1;
+  if (free.size() == 2) link.free.axis[static_cast<std::size_t>(sum - free[0] - free[1]) - 4] = 1;
   if (!link.reference.empty() && !link.nodes.empty()) reading.links.push_back(link);
 }
 
@@ -96,13 +107,12 @@ void read_tie(const InpBlock& block, InpReading& reading) {
   for (const auto& [key, value] : block.parameters)
     if (key != "NAME" && key != "POSITIONTOLERANCE" && key != "ADJUST" && key != "TYPE" && key != "NOROTATION")
       return ignore(block, "the nodes are not tied by it", reading);
-  if (block.parameters.contains("NOROTATION"))
-    return reading.faults.add(block.where, "*TIE is read without NO ROTATION: all directions are tied");
+  const bool free = block.parameters.contains("NOROTATION");
   std::vector<std::string_view> fields;
   block.each_line([&](Where where, std::string_view line) {
     split_fields(line, fields);
     if (fields.size() < 2) return reading.faults.add(where, "*TIE expects two surfaces, found " + in_quotes(line));
-    reading.ties.push_back({where, std::string(fields[0]), std::string(fields[1])});
+    reading.ties.push_back({where, std::string(fields[0]), std::string(fields[1]), free});
   });
 }
 

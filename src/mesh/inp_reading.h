@@ -66,12 +66,34 @@ struct InpLink {
   Where where;
   std::string reference;  // a node, or a set of one
   std::string nodes;      // a node, a set or a surface
+  RigidLink free = {};    // the rotations that it leaves free
+};
+
+/// *TRANSFORM: directions of nodes. R: a along x, b in the plane of x and y; C: a and b on the axis.
+struct InpTransform {
+  Where where;
+  std::string nodes;
+  char type;
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = Eigen::Vector3d::Zero();
+};
+
+/// *EQUATION: a sum of components that is zero.
+struct InpEquation {
+  struct Term {
+    std::string node;
+    int direction;
+    double factor;
+  };
+  Where where;
+  std::vector<Term> terms;
+  bool turned = false;  // of a part whose *INSTANCE is rotated
 };
 
 /// *TIE: nodes of the first surface move with those of the second at the same points.
 struct InpTie {
   Where where;
   std::string dependent, independent;
+  bool free = false;  // of all rotations: NO ROTATION
 };
 
 /// *SURFACE of elements, or the elements of *RIGID BODY: their nodes become a node set.
@@ -136,6 +158,8 @@ struct InpReading {
   std::vector<InpLink> links;
   std::vector<InpSurface> surfaces;
   std::vector<InpTie> ties;
+  std::vector<InpTransform> transforms;
+  std::vector<InpEquation> equations;
   std::vector<InpThickness> thicknesses;
   std::vector<InpCylinder> cylinders;
   Deck deck;
@@ -183,6 +207,8 @@ void read_coupling(const InpBlock& block, InpReading& reading);
 void read_kinematic(const InpBlock& block, InpReading& reading);
 void read_distributing(const InpBlock& block, InpReading& reading);
 void read_tie(const InpBlock& block, InpReading& reading);
+void read_transform(const InpBlock& block, InpReading& reading);
+void read_equation(const InpBlock& block, InpReading& reading);
 void read_blocks(const std::vector<InpBlock>& blocks, InpReading& reading);
 
 /// Tells all ranks which sets the sets hold by name; names that are no sets become faults. Collective.
@@ -206,6 +232,16 @@ void resolve_springs(MPI_Comm comm, InpReading& reading);
 
 /// Links by node numbers; the nodes of reading.deck.links are numbers of mentions. Collective.
 void resolve_links(MPI_Comm comm, InpReading& reading);
+
+/// Equations between nodes at one point as links; the others are reported or faults. Collective.
+void resolve_equations(MPI_Comm comm, InpReading& reading);
+
+/// Adds a link of the labels that this rank found. @param free  the rotations that it leaves free
+void add_link(long long reference, const std::vector<long long>& labels, Where where, InpReading& reading,
+              const RigidLink& free = {});
+
+/// Diagonal of the box around all nodes. Collective.
+double extent_of(MPI_Comm comm, const FileMesh& mesh);
 
 /// Parts for shells whose nodes have a thickness of their own. Collective.
 void assign_thicknesses(MPI_Comm comm, InpReading& reading);

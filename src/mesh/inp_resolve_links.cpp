@@ -41,10 +41,13 @@ int set_named(const std::string& text, Where where, InpReading& reading) {
   return -1;
 }
 
-/// Adds a link of the labels that this rank found.
-void add_link(long long reference, const std::vector<long long>& labels, Where where, InpReading& reading) {
+}  // namespace
+
+void add_link(long long reference, const std::vector<long long>& labels, Where where, InpReading& reading,
+              const RigidLink& free) {
   auto& mesh = reading.mesh;
-  RigidLink rigid{static_cast<PetscInt>(mesh.mentions.size()), {}};
+  RigidLink rigid = free;
+  rigid.reference = static_cast<PetscInt>(mesh.mentions.size());
   mesh.mentions.push_back({reference, where});
   for (const long long label : labels) {
     if (label == reference) continue;
@@ -53,6 +56,8 @@ void add_link(long long reference, const std::vector<long long>& labels, Where w
   }
   reading.deck.links.push_back(std::move(rigid));
 }
+
+namespace {
 
 struct Labelled {
   long long label;
@@ -84,15 +89,17 @@ double size_of(const std::vector<Labelled>& nodes) {
 
 constexpr double coincident = 1e-6;  // of the size of the set
 
-/// *MPC TIE: all nodes at the place of the reference node. Collective.
+/// *MPC TIE and PIN: all nodes at the place of the reference node. Collective.
 void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, const std::vector<long long>& labels,
                     InpReading& reading) {
   const auto base = with_positions(comm, {reference}, reading), others = with_positions(comm, labels, reading);
   const Labelled origin{0, {0, 0, 0}};
   for (const auto& node : others)
     if (!base.empty() && distance(node, base[0]) > coincident * distance(node, origin))
-      reading.faults.add(link.where, "*MPC TIE of nodes " + std::to_string(node.label) + " and " +
-                                         std::to_string(reference) + " at different points is not read; expected BEAM");
+      reading.faults.add(link.where, std::string("*MPC ") + (link.free.others ? "PIN" : "TIE") + " of nodes " +
+                                         std::to_string(node.label) + " and " + std::to_string(reference) +
+                                         " at different points is not read; expected BEAM" +
+                                         (link.free.others ? ", or *RIGID BODY with PIN NSET" : ""));
 }
 
 /// A mean of nodes cannot carry what else its reference node has: it becomes a notice where that is nothing.
@@ -143,10 +150,13 @@ void tie(MPI_Comm comm, const InpTie& given, InpReading& reading) {
                               " coincide with no node of the other surface");
     return;
   }
+  RigidLink free{};
+  free.others = given.free;
   for (const auto& [reference, node] : pairs)
-    add_link(reference, reading.rank == 0 ? std::vector{node} : std::vector<long long>{}, given.where, reading);
+    add_link(reference, reading.rank == 0 ? std::vector{node} : std::vector<long long>{}, given.where, reading, free);
   reading.notices.push_back(where + ": " + counted(static_cast<long long>(pairs.size()), "node") +
-                            " rigidly linked to the nodes at the same points");
+                            " rigidly linked to the nodes at the same points" +
+                            (given.free ? ", with rotations of their own (NO ROTATION)" : ""));
 }
 
 }  // namespace
@@ -166,7 +176,7 @@ void resolve_links(MPI_Comm comm, InpReading& reading) {
     if (set >= 0) labels = reading.mesh.places[set].labels;
     if (node && reading.rank == 0) labels = {*node};
     if (link.kind == InpLink::equal) refuse_distant(comm, link, *reference, labels, reading);
-    add_link(*reference, labels, link.where, reading);
+    add_link(*reference, labels, link.where, reading, link.free);
   }
   for (const auto& one : reading.ties) tie(comm, one, reading);
   for (const auto& [link, reference, set] : means) leave_out_mean(comm, *link, reference, set, reading);

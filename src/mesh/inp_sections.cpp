@@ -205,8 +205,10 @@ void read_shape(const InpBlock& block, InpReading& reading) {
     if (name == candidate.name || ((name == "RECTANGULAR" || name == "CIRCULAR") && name.starts_with(candidate.name)))
       shape = &candidate;
   if (!shape)
-    return reading.faults.add(block.where, block.name + " is read with SECTION=RECT, CIRC, PIPE, BOX or I" +
-                                               (block.keyword == "BEAMSECTION" ? "" : ", or GENERAL"));
+    return reading.faults.add(block.where,
+                              block.name + " is read with SECTION=RECT, CIRC, PIPE, BOX or I" +
+                                  (block.keyword == "BEAMSECTION" ? "" : ", or GENERAL") +
+                                  (name.starts_with("ELLIP") ? "; an ellipse is CIRC with two diameters" : ""));
   section.profile = shape->profile;
   const auto lines = data_lines(block, 1, 2, "dimensions and perhaps a direction", reading.faults);
   if (lines.empty()) return;

@@ -34,9 +34,6 @@ void read_spring(const InpBlock& block, InpReading& reading) {
   reading.uses.push_back(use);
 }
 
-namespace {
-
-// Diagonal of the box around all nodes. Collective.
 double extent_of(MPI_Comm comm, const FileMesh& mesh) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
   for (const Eigen::Vector3d& x : mesh.positions) low = low.cwiseMin(x), high = high.cwiseMax(x);
@@ -44,6 +41,8 @@ double extent_of(MPI_Comm comm, const FileMesh& mesh) {
   MPI_Allreduce(MPI_IN_PLACE, high.data(), 3, MPI_DOUBLE, MPI_MAX, comm);
   return (high - low).norm();
 }
+
+namespace {
 
 // Axes whose first is the direction, and which stiffness it is; what is wrong is a fault.
 std::optional<NodeSpring> between(const InpSpring& spring, const InpUse& use, const Eigen::Vector3d& along,

@@ -54,7 +54,7 @@ void NasBuild::link(long long reference, const std::vector<long long>& nodes, Wh
 
 void NasBuild::add_extra_grids() {
   if (rank_ == ranks_ - 1)
-    for (const auto* all : {&extra_, &between_, &hinges_})
+    for (const auto* all : {&extra_, &between_})
       for (const Extra& extra : *all) {
         mesh.node_labels.push_back(extra.label);
         mesh.positions.push_back(extra.x);
@@ -66,11 +66,6 @@ void NasBuild::add_extra_grids() {
                     "them, from {} on",
                     faults_.text_of(between_.front().where), counted(static_cast<long long>(between_.size()), "node"),
                     between_.front().label));
-  if (!hinges_.empty())
-    notices.push_back(
-        fmt::format("{}: links that leave rotations of shells free: {} of their own, from {} on, {} by stiff springs",
-                    faults_.text_of(hinges_.front().where), counted(static_cast<long long>(hinges_.size()), "node"),
-                    hinges_.front().label, hinges_.size() > 1 ? "each joined to its grid" : "joined to its grid"));
   if (extra_.empty()) return;
   for (const auto& [reference, which] : extra_links_) {
     std::vector<long long> nodes;

@@ -35,9 +35,7 @@ class NasBuild {
   struct Rotations;
   std::unordered_map<long long, Rotations> rotations_of_grids() const;
   void free_rotations();
-  struct ShellsAt;
-  ShellsAt shells_at(long long grid, const Eigen::Vector3d& x, Where where);
-  void add_hinge(const NasLink& link, long long grid);
+  RigidLink freedom(const NasLink& link, long long grid);
   void add_shells();
   void add_beams();
   void add_extra_grids();
@@ -99,8 +97,7 @@ class NasBuild {
   std::vector<Extra> extra_, between_;                    // at the ends of beams with offsets; inside beams with taper
   std::map<std::array<double, 4>, long long> extra_of_;
   std::map<long long, std::vector<std::size_t>> extra_links_;
-  std::vector<Extra> hinges_;                 // at shells whose rotations a link leaves free
-  std::map<long long, long long> hinge_at_;   // of these shells' grids
+  std::map<long long, RigidLink> free_;       // rotations of dependent grids that are their own
   std::map<std::size_t, unsigned> released_;  // of beams at links that leave rotations free, as NasBeam::releases
   std::vector<long long> used_materials_, used_properties_;
 };

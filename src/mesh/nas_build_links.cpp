@@ -42,73 +42,22 @@ std::unordered_map<long long, NasBuild::Rotations> NasBuild::rotations_of_grids(
   return all;
 }
 
-/// Of the shells at a grid: maximum stiffness in their plane A and in bending D, minimum length of their edges there,
-/// and their normals.
-struct NasBuild::ShellsAt {
-  double A = 0, D = 0, h = 1e300;
-  std::vector<Eigen::Vector3d> normals;
-};
-
-NasBuild::ShellsAt NasBuild::shells_at(long long grid, const Eigen::Vector3d& x, Where where) {
-  ShellsAt at;
-  for (const NasShell& shell : model_.shells) {
-    const auto end = shell.nodes.begin() + shell.count;
-    if (std::find(shell.nodes.begin(), end, grid) == end &&
-        std::find(shell.middles.begin(), shell.middles.end(), grid) == shell.middles.end())
-      continue;
-    if (const auto property = model_.shell_properties.find(shell.property); property != model_.shell_properties.end()) {
-      double A = 0, thickness = 0;
-      for (const NasPly& ply : property->second.plies) {
-        thickness += ply.thickness;
-        if (const auto of = model_.materials.find(ply.material);
-            of != model_.materials.end() && !of->second.material.constants.empty())
-          A += ply.thickness * of->second.material.constants.front();
-      }
-      at.A = std::max(at.A, A), at.D = std::max(at.D, A * thickness * thickness / 12);
-    }
-    std::vector<Eigen::Vector3d> corners;
-    for (auto node = shell.nodes.begin(); node != end; ++node) {
-      if (const auto corner = frames_.position(*node, where)) corners.push_back(*corner);
-      if (*node != grid && !corners.empty()) at.h = std::min(at.h, (corners.back() - x).norm());
-    }
-    if (corners.size() == static_cast<std::size_t>(shell.count))
-      at.normals.push_back((corners[2] - corners[0]).cross(corners.back() - corners[1]).normalized());
-  }
-  return at;
-}
-
-/// The link ends at a node of its own, at the grid of shells, which keep their rotations: a spring without moments
-/// holds the one at the other, stiffer by the factor c than the shells, k = c A, and normal to those of one plane,
-/// which are soft there, k = c D / h^2.
-void NasBuild::add_hinge(const NasLink& link, long long grid) {
-  constexpr double c = 1000, one_plane = 0.9;
+/// The rotations of a dependent grid that a link leaves free, of one or two by their axis, in displacement axes (CD).
+RigidLink NasBuild::freedom(const NasLink& link, long long grid) {
+  RigidLink free{};
+  const std::string locked = link.constrains.substr(3);
+  free.others = locked.size() < 2;
   const auto x = frames_.position(grid, link.where);
-  if (!x) return;
-  const ShellsAt at = shells_at(grid, *x, link.where);
-  if (!(at.A > 0))
-    return faults_.add(link.where,
-                       fmt::format("{}: constrains 123 of grid {}, of shells without thickness and material in the "
-                                   "deck; expected PSHELL or PCOMP, or 123456",
-                                   link.name, grid));
-  hinge_at_[grid] = next_label_;
-  hinges_.push_back({next_label_++, *x, link.where});
-  if (rank_ != 0) return;
-  const Eigen::Vector3d& n = at.normals.front();
-  const bool flat = std::all_of(at.normals.begin(), at.normals.end(),
-                                [&](const Eigen::Vector3d& other) { return std::abs(n.dot(other)) > one_plane; });
-  NodeSpring spring{{}, {}, Eigen::Matrix3d::Identity(), 0.5, 0};
-  spring.axes.col(0) = n, spring.axes.col(1) = n.unitOrthogonal();
-  spring.axes.col(2) = n.cross(spring.axes.col(1));
-  spring.stiffness = {flat ? std::min(c * at.D / (at.h * at.h), c * at.A) : c * at.A, c * at.A, c * at.A, 0, 0, 0};
-  for (int end : {0, 1}) {
-    spring.nodes[static_cast<std::size_t>(end)] = static_cast<PetscInt>(mesh.mentions.size());
-    mesh.mentions.push_back({end == 0 ? grid : hinge_at_[grid], link.where});
-  }
-  deck.springs.push_back(spring);
+  if (locked.empty() || !x) return free;
+  constexpr int sum = '4' + '5' + '6';
+  const int about = free.others ? locked[0] - '4' : sum - locked[0] - locked[1] - '4';
+  const long long axes = frames_.displacement_axes(*frames_.grid(grid));
+  Eigen::Vector3d::Map(free.axis.data()) = frames_.directions(axes, *x, link.where).col(about);
+  return free;
 }
 
-/// A link that leaves all rotations of its dependent grids free is a rigid one where nothing acts on these rotations,
-/// one to a beam whose end is released where a single beam does, and one with a hinge where shells do.
+/// Links that leave rotations of their dependent grids free: where nothing acts on these, they are rigid; where a
+/// single end of a beam does and all are free, this end is released; else the grids have rotations of their own.
 void NasBuild::free_rotations() {
   const auto partial = [](const NasLink& link) { return !link.constrains.empty(); };
   if (std::none_of(model_.links.begin(), model_.links.end(), partial)) return;
@@ -119,28 +68,26 @@ void NasBuild::free_rotations() {
       const auto found = rotations.find(grid);
       if (found == rotations.end() || (found->second.other.empty() && found->second.beams.empty())) continue;
       const auto& [beams, other, shell, linked] = found->second;
-      if (shell && !linked && link.constrains == "123") {
-        add_hinge(link, grid);
-        continue;
-      }
-      if (other.empty() && beams.size() == 1 && link.constrains == "123") {
-        const auto [b, end] = beams[0];
-        const NasBeam& beam = model_.beams[b];
-        const Eigen::Vector3d& offset = beam.offsets[static_cast<std::size_t>(end)];
-        if (offset.isZero(0))
-          released_[b] |= 0x38u << (6 * end);
-        else  // the ball joint is at the grid, the released end is not
-          faults_.add(link.where,
-                      fmt::format("{}: constrains 123 of grid {}, at the end of beam {} with the offset ({:.6g}, "
-                                  "{:.6g}, {:.6g}); expected 123456, or no offset",
-                                  link.name, grid, beam.id, offset.x(), offset.y(), offset.z()));
-        continue;
-      }
-      faults_.add(
-          link.where,
-          fmt::format("{}: constrains {} of grid {}, whose other rotations are also dofs of {}; expected 123456, or "
-                      "123 where these rotations are dofs of shells, or of the end of one beam at most",
-                      link.name, link.constrains, grid, other.empty() ? "more than one beam end" : other));
+      const auto bends = [&](const auto& end) { return !model_.beams[end.first].rod; };
+      const auto at = [&](const auto& end) {
+        return model_.beams[end.first].offsets[static_cast<std::size_t>(end.second)];
+      };
+      const auto offset = std::find_if(beams.begin(), beams.end(), [&](const auto& end) { return !at(end).isZero(0); });
+      const bool released = other.empty() && beams.size() == 1 && link.constrains == "123";
+      if (linked || !(shell || std::any_of(beams.begin(), beams.end(), bends) || released))
+        faults_.add(link.where,
+                    fmt::format("{}: constrains {} of grid {}, whose other rotations are also dofs of {}; expected "
+                                "123456, or a grid of shells or beams that is in no other link",
+                                link.name, link.constrains, grid, other.empty() ? "rods alone" : other));
+      else if (offset != beams.end())  // the ball joint is at the grid, the end is not
+        faults_.add(link.where, fmt::format("{}: constrains {} of grid {}, at the end of beam {} with the offset "
+                                            "({:.6g}, {:.6g}, {:.6g}); expected 123456, or no offset",
+                                            link.name, link.constrains, grid, model_.beams[offset->first].id,
+                                            at(*offset).x(), at(*offset).y(), at(*offset).z()));
+      else if (released)
+        released_[beams[0].first] |= 0x38u << (6 * beams[0].second);
+      else
+        free_[grid] = freedom(link, grid);
     }
   }
 }
@@ -148,14 +95,18 @@ void NasBuild::free_rotations() {
 void NasBuild::add_links() {
   free_rotations();
   for (const NasLink& rigid : model_.links) {
-    std::vector<long long> nodes = rigid.nodes;
-    for (long long& node : nodes) {
-      if (const auto hinge = hinge_at_.find(node); hinge != hinge_at_.end())
-        node = hinge->second;
-      else
-        independent_[node] = rigid.reference;
+    std::map<std::pair<bool, std::array<double, 3>>, std::vector<long long>> by_freedom;
+    for (const long long node : rigid.nodes) {
+      independent_[node] = rigid.reference;
+      const auto free = free_.find(node);
+      by_freedom[free == free_.end() ? std::pair(false, std::array<double, 3>{})
+                                     : std::pair(free->second.others, free->second.axis)]
+          .push_back(node);
     }
-    link(rigid.reference, nodes, rigid.where);
+    for (const auto& [free, nodes] : by_freedom) {
+      link(rigid.reference, nodes, rigid.where);
+      deck.links.back().others = free.first, deck.links.back().axis = free.second;
+    }
   }
 }
 

@@ -35,11 +35,13 @@ std::vector<DependentNode> with_pieces(const std::vector<DependentNode>& links,
                                        const std::vector<std::vector<PetscInt>>& pieces) {
   if (pieces.empty()) return links;
   Joined joined;
-  for (const DependentNode& link : links) joined.join(link.node, link.independent_node);
+  for (const DependentNode& link : links)
+    if (!link.spins()) joined.join(link.node, link.independent_node);
   for (const std::vector<PetscInt>& piece : pieces)
     for (PetscInt node : piece) joined.join(node, piece.front());
   std::map<PetscInt, PetscInt> independent_node;  // of each root: of several references the least
   for (const DependentNode& link : links) {
+    if (link.spins()) continue;
     const auto [at, fresh] = independent_node.emplace(joined.root(link.independent_node), link.independent_node);
     if (!fresh) at->second = std::min(at->second, link.independent_node);
   }
@@ -50,9 +52,17 @@ std::vector<DependentNode> with_pieces(const std::vector<DependentNode>& links,
     for (PetscInt node : nodes)
       if (node != first) all.emplace(node, first);
   }
-  std::vector<DependentNode> dependent_nodes;
-  for (const auto& [node, first] : all) dependent_nodes.push_back({node, first});
-  return dependent_nodes;
+  std::map<PetscInt, DependentNode> dependent_nodes;
+  for (const auto& [node, first] : all) dependent_nodes.emplace(node, DependentNode{node, first});
+  for (DependentNode link : links) {
+    if (!link.spins()) continue;
+    const auto rigid = all.find(link.independent_node);
+    if (rigid != all.end()) link.independent_node = rigid->second;
+    dependent_nodes.emplace(link.node, link);
+  }
+  std::vector<DependentNode> ascending;
+  for (const auto& [node, link] : dependent_nodes) ascending.push_back(link);
+  return ascending;
 }
 
 namespace {

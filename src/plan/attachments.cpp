@@ -72,9 +72,9 @@ reduction::Attachment rigid_displacement(const PlannedBody& body, const Anchor& 
   for (const AveragingWeight& weight : place.moved_by()) {
     const PetscInt node = weight.node;
     if (n * node < values.first || n * node >= values.end) continue;
-    if (const Eigen::Vector3d* line = fem::spin_axis(
-            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own rotation alone
-      if (component >= d) values[n * node + 3 + fem::spin_slot(*line)] = (*line)[component - 3];
+    if (const fem::Mesh::Spin* spin = fem::spin_of(
+            body.structure.mesh, static_cast<int>(node - body.structure.mesh.first_node))) {  // its own rotations alone
+      for (int i = 0; component >= d && i < 3; ++i) values[n * node + 3 + i] = spin->own()(component - 3, i);
       continue;
     }
     values[n * node + component] = 1;

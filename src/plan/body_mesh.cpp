@@ -14,6 +14,10 @@ std::size_t BodyMesh::mover(std::size_t node) const {
   return follows ? static_cast<std::size_t>(found->independent_node) : node;
 }
 
+bool BodyMesh::rotates_apart(std::size_t node) const {
+  return std::any_of(spins.begin(), spins.end(), [&](const auto& spin) { return spin.node == static_cast<int>(node); });
+}
+
 Eigen::Vector3d BodyMesh::arm(std::size_t node) const { return shapes.positions[node] - shapes.positions[mover(node)]; }
 
 void BodyMesh::let_follow(std::span<double> values) const {
@@ -29,8 +33,8 @@ void BodyMesh::let_follow(std::span<double> values) const {
         dofs(f.node) = fem::rigid_arm(from) * dofs(f.independent_node);
         continue;
       }
-      const Eigen::Vector3d own = fem::spin(spin->axis) * Eigen::Vector3d(dofs(f.node).tail<3>());
-      dofs(f.node) = fem::line_arm(from, spin->axis) * dofs(f.independent_node);
+      const Eigen::Vector3d own = spin->own() * Eigen::Vector3d(dofs(f.node).tail<3>());
+      dofs(f.node) = fem::spin_arm(from, spin->own()) * dofs(f.independent_node);
       dofs(f.node).tail<3>() += own;
     }
   }

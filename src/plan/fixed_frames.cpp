@@ -38,7 +38,7 @@ int clamp_of(const Plan& plan, int b) {
     if (joint.kind != Joint::Kind::fixed || first.ground() == second.ground()) continue;
     if (is_unlocked(plan.scene, joint.name)) continue;
     const Anchor& place = first.ground() ? second : first;
-    if (place.body != b) continue;
+    if (place.body != b || place.rotates_apart()) continue;
     if (place.map ? at_rest(body, *place.map) : place.moved_by(body.frame.conditions.front() / 6))
       return static_cast<int>(j);
   }

@@ -26,7 +26,9 @@ const Anchor* place_at_frame(const Plan& plan, int b, std::size_t joint) {
   const auto& [first, second] = plan.joints[joint];
   if (node < 0 || first.ground() || second.ground()) return nullptr;
   for (const Anchor* place : {&first, &second})
-    if (place->body == b && place->moved_by(node) && holds_as_one(plan.scene.joints[joint], *place)) return place;
+    if (place->body == b && !place->rotates_apart() && place->moved_by(node) &&
+        holds_as_one(plan.scene.joints[joint], *place))
+      return place;
   return nullptr;
 }
 

@@ -112,6 +112,7 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBo
       for (int dof : dofs)
         if (!pinned || weight.node == place.node) constrained.push_back(6 * weight.node + dof);
   };
+  if (place.rotates_apart()) return false;
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
   if (joint.kind == Kind::support) return hold_components(joint, body, place, constrained), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;

@@ -21,17 +21,15 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
   std::sort(sorted.begin(), sorted.end());
   struct Carried {
     PetscInt node, independent_node;
-    double arm[3], axis[3];
+    double arm[3], own[9];
   };
   std::vector<Carried> mine, copies;
   for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes)
     if (std::binary_search(sorted.begin(), sorted.end(), mesh.global_node(f.node))) {
-      const Eigen::Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node],
-                            *line = spin_axis(mesh, f.node), axis = line ? *line : Eigen::Vector3d::Zero().eval();
-      mine.push_back({mesh.global_node(f.node),
-                      mesh.global_node(f.independent_node),
-                      {arm.x(), arm.y(), arm.z()},
-                      {axis.x(), axis.y(), axis.z()}});
+      const fem::Mesh::Spin* spin = spin_of(mesh, f.node);
+      Carried& one = mine.emplace_back(Carried{mesh.global_node(f.node), mesh.global_node(f.independent_node), {}, {}});
+      Eigen::Vector3d::Map(one.arm) = mesh.positions[f.node] - mesh.positions[f.independent_node];
+      if (spin) Eigen::Matrix3d::Map(one.own) = spin->own();
     }
   int ranks = 1;
   MPI_Comm_size(mesh.comm, &ranks);
@@ -56,17 +54,17 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
       moves.rotation += share * Eigen::Matrix3d::Identity();
       continue;
     }
-    const Eigen::Map<const Eigen::Vector3d> axis(c->second.axis);
+    const Eigen::Map<const Eigen::Matrix3d> S(c->second.own);
     const Eigen::Matrix3d led =
-        Eigen::Matrix3d::Identity() - axis * axis.transpose();  // of its rotation, by the independent node
+        Eigen::Matrix3d::Identity() - S * S.transpose();  // of its rotation, by the independent node
     const Eigen::Map<const Eigen::Vector3d> lead(c->second.arm);
     moves.arm += arm * led - share * math::skew(lead);
     moves.lead += share * lead;
     moves.rotation += share * led;
-    if (axis.isZero(0)) continue;
+    if (S.isZero(0)) continue;
     AveragingWeight& own = weight(node);
-    own.arm += arm * fem::spin(axis);
-    own.rotation += share * fem::spin(axis);
+    own.arm += arm * S;
+    own.rotation += share * S;
   }
   return all;
 }

@@ -141,10 +141,10 @@ petsc::VecHandle nodal(const Shape& shape, Displacement displacement, Rotation r
   }
   for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes) {
     Eigen::Map<Eigen::Matrix<double, 6, 1>> q(owned.begin() + static_cast<std::ptrdiff_t>(6) * f.node);
-    const Eigen::Vector3d* axis = fem::spin_axis(mesh, f.node);
-    const double own = axis ? axis->dot(q.tail<3>()) : 0;
+    const fem::Mesh::Spin* spin = fem::spin_of(mesh, f.node);
+    const Vector3d theta = q.tail<3>();
     q.setZero();
-    if (axis) q[3 + fem::spin_slot(*axis)] = own;
+    if (spin) q.tail<3>() = spin->own().transpose() * theta;
   }
   return field;
 }

@@ -133,7 +133,13 @@ bool may_be_loose(const fem::Structure& structure) {
     const auto* beam = std::get_if<fem::SpatialBeam>(&section);
     return beam && beam->releases.any();
   });
-  return released || springs_connect(structure.mesh);
+  const fem::Mesh& mesh = structure.mesh;
+  bool hinged = std::any_of(mesh.dependent_nodes.begin(), mesh.dependent_nodes.end(), [&](const auto& f) {
+    const fem::Mesh::Spin* spin = fem::spin_of(mesh, f.node);  // line hinges have arms
+    return spin && (spin->others || mesh.positions[f.node] == mesh.positions[f.independent_node]);
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &hinged, 1, MPI_C_BOOL, MPI_LOR, mesh.comm);
+  return released || hinged || springs_connect(mesh);
 }
 
 }  // namespace

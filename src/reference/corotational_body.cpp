@@ -59,18 +59,20 @@ Eigen::Matrix<double, 6, 1> of_node(const Eigen::VectorXd& field, PetscInt node)
   return field.segment<6>(6 * node);
 }
 
-Matrix3d axes_about(const Vector3d& z) {
-  Matrix3d W;
-  W.col(2) = z.normalized();
-  W.col(0) = W.col(2).unitOrthogonal();
-  W.col(1) = W.col(2).cross(W.col(0));
+/// Axes of which `column` is along e, where it has a length.
+Matrix3d axes_about(const Vector3d& e, int column) {
+  Matrix3d W = Matrix3d::Identity();
+  if (e.isZero(0)) return W;
+  W.col(column) = e.normalized();
+  W.col((column + 1) % 3) = W.col(column).unitOrthogonal();
+  W.col((column + 2) % 3) = W.col(column).cross(W.col((column + 1) % 3));
   return W;
 }
 
 bool follows(const fem::Mesh& mesh, int local) {
   return std::any_of(mesh.dependent_nodes.begin(), mesh.dependent_nodes.end(),
                      [&](const auto& f) { return f.node == local; }) &&
-         !fem::spin_axis(mesh, local);
+         !fem::spin_of(mesh, local);
 }
 
 }  // namespace
@@ -96,21 +98,21 @@ CorotationalBody::CorotationalBody(dynamics::Coordinates& coordinates, const fem
   start(at);
 }
 
-/// Hinge lines, then pieces. Collective.
+/// Nodes with rotations of their own, then pieces. Collective.
 void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& pieces) {
   const fem::Mesh& mesh = structure_.mesh;
   const auto integer = [](double number) { return static_cast<PetscInt>(std::lround(number)); };
   std::vector<double> mine;
   for (const fem::Mesh::DependentNode& f : mesh.dependent_nodes)
-    if (const Vector3d* axis = fem::spin_axis(mesh, f.node)) {
-      const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node];
+    if (const fem::Mesh::Spin* spin = fem::spin_of(mesh, f.node)) {
+      const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node], &e = spin->axis;
       mine.insert(mine.end(), {double(mesh.global_node(f.node)), double(mesh.global_node(f.independent_node)), arm.x(),
-                               arm.y(), arm.z(), axis->x(), axis->y(), axis->z()});
+                               arm.y(), arm.z(), e.x(), e.y(), e.z(), spin->others ? 1. : 0.});
     }
   const std::vector<double> hinges = of_all_ranks(mesh.comm, mine);
-  for (std::size_t i = 0; i < hinges.size(); i += 8)
+  for (std::size_t i = 0; i < hinges.size(); i += 9)
     links_.push_back({integer(hinges[i]), integer(hinges[i + 1]), Vector3d(hinges[i + 2], hinges[i + 3], hinges[i + 4]),
-                      Vector3d(hinges[i + 5], hinges[i + 6], hinges[i + 7])});
+                      Vector3d(hinges[i + 5], hinges[i + 6], hinges[i + 7]), hinges[i + 8] != 0});
   mine.clear();
   for (const auto& piece : pieces)
     for (PetscInt node : piece)
@@ -127,7 +129,7 @@ void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& piec
     for (PetscInt node : piece) {
       piece_[node] = static_cast<int>(independent_node_.size());
       if (node != independent_node)
-        links_.push_back({node, independent_node, X.at(node) - X.at(independent_node), Vector3d::Zero()});
+        links_.push_back({node, independent_node, X.at(node) - X.at(independent_node), Vector3d::Zero(), false});
     }
     independent_node_.emplace_back(independent_node, X.at(independent_node));
   }
@@ -150,13 +152,13 @@ void CorotationalBody::start(const CorotationalStart& at) {
     const auto u = of_node(shape, node), ud = of_node(rates, node);
     start_[node] = moving(mesh.positions[local] + u.head<3>(), ud.head<3>(), u.tail<3>(), ud.tail<3>());
   }
-  for (const Link& hinge : links_) {  // fields have of nodes of hinge lines their own rotation only
+  for (const Link& hinge : links_) {  // fields have of such nodes their own rotations only
     const auto found = attitude_.find(hinge.node);
-    if (found == attitude_.end() || hinge.axis.isZero(0)) continue;
+    if (found == attitude_.end() || !hinge.spins()) continue;
     const auto u = of_node(shape, hinge.independent_node), ud = of_node(rates, hinge.independent_node);
-    const int slot = 3 + fem::spin_slot(hinge.axis);
-    const Vector3d theta = u.tail<3>(), e = hinge.axis, own = e * (of_node(shape, hinge.node)[slot] - e.dot(theta)),
-                   ownd = e * (of_node(rates, hinge.node)[slot] - e.dot(ud.tail<3>())),
+    const Matrix3d S = hinge.own();
+    const Vector3d theta = u.tail<3>(), own = S * (of_node(shape, hinge.node).tail<3>() - S.transpose() * theta),
+                   ownd = S * (of_node(rates, hinge.node).tail<3>() - S.transpose() * ud.tail<3>()),
                    arm = math::rotation(theta) * hinge.arm;
     found->second->base = (rotated(theta) * math::quaternion(own)).normalized();
     if (!start_.contains(hinge.node)) continue;
@@ -169,6 +171,14 @@ void CorotationalBody::start(const CorotationalStart& at) {
   }
 }
 
+/// About y, the rotation that a universal joint holds, where its others are free.
+dynamics::SpatialConstraint CorotationalBody::Link::constraint() const {
+  using Constraint = dynamics::SpatialConstraint;
+  if (!spins()) return Constraint::fixed();
+  if (!others) return Constraint::revolute();
+  return axis.isZero(0) ? Constraint::spherical() : Constraint::universal();
+}
+
 int CorotationalBody::piece_of(PetscInt node) const {
   const auto found = piece_.find(node);
   return found == piece_.end() ? -1 : found->second;
@@ -176,8 +186,7 @@ int CorotationalBody::piece_of(PetscInt node) const {
 
 Matrix3d CorotationalBody::of_rotation(PetscInt node, const Matrix3d& of_dofs) const {
   for (const Link& link : links_)
-    if (link.node == node && !link.axis.isZero(0))
-      return of_dofs.col(fem::spin_slot(link.axis)) * link.axis.transpose();
+    if (link.node == node && link.spins()) return of_dofs * link.own().transpose();
   return of_dofs;
 }
 
@@ -307,13 +316,11 @@ void CorotationalBody::add_links(std::vector<std::unique_ptr<dynamics::Term>>& t
   if (!owner_) return;
   int multiplier = link_multipliers_;
   for (const Link& link : links_) {
-    const bool hinge = !link.axis.isZero(0);
     SpatialMarker independent_node = place(link.independent_node), node = place(link.node);
     independent_node.x0 += link.arm;
-    if (hinge) independent_node.D0 = node.D0 = axes_about(link.axis);
-    terms.push_back(std::make_unique<dynamics::SpatialJoint>(
-        std::move(independent_node), std::move(node),
-        hinge ? dynamics::SpatialConstraint::revolute() : dynamics::SpatialConstraint::fixed(), multiplier));
+    if (link.spins()) independent_node.D0 = node.D0 = axes_about(link.axis, link.others ? 1 : 2);
+    terms.push_back(std::make_unique<dynamics::SpatialJoint>(std::move(independent_node), std::move(node),
+                                                             link.constraint(), multiplier));
     multiplier += link.rows();
   }
 }

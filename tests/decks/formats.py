@@ -464,4 +464,6 @@ def main():
     sys.exit(failed)
 
 
-main()
+
+if __name__ == "__main__":
+    main()

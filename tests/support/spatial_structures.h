@@ -137,11 +137,18 @@ inline fem::Structure mixed_structure(MPI_Comm comm, Spread spread, fem::Strains
 /// Nodes of the mixed mesh that follow others rigidly: two of the shells', and the one where the mast stands.
 inline std::vector<mesh::DependentNode> mixed_links() { return {{2, 5}, {9, 0}, {13, 5}}; }
 
+/// The mixed mesh with dependent nodes.
+inline fem::Structure structure_with(MPI_Comm comm, Spread spread,
+                                     const std::vector<mesh::DependentNode>& dependent_nodes,
+                                     fem::Strains strains = fem::Strains::von_karman, Order order = Order::first) {
+  const mesh::RawMesh raw = mixed_mesh(comm, order);
+  return {fem::mesh_of(raw, ranks_of(raw, spread), dependent_nodes), mixed_sections(strains),
+          fem::MembraneStrain::averaged};
+}
+
 inline fem::Structure linked_structure(MPI_Comm comm, Spread spread, fem::Strains strains = fem::Strains::von_karman,
                                        Order order = Order::first) {
-  const mesh::RawMesh raw = mixed_mesh(comm, order);
-  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_links()), mixed_sections(strains),
-          fem::MembraneStrain::averaged};
+  return structure_with(comm, spread, mixed_links(), strains, order);
 }
 
 /// Hinge lines of the mixed mesh: the edge where the ramp ends and the mast stands, and an oblique one across the
@@ -162,9 +169,12 @@ inline std::vector<mesh::DependentNode> mixed_lines(bool links, Order order = Or
 }
 inline fem::Structure hinged_structure(MPI_Comm comm, Spread spread, bool links,
                                        fem::Strains strains = fem::Strains::von_karman, Order order = Order::first) {
-  const mesh::RawMesh raw = mixed_mesh(comm, order);
-  return {fem::mesh_of(raw, ranks_of(raw, spread), mixed_lines(links, order)), mixed_sections(strains),
-          fem::MembraneStrain::averaged};
+  return structure_with(comm, spread, mixed_lines(links, order), strains, order);
+}
+
+/// Nodes of the mixed mesh with rotations of their own: all, about an axis, and about all others; and one without.
+inline std::vector<mesh::DependentNode> mixed_loose() {
+  return {{1, 0}, {2, 5, {}, true}, {9, 0, {0.6, 0, 0.8}}, {13, 5, {0.48, 0.6, 0.64}, true}};
 }
 
 /// Values by original dofs, the same on every rank, of a field; and the way back. Collective.

@@ -26,12 +26,12 @@ using mesh::CellKind;
 ///
 /// Nodes may follow others rigidly: they have a place and no motion of their own, and the cells that touch them act on
 /// the dofs of those that they follow. Nodes of a line hinge follow its independent node but for their rotation about
-/// the line, phi:
+/// the line, those of other links that leave rotations free but for one, two or three, phi:
 ///
-///   u = u_independent + theta_independent x arm,   theta = (1 - e e') theta_independent + e phi;
+///   u = u_independent + theta_independent x arm,   theta = (1 - S S') theta_independent + S phi;
 ///
-/// phi is the one dof of theirs that is left, the rotation `spin_slot`; elements that touch them act on it and on the
-/// independent node.
+/// phi are the dofs of theirs that are left, the rotations of the columns of S that are not zero (Spin::own); elements
+/// that touch them act on these and on the independent node.
 struct Mesh {
   /// An element: what it is, where it is, and which nodes move it.
   struct Cell {
@@ -70,10 +70,13 @@ struct Mesh {
   std::vector<Eigen::Vector3d> positions;  ///< of local nodes
   std::vector<Cell> cells;
   std::vector<DependentNode> dependent_nodes;  ///< among the owned nodes, ascending
-  /// A local node on a line hinge that it does not lead.
+  /// A local node with rotations of its own: about the axis e, or `others`, about all axes normal to it.
   struct Spin {
     int node;
-    Eigen::Vector3d axis;  ///< e
+    Eigen::Vector3d axis;  ///< zero: none
+    bool others = false;
+    /// S: orthonormal columns, or zero. About one axis the column is that of the rotation nearest to it (spin_slot).
+    Eigen::Matrix3d own() const;
   };
   std::vector<Spin> spins;         ///< ascending
   std::vector<PetscInt> original;  ///< of local nodes: a numbering that does not depend on ranks; empty: the global one
@@ -103,12 +106,10 @@ Mesh mesh_of(MPI_Comm comm, const Segments& segments);
 Mesh mesh_of(const mesh::RawMesh& raw, std::vector<int> ranks,
              const std::vector<mesh::DependentNode>& dependent_nodes = {});
 
-/// The axis about which a local node rotates by itself; null: none.
-const Eigen::Vector3d* spin_axis(const Mesh& mesh, int local);
-/// The rotation among three that stands for phi: the one whose axis is nearest to e.
+/// The rotations of a local node that are its own; null: none.
+const Mesh::Spin* spin_of(const Mesh& mesh, int local);
+/// The rotation among three whose axis is nearest to e.
 int spin_slot(const Eigen::Vector3d& axis);
-/// theta = spin(e) theta_own + (1 - e e') theta_independent: 3 x 3, e at the slot's column.
-Eigen::Matrix3d spin(const Eigen::Vector3d& axis);
 
 /// Global dofs of all nodes that follow others, but for the rotations that are their own, ascending, on every rank.
 /// Collective.

@@ -45,11 +45,11 @@ struct PieceRows {
   std::array<int, 2 * mesh::most_nodes>
       node{};  ///< local: its nodes, or what moves them; then independent nodes of line hinges
   int nodes = 0;
-  /// Nodes that rotate by themselves about a line hinge: their rotation is axis (slot . dofs), nothing else of them
-  /// counts.
+  /// Nodes with rotations of their own (Mesh::Spin): theta = own dofs besides that of the independent node, nothing
+  /// else of them counts.
   struct Spin {
     int at;  ///< among the piece's
-    Eigen::Vector3d axis, slot;
+    Eigen::Matrix3d own;
   };
   std::vector<Spin> spins;
   SmallRows bending;  ///< U_b = 1/2 |bending q|^2; none with strains of second order: they are strains then

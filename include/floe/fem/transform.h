@@ -11,8 +11,8 @@ namespace floe::fem {
 Eigen::Matrix<double, 6, 6> rigid_arm(const Eigen::Vector3d& arm);
 Eigen::Matrix3d rigid_arm(const Eigen::Vector2d& arm);  ///< in the plane
 
-/// The same on a line hinge along the axis e, but for the point's own rotation about it: theta_p = (1 - e e') theta.
-Eigen::Matrix<double, 6, 6> line_arm(const Eigen::Vector3d& arm, const Eigen::Vector3d& axis);
+/// The same but for the point's own rotations, of orthonormal directions S: theta_p = (1 - S S') theta.
+Eigen::Matrix<double, 6, 6> spin_arm(const Eigen::Vector3d& arm, const Eigen::Matrix3d& S);
 
 /// Both nodes' arms on the diagonal: T of an element of two nodes.
 Eigen::MatrixXd rigid_arms(const Eigen::Vector3d& first, const Eigen::Vector3d& second);

@@ -106,10 +106,13 @@ struct DeckRequest {
   std::vector<std::string> ignore;  // types of elements to leave out, with the nodes that only they use
 };
 
-/// Nodes that move as one rigid body with a reference node, in all six directions.
+/// Nodes that move as one rigid body with a reference node, in all six directions but for rotations of their own: about
+/// the axis, or with `others` about all axes normal to it (about all, where it has none).
 struct RigidLink {
-  PetscInt reference;           // same on all ranks
-  std::vector<PetscInt> nodes;  // that this rank found (the union is the set)
+  PetscInt reference;               // same on all ranks
+  std::vector<PetscInt> nodes;      // that this rank found (the union is the set)
+  std::array<double, 3> axis = {};  // unit vector; zero: none
+  bool others = false;
 };
 
 /// What an input deck says about its mesh. Same on all ranks, but for `masses` and `springs` (each is on one rank) and

@@ -8,19 +8,24 @@
 namespace floe::mesh {
 
 /// A node that moves rigidly with another one: u = u_independent + theta_independent x arm, theta = theta_independent;
-/// or, where it has an axis e, as a node of a line hinge: theta = theta_independent but for the rotation about e, which
-/// is its own.
+/// or, where rotations are its own, theta = theta_independent but for those: the one about its axis e, as of a node of
+/// a line hinge, or with `others` those about all axes normal to e (about all, where it has none).
 struct DependentNode {
   PetscInt node, independent_node;  ///< numbers of the RawMesh
   std::array<double, 3> axis = {};  ///< unit vector; zero: none
-  bool spins() const { return axis != std::array<double, 3>{}; }
+  bool others = false;
+  bool spins() const { return others || axis != std::array<double, 3>{}; }
 };
 
-/// The deck's rigid links as pairs, ascending by node, the same on all ranks.
+/// The deck's rigid links as pairs, ascending by node, the same on all ranks. Rotations that a link leaves free follow
+/// it where no beam, shell or spring resists them: of a dependent node, or of an independent one without mass whose
+/// dependent nodes are at one point or on one line.
 ///
-/// @throws InputError  one line a fault, by labels: a node that follows two others, or one that follows itself
+/// @throws InputError  one line a fault, by labels: a node that follows two others, itself, or one with rotations of
+/// its
+///                     own
 /// Collective.
-std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const std::vector<RigidLink>& links);
+std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const Deck& deck);
 
 /// The independent node of a node, or the node itself. `dependent_nodes` ascends.
 PetscInt independent_node_of(const std::vector<DependentNode>& dependent_nodes, PetscInt node);

@@ -8,7 +8,7 @@ namespace floe::mesh {
 /// Links with pieces besides: sets of nodes that move as one rigid body each. Sets and links with a node in common are
 /// one piece; it is led by the reference of its link, if it has one, else by the node in the middle of its numbers.
 ///
-/// @param links   as mesh::dependent_nodes gives them
+/// @param links   as mesh::dependent_nodes gives them; nodes of those that leave rotations free are in no piece
 /// @return        ascending by node
 /// Rank-local.
 std::vector<DependentNode> with_pieces(const std::vector<DependentNode>& links,

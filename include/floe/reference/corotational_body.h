@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "floe/dynamics/spatial_joint.h"
 #include "floe/dynamics/spatial_marker.h"
 #include "floe/dynamics/system.h"
 #include "floe/fem/structure.h"
@@ -23,8 +24,9 @@ struct CorotationalStart {
 /// own, position R in world axes and attitude A with A the frame axes' rotation of the whole body when it moves
 /// rigidly, and every element a CorotationalElement between places of these frames; a quadrilateral is its four
 /// triangles at half weight. Nodes that follow others are places of the frames of these, with their arms rotated by
-/// finite rotations; nodes of a hinge line are joined to the frame of the line's independent node by hinges, and nodes
-/// of rigid pieces (edges that joints clamp) to that of the piece's first node by fixed joints.
+/// finite rotations; nodes with rotations of their own are joined to the frame of their independent node by hinges,
+/// ball joints or universal joints, and nodes of rigid pieces (edges that joints clamp) to that of the piece's first
+/// node by fixed joints.
 ///
 /// Mass is carried rigidly by the nodes: of a beam half its mass by each, at the Gauss points of two-point quadrature,
 /// with the rotary inertia of the section; of a triangle a third by each corner, with a third of
@@ -46,8 +48,8 @@ class CorotationalBody {
   dynamics::SpatialMarker place(PetscInt node) const;
   /// The places of a cell's corners.
   std::vector<dynamics::SpatialMarker> places(const fem::Mesh::Cell& cell) const;
-  /// A linear function of a node's rotation from one of its dofs 3 to 5, of which a node of a hinge line has one, that
-  /// about the line.
+  /// A linear function of a node's rotation from one of its dofs 3 to 5, of which a node with rotations of its own has
+  /// these.
   Eigen::Matrix3d of_rotation(PetscInt node, const Eigen::Matrix3d& of_dofs) const;
   /// Index of the piece of a node; -1: none.
   int piece_of(PetscInt node) const;
@@ -83,11 +85,15 @@ class CorotationalBody {
   struct Moving {
     Eigen::Vector3d R, rate, spin;
   };
-  /// A node that another one's frame holds: but for rotations about an axis, or wholly (axis zero).
+  /// A node that another one's frame holds: wholly, or but for rotations (fem::Mesh::Spin).
   struct Link {
     PetscInt node, independent_node;
     Eigen::Vector3d arm, axis;
-    int rows() const { return axis.isZero(0) ? 6 : 5; }
+    bool others;
+    bool spins() const { return others || !axis.isZero(0); }
+    Eigen::Matrix3d own() const { return fem::Mesh::Spin{0, axis, others}.own(); }
+    dynamics::SpatialConstraint constraint() const;
+    int rows() const { return dynamics::rows(constraint()); }
   };
   std::vector<NodeMass> carried(Density density, CellsOfPart part = nullptr) const;
   void add_elements(double viscosity, std::vector<std::unique_ptr<dynamics::Term>>& terms,

@@ -4,6 +4,7 @@
 
 #include "floe/fem/assembly.h"
 #include "floe/fem/element_stiffness.h"
+#include "floe/fem/flat_body.h"
 #include "floe/fem/reference_frame.h"
 #include "floe/fem/transform.h"
 #include "spatial_structures.h"
@@ -13,19 +14,23 @@ using testing::Spread;
 
 namespace {
 
+Eigen::Matrix3d own_rotations(const mesh::DependentNode& f) {
+  if (!f.spins()) return Eigen::Matrix3d::Zero();
+  return fem::Mesh::Spin{0, Eigen::Vector3d(f.axis[0], f.axis[1], f.axis[2]), f.others}.own();
+}
+
 /// q of all nodes from the linked ones, by original dofs: rows of dependent nodes say how their independent nodes move
-/// them; those on hinge lines rotate by themselves about the axis besides, theta = (1 - e e') theta_independent + e
-/// phi.
+/// them; those with rotations of their own have these besides, theta = (1 - S S') theta_independent + S phi.
 Eigen::MatrixXd following(const std::vector<mesh::DependentNode>& dependent_nodes) {
   const mesh::RawMesh raw = testing::mixed_mesh(PETSC_COMM_SELF);
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(6 * raw.node_count, 6 * raw.node_count);
   for (const mesh::DependentNode& f : dependent_nodes) {
-    const Eigen::Vector3d e(f.axis[0], f.axis[1], f.axis[2]);
+    const Eigen::Matrix3d S = own_rotations(f);
     Eigen::Matrix<double, 6, 6> by_independent_node =
         fem::rigid_arm(Eigen::Vector3d(raw.positions[f.node] - raw.positions[f.independent_node]));
-    by_independent_node.bottomRightCorner<3, 3>() -= e * e.transpose();
+    by_independent_node.bottomRightCorner<3, 3>() -= S * S.transpose();
     T.block<6, 6>(6 * f.node, 6 * f.node).setZero();
-    if (f.spins()) T.block<3, 1>(6 * f.node + 3, 6 * f.node + 3 + fem::spin_slot(e)) = e;
+    T.block<3, 3>(6 * f.node + 3, 6 * f.node + 3) = S;
     T.block<6, 6>(6 * f.node, 6 * f.independent_node) = by_independent_node;
   }
   return T;
@@ -81,13 +86,13 @@ TEST_CASE("rigid links: bodies keep their rigid motions, and followers are held"
   CHECK(holding.constrained == testing::dofs_of(s, {2, 9, 13}, {0, 1, 2, 3, 4, 5}));
 }
 
-TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line and the turns of its nodes") {
-  const bool links = GENERATE(false, true);
+TEST_CASE("own rotations of dependent nodes: K and M are those of the free nodes, seen by the dofs that move them") {
+  const std::vector<mesh::DependentNode> dependent_nodes =
+      GENERATE(testing::mixed_lines(false), testing::mixed_lines(true), testing::mixed_loose());
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::reversed);
-  const fem::Structure s = testing::hinged_structure(PETSC_COMM_WORLD, spread, links),
+  const fem::Structure s = testing::structure_with(PETSC_COMM_WORLD, spread, dependent_nodes),
                        free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
-  const std::vector<mesh::DependentNode> dependent_nodes = testing::mixed_lines(links);
-  CHECK(std::count_if(dependent_nodes.begin(), dependent_nodes.end(), [](const auto& f) { return f.spins(); }) == 4);
+  CHECK(std::count_if(dependent_nodes.begin(), dependent_nodes.end(), [](const auto& f) { return f.spins(); }) > 2);
   const Eigen::MatrixXd T = following(dependent_nodes);
   const petsc::MatHandle K = fem::stiffness(s, {});
   testing::Random random(3);
@@ -109,9 +114,10 @@ TEST_CASE("hinge lines: K and M are those of the free nodes, seen by the line an
   }
 }
 
-TEST_CASE("hinge lines: bodies keep their rigid motions, and followers are held but for their turns") {
+TEST_CASE("bodies keep their rigid motions, and followers are held but for their own rotations") {
+  const std::vector<mesh::DependentNode> dependent_nodes = GENERATE(testing::mixed_lines(true), testing::mixed_loose());
   const Spread spread = GENERATE(Spread::metis, Spread::shuffled, Spread::last);
-  const fem::Structure s = testing::hinged_structure(PETSC_COMM_WORLD, spread, true),
+  const fem::Structure s = testing::structure_with(PETSC_COMM_WORLD, spread, dependent_nodes),
                        free = testing::mixed_structure(PETSC_COMM_WORLD, spread);
   const petsc::MatHandle K = fem::stiffness(s, {}), M = fem::mass(s, {}), M0 = fem::mass(free, {});
   const auto rigid = fem::rigid_motions(s), whole = fem::rigid_motions(free);
@@ -124,6 +130,42 @@ TEST_CASE("hinge lines: bodies keep their rigid motions, and followers are held 
   const fem::Holding holding = fem::holding(s, frame, {});
   CHECK(holding.left.cols() == 6);
   std::size_t constrained = 0;
-  for (const mesh::DependentNode& f : testing::mixed_lines(true)) constrained += f.spins() ? 5 : 6;
+  for (const mesh::DependentNode& f : dependent_nodes)
+    constrained += 6 - static_cast<std::size_t>(own_rotations(f).squaredNorm() + 0.5);
   CHECK(holding.constrained.size() == constrained);
+}
+
+TEST_CASE("own rotations are orthonormal, each by a dof") {
+  const Eigen::Vector3d e = Eigen::Vector3d(0.2, -0.9, 0.4).normalized();
+  for (const Eigen::Vector3d& axis : {e, Eigen::Vector3d(-e), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(1, 0, 0)})
+    for (const bool others : {false, true}) {
+      const Eigen::Matrix3d S = fem::Mesh::Spin{0, axis, others}.own(), P = axis * axis.transpose(),
+                            expected = others ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() - P) : P;
+      CHECK((S * S.transpose() - expected).norm() < 1e-14);
+      const Eigen::Matrix3d gram = S.transpose() * S;
+      CHECK((gram - Eigen::Matrix3d(gram.diagonal().asDiagonal())).norm() < 1e-14);
+      CHECK(S.col(fem::spin_slot(axis)).isZero(0) == others);
+    }
+}
+
+TEST_CASE("own rotations in a flat body: the products of many columns are those of K") {
+  const Spread spread = GENERATE(Spread::metis, Spread::shuffled);
+  const bool oblique = GENERATE(false, true);
+  const generate::Plate plate{{0, 0, 0}, {0.8, 0, 0.6}, {0, 1, 0}, 3, 2};
+  const mesh::RawMesh raw = generate::plate(PETSC_COMM_WORLD, plate);
+  std::vector<mesh::DependentNode> links{{1, 0, {}, true},
+                                         {4, 0, {0.8, 0, 0.6}},
+                                         {5, 0, {-0.6, 0, 0.8}},
+                                         {6, 0, {0.8, 0, 0.6}, true},
+                                         {8, 0, {-0.6, 0, 0.8}, true}};
+  if (oblique) links.push_back({9, 0, {1, 0, 0}});
+  const fem::Structure s(fem::mesh_of(raw, testing::ranks_of(raw, spread), links),
+                         {fem::shell_section({{fem::isotropic(500, 0.3, 4), 0.1, 0}})}, fem::MembraneStrain::averaged);
+  CHECK((fem::flat_body(s) == nullptr) == oblique);
+  testing::Random random(3);
+  const Eigen::VectorXd q = random.vector(s.dofs());
+  const petsc::VecHandle by_pieces = fem::field(s);
+  fem::ElementStiffness(s).multiply(testing::field_of_originals(s, q), by_pieces);
+  const Eigen::VectorXd expected = testing::product_in_originals(s, fem::stiffness(s, {}), q);
+  CHECK((testing::in_original_order(s, by_pieces) - expected).norm() < 1e-11 * expected.norm());
 }

@@ -8,14 +8,15 @@ using namespace floe;
 using Eigen::VectorXd;
 
 TEST_CASE("the pieces of a cell have its energies and its mass") {
-  const std::string kind = GENERATE("mixed", "linked", "hinged");
+  const std::string kind = GENERATE("mixed", "linked", "hinged", "loose");
   const fem::Strains strains = GENERATE(fem::Strains::von_karman, fem::Strains::second_order);
   const testing::Order order = GENERATE(testing::Order::first, testing::Order::second);
   const auto spread = testing::Spread::shuffled;
-  const fem::Structure s = kind == "linked" ? testing::linked_structure(PETSC_COMM_WORLD, spread, strains, order)
-                           : kind == "hinged"
-                               ? testing::hinged_structure(PETSC_COMM_WORLD, spread, true, strains, order)
-                               : testing::mixed_structure(PETSC_COMM_WORLD, spread, strains, order);
+  const std::vector<mesh::DependentNode> dependent_nodes = kind == "linked"   ? testing::mixed_links()
+                                                           : kind == "hinged" ? testing::mixed_lines(true, order)
+                                                           : kind == "loose"  ? testing::mixed_loose()
+                                                                              : std::vector<mesh::DependentNode>{};
+  const fem::Structure s = testing::structure_with(PETSC_COMM_WORLD, spread, dependent_nodes, strains, order);
   testing::Random random(91);
   std::vector<fem::PieceRows> pieces;
   for (const auto& cell : s.mesh.cells) {

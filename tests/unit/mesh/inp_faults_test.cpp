@@ -98,12 +98,18 @@ TEST_CASE("sections that do not fit the elements are refused") {
       Contains("bad.inp:15: the dimensions are inconsistent"));
 }
 
+TEST_CASE("an ellipse is a circle with two diameters") {
+  CHECK_THAT(said(nodes + elements + "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=ELLIPTICAL\n1, 2\n"),
+             Contains("SECTION=RECT, CIRC, PIPE, BOX or I; an ellipse is CIRC with two diameters"));
+}
+
 TEST_CASE("links that are not rigid in all directions are refused") {
   const std::string good = nodes + elements + section + "*NSET, NSET=n\n1, 2\n";
-  CHECK_THAT(said(good + "*RIGID BODY, PIN NSET=n, REF NODE=3\n"), Contains("not with PIN NSET"));
+  CHECK_THAT(said(good + "*RIGID BODY, ANALYTICAL SURFACE=n, REF NODE=3\n"), Contains("not with ANALYTICAL"));
   CHECK_THAT(said(good + "*RIGID BODY, NSET=n, REF NODE=n\n"), Contains("a node set of one node, found 'n'"));
-  CHECK_THAT(said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*KINEMATIC\n1, 3\n"), Contains("all six directions"));
-  CHECK_THAT(said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*MPC\nPIN, 1, 2\n"),
+  CHECK_THAT(said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*KINEMATIC\n1, 2\n"),
+             Contains("directions 1, 2, 3 and any of 4, 5, 6"));
+  CHECK_THAT(said(good + "*COUPLING, REF NODE=3, SURFACE=n\n*MPC\nLINK, 1, 2\n"),
              Contains("bad.inp:16: *COUPLING is read with *KINEMATIC or *DISTRIBUTING after it") &&
                  Contains("bad.inp:18: *MPC expects BEAM"));
 }

@@ -180,8 +180,6 @@ TEST_CASE("rigid links of RBE2 and RBAR hold all six directions") {
   REQUIRE(file.deck.links.size() == 2);
   CHECK(file.deck.links[1].reference == 4);
   CHECK(testing::of_all_ranks(file.deck.links[1].nodes) == std::vector<PetscInt>{2});
-  CHECK_THAT(said(square + "RBE2,90,1,1236,2\n"),
-             Contains("RBE2 90: constrains 1236 of grid 2, whose other rotations are also dofs of shell 1"));
   CHECK_THAT(said(square + "RBAR,90,1,2,123,456\n"), Contains("RBAR: field 5 and 6 expect 123456"));
 }
 
