@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "all_ranks.h"
 #include "inp_reading.h"
@@ -17,7 +18,8 @@ void read_transform(const InpBlock& block, InpReading& reading) {
   InpTransform transform{block.where, required(block, "NSET", reading), kind[0], {}, {}};
   for (const auto& [where, line] : data_lines(block, 1, 1, "two points", reading.faults))
     if (const auto x = numbers(line, where, 1, 6, "two points", reading.faults))
-      for (std::size_t i = 0; i < x->size(); ++i) (i < 3 ? transform.a : transform.b)[static_cast<Eigen::Index>(i % 3)] = (*x)[i];
+      for (std::size_t i = 0; i < x->size(); ++i)
+        (i < 3 ? transform.a : transform.b)[static_cast<Eigen::Index>(i % 3)] = (*x)[i];
   reading.transforms.push_back(transform);
   ignore(block, "it is read for the directions of *EQUATION alone", reading);
 }
@@ -118,6 +120,7 @@ class Equations {
         if (positions_.contains(label)) mine.push_back(label);
       for (const long long label : of_all_ranks(comm, mine)) transforms_[label] = &transform;
     }
+    find_used(comm);
   }
 
   void add(const InpEquation& equation) {
@@ -135,7 +138,10 @@ class Equations {
     if (terms.empty()) return;
     if (!moves_rigidly(terms)) return support(equation);
     const bool pair = terms.size() == 2 && terms[0].node != terms[1].node && terms[0].rotation() == terms[1].rotation();
-    if (!pair || (terms[0].x - terms[1].x).norm() > small_)
+    const bool one_point = pair && (terms[0].x - terms[1].x).norm() <= small_;
+    if (!one_point && std::any_of(terms.begin(), terms.end(), [&](const Term& t) { return !used_.contains(t.node); }))
+      return support(equation);  // of elements that are left out
+    if (!one_point)
       return refuse(equation.where, "joins nodes otherwise than two at one point with the same direction");
     auto at = pairs_.find({terms[1].node, terms[0].node});
     if (at == pairs_.end()) at = pairs_.try_emplace({terms[0].node, terms[1].node}, Pair{equation.where}).first;
@@ -148,18 +154,33 @@ class Equations {
     for (const auto& [nodes, pair] : pairs_) link(nodes.first, nodes.second, pair);
     const auto report = [&](Where where, long long count, const std::string& text) {
       if (count > 0)
-        reading_.notices.push_back(reading_.faults.text_of(where) + ": *EQUATION: " + counted(count, "equation") + text);
+        reading_.notices.push_back(reading_.faults.text_of(where) + ": *EQUATION: " + counted(count, "equation") +
+                                   text);
     };
     if (tied_ > 0)
       report(reading_.equations.front().where, tied_,
              " read as " + counted(static_cast<long long>(pairs_.size()), "link") + " between nodes at one point");
     report(first_support_, supports_,
-           std::string(supports_ == 1 ? " is" : " are") + " ignored: " + (supports_ == 1 ? "it resists" : "they resist") +
-               " rigid motion or concern" + (supports_ == 1 ? "s" : "") +
-               " other fields; supports are joints of the scene");
+           std::string(supports_ == 1 ? " is" : " are") +
+               " ignored: " + (supports_ == 1 ? "it resists" : "they resist") + " rigid motion, or concern" +
+               (supports_ == 1 ? "s" : "") +
+               " other fields or nodes without elements; supports are joints of the scene");
   }
 
  private:
+  /// Nodes of elements, masses and links, among those of the equations. Collective.
+  void find_used(MPI_Comm comm) {
+    std::set<long long> mine;
+    const auto use = [&](long long label) {
+      if (positions_.contains(label)) mine.insert(label);
+    };
+    for (const FileCell& cell : reading_.mesh.cells)
+      for (int i = 0; i < node_count(cell.kind); ++i) use(cell.nodes[static_cast<std::size_t>(i)]);
+    for (const Mention& mention : reading_.mesh.mentions) use(mention.label);
+    const std::vector<long long> all = of_all_ranks(comm, std::vector<long long>(mine.begin(), mine.end()));
+    used_.insert(all.begin(), all.end());
+  }
+
   std::optional<Term> term_of(const InpEquation::Term& given, Where where) {
     const auto label = number<long long>(given.node);
     if (!label) {
@@ -196,8 +217,8 @@ class Equations {
   }
 
   void refuse(Where where, const std::string& why) {
-    reading_.faults.add(where, "this equation " + why +
-                                   ", which is not read; to leave all equations out: file: {ignore: [EQUATION]}");
+    reading_.faults.add(
+        where, "this equation " + why + ", which is not read; to leave all equations out: file: {ignore: [EQUATION]}");
   }
 
   void link(long long node, long long reference, const Pair& pair) {
@@ -222,6 +243,7 @@ class Equations {
   double small_;
   std::map<long long, Vector3d> positions_;
   std::map<long long, const InpTransform*> transforms_;
+  std::set<long long> used_;
   std::map<std::pair<long long, long long>, Pair> pairs_;
   long long tied_ = 0, supports_ = 0;
   Where first_support_;

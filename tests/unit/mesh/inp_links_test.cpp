@@ -222,6 +222,8 @@ TEST_CASE("*EQUATION otherwise: supports are ignored, other ties refused") {
       {"2\n1,1\n", "*EQUATION expects terms of node, direction, factor"},
       {"1,1,1.\n", "*EQUATION expects its number of terms"}};
   for (const auto& [text, message] : wrong) CHECK_THAT(said(third + "*EQUATION\n" + text), Contains(message));
+  const auto outside = read(third + "*NODE\n31, 2, 0\n*EQUATION\n3\n31,1,1.,5,1,-.5,21,1,-.5\n");
+  CHECK_THAT(outside.notices.at(0), Contains("*EQUATION: 1 equation is ignored") && Contains("nodes without elements"));
   const auto left_out = mesh::read_inp(
       PETSC_COMM_WORLD, testing::written("links.inp", squares + third + "*EQUATION\n2\n1,1,1.,2,1,-1.\n"),
       {{}, false, {"equation"}});
