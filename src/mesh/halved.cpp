@@ -43,6 +43,13 @@ std::array<double, 8> serendipity(double r, double s) {
   return N;
 }
 
+/// A link that leaves free what one of two leaves free: all rotations, where that is about two axes.
+DependentNode freer(const DependentNode& a, const DependentNode& b) {
+  if (!a.spins() || !b.spins()) return a.spins() ? a : b;
+  if (a.others == b.others && a.axis == b.axis) return a;
+  return {a.node, a.independent_node, {}, true};
+}
+
 class Halving {
  public:
   Halving(const RawMesh& whole, const std::vector<Halved>& parts) : whole_(whole), parts_(parts) {
@@ -56,28 +63,35 @@ class Halving {
   }
 
   std::vector<DependentNode> links(const std::vector<DependentNode>& coarse) const {
-    const auto region = [&](PetscInt node) {
+    const auto link = [&](PetscInt node) {  // of a node that moves by itself: to itself
       const auto at = std::lower_bound(coarse.begin(), coarse.end(), node,
-                                       [](const DependentNode& link, PetscInt n) { return link.node < n; });
-      return at == coarse.end() || at->node != node ? node : at->spins() ? PetscInt(-1) : at->independent_node;
+                                       [](const DependentNode& one, PetscInt n) { return one.node < n; });
+      return at == coarse.end() || at->node != node ? DependentNode{node, node} : *at;
     };
+    const auto region = [&](PetscInt node) { return link(node).independent_node; };
     std::map<Edge, std::vector<Edge>> between_regions;  // edges with an end that moves by itself
     for (const auto& [ends, middle] : known_) {
       if (ends[1] >= whole_.node_count) continue;
       const PetscInt a = region(ends[0]), b = region(ends[1]);
-      if (a >= 0 && b >= 0 && a != b && (a == ends[0] || b == ends[1])) between_regions[edge(a, b)].push_back(ends);
+      if (a != b && (a == ends[0] || b == ends[1])) between_regions[edge(a, b)].push_back(ends);
     }
     std::vector<DependentNode> all = coarse;
     for (std::size_t i = 0; i < middles_.size(); ++i) {
       const std::vector<PetscInt>& between = middles_[i].between;
-      const PetscInt node = whole_.node_count + static_cast<PetscInt>(i), first = region(between.front()),
-                     second = region(between.back());
-      if (first < 0 || second < 0) continue;
-      if (std::all_of(between.begin(), between.end(), [&](PetscInt n) { return region(n) == first; }))
-        all.push_back({node, first});
-      else if (middles_[i].edge && between.front() != first && between.back() != second)
-        if (const auto beside = between_regions.find(edge(first, second)); beside != between_regions.end())
-          all.push_back({node, known_.at(nearest(beside->second, x(node)))});
+      const PetscInt node = whole_.node_count + static_cast<PetscInt>(i);
+      const DependentNode first = link(between.front()), second = link(between.back());
+      const PetscInt a = first.independent_node, b = second.independent_node;
+      DependentNode own = first;
+      for (const PetscInt n : between) own = freer(own, link(n));
+      own.node = node;
+      if (own.spins() && !at_rim(middles_[i])) continue;  // what lies between bends
+      if (std::all_of(between.begin(), between.end(), [&](PetscInt n) { return region(n) == a; }))
+        all.push_back(own);
+      else if (middles_[i].edge && between.front() != a && between.back() != b)
+        if (const auto beside = between_regions.find(edge(a, b)); beside != between_regions.end()) {
+          own.independent_node = known_.at(nearest(beside->second, x(node)));
+          all.push_back(own);
+        }
     }
     return all;
   }
@@ -89,6 +103,12 @@ class Halving {
     if (!has_extent(cell.kind) || parts_.empty()) return !has_extent(cell.kind);
     const Halved part = parts_[static_cast<std::size_t>(cell.part)];
     return part == Halved::none || (part == Halved::along_shells && at_edge_.at(ends(cell, 0)).shells.empty());
+  }
+
+  bool at_rim(const Middle& middle) const {
+    if (!middle.edge) return false;
+    const AtEdge& at = at_edge_.at(*middle.edge);
+    return at.shells.size() == 1 && !at.line;
   }
 
   void find_edges() {

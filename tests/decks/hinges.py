@@ -192,6 +192,20 @@ def plate(floe):
     return good
 
 
+def refined(floe):
+    """A deck whose elements are divided once against one with as many elements: the middles of the hinge's edges are linked, too."""
+    scene = ("bodies: {b: {mesh: {file: {path: part.inp, refine: %d}}, reduction: {modes: 8}}}\njoints:\n"
+             "  sides: {type: support, between: [ground, b.SIDES], hold: [x, y, z, rx, ry, rz]}\n")
+    good = True
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, kind, directions in (("refined, *EQUATION 1-3", "S4", (1, 2, 3)), ("refined, without 5", "S4", (1, 2, 3, 4, 6)),
+                                       ("refined, S8R", "S8R", (1, 2, 3, 4, 6))):
+            coarse, own, fine = (modes(floe, pathlib.Path(scratch), "part.inp", halves(n, 2 * n, lambda pairs: equations(pairs, directions), kind),
+                                       scene % refine) for n, refine in ((4, 0), (4, 1), (8, 0)))
+            good &= compare(name, own, fine, 1e-7) and abs(coarse[0] / fine[0] - 1) > 1e-4
+    return good
+
+
 def tip(floe, folder, scene, formulation, ranks=1):
     (folder / "scene.yaml").write_text(scene)
     command = [floe, "run", "scene.yaml", "--formulation", formulation, "--no-estimate", "--force", "-o", "out"]
@@ -267,7 +281,7 @@ def refusals(floe):
 
 def main():
     floe = str(pathlib.Path(sys.argv[1]).resolve())
-    good = [gerber(floe), plate(floe), motions(floe), refusals(floe)]
+    good = [gerber(floe), plate(floe), refined(floe), motions(floe), refusals(floe)]
     sys.exit(0 if all(good) else 1)
 
 
