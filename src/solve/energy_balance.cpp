@@ -24,9 +24,11 @@ petsc::VecHandle without_multipliers(const System& system, Vec rates) {
   return copy;
 }
 
-}  // namespace
+struct Powers {
+  double external, dissipated;  ///< P and P_d
+};
 
-double external_power(const System& system, double t, double interval, Vec U, Vec V, Vec A) {
+Powers powers(const System& system, double t, double interval, Vec U, Vec V, Vec A) {
   const AtBase at_base(system, U);
   const petsc::VecHandle v = without_multipliers(system, V), a = without_multipliers(system, A);
   const petsc::VecHandle q = system.create_vector(), rate = system.create_vector(), F = system.create_vector();
@@ -36,23 +38,30 @@ double external_power(const System& system, double t, double interval, Vec U, Ve
     check(VecWAXPY(rate, e, a, v));
     rates += total(system.energy(t + e, q, rate)) / (2 * e);
   }
+  double unbalanced = 0, backward = 0;
   system.residual(t, U, V, A, ConstraintLevel::position, F);
-  double unbalanced = 0;
   check(VecDot(F, v, &unbalanced));
-  return rates - unbalanced;
+  check(VecAXPBY(rate, -1, 0, V));
+  system.residual(t, U, rate, A, ConstraintLevel::position, F);
+  check(VecDot(F, v, &backward));
+  return {rates - unbalanced, 0.5 * (unbalanced - backward)};
 }
 
+}  // namespace
+
 void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
-  if (count_ == 0) start_ = energy;
+  if (count_ == 0) start_ = lowest_ = energy;
   lowest_ = std::min(lowest_, energy);
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
-    const double power = external_power(system, t, 1e-3 * h, U, V, A), before = known_ != 0 ? power_ : power;
-    work_ += 0.5 * h * (before + power);
-    turnover_ += 0.5 * h * (std::abs(before) + std::abs(power));
+    const auto [power, dissipation] = powers(system, t, 1e-3 * h, U, V, A);
+    if (known_ == 0) power_ = power, dissipation_ = dissipation;
+    work_ += 0.5 * h * (power_ + power);
+    dissipated_ += 0.5 * h * (dissipation_ + dissipation);
+    turnover_ += 0.5 * h * (std::abs(power_) + std::abs(power));
     const double grown = energy - start_ - work_;
-    growth_ = std::max(growth_, events_ > 0 ? std::min(grown, energy - lowest_) : grown);
-    power_ = power, known_ = 1;
+    growth_ = std::max(growth_, std::min(grown, std::max(grown - dissipated_, energy - lowest_)));
+    power_ = power, dissipation_ = dissipation, known_ = 1;
   }
   const double exchanged = std::max(turnover_, max_part);
   if (growth() <= 0.5 * exchanged) accounted_ = exchanged;
@@ -65,19 +74,17 @@ void EnergyBalance::pass_event(double energy) {
   known_ = 0;
   energy_ += energy;  // several events may be at one instant
   lowest_ = energy_;
-  ++events_;
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_,  t_,      power_,  known_,  start_,     work_,  turnover_,
-          growth_, energy_, events_, lowest_, accounted_, beyond_};
+  return {count_,      t_,        known_,  power_,  dissipation_, start_,     work_,
+          dissipated_, turnover_, growth_, energy_, lowest_,      accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
-  count_ = saved[0], t_ = saved[1], power_ = saved[2], known_ = saved[3];
-  start_ = saved[4], work_ = saved[5], turnover_ = saved[6], growth_ = saved[7];
-  energy_ = saved[8], events_ = saved[9], lowest_ = saved[10];
-  accounted_ = saved[11], beyond_ = saved[12];
+  count_ = saved[0], t_ = saved[1], known_ = saved[2], power_ = saved[3], dissipation_ = saved[4];
+  start_ = saved[5], work_ = saved[6], dissipated_ = saved[7], turnover_ = saved[8], growth_ = saved[9];
+  energy_ = saved[10], lowest_ = saved[11], accounted_ = saved[12], beyond_ = saved[13];
 }
 
 }  // namespace floe::solve

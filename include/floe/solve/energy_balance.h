@@ -6,25 +6,22 @@
 namespace floe::solve {
 using namespace dynamics;
 
-/// Power of all that has no energy of its own: loads and drives, less what dampers dissipate. [W]
-///
-///   P = dE/dt - F.v
-///
-/// with dE/dt the derivative of the total energy along (v, a) (a central difference over 2 `interval`, exact but for
-/// its third order) and F the residual of the equations of motion, which does work where they are not met.
-/// Bases of attitudes and U are afterwards as before. Collective.
-double external_power(const System& system, double t, double interval, Vec U, Vec V, Vec A);
-
 /// What of the total energy's growth no load and no drive has brought: sampled along a motion.
 ///
-///   growth = max over t of E(t) - E(0) - W(t),   W = int P dt by the trapezoidal rule
+///   growth = max over t of min(E - E(0) - W, max(E - E(0) - W - D, E - E_min)),   W = int P dt,   D = int P_d dt
 ///
-/// and after an event at most the rise of E above its minimum since the last instant before it: what an event sets free
-/// vibrates in motions that steps do not resolve, whose dissipation the rule overestimates.
+/// by the trapezoidal rule. P [W] is the power of all that has no energy of its own: loads and drives, less what
+/// dampers dissipate, P = dE/dt - F.v with dE/dt the derivative of the total energy along (v, a) (a central difference,
+/// exact but for its third order) and F the residual of the equations of motion, which does work where they are not
+/// met. P_d = 1/2 v.(F(v) - F(-v)) is what dampers and friction dissipate: forces of inertia are even in v. What a
+/// sudden load excites and an event sets free vibrates in motions that steps do not resolve, whose dissipation samples
+/// overestimate. So the dissipation counts as growth only where E rises, above its minimum since the start, or since
+/// the last instant before an event.
 /// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
-  /// An instant. A null: not computed yet (at the start). Collective.
+  /// An instant. A null: not computed yet (at the start). Bases of attitudes and U are afterwards as before.
+  /// Collective.
   /// @param energy    total, of U, V
   /// @param max_part  maximum of its parts so far
   void add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part);
@@ -40,15 +37,16 @@ class EnergyBalance {
   static constexpr double most_growth = 3;
 
   /// All of it, for checkpoints.
-  static constexpr int numbers = 13;
+  static constexpr int numbers = 14;
   std::array<double, numbers> save() const;
   void load(const std::array<double, numbers>& saved);
 
  private:
-  double count_ = 0, t_ = 0, power_ = 0, known_ = 0;  // of the instant before; whether its power is known
-  double start_ = 0, work_ = 0, turnover_ = 0, growth_ = 0;
-  double energy_ = 0, events_ = 0;     // E of the instant before; how many events there were
-  double lowest_ = 0;                  // E since the instant before the last event; without one: not used
+  double count_ = 0, t_ = 0, known_ = 0;  // of the instant before; whether its power is known
+  double power_ = 0, dissipation_ = 0;    // P and P_d of the instant before
+  double start_ = 0, work_ = 0, dissipated_ = 0, turnover_ = 0, growth_ = 0;
+  double energy_ = 0;                  // E of the instant before
+  double lowest_ = 0;                  // E since the start, or since the instant before the last event
   double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 
