@@ -27,8 +27,11 @@ DrivenCoordinate driven_coordinate(const Plan& plan, std::size_t j, const Probe&
                     "prismatic or cylindrical joint or a spring, or quantity: force or moment",
                     probe.where.text(), joint.name));
   }
-  drive.length = all.front() == JointCoordinate::length;
-  drive.rotation = all.back() == JointCoordinate::rotation && !drive.length;
+  const bool tension = joint.stiffness != 0 || joint.viscosity != 0 || joint.preload != 0,
+             torsion = joint.torsional_stiffness != 0 || joint.torsional_viscosity != 0,
+             rotation = all.back() == JointCoordinate::rotation;
+  drive.length = all.front() == JointCoordinate::length && (tension || !torsion || !rotation);
+  drive.rotation = rotation && !drive.length;
   if (plan.scene.dimension == 3)
     drive.axis = plan.joint_axes[j].col(2);
   else if (!drive.rotation)

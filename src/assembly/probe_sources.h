@@ -10,7 +10,8 @@ inline bool has_place(const Probe& probe) { return probe.quantity != Probe::Quan
 std::vector<const dynamics::Term*> terms_of_body(const std::vector<std::vector<const dynamics::Term*>>& of_bodies,
                                                  const Plan& plan, const std::string& name);
 
-/// On what a joint's drive acts: of both of a cylindrical joint the rotation.
+/// On what a joint's drive acts: of both of a cylindrical joint the rotation, of a spring its length, or the rotation
+/// where it resists this alone.
 /// @throws InputError  a drive of a joint without such a coordinate
 DrivenCoordinate driven_coordinate(const Plan& plan, std::size_t joint, const Probe& probe);
 

@@ -207,3 +207,23 @@ TEST_CASE("loads of joints: a torque that holds an angle, in the plane and in sp
       CHECK(at["d.value"] == Approx(-100 * angle).epsilon(1e-7));
     }
 }
+
+TEST_CASE("what a torsional spring exerts as a drive is its moment, in the plane and in space") {
+  const std::string text = R"yaml(
+bodies: {arm: {rigid: {mass: 2, centre: [0.5, 0$zero], inertia: $inertia}}}
+gravity: [0, -10$zero]
+joints:
+  hinge: {type: revolute, between: [ground, {body: arm, node: [0, 0$zero]}]$axis}
+  spring: {type: spring, between: [ground, {body: arm, node: [0, 0$zero]}], torsional_stiffness: 100$axis}
+probes:
+  a: {joint: hinge, quantity: angle}
+  d: {joint: spring, quantity: drive}
+)yaml";
+  for (const std::string& scene :
+       {fill(text, {{"zero", ""}, {"inertia", "1"}, {"axis", ""}}),
+        fill(text, {{"zero", ", 0"}, {"inertia", "[1, 1, 1]"}, {"axis", ", axis: [0, 0, 1]"}})}) {
+    auto at = last(rest(scene, Formulation::vm_md));
+    CHECK(std::abs(at["a.value"]) > 0.09);
+    CHECK(at["d.value"] == Approx(-100 * at["a.value"]).epsilon(1e-7));
+  }
+}
