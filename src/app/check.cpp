@@ -176,7 +176,7 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
   for (std::size_t b = 0; b < sizes.size(); ++b)
     table.rows.push_back({split.bodies[b].name, sizes[b].elements, sizes[b].dofs, sizes[b].frame, sizes[b].strains,
                           basis_words(split.bodies[b])});
-  fmt::print("{}: {}\n\n{}\n", scene.file, scene.title.empty() ? "a scene" : scene.title, output::to_text(table));
+  fmt::print("{}{}\n\n{}\n", scene.file, scene.title.empty() ? "" : ": " + scene.title, output::to_text(table));
   print_properties(properties, scene.dimension);
   if (frequencies > 0) fmt::print("{}\n", output::to_text(frequency_table(properties)));
   fmt::print("{} joints, {} loads, {} probes; ", split.joints.size(), scene.loads.size(), scene.probes.size());

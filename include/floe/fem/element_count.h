@@ -3,7 +3,7 @@
 
 namespace floe::fem {
 
-/// Number of elements of all ranks: beams, shells and point masses, not springs. Collective.
+/// Number of elements of all ranks: beams and shells, not point masses and springs. Collective.
 PetscInt element_count(const Mesh& mesh);
 
 }  // namespace floe::fem
