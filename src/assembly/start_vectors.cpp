@@ -5,6 +5,7 @@
 
 #include "floe/assembly/combination.h"
 #include "floe/assembly/enrichment.h"
+#include "floe/body/elasticity.h"
 #include "floe/fem/assembly.h"
 #include "floe/fem/element_stiffness.h"
 
@@ -18,6 +19,17 @@ constexpr double limit = 0.01;  // in the norm of the energy
 
 using Norm = std::function<double(Vec)>;
 
+/// sqrt(2 U) of a shape, at most its |u|_K: what a deflection foreshortens a body by takes no energy together with it,
+/// and much alone.
+double size_of_shape(const PlannedBody& body, Vec shape, double linear) {
+  if (body.spec.reduction.linear || !(linear > 0)) return linear;
+  reduction::Columns alone;
+  alone.push_back(reduction::copy(shape));
+  const reduction::Basis basis = reduction::orthonormal_basis(body.structure, alone, {{}}, 0);
+  const Eigen::VectorXd eta = Eigen::VectorXd::Constant(1, basis.norms[0]);
+  return std::min(linear, std::sqrt(2 * body::energy(reduction::project(body.structure, basis).elasticity, eta)));
+}
+
 /// field - V V'M field.
 petsc::VecHandle remainder(const reduction::Basis& basis, Vec field) {
   petsc::VecHandle rest = reduction::copy(field);
@@ -30,9 +42,7 @@ petsc::VecHandle remainder(const reduction::Basis& basis, Vec field) {
   return rest;
 }
 
-void join(const PlannedBody& body, Vec field, const Norm& norm, const char* label, ReducedBody& reduced) {
-  if (!field) return;
-  const double whole = norm(field);
+void join(const PlannedBody& body, Vec field, double whole, const Norm& norm, const char* label, ReducedBody& reduced) {
   reduction::Columns rest;
   rest.push_back(remainder(*reduced.basis, field));
   const double part = norm(rest.front());
@@ -52,11 +62,11 @@ void join_start(const PlannedBody& body, ReducedBody& reduced) {
   if (!starts_deformed(body)) return;
   const fem::ElementStiffness K(body.structure);
   const petsc::MatHandle M = fem::mass(body.structure, {});
-  join(
-      body, body.deformation, [&](Vec field) { return std::sqrt(2 * std::abs(K.strain_energy(field))); }, "start shape",
-      reduced);
-  join(
-      body, body.deformation_rate, [&](Vec field) { return reduction::mass_norm(M, field); }, "start rate", reduced);
+  const Norm elastic = [&](Vec field) { return std::sqrt(2 * std::abs(K.strain_energy(field))); };
+  const Norm kinetic = [&](Vec field) { return reduction::mass_norm(M, field); };
+  if (Vec shape = body.deformation)
+    join(body, shape, size_of_shape(body, shape, elastic(shape)), elastic, "start shape", reduced);
+  if (Vec rate = body.deformation_rate) join(body, rate, kinetic(rate), kinetic, "start rate", reduced);
 }
 
 bool starts_deformed(const PlannedBody& body) {

@@ -10,6 +10,7 @@
 #include "floe/assembly/enrichment.h"
 #include "floe/assembly/lift.h"
 #include "floe/assembly/residual_loads.h"
+#include "floe/assembly/start_vectors.h"
 
 namespace floe::assess {
 
@@ -86,10 +87,12 @@ std::vector<ReducedBody> enriched(const Offline& offline, const Residuals& resid
   return bodies;
 }
 
-/// The deviation at the start. A motion that begins in an equilibrium or a steady rotation begins in that of its model:
-/// from the reduced one the enriched model would vibrate, which the full-order model does not.
+/// The deviation at the start. A motion that begins deformed, in an equilibrium or in a steady rotation begins in that
+/// of its model: from the reduced one the enriched model would vibrate, which the full-order model does not.
 solve::DeviationStart at_start(const Offline& offline, const Model& more) {
-  if (offline.plan.scene.motion.start == Motion::Start::given) return {};
+  bool deformed = false;
+  for (const PlannedBody& body : offline.plan.bodies) deformed |= starts_deformed(body);
+  if (offline.plan.scene.motion.start == Motion::Start::given && !deformed) return {};
   const Model reduced = assemble(offline.plan, Formulation::vm_md, offline.reduced);
   const auto start_of = [](const Model& model) {
     const petsc::VecHandle none = model.system->create_vector();

@@ -4,8 +4,10 @@
 namespace floe::assembly {
 
 /// Joins to the basis of a reduced body what it lacks of the deformation at the start and of its rate: the remainder
-/// r = u - V V'M u, where |r|_K > 1 % of |u|_K (strain energy), and that of the rate, where |r|_M > 1 % of |v|_M
-/// (kinetic energy). Without them part of the energy at the start would be lost, and places of joints would move.
+/// r = u - V V'M u, where |r|_K > 1 % of sqrt(2 U(u)) (strain energy), and that of the rate, where |r|_M > 1 % of |v|_M
+/// (kinetic energy). Without them part of the energy at the start would be lost, and places of joints would move. U is
+/// that of the nonlinear strains: a remainder of the foreshortening that belongs to a deflection has forces along the
+/// body that bend it more than the deflection does.
 ///
 /// A body whose start is given needs at least one basis vector. Collective.
 void join_start(const PlannedBody& body, ReducedBody& reduced);
