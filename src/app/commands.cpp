@@ -227,7 +227,10 @@ void run_chosen(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_
     RunResult moved = move(chosen.scene, chosen.model, chosen.seconds, comm, folder, plan);
     if (chosen.total) {
       chosen.decisions.insert(chosen.decisions.begin(), {"error before", "", budget_line(chosen.before)});
-      chosen.decisions.push_back({"error after", "", budget_line(moved.summary["estimate"])});
+      chosen.decisions.push_back({"error after", "",
+                                  plan.budget
+                                      ? budget_line(moved.summary["estimate"])
+                                      : "not estimated in parts: the correction vectors are of this mesh alone"});
       if (petsc::first_rank(comm)) fmt::print("{}\n", output::to_text(decisions_table(chosen)));
     }
     for (const auto& [part, why] : chosen.unbounded)

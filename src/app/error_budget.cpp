@@ -215,10 +215,23 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   return j;
 }
 
+namespace {
+
+/// Why there is no total.
+std::string why_none(const ordered_json& estimate) {
+  std::string all = estimate.value("none", std::string());
+  for (const char* name : {"model", "mesh", "step"})
+    if (const ordered_json part = part_in(estimate, name); part.is_object() && part.contains("none"))
+      all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name, part["none"].get<std::string>());
+  return all.empty() ? "no probe has a total" : all;
+}
+
+}  // namespace
+
 std::string budget_line(const ordered_json& estimate) {
   if (!estimate.is_object()) return "not estimated";
   if (!estimate.contains("total") || !estimate["total"].contains("probes"))
-    return "not estimated: " + estimate.value("none", std::string("no probe has a total"));
+    return "not estimated: " + why_none(estimate);
   const ordered_json& total = estimate["total"];
   const auto size = [](const ordered_json& error) { return error.is_number() ? error.get<double>() : INFINITY; };
   const auto words = [&](const ordered_json& error) {

@@ -37,6 +37,8 @@ TEST_CASE("error budget: one line has the total of the worst probe and its parts
 TEST_CASE("error budget: one line says why there is no total") {
   CHECK(budget_line(ordered_json()) == "not estimated");
   CHECK(budget_line({{"none", "no mesh"}}) == "not estimated: no mesh");
+  CHECK(budget_line({{"none", "no mesh"}, {"mesh", {{"none", "no probes"}}}}) ==
+        "not estimated: no mesh; mesh: no probes");
   CHECK(budget_line({{"total", {{"parts", {"step"}}}}}) == "not estimated: no probe has a total");
 }
 

@@ -192,6 +192,36 @@ TEST_CASE("error budget: the model contains the mesh where the mesh error covers
   CHECK_FALSE(model().apart);
 }
 
+// 10 selected vectors of 30 dofs: those of the same names on the refined mesh move by 80 % less.
+TEST_CASE("error budget: the mesh of a model with selected basis vectors is refined at full order") {
+  const std::string text = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: 4}}
+    section: {A: 1e-4, I: 1e-9}
+    material: {E: 7e10, rho: 2700}
+    frames: 2
+    reduction:
+      modes: 4
+      attachment: all
+      columns: ["#1 mode 2", "#1 mode 4", "#1 attachment beam#1-2.fx", "#2 mode 2", "#2 mode 4", "#1 derivative 1,beam#1-2.fx",
+                "#1 derivative 4,4", "#1 derivative 4,beam#1-2.fx", "#2 derivative 2,4", "#2 derivative 3,tip.fx"]
+joints: {clamp: {type: fixed, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, 25*sin(30*t)]}}
+motion: {end: 0.4, step: 2e-3}
+probes: {tip: {at: beam.end}}
+)yaml";
+  const Reduced one(text);
+  const assess::ErrorPart mesh = assess::estimate_mesh_error(one.motion(one.scene), one.own, 100);
+  REQUIRE(mesh.none == "");
+  CHECK_THAT(mesh.by, Catch::Contains("full-order"));
+  std::string fine = text;
+  fine.replace(fine.find("elements: 4"), 11, "elements: 16");
+  const double error = vector_error(move(text, Formulation::nlffr), move(fine, Formulation::nlffr), "tip");
+  CHECK(mesh.probes[0] > 0.3 * error);
+  CHECK(mesh.probes[0] < 3 * error);
+}
+
 // End load F L^2/(EI) = 2 at t = 1: the tip moves by half the length, where one pinned frame is in error.
 TEST_CASE("error budget: equilibria have parts for model and mesh") {
   const std::string beam = R"yaml(
