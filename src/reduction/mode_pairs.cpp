@@ -97,11 +97,25 @@ void check_converged(EPS eps, int count) {
                     converged, count, iterations, EPSConvergedReasons[reason]));
 }
 
+/// What the EPS leaves out from now on.
+///
+/// The vectors that it left out before become columns of its BV. Where these are then as many as the next subspace
+/// needs, SLEPc 3.18 takes its arrays for large enough, which are as long as the last one: it writes behind them. So
+/// the BV is made small.
+void deflate(EPS eps, std::vector<Vec> deflated) {
+  check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
+  BV V = nullptr;
+  PetscInt columns = 0;
+  check(EPSGetBV(eps, &V));
+  check(BVGetSizes(V, nullptr, nullptr, &columns));
+  if (!deflated.empty() && columns > 1) check(BVResize(V, 1, PETSC_FALSE));
+}
+
 /// `count` pairs at least, and those that have converged of `wanted`, with `deflated` left out.
 /// @param seed  of the vectors to start with
 Found pairs(const PairSearch& search, std::vector<Vec> deflated, int seed, int count, int wanted) {
   const EPS eps = search.eps;
-  check(EPSSetDeflationSpace(eps, static_cast<PetscInt>(deflated.size()), deflated.data()));
+  deflate(eps, std::move(deflated));
   Columns first;
   for (int i = 0; i < block_size(eps); ++i)
     first.push_back(rough_field(search.structure, search.constrained, seed + i));
