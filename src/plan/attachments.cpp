@@ -215,7 +215,28 @@ void add_spatial_constraint_modes(const Plan& plan, int index, Attachments& all)
   }
 }
 
-bool carries_moment(const Joint& joint, int dimension) {
+/// What acts along the motions that a joint leaves free: end stops, friction, and what locks it.
+struct AlongFreedom {
+  bool force = false, moment = false;
+};
+
+AlongFreedom along_freedom(const Scene& scene, const Joint& joint) {
+  using Kind = Joint::Kind;
+  const bool first = joint.limits || joint.friction || is_switched(scene, joint.name),
+             rotation = joint.rotation_limits || joint.rotation_friction || is_switched(scene, joint.name);
+  switch (joint.kind) {
+    case Kind::revolute:
+      return {false, first || rotation};
+    case Kind::prismatic:
+      return {first, false};
+    case Kind::cylindrical:
+      return {first, rotation};
+    default:
+      return {};
+  }
+}
+
+bool carries_moment(const Scene& scene, const Joint& joint) {
   using Kind = Joint::Kind;
   switch (joint.kind) {
     case Kind::spring:
@@ -226,7 +247,7 @@ bool carries_moment(const Joint& joint, int dimension) {
              std::any_of(joint.rotation_viscosity.begin(), joint.rotation_viscosity.end(), acts);
     }
     case Kind::revolute:
-      return dimension == 3 || joint.friction.has_value();
+      return scene.dimension == 3 || along_freedom(scene, joint).moment;
     case Kind::spherical:
     case Kind::distance:
       return false;
@@ -251,14 +272,19 @@ void add_joints(const Plan& plan, int index, Attachments& all) {
     const Anchor* constrained_there = constrained_place(plan, j);
     const bool constrained =
         body.structure.dimension() == 2 ? joint.kind != Joint::Kind::spring : plan.joint_constrained[j] != 0;
-    if (constrained_there && constrained_there->body == index && constrained && !of_frame(body)) continue;
-    const bool moment = carries_moment(joint, body.structure.dimension());
+    const int d = body.structure.dimension(), n = body.structure.dofs_per_node;
+    if (constrained_there && constrained_there->body == index && constrained && !of_frame(body)) {
+      const AlongFreedom along = along_freedom(plan.scene, joint);
+      for (int c = along.force ? 0 : d; c < (along.moment ? n : d); ++c)
+        all.push_back(unit_load(body, *constrained_there, c, joint.name));
+      continue;
+    }
+    const bool moment = carries_moment(plan.scene, joint);
     for (const int side : {0, 1})
       if (!plan.interfaces.empty() && plan.joints[j][side].body == index)
         add_interface(body, plan.interfaces[j], side, joint.name, all);
     for (const Anchor& place : plan.joints[j])
-      for (int c = 0; place.body == index && c < (moment ? body.structure.dofs_per_node : body.structure.dimension());
-           ++c)
+      for (int c = 0; place.body == index && c < (moment ? n : d); ++c)
         all.push_back(unit_load(body, place, c, joint.name));
   }
   if (body.structure.dimension() == 2)
