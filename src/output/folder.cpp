@@ -21,7 +21,7 @@ namespace {
 /// Of floe's runs and comparisons. The first of each says whose the others are, and goes last.
 const std::vector<std::vector<std::string>> results = {
     {"summary.json", "probes.csv", "result.h5", "campbell.csv", "checkpoint.h5", "sweep.h5", "sweep.csv", "sweep.png",
-     "motion.h5", "motion.xdmf", "report.html"},
+     "motion.h5", "motion.xdmf", "stress.h5", "stress.xdmf", "stress.csv", "report.html"},
     {"compare.json", "compare.md", "compare.csv", "compare.png", "compare.svg", "compare.pdf"},
     {"tradeoff.json", "tradeoff.md", "tradeoff.csv", "tradeoff.png"}};
 
