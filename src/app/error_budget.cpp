@@ -180,15 +180,17 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;
+  ordered_json of_step;
+  if (!motion.at_rest) of_step = step_part(motion, kept, own, allowed, step);
   mesh = assess::estimate_mesh_error(motion, own, allowed);
   if (no_model.empty())
-    model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed);
+    model = assess::estimate_model_error(motion, own, result.estimate, mesh, allowed, step);
   else
     model.none = no_model;
   ordered_json j;
   j["model"] = part_of(motion, model);
   j["mesh"] = part_of(motion, mesh);
-  if (!motion.at_rest) j["step"] = step_part(motion, kept, own, allowed, step);
+  if (!motion.at_rest) j["step"] = std::move(of_step);
   const int count = motion.at_rest ? 3 : 4;
   std::vector<const assess::ErrorPart*> known, beside;
   const assess::ErrorPart* all[] = {&reduction, &model, &mesh, &step};

@@ -32,7 +32,6 @@ constexpr std::size_t most_generators = 7;
 
 /// With all that the candidate basis may offer, and no choice of the scene's own.
 Scene generous(const Scene& whole, MPI_Comm comm) {
-  refuse_modal_damping_of_parts(whole);
   Scene scene = split_frames(whole, comm);
   for (Body& body : scene.bodies) {
     if (!is_meshed(body)) continue;

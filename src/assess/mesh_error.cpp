@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "error_part.h"
 #include "floe/error.h"
+#include "floe/petsc/together.h"
 
 namespace floe::assess {
 
@@ -14,76 +18,127 @@ constexpr double power = 4;  // 2^2: errors of order 2 in the elements' length
 /// How many times as many elements the refined bodies have.
 double growth(const Scene& scene) { return any_shells(scene) ? 4 : 2; }
 
-/// Whether selected basis vectors are a great part of all that a body can do: those of the same names are a smaller
-/// part on a refined mesh, and the difference is that of two reductions.
-bool crowded(const FinishedMotion& motion) {
-  return std::any_of(motion.scene.bodies.begin(), motion.scene.bodies.end(), [&](const Body& body) {
-    int columns = 0;
-    PetscInt dofs = 0;
-    for (const BodyReport& report : motion.model.bodies)
-      if (report.name == body.name || report.whole == body.name) columns += report.columns, dofs += report.dofs;
-    return !body.reduction.columns.empty() && 4 * columns > dofs;
-  });
-}
+class MeshError {
+ public:
+  MeshError(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double allowed,
+            ErrorPart& part)
+      : motion_(motion), own_(own), time_(time), allowed_(allowed), part_(part), other_(motion.scene) {}
 
-void estimate(const FinishedMotion& motion, const ProbeSeries& own, const TimeBudget& time, double allowed,
-              ErrorPart& part) {
-  const double offline = time.of_first(motion.offline), took = std::max(1e-6, time.of_first(motion.seconds));
-  Scene other = motion.scene;
-  bool finer = growth(other) * offline <= allowed;
-  if (!finer && !scale_meshes(other, 0.5)) {
-    part.none = fmt::format("the reduction of the refined mesh would take about {:.2g} s (limit {:.2g} s)",
-                            growth(other) * offline, allowed);
-    return;
-  }
-  if (finer) scale_meshes(other, 2);
-  part.by = finer ? "elements half as long" : "elements twice as long";
-  const bool full = is_reduced(motion.model.formulation) && crowded(motion);
-  const Formulation formulation = full ? Formulation::nlffr : motion.model.formulation;
-  if (full) part.by += ", in full-order models";
-  const Model model = [&] {
-    try {
-      return built(motion, other, formulation);
-    } catch (const InputError& fault) {  // of every rank: a node of the scene's mesh that the other does not have
-      throw RunError(fmt::format("on {}: {}", part.by, first_line(fault.what())));
+  void estimate() {
+    const double offline = time_.of_first(motion_.offline);
+    finer_ = growth(other_) * offline <= allowed_;
+    if (!finer_ && !scale_meshes(other_, 0.5)) {
+      part_.none = fmt::format("the reduction of the refined mesh would take about {:.2g} s (limit {:.2g} s)",
+                               growth(other_) * offline, allowed_);
+      return;
     }
-  }();
-  int step = 1;
-  const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
-  if (can_lengthen(motion))
-    while (needs() > time.left() && step < 4) step *= 2;
-  double end = motion.how.end;
-  if (const double share = time.left() / needs(); share < 1) end *= std::max(share, min_fraction);
-  solve::Integration how = motion.how;
-  how.step *= step, how.end = end;
-  if (step > 1) part.by += fmt::format(", steps {} times as long", step);
-  const auto simulate = [&](const Scene& scene, const Model& of, double most) {
-    return simulated(motion, time, scene, of, how, own.t,
-                     [&](const solve::Instant&, double spent) { return spent > most; });
-  };
-  const auto fails = [&](const ProbeHistory& history, double most) {
-    if (!history.enough && history.stopped.empty()) return false;
-    const std::string why = part.by + ": " + (history.enough ? too_long(most) : first_line(history.stopped));
-    const bool short_of = history.reached < min_fraction * motion.how.end;
-    if (full && history.enough && !short_of) return false;  // the time that the part covers is told
-    (short_of ? part.none : part.notes.emplace_back()) = why;
-    return short_of;
-  };
-  Simulated one{own.columns, own.values};
-  if (full) {
-    const Model same = built(motion, motion.scene, formulation);
-    ProbeHistory history = simulate(motion.scene, same, 0.7 * allowed);
-    if (fails(history, 0.7 * allowed)) return;
-    how.end = history.reached;
-    one = {probe_columns(same), std::move(history.values)};
+    if (finer_) scale_meshes(other_, 2);
+    part_.by = finer_ ? "elements half as long" : "elements twice as long";
+    const ErrorPart empty = part_;
+    add(reduced());
+    if (!is_reduced(motion_.model.formulation) || !crowded() || !(worst(part_) > doubtful)) return;
+    ErrorPart first = std::move(part_);
+    part_ = empty;
+    const std::string why = petsc::failed_together(motion_.comm, [&] { add(full_order()); });
+    if (!why.empty() || !(worst(part_) < worst(first))) part_ = std::move(first);
   }
-  const ProbeHistory history = simulate(other, model, 2 * allowed);
-  if (fails(history, 2 * allowed)) return;
-  if (!full && step > 1) one = again(motion, own, time, step, history.reached, part);
-  set_errors(own, {probe_columns(model), history.values}, one, finer ? power / (power - 1) : -1 / (power - 1), {},
-             part);
-  if (part.t.empty()) part.none = "there are no results at the instants stored";
-}
+
+ private:
+  struct Two {
+    Simulated other, one;  ///< on the other mesh, and on the motion's
+  };
+  static constexpr double doubtful = 1e-3;
+
+  void add(const std::optional<Two>& two) {
+    if (!two) return;
+    set_errors(own_, two->other, two->one, finer_ ? power / (power - 1) : -1 / (power - 1), {}, part_);
+    if (part_.t.empty()) part_.none = "there are no results at the instants stored";
+  }
+
+  /// Of all probes; without errors: infinite.
+  static double worst(const ErrorPart& part) {
+    if (!part.none.empty() || part.probes.empty()) return std::numeric_limits<double>::infinity();
+    double worst = 0;
+    for (const double error : part.probes)
+      if (!std::isnan(error)) worst = std::max(worst, error);
+    return worst;
+  }
+
+  /// Whether the basis vectors of a body are a great part of all that it can do: those of the same names are a smaller
+  /// part on a refined mesh, and the difference of reduced models is that of their reductions, too.
+  bool crowded() const {
+    return std::any_of(motion_.scene.bodies.begin(), motion_.scene.bodies.end(), [&](const Body& body) {
+      int columns = 0;
+      PetscInt dofs = 0;
+      for (const BodyReport& report : motion_.model.bodies)
+        if (report.name == body.name || report.whole == body.name) columns += report.columns, dofs += report.dofs;
+      return 4 * columns > dofs;
+    });
+  }
+
+  Model built_on_other(Formulation formulation) const {
+    try {
+      return built(motion_, other_, formulation);
+    } catch (const InputError& fault) {  // of every rank: a node of the scene's mesh that the other does not have
+      throw RunError(fmt::format("on {}: {}", part_.by, first_line(fault.what())));
+    }
+  }
+
+  ProbeHistory simulate(const Scene& scene, const Model& model, const solve::Integration& how, double most) const {
+    return simulated(motion_, time_, scene, model, how, own_.t,
+                     [&](const solve::Instant&, double spent) { return spent > most; });
+  }
+
+  /// Whether too little was simulated; what else ended it is noted.
+  bool fails(const ProbeHistory& history) {
+    if (!history.enough && history.stopped.empty()) return false;
+    const std::string why = part_.by + ": " + (history.enough ? too_long(2 * allowed_) : first_line(history.stopped));
+    const bool fails = history.reached < min_fraction * motion_.how.end;
+    (fails ? part_.none : part_.notes.emplace_back()) = why;
+    return fails;
+  }
+
+  /// Both at full order; of the first part of the motion, where the time does not suffice for the whole.
+  std::optional<Two> full_order() {
+    part_.by += ", in full-order models";
+    solve::Integration how = motion_.how;
+    const Model same = built(motion_, motion_.scene, Formulation::nlffr);
+    ProbeHistory one = simulate(motion_.scene, same, how, time_.spent() + 0.4 * time_.left());
+    if (!one.stopped.empty() && fails(one)) return std::nullopt;
+    how.end = one.reached;
+    const Model model = built_on_other(Formulation::nlffr);
+    ProbeHistory other = simulate(other_, model, how, 2 * allowed_);
+    if (fails(other)) return std::nullopt;
+    return Two{{probe_columns(model), std::move(other.values)}, {probe_columns(same), std::move(one.values)}};
+  }
+
+  std::optional<Two> reduced() {
+    const double took = std::max(1e-6, time_.of_first(motion_.seconds));
+    const Model model = built_on_other(motion_.model.formulation);
+    int step = 1;
+    const auto needs = [&] { return step == 1 ? took : 2 * took / step; };
+    if (can_lengthen(motion_))
+      while (needs() > time_.left() && step < 4) step *= 2;
+    solve::Integration how = motion_.how;
+    how.step *= step;
+    if (const double share = time_.left() / needs(); share < 1) how.end *= std::max(share, min_fraction);
+    if (step > 1) part_.by += fmt::format(", steps {} times as long", step);
+    ProbeHistory other = simulate(other_, model, how, 2 * allowed_);
+    if (fails(other)) return std::nullopt;
+    const double reached = other.reached;
+    Two two{{probe_columns(model), std::move(other.values)}, {own_.columns, own_.values}};
+    if (step > 1) two.one = again(motion_, own_, time_, step, reached, part_);
+    return two;
+  }
+
+  const FinishedMotion& motion_;
+  const ProbeSeries& own_;
+  const TimeBudget& time_;
+  double allowed_;
+  ErrorPart& part_;
+  Scene other_;
+  bool finer_ = true;
+};
 
 }  // namespace
 
@@ -96,7 +151,7 @@ ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& o
   for (const Body& body : motion.scene.bodies)
     if (body.reduced) part.notes.push_back(fmt::format("body {} comes from a file without its mesh", body.name));
   const TimeBudget time(motion.comm, allowed);
-  fill_in(motion, part, [&] { estimate(motion, own, time, allowed, part); });
+  fill_in(motion, part, [&] { MeshError(motion, own, time, allowed, part).estimate(); });
   part.seconds = time.spent();
   return part;
 }

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 #include "error_part.h"
+#include "floe/assess/probe_errors.h"
 #include "floe/error.h"
 
 namespace floe::assess {
@@ -27,11 +31,12 @@ std::string words(const Thinning& one) {
 class ModelError {
  public:
   ModelError(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction, const ErrorPart& mesh,
-             double allowed, ErrorPart& part)
+             const ErrorPart& step, double allowed, ErrorPart& part)
       : motion_(motion),
         own_(own),
         reduction_(reduction),
         mesh_(mesh),
+        step_(step),
         part_(part),
         time_(motion.comm, allowed),
         allowed_(allowed),
@@ -56,9 +61,15 @@ class ModelError {
       exact = corotational(used, until_, false);
     }
     part_.by = "formulation cfr, " + words(used);
+    const Exact plain = *exact;
     if (used.mesh == 1) extrapolate(used, *exact);
     if (used.step > 1) part_.by += fmt::format(", steps {} times as long", used.step);
-    set_errors(own_, exact->probes, own_motion(used, exact->reached), 1, others(), part_);
+    const Simulated one = own_motion(used, exact->reached);
+    set_errors(own_, exact->probes, one, 1, others(), part_);
+    if (const std::optional<Exact> twice = extrapolate_steps(used, plain, *exact)) {
+      set_errors(own_, exact->probes, one, 1, others(), part_ = emptied());
+      leave_out_unresolved(plain.probes, twice->probes);
+    }
     if (part_.t.empty()) part_.none = "formulation cfr has no results at the instants stored";
   }
 
@@ -118,27 +129,81 @@ class ModelError {
       }
       if (second->reached < 0.98 * exact.reached) return;
       if (mesh > 1) std::swap(exact, *second);
-      add_third(second->probes.values, exact.probes.values);
+      const std::vector<std::vector<double>> fine = second->probes.values;
+      add_third(second->probes.values, fine, exact.probes.values);
       exact = std::move(*second);
       part_.apart = true;
       part_.by += " and " + words(other);
     }
   }
 
-  /// fine += (fine - coarse) / 3.
-  static void add_third(std::vector<std::vector<double>>& fine, const std::vector<std::vector<double>>& coarse) {
-    fine.resize(std::min(fine.size(), coarse.size()));
-    for (std::size_t i = 0; i < fine.size(); ++i)
-      for (std::size_t c = 0; c < fine[i].size(); ++c) fine[i][c] += (fine[i][c] - coarse[i][c]) / 3;
+  /// Where the part is large, and the time allows: to steps of no length, with those twice as long. In coarse steps the
+  /// errors of both models' steps may be unlike, as those of motions are that only one of them has.
+  /// @return  the simulation in these; none: it was not made
+  std::optional<Exact> extrapolate_steps(Thinning used, const Exact& plain, Exact& exact) {
+    constexpr double large = 0.01;
+    const Thinning twice{used.mesh, 2 * used.step};
+    const bool is_large = std::any_of(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
+    if (!is_large || !can_lengthen(motion_) || !step_.none.empty() ||
+        step_.errors.size() < plain.probes.values.size() || time_.of_first(needs(twice)) > time_.left())
+      return std::nullopt;
+    std::optional<Exact> second;
+    const std::string why =
+        petsc::failed_together(motion_.comm, [&] { second = corotational(twice, exact.reached, false); });
+    if (!why.empty() || second->reached < 0.98 * exact.reached) return std::nullopt;  // the part stands
+    add_third(exact.probes.values, plain.probes.values, second->probes.values);
+    part_.by += ", and in steps twice as long";
+    steps_ = used.step;
+    return second;
   }
 
-  /// What is not of the model in the difference: the error of the reduction, and that of the mesh.
+  /// Probes whose part is smaller than what steps twice as long change of formulation cfr: its steps do not resolve
+  /// them, and the part says nothing of the model.
+  void leave_out_unresolved(const Simulated& fine, const Simulated& coarse) {
+    constexpr double large = 0.01, unknown = std::numeric_limits<double>::quiet_NaN();
+    ErrorPart change;
+    set_errors(own_, fine, coarse, 1, {}, change);
+    std::vector<std::string> names;
+    for (std::size_t c = 0, p = 0; c < own_.columns.size(); ++p) {
+      const std::string name = probe_of(own_.columns[c]);
+      const bool unresolved = part_.probes[p] > large && change.probes[p] > part_.probes[p];
+      if (unresolved) names.push_back(name), part_.probes[p] = unknown;
+      for (; c < own_.columns.size() && probe_of(own_.columns[c]) == name; ++c)
+        for (std::size_t i = 0; unresolved && i < part_.errors.size(); ++i) part_.errors[i][c] = unknown;
+    }
+    if (!names.empty())
+      part_.notes.push_back(
+          fmt::format("steps twice as long change formulation cfr by more than this part: {} {} left "
+                      "out; take a smaller motion.step",
+                      fmt::join(names, ", "), names.size() > 1 ? "are" : "is"));
+  }
+
+  /// The part without its errors.
+  ErrorPart emptied() const {
+    ErrorPart part = part_;
+    part.t.clear(), part.errors.clear(), part.probes.clear();
+    return part;
+  }
+
+  /// values += (fine - coarse) / 3.
+  static void add_third(std::vector<std::vector<double>>& values, const std::vector<std::vector<double>>& fine,
+                        const std::vector<std::vector<double>>& coarse) {
+    values.resize(std::min({values.size(), fine.size(), coarse.size()}));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (std::size_t c = 0; c < values[i].size(); ++c) values[i][c] += (fine[i][c] - coarse[i][c]) / 3;
+  }
+
+  /// What is not of the model in the difference: the errors of the reduction, of the mesh, and of extrapolated steps.
   std::vector<std::vector<double>> others() const {
     std::vector<std::vector<double>> sum = reduction_.errors;
-    if (!part_.apart) return sum;
     if (sum.empty()) sum.assign(own_.t.size(), std::vector<double>(own_.columns.size(), 0));
-    for (std::size_t i = 0; i < std::min(sum.size(), mesh_.errors.size()); ++i)
-      for (std::size_t c = 0; c < sum[i].size(); ++c) sum[i][c] += mesh_.errors[i][c];
+    const auto add = [&](double factor, const ErrorPart& part) {
+      for (std::size_t i = 0; i < std::min(sum.size(), part.errors.size()); ++i)
+        for (std::size_t c = 0; c < sum[i].size(); ++c)
+          if (!std::isnan(part.errors[i][c])) sum[i][c] += factor * part.errors[i][c];
+    };
+    if (part_.apart) add(1, mesh_);
+    if (steps_ > 0) add(steps_ * steps_, step_);
     return sum;
   }
 
@@ -202,18 +267,20 @@ class ModelError {
   const ProbeSeries& own_;
   const Estimate& reduction_;
   const ErrorPart& mesh_;
+  const ErrorPart& step_;
   ErrorPart& part_;
   TimeBudget time_;
   double allowed_, took_;
   Scene scene_;
   double each_ = 0;   // a step of formulation cfr [s]
   double until_ = 0;  // [s]
+  int steps_ = 0;     // of those of the motion, where steps are extrapolated; 0: they are not
 };
 
 }  // namespace
 
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-                               const ErrorPart& mesh, double allowed) {
+                               const ErrorPart& mesh, double allowed, const ErrorPart& step) {
   ErrorPart part;
   part.apart = false;
   part.none.clear();
@@ -223,7 +290,7 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
     part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
   if (!part.none.empty()) return part;
-  ModelError error(motion, own, reduction, mesh, allowed, part);
+  ModelError error(motion, own, reduction, mesh, step, allowed, part);
   fill_in(motion, part, [&] { error.estimate(); });
   part.seconds = error.spent();
   return part;

@@ -67,8 +67,11 @@ struct FinishedMotion {
 /// scenes with events that watch these.
 /// A fault of any rank leaves the part out on all ranks, with the reason. Collective on the communicator of the offline
 /// stage; up to 2000 elements every rank simulates its own copy.
+/// @param step       error of the step at the instants of `own`: where e_model is above 1 % and the time allows, y_cfr
+/// is
+///                   extrapolated (order 2) to steps of no length, too, and e_step subtracted
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-                               const ErrorPart& mesh, double allowed);
+                               const ErrorPart& mesh, double allowed, const ErrorPart& step = {});
 
 /// The error of the meshes: the reduced model is built and simulated on the mesh of elements half as long, or, where
 /// that takes too much time, twice as long. Errors of order 2 in the length,
