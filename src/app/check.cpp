@@ -14,6 +14,7 @@
 #include "floe/output/table.h"
 #include "floe/petsc/rank.h"
 #include "notices.h"
+#include "run_summary.h"
 
 namespace floe::app {
 namespace {
@@ -199,13 +200,12 @@ void check(const scene::Scene& scene, MPI_Comm comm, const std::optional<scene::
     fmt::print("adaptive steps with tolerance {}, the first of {} s\n", *scene.motion.tolerance, scene.motion.step);
   else if (moves)
     fmt::print("{} steps of {} s\n", std::llround(scene.motion.end / scene.motion.step), scene.motion.step);
-  if (model && model->velocity_correction > 1e-9)
-    fmt::print("the initial velocities violate the joints and will be changed by {:.2g} of their size\n",
-               model->velocity_correction);
   std::vector<std::string> notes = notices_of(sizes);
   if (model)
     for (const std::string& warning : model->warnings)
       if (std::find(notes.begin(), notes.end(), warning) == notes.end()) notes.push_back(warning);
+  if (const std::string changed = model && moves ? changed_start(*model) : ""; !changed.empty())
+    notes.push_back(changed);
   for (const std::string& note : notes) fmt::print("Note: {}\n", note);
 }
 

@@ -14,6 +14,7 @@
 #include "floe/solve/generalized_alpha.h"
 #include "interruption.h"
 #include "recorder.h"
+#include "run_summary.h"
 
 namespace floe::app {
 
@@ -124,6 +125,8 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   result.label = label_of(model);
   result.coordinates = model.coordinates;
   result.warnings = model.warnings;
+  if (const std::string changed = changed_start(model); !changed.empty() && !plan.from)
+    result.warnings.push_back(changed);
   result.series.columns = assembly::probe_columns(model);
 
   assess::KeptMotion kept(model, scene::is_reduced(model.formulation) ? 4000 : 100);

@@ -1,7 +1,11 @@
 #include "run_summary.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
+#include "floe/math/rounded.h"
 #include "floe/output/provenance.h"
 
 namespace floe::app {
@@ -53,6 +57,15 @@ ordered_json body_json(const assembly::BodyReport& body) {
 }
 
 }  // namespace
+
+std::string changed_start(const assembly::Model& model) {
+  constexpr double noticeable = 0.01;
+  if (!(model.velocity_correction > noticeable)) return "";
+  return fmt::format(
+      "the initial velocities contradict the joints and drives, and were changed by {} of their size, as by an impulse "
+      "at t = 0; give the bodies the velocities of their drives, or let drives begin with speed 0",
+      math::percent(std::min(1.0, model.velocity_correction)));
+}
 
 ordered_json first_summary(const scene::Scene& scene, const assembly::Model& model, MPI_Comm comm,
                            const RunResult& result) {

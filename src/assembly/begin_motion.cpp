@@ -14,8 +14,8 @@ void begin_motion(const Plan& plan, Model& model) {
     try {
       solve::equilibrium(*model.system, 0, model.U, model.V, true);
     } catch (const RunError& error) {
-      throw RunError(
-          fmt::format("{}.start: no static equilibrium at t = 0: {}", scene.motion.where.text(), error.what()));
+      throw RunError(fmt::format("{}.start: no static equilibrium was found at t = 0: {}", scene.motion.where.text(),
+                                 error.what()));
     }
     model.system->rebase(model.U);
   }

@@ -92,5 +92,6 @@ TEST_CASE("a start from equilibrium is refused where there is none or bodies mov
   std::string free = fill(sagging, {{"F", "0"}, {"start", "equilibrium"}});
   free.replace(free.find("joints:"), free.find("loads:") - free.find("joints:"), "");
   free.replace(free.find("  f: {joint"), std::string::npos, "");
-  CHECK_THROWS_WITH(testing::built(free, Formulation::vm_md), Contains("motion.start: no static equilibrium at t = 0"));
+  CHECK_THROWS_WITH(testing::built(free, Formulation::vm_md),
+                    Contains("motion.start: no static equilibrium was found at t = 0"));
 }
