@@ -250,9 +250,7 @@ class TotalSearch {
       decide("mesh and frames", choice, fmt::format("full-order models: {}", fmt::join(tried_, "; ")));
     for (const scene::Body& body : scene_.bodies)
       if (is_meshed(body) && body.mesh.segments.size() == 1 && !divisible(body))
-        decide("  " + body.name, fmt::format("{} frames", body.frames),
-               body.reduction.interface.empty() ? "not divided: it has modal damping"
-                                                : "not divided: it has an interface");
+        decide("  " + body.name, fmt::format("{} frames", body.frames), "not divided: it has an interface");
   }
 
   /// Reduction, step and mesh alone: the mesh by the reduced model on finer ones.

@@ -49,8 +49,7 @@ void write_frames(YAML::Node node, const Body& body, int frames) {
 }  // namespace
 
 bool divisible(const Body& body) {
-  return is_meshed(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty() &&
-         !has_modal_damping(body);
+  return is_meshed(body) && body.mesh.segments.size() == 1 && body.reduction.interface.empty();
 }
 
 Discretisation discretisation_of(const Scene& scene) {

@@ -28,7 +28,7 @@ namespace {
 Eigen::MatrixXd modal_damping(const PlannedBody& body, const ReducedBody& reduced, const reduction::Modes& modes) {
   const std::vector<double>& ratios = body.spec.damping.modal;
   const int k = reduced.body.coordinates();
-  if (ratios.empty()) return {};
+  if (ratios.empty() || body.spec.piece > 0) return {};  // of pieces: WholeModes
   const Eigen::MatrixXd K = reduced.body.elasticity.linear_stiffness();
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(k, k);
   for (std::size_t i = 0; i < std::min(ratios.size(), modes.omega.size()); ++i) {

@@ -95,7 +95,6 @@ namespace {
 
 Scene in_parts(const Scene& whole, Formulation formulation, MPI_Comm comm) {
   if (formulation == Formulation::cfr) return whole;
-  refuse_modal_damping_of_parts(whole);
   return split_frames(whole, comm);
 }
 

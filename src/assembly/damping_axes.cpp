@@ -1,7 +1,7 @@
 #include "damping_axes.h"
 
 #include <algorithm>
-#include <numeric>
+#include <iterator>
 
 #include "floe/assembly/body_stage.h"
 #include "floe/assembly/damping.h"
@@ -75,7 +75,7 @@ std::vector<std::unique_ptr<AccompanyingAxes>> modal_rows(const DampedWhole& who
   const reference::ModalDamping& modal = *whole.modal;
   const fem::Structure& s = body.structure;
   const Matrix3d A0 = undeformed_axes(body);
-  const int n = s.dofs_per_node, k = static_cast<int>(modal.forces.size());
+  const int n = s.dofs_per_node;
   std::vector<std::unique_ptr<petsc::ConstValues>> forces;
   for (const petsc::VecHandle& f : modal.forces) forces.push_back(std::make_unique<petsc::ConstValues>(f));
   std::vector<std::unique_ptr<AccompanyingAxes>> all;
@@ -106,11 +106,7 @@ std::vector<std::unique_ptr<AccompanyingAxes>> modal_rows(const DampedWhole& who
   MPI_Comm_rank(s.mesh.comm, &rank);
   MPI_Comm_size(s.mesh.comm, &size);
   if (rank + 1 < size) return all;
-  std::vector<int> y(k);
-  std::iota(y.begin(), y.end(), modal.y);
-  terms.push_back(std::make_unique<dynamics::LinearDamping>(y, modal.viscosity.asDiagonal()));
-  for (int i = 0; i < k; ++i) y.push_back(modal.multipliers + i);
-  terms.push_back(std::make_unique<reference::LinearConstraint>(std::move(y), -MatrixXd::Identity(k, k)));
+  std::ranges::move(reference::modal_dampers(modal.viscosity, modal.y, modal.multipliers), std::back_inserter(terms));
   return all;
 }
 

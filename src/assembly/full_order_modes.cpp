@@ -13,7 +13,7 @@ std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan
                                                                 dynamics::Coordinates& coordinates) {
   const PlannedBody& body = plan.bodies[index];
   const std::vector<double>& ratios = body.spec.damping.modal;
-  if (ratios.empty()) return std::nullopt;
+  if (ratios.empty() || body.spec.piece > 0) return std::nullopt;  // of pieces: WholeModes
   Stage stage;
   BodyReport report;
   begin_stage(plan, index, count_of_modes(body), stage, report);
@@ -38,7 +38,7 @@ std::optional<reference::ModalDamping> full_order_modal_damping(const Plan& plan
 void set_modal_coordinates(const reference::ModalDamping& damping, const PlannedBody& body,
                            const dynamics::Coordinates& coordinates, bool owner, Vec U, Vec V) {
   for (const auto& [field, into] : {std::pair(body.deformation.get(), U), {body.deformation_rate.get(), V}}) {
-    const Eigen::VectorXd y = reference::modal_coordinates(damping, field);
+    const Eigen::VectorXd y = reference::modal_coordinates(damping.forces, field);
     for (int i = 0; i < static_cast<int>(y.size()) && owner; ++i)
       check(VecSetValue(into, coordinates.global()[damping.y + i], y[i], INSERT_VALUES));
   }

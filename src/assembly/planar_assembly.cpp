@@ -84,6 +84,8 @@ void PlanarAssembly::add_coordinates() {
     slot.damping = full_order_damping(plan_, index, body.frame.conditions, coordinates_);
     slot.modal = full_order_modal_damping(plan_, index, body.frame.conditions, coordinates_);
   }
+  for (const WholeModes& modes : plan_.whole_modes)
+    modal_wholes_.emplace_back(plan_, modes, !compact(modes.bodies.front()), coordinates_);
   add_damping_axes();
   add_body_axes();
   joint_rows_ = independent_rows(plan_, reduced_, undetermined_);
@@ -260,6 +262,14 @@ Model PlanarAssembly::model() {
   set_start(model);
   start_body_axes(model);
   for (const DampedWhole& whole : damped_) add_damping(whole, model);
+  for (const WholeDamping& whole : modal_wholes_)
+    std::ranges::move(whole.terms(
+                          [&](int b) {
+                            return PieceUnknowns{compact(b) ? &reduced_[b] : nullptr, slots_[b].elastic,
+                                                 slots_[b].nodes.get(), &plan_.bodies[b].frame.conditions};
+                          },
+                          owner_),
+                      std::back_inserter(terms_));
   Eigen::VectorXd q;
   {
     const dynamics::System layout(coordinates_, {});

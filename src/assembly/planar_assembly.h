@@ -9,6 +9,7 @@
 #include "floe/reference/mass_damping.h"
 #include "full_order_modes.h"
 #include "sections.h"
+#include "whole_modes.h"
 
 namespace floe::assembly {
 
@@ -94,6 +95,7 @@ class PlanarAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
+  std::vector<WholeDamping> modal_wholes_;
   std::map<int, WholeAxes> body_axes_;  // of corotational bodies, in the axes of their meshes
   std::vector<int> joint_multipliers_;
   std::vector<std::vector<int>> joint_rows_;  // that stand, of each joint

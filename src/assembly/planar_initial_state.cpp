@@ -39,6 +39,7 @@ void PlanarAssembly::set_start(Model& model) {
   const dynamics::System layout(coordinates_, {});
   model.U = layout.create_vector();
   model.V = layout.create_vector();
+  for (const WholeDamping& whole : modal_wholes_) whole.set_start(coordinates_, owner_, model.U, model.V);
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
     const Slot& slot = slots_[b];

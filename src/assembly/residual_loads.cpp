@@ -34,7 +34,9 @@ Model full_order(Offline& offline, bool apart) {
     modal.push_back(std::exchange(body.spec.damping.modal, {}));
     mass.push_back(std::exchange(body.spec.damping.mass, 0));
   }
+  std::vector<WholeModes> whole_modes = std::exchange(offline.plan.whole_modes, {});
   const auto restore = [&] {
+    offline.plan.whole_modes = std::move(whole_modes);
     for (std::size_t b = 0; b < modal.size(); ++b) {
       DampingSpec& damping = offline.plan.bodies[b].spec.damping;
       damping.modal = modal[b], damping.mass = mass[b];

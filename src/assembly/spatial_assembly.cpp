@@ -180,6 +180,8 @@ void SpatialAssembly::add_coordinates() {
     slot.damping = full_order_damping(plan_, index, constrained(index), coordinates_);
     slot.modal = full_order_modal_damping(plan_, index, constrained(index), coordinates_);
   }
+  for (const WholeModes& modes : plan_.whole_modes)
+    modal_wholes_.emplace_back(plan_, modes, !compact(modes.bodies.front()), coordinates_);
   add_damping_axes();
   add_corotated_axes();
   for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
@@ -270,6 +272,7 @@ void SpatialAssembly::set_start(Model& model) {
   const dynamics::System layout(coordinates_, {});
   model.U = layout.create_vector();
   model.V = layout.create_vector();
+  for (const WholeDamping& whole : modal_wholes_) whole.set_start(coordinates_, owner_, model.U, model.V);
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const PlannedBody& body = plan_.bodies[b];
     if (slots_[b].corotated) {
@@ -316,6 +319,14 @@ Model SpatialAssembly::model() {
   set_start(model);
   start_corotated_axes(model);
   for (const DampedWhole& whole : damped_) add_damping(whole, model);
+  for (const WholeDamping& whole : modal_wholes_)
+    std::ranges::move(whole.terms(
+                          [&](int b) {
+                            return PieceUnknowns{compact(b) ? &reduced_[b] : nullptr, slots_[b].elastic,
+                                                 slots_[b].nodes.get(), &constrained(b)};
+                          },
+                          owner_),
+                      std::back_inserter(terms_));
   for (std::size_t b = 0; b < slots_.size(); ++b) {
     const int index = static_cast<int>(b);
     const PlannedBody& body = plan_.bodies[b];

@@ -12,6 +12,7 @@
 #include "floe/reference/spatial_full_order.h"
 #include "full_order_modes.h"
 #include "sections.h"
+#include "whole_modes.h"
 
 namespace floe::assembly {
 
@@ -155,6 +156,7 @@ class SpatialAssembly {
   dynamics::Coordinates coordinates_;
   std::vector<Slot> slots_;
   std::vector<DampedWhole> damped_;
+  std::vector<WholeDamping> modal_wholes_;
   std::map<int, std::vector<ConstrainedNode>> constrained_nodes_;  // of joints
   std::map<int, WholeAxes> body_axes_;            // of corotational bodies, in the axes of their meshes
   std::vector<MeanAxes> means_;                   // of corotational bodies, in the axes of their frames

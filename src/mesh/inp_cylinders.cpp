@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "all_ranks.h"
+#include "floe/mesh/all_ranks.h"
 #include "floe/mesh/labels.h"
 #include "inp_reading.h"
 #include "text.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "all_ranks.h"
+#include "floe/mesh/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "all_ranks.h"
 #include "deck_file.h"
+#include "floe/mesh/all_ranks.h"
 #include "floe/mesh/labels.h"
 #include "inp_reading.h"
 #include "text.h"

@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
-#include "all_ranks.h"
 #include "floe/error.h"
+#include "floe/mesh/all_ranks.h"
 
 namespace floe::mesh {
 namespace {

@@ -227,23 +227,13 @@ void add_parts_of(const Scene& scene, const Cuts& cuts, const Load& load, std::v
 
 }  // namespace
 
-void refuse_modal_damping_of_parts(const Scene& scene) {
-  std::vector<std::string> faults;
-  for (const Body& body : scene.bodies)
-    if (is_split(body) && is_meshed(body) && has_modal_damping(body))
-      faults.push_back(
-          fmt::format("{}.damping.modal: body {} is split into {} floating frames, whose modes are not those of the "
-                      "body; expected frames: 1, --formulation cfr, or damping: {{stiffness: BETA}} (a ratio "
-                      "BETA omega/2 of each mode)",
-                      body.where.text(), body.name, body.frames));
-  if (!faults.empty()) throw InputError(faults);
-}
-
 Scene split_frames(const Scene& scene, MPI_Comm comm) {
   Cuts cuts;
   for (const Body& body : scene.bodies)
     if (is_split(body) && !is_line(body)) cuts.emplace(body.name, cut_mesh(body, comm));
   Scene split = scene;
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), is_split))
+    split.unsplit = std::make_shared<const Scene>(scene);
   for (Joint& joint : split.joints) redirect(scene, cuts, joint.first), redirect(scene, cuts, joint.second);
   for (Load& load : split.loads)
     if (!load.spread()) redirect(scene, cuts, load.at);

@@ -1,25 +1,33 @@
 #include "floe/reference/modal_damping.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
 #include "floe/dynamics/damping.h"
 #include "floe/petsc/values.h"
 
 namespace floe::reference {
 
-std::vector<std::unique_ptr<dynamics::Term>> modal_damping_terms(const fem::Structure& structure,
-                                                                 const ModalDamping& damping,
-                                                                 const NodeCoordinates& nodes) {
-  const int n = structure.dofs_per_node, k = static_cast<int>(damping.forces.size());
+namespace {
+
+std::vector<int> from(int first, int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<dynamics::Term>> modal_rows(const fem::Structure& structure,
+                                                        const std::vector<petsc::VecHandle>& forces,
+                                                        const fem::Conditions& constrained, int multipliers,
+                                                        const NodeCoordinates& nodes) {
+  const int n = structure.dofs_per_node, k = static_cast<int>(forces.size());
   const fem::Mesh& mesh = structure.mesh;
-  const auto from = [k](int first) {
-    std::vector<int> all(k);
-    for (int i = 0; i < k; ++i) all[i] = first + i;
-    return all;
-  };
   Eigen::MatrixXd f(k, n * mesh.owned_nodes);
   for (int i = 0; i < k; ++i) {
-    petsc::Values own(damping.forces[i]);
+    petsc::Values own(forces[i]);
     std::copy(own.begin(), own.begin() + f.cols(), f.row(i).begin());
   }
   std::vector<std::unique_ptr<dynamics::Term>> terms;
@@ -28,31 +36,43 @@ std::vector<std::unique_ptr<dynamics::Term>> modal_damping_terms(const fem::Stru
     std::vector<Eigen::Index> columns;
     for (int d = 0; d < n; ++d) {
       const PetscInt dof = n * (mesh.first_node + node) + d;
-      if (std::binary_search(damping.constrained.begin(), damping.constrained.end(), dof) ||
-          f.col(n * node + d).isZero(0))
-        continue;
+      if (std::binary_search(constrained.begin(), constrained.end(), dof) || f.col(n * node + d).isZero(0)) continue;
       coordinates.push_back(nodes.of_local_node(static_cast<int>(node)) + d);
       columns.push_back(n * node + d);
     }
     if (columns.empty()) continue;
     Eigen::MatrixXd C = f(Eigen::all, columns);
-    for (int multiplier : from(damping.multipliers)) coordinates.push_back(multiplier);
+    for (int multiplier : from(multipliers, k)) coordinates.push_back(multiplier);
     terms.push_back(std::make_unique<LinearConstraint>(std::move(coordinates), std::move(C)));
   }
-  int rank = 0, size = 1;
-  MPI_Comm_rank(mesh.comm, &rank);
-  MPI_Comm_size(mesh.comm, &size);
-  if (rank + 1 < size) return terms;
-  std::vector<int> coordinates = from(damping.y);
-  terms.push_back(std::make_unique<dynamics::LinearDamping>(coordinates, damping.viscosity.asDiagonal()));
-  for (int multiplier : from(damping.multipliers)) coordinates.push_back(multiplier);
+  return terms;
+}
+
+std::vector<std::unique_ptr<dynamics::Term>> modal_dampers(const Eigen::VectorXd& viscosity, int y, int multipliers) {
+  const int k = static_cast<int>(viscosity.size());
+  std::vector<int> coordinates = from(y, k);
+  std::vector<std::unique_ptr<dynamics::Term>> terms;
+  terms.push_back(std::make_unique<dynamics::LinearDamping>(coordinates, viscosity.asDiagonal()));
+  for (int multiplier : from(multipliers, k)) coordinates.push_back(multiplier);
   terms.push_back(std::make_unique<LinearConstraint>(std::move(coordinates), -Eigen::MatrixXd::Identity(k, k)));
   return terms;
 }
 
-Eigen::VectorXd modal_coordinates(const ModalDamping& damping, Vec q) {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(damping.forces.size()));
-  for (Eigen::Index i = 0; q && i < y.size(); ++i) petsc::check(VecDot(damping.forces[i], q, &y[i]));
+std::vector<std::unique_ptr<dynamics::Term>> modal_damping_terms(const fem::Structure& structure,
+                                                                 const ModalDamping& damping,
+                                                                 const NodeCoordinates& nodes) {
+  auto terms = modal_rows(structure, damping.forces, damping.constrained, damping.multipliers, nodes);
+  int rank = 0, size = 1;
+  MPI_Comm_rank(structure.mesh.comm, &rank);
+  MPI_Comm_size(structure.mesh.comm, &size);
+  if (rank + 1 == size)
+    std::ranges::move(modal_dampers(damping.viscosity, damping.y, damping.multipliers), std::back_inserter(terms));
+  return terms;
+}
+
+Eigen::VectorXd modal_coordinates(const std::vector<petsc::VecHandle>& forces, Vec q) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(forces.size()));
+  for (Eigen::Index i = 0; q && i < y.size(); ++i) petsc::check(VecDot(forces[i], q, &y[i]));
   return y;
 }
 

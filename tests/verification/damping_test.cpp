@@ -197,6 +197,18 @@ TEST_CASE("damping: modal, in full-order models as in reduced ones") {
 }
 
 // Ratios in axes that accompany the body; a rigid rotation on the side is not damped.
+TEST_CASE("damping: modal, the same in any number of frames") {
+  const int dimension = GENERATE(2, 3);
+  const std::string frames = GENERATE("2", "4");
+  for (const Held& constrained : ways_to_hold(dimension))
+    for (const Formulation formulation : {Formulation::vm_md, Formulation::nlffr}) {
+      INFO(dimension << " " << constrained.name << " " << frames << " frames, " << name_of(formulation));
+      const History at =
+          vibrating(dimension, constrained, "pinned", formulation, "frames: " + frames, "modal: [0.05, 0.05]");
+      CHECK(ratio_of_decay(at.t, at["tip.y"], 0) == Approx(0.05).epsilon(0.005));
+    }
+}
+
 TEST_CASE("damping: modal, in corotational elements") {
   const int dimension = GENERATE(2, 3);
   for (const Held& constrained : ways_to_hold(dimension)) {

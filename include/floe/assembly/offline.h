@@ -10,7 +10,7 @@ struct Offline {
   std::vector<ReducedBody> reduced;
 
   /// Collective.
-  Offline(Scene whole, MPI_Comm comm) : scene(std::move(whole)), plan(prepare(scene, comm)) {}
+  Offline(Scene whole, MPI_Comm comm);
   Offline(const Offline&) = delete;
   Offline& operator=(const Offline&) = delete;
 };

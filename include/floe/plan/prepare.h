@@ -8,6 +8,7 @@
 #include "floe/body/flexible_body.h"
 #include "floe/fem/reference_frame.h"
 #include "floe/fem/structure.h"
+#include "floe/plan/whole_modes.h"
 #include "floe/scene/formulation.h"
 #include "floe/scene/scene.h"
 
@@ -116,7 +117,8 @@ struct Plan {
   /// In space: whether the dofs that the modes hold do all that the joint does (to the ground only).
   std::vector<char> joint_constrained = {};
   std::map<std::size_t, std::vector<LoadPart>> load_parts = {};  ///< of loads per length or area
-  std::vector<Interface> interfaces = {};  ///< in space, of each joint; of those without edges: nodes empty
+  std::vector<Interface> interfaces = {};    ///< in space, of each joint; of those without edges: nodes empty
+  std::vector<WholeModes> whole_modes = {};  ///< of bodies in several frames that have modal damping
 };
 
 /// Where a force or moment acts: its place, or the parts of one per length or area.
@@ -142,8 +144,5 @@ bool last_rank(MPI_Comm comm);
 /// Each split body (frames: N) as bodies `name#i` that are clamped together: a single line as N lines of equal length,
 /// another mesh in pieces (cut_mesh), whose joints have edges: nodes. @throws InputError  Collective.
 Scene split_frames(const Scene& scene, MPI_Comm comm);
-/// For models of split bodies: ratios of `damping.modal` would be those of the modes of each piece, which is stiffer
-/// than the whole. @throws InputError  a split body has modal damping. Rank-local.
-void refuse_modal_damping_of_parts(const Scene& scene);
 
 }  // namespace floe::plan

@@ -19,12 +19,20 @@ struct ModalDamping {
   int y = -1, multipliers = -1;          ///< local indices of the first
 };
 
-/// Each rank gets the terms of its own nodes; the last one what acts on y alone. Rank-local.
+/// Rows of the multipliers, f_i'q, of this rank's own nodes. Rank-local.
+std::vector<std::unique_ptr<dynamics::Term>> modal_rows(const fem::Structure& structure,
+                                                        const std::vector<petsc::VecHandle>& forces,
+                                                        const fem::Conditions& constrained, int multipliers,
+                                                        const NodeCoordinates& nodes);
+/// What acts on y alone: the viscous forces, and -y_i in the rows. Rank-local.
+std::vector<std::unique_ptr<dynamics::Term>> modal_dampers(const Eigen::VectorXd& viscosity, int y, int multipliers);
+
+/// Both: each rank gets the terms of its own nodes; the last one what acts on y alone. Rank-local.
 std::vector<std::unique_ptr<dynamics::Term>> modal_damping_terms(const fem::Structure& structure,
                                                                  const ModalDamping& damping,
                                                                  const NodeCoordinates& nodes);
 
 /// y of a displacement field; null: zero. Collective.
-Eigen::VectorXd modal_coordinates(const ModalDamping& damping, Vec q);
+Eigen::VectorXd modal_coordinates(const std::vector<petsc::VecHandle>& forces, Vec q);
 
 }  // namespace floe::reference

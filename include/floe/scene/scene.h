@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -203,6 +204,7 @@ struct Scene {
   std::optional<Accuracy> accuracy;
   std::vector<Probe> probes;
   std::vector<Event> events;
+  std::shared_ptr<const Scene> unsplit = {};  ///< of one whose bodies were split (plan::split_frames): as it was
 };
 
 /// Reads and checks a scene. @throws InputError with a line per fault (file:line:column: key: what was expected,
