@@ -198,7 +198,8 @@ void solve_static(const scene::Scene& scene, scene::Formulation formulation, MPI
     fmt::print("{} more columns of the table are in {}\n", result.series.columns.size() - shown,
                folder.probes().string());
   if (estimate)
-    fmt::print("{}{}", budget_words(result.summary["estimate"], result.end), estimate_words(result.estimate));
+    fmt::print("{}{}", budget_words(result.summary["estimate"], result.end),
+               estimate_words(result.estimate, result.summary["estimate"].contains("total")));
   for (const std::string& warning : result.warnings) fmt::print("Note: {}\n", warning);
   fmt::print("Results: {}\n", folder.path.string());
 }

@@ -71,6 +71,7 @@ bool straight(const scene::Body& body) { return is_meshed(body) && body.mesh.seg
 /// What makes the part `model` smaller: what the bodies do not have yet.
 std::string model_advice(const assess::FinishedMotion& motion, const assess::ErrorPart& part) {
   std::vector<std::string> all;
+  if (part.with_reduction) all.push_back("take more modes or derivatives (the part contains the reduction error)");
   if (!part.apart) all.push_back("take more elements (the part contains the difference of both models' mesh errors)");
   const auto& bodies = motion.model.bodies;
   if (std::any_of(bodies.begin(), bodies.end(),
@@ -89,8 +90,9 @@ std::string model_advice(const assess::FinishedMotion& motion, const assess::Err
 std::string advice(int part, const assess::FinishedMotion& motion, const assess::ErrorPart& model, double error) {
   switch (part) {
     case 0:
-      return motion.at_rest ? "take more modes or derivatives (reduction)"
-                            : "take more modes or derivatives (reduction), or select them: --accuracy reduction:1%";
+      return motion.at_rest || !motion.scene.events.empty()
+                 ? "take more modes or derivatives (reduction)"
+                 : "take more modes or derivatives (reduction), or select them: --accuracy reduction:1%";
     case 1:
       return model_advice(motion, model);
     case 2:
@@ -177,6 +179,7 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   double allowed = assess::estimate_seconds(motion.offline + motion.seconds);
   MPI_Bcast(&allowed, 1, MPI_DOUBLE, 0, motion.comm);
   const assess::ProbeSeries own = assess::probe_series(motion.model, kept, result.estimate);
+  if (!own.changes.empty()) result.estimate = assess::estimate_by_full_order(motion, own, allowed);
   assess::ErrorPart reduction, step, model, mesh;
   reduction.none = result.estimate.none;
   reduction.probes = result.estimate.probes, reduction.t = result.estimate.t, reduction.errors = result.estimate.errors;
@@ -211,7 +214,8 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
     ordered_json lacks = ordered_json::array();
     for (int i = all_rigid(motion.scene) && made_rigid.empty() ? 3 : 0; i < count; ++i)
-      if (!all[i]->none.empty() || std::isnan(all[i]->probes[p])) lacks.push_back(parts[i]);
+      if ((i > 0 || !model.with_reduction) && (!all[i]->none.empty() || std::isnan(all[i]->probes[p])))
+        lacks.push_back(parts[i]);
     if (!lacks.empty()) j["total"]["missing"][motion.model.probes[p].name] = lacks;
   }
   return j;

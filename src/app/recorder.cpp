@@ -189,8 +189,9 @@ void Recorder::write_estimate() {
   std::vector<double> errors;
   for (const auto& row : estimate.errors) errors.insert(errors.end(), row.begin(), row.end());
   file_->write_array("estimate/t", {rows}, estimate.t, {"s", "time"});
-  file_->write_array("estimate/deformation", {rows}, estimate.relative,
-                     {"", "estimated error of the deformations, mass-weighted, relative to their root mean square"});
+  if (estimate.by.empty())
+    file_->write_array("estimate/deformation", {rows}, estimate.relative,
+                       {"", "estimated error of the deformations, mass-weighted, relative to their root mean square"});
   if (columns > 0)
     file_->write_array("estimate/probes", {rows, columns}, errors,
                        {"", "estimated error of each column of probes.csv: full-order model minus this model"});

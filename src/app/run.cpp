@@ -45,12 +45,6 @@ std::string offline_words(const scene::Scene& scene, scene::Formulation formulat
   return fmt::format("reducing {} bodies", names.size());
 }
 
-/// Whether events do more than end the motion.
-bool changes_joints(const scene::Scene& scene) {
-  return std::any_of(scene.events.begin(), scene.events.end(),
-                     [](const scene::Event& event) { return event.kind != scene::Event::Kind::stop; });
-}
-
 std::exception_ptr fault_of(const std::function<void()>& work) {
   try {
     work();
@@ -137,8 +131,11 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
   how.newton_tolerance = plan.newton_tolerance;
   how.events = assembly::events_of(scene, model, end);
   how.kinks = assembly::kinks_of(scene, end);
-  how.on_event = [&](const dynamics::EventReport& event) { recorder.note(event); };
-  const bool estimates = plan.estimate && !plan.from && !changes_joints(scene);
+  how.on_event = [&](const dynamics::EventReport& event) {
+    recorder.note(event);
+    if (keeps) kept.note(event);
+  };
+  const bool estimates = plan.estimate && !plan.from;
   std::optional<assess::MotionStart> start;
   if (estimates && plan.budget) start = assess::start_of(model);
   const std::optional<solve::MotionState> from =
@@ -208,7 +205,6 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     if (!warning.empty()) result.warnings.push_back(warning);
   if (plan.keep_states) result.states = kept.states();
   if (plan.estimate && plan.from) result.estimate.none = "the run was restarted from a checkpoint";
-  if (plan.estimate && !plan.from && changes_joints(scene)) result.estimate.none = "events change the joints";
   const bool assesses = !fault && (estimates || plan.check_range);
   const std::exception_ptr later = fault_of([&] {
     const auto keep = [&] { recorder.observe({report.end, report.steps, model.U, model.V, nullptr, true}); };
@@ -226,10 +222,12 @@ RunResult move(const scene::Scene& scene, assembly::Model& model, double offline
     if (plan.check_range) check_range(scene, model, kept, comm, plan, result);
     if (estimates) {
       const output::Waiting waiting(comm, "estimating the error");
-      result.estimate = assess::estimate_error(
-          model, kept,
-          plan.estimate_seconds.value_or(
-              assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds())));
+      const double seconds = plan.estimate_seconds.value_or(
+          assess::estimate_seconds(result.offline_seconds + result.motion_seconds + recorder.seconds()));
+      if (kept.changes().empty())
+        result.estimate = assess::estimate_error(model, kept, seconds);
+      else
+        result.estimate.none = "events change the joints";
       if (start)
         budget = error_budget({scene, model, *start, how, report.steps, report.processor_seconds,
                                plan.offline_processor.value_or(offline_seconds), comm},

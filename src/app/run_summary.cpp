@@ -90,12 +90,18 @@ ordered_json first_summary(const scene::Scene& scene, const assembly::Model& mod
 ordered_json estimate_json(const assess::Estimate& estimate, const assembly::Model& model) {
   if (!estimate.none.empty()) return {{"none", estimate.none}};
   ordered_json j;
-  j["deformation"] = estimate.deformation;
-  for (std::size_t p = 0; p < model.probes.size(); ++p) j["probes"][model.probes[p].name] = estimate.probes[p];
-  j["full_order_residuals"] = estimate.samples;
-  j["columns"] = estimate.columns;
+  if (estimate.by.empty()) j["deformation"] = estimate.deformation;
+  for (std::size_t p = 0; p < model.probes.size(); ++p)
+    if (!std::isnan(estimate.probes[p])) j["probes"][model.probes[p].name] = estimate.probes[p];
+  if (estimate.by.empty()) {
+    j["full_order_residuals"] = estimate.samples;
+    j["columns"] = estimate.columns;
+    j["unbalanced"] = estimate.unbalanced;
+  } else {
+    j["by"] = estimate.by;
+    j["until"] = estimate.t.back();
+  }
   j["steps"] = estimate.t.size();
-  j["unbalanced"] = estimate.unbalanced;
   j["seconds"] = {{"taken", estimate.seconds}, {"allowed", estimate.allowed}};
   if (!estimate.notes.empty()) j["notes"] = estimate.notes;
   return j;

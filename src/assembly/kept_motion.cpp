@@ -9,12 +9,28 @@ using solve::State;
 
 void KeptMotion::keep(const solve::Instant& instant) {
   if (instant.step == 0) begin_ = instant.t;
-  if (!instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
+  if (instant.step == 0 && carried_.empty()) model_.system->save(carried_);
+  if (!changes_.empty()) event_error_ = std::max(event_error_, instant.event_error);
+  const bool again = !changes_.empty() && instant.t == changes_.back().t;  // behind the event
+  if (again || !instant.A || (instant.step % stride_ != 0 && !instant.last)) return;
   states_.push_back(solve::state_of(*model_.system, instant.t, instant.U, instant.V, instant.A));
   if (states_.size() < most_) return;
   for (std::size_t i = 0; 2 * i + 1 < states_.size(); ++i) std::swap(states_[i], states_[2 * i + 1]);
   states_.resize(states_.size() / 2);
   stride_ *= 2;
+}
+
+void KeptMotion::note(const solve::EventReport& event) {
+  if (!event.switches) return;
+  changes_.push_back({event.name, event.t});
+  model_.system->save(changes_.back().carried);
+}
+
+void KeptMotion::set_joints(const State& state) const {
+  if (changes_.empty()) return;
+  const auto next = std::partition_point(changes_.begin(), changes_.end(),
+                                         [&](const JointChange& change) { return change.t < state.t; });
+  model_.system->load(next == changes_.begin() ? carried_ : std::prev(next)->carried);
 }
 
 VectorXd deformations(const Model& model, const VectorXd& q) {

@@ -92,7 +92,8 @@ class Field {
 };
 
 /// K phi / omega^2 of a piece. Collective.
-std::vector<petsc::VecHandle> forces_on(const PlannedBody& piece, const Field& field, const std::vector<double>& omega) {
+std::vector<petsc::VecHandle> forces_on(const PlannedBody& piece, const Field& field,
+                                        const std::vector<double>& omega) {
   const fem::Structure& s = piece.structure;
   const int n = s.dofs_per_node;
   const Eigen::Matrix3d A = undeformed_axes(piece).transpose();
@@ -132,7 +133,8 @@ WholeModes modes_of(const Plan& plan, std::vector<int> pieces) {
   omega.resize(std::min(ratios.size(), omega.size()));
   WholeModes modes;
   modes.viscosity.resize(static_cast<Eigen::Index>(omega.size()));
-  for (std::size_t i = 0; i < omega.size(); ++i) modes.viscosity[static_cast<Eigen::Index>(i)] = 2 * ratios[i] * omega[i];
+  for (std::size_t i = 0; i < omega.size(); ++i)
+    modes.viscosity[static_cast<Eigen::Index>(i)] = 2 * ratios[i] * omega[i];
   const Field field(*at, stage.generators.modes.shapes);
   for (const int b : pieces) modes.forces.push_back(forces_on(plan.bodies[b], field, omega));
   modes.bodies = std::move(pieces);

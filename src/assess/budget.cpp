@@ -20,13 +20,14 @@ bool whole(const ErrorPart& part, const ProbeSeries& own) {
 }  // namespace
 
 ProbeSeries probe_series(const Model& model, const KeptMotion& motion, const Estimate& reduction) {
-  ProbeSeries series{probe_columns(model), {}, {}};
+  ProbeSeries series{probe_columns(model), {}, {}, motion.changes(), motion.event_error()};
   const std::vector<solve::State>& states = motion.states();
   const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                          A = model.system->create_vector();
   const std::size_t stride = reduction.t.empty() ? 1 + states.size() / most_instants : 1;
   for (std::size_t i = states.empty() ? 0 : (states.size() - 1) % stride; i < states.size(); i += stride) {
     if (!reduction.t.empty() && !std::binary_search(reduction.t.begin(), reduction.t.end(), states[i].t)) continue;
+    motion.set_joints(states[i]);
     solve::set_state(*model.system, states[i], U, V, A);
     series.t.push_back(states[i].t);
     series.values.push_back(probe_values(model, states[i].t, U, V, A));

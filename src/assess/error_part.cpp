@@ -11,6 +11,7 @@
 
 #include "floe/assess/probe_errors.h"
 #include "floe/error.h"
+#include "floe/math/rounded.h"
 #include "floe/petsc/error.h"
 #include "floe/petsc/rank.h"
 #include "floe/petsc/together.h"
@@ -53,6 +54,34 @@ void share_fault(MPI_Comm comm, const std::exception_ptr& fault, ProbeHistory& h
   history.values.resize(count);
 }
 
+/// The first event that is not among others.
+std::string first_beside(const std::vector<std::string>& events, const std::vector<std::string>& others) {
+  for (const std::string& event : events)
+    if (std::find(others.begin(), others.end(), event) == others.end()) return event;
+  return "";
+}
+
+/// Instants at which other joints hold than in the motion itself are not compared.
+void leave_out_other_joints(const ProbeSeries& own, ProbeHistory& history) {
+  if (own.changes.empty() && history.changes.empty()) return;
+  std::size_t last = 0;  // behind the last one that is compared
+  for (std::size_t i = 0; i < history.values.size(); ++i) {
+    const bool same = same_joints(own.changes, own.t[i], std::span(history.changes).first(history.happened[i]));
+    if (same) last = i + 1;
+    if (!same) history.values[i].assign(history.values[i].size(), unknown);
+  }
+  if (last == history.values.size() || own.t.back() - own.t[last] < 0.02 * own.t.back()) return;
+  std::vector<std::string> events;
+  for (const JointChange& change : own.changes) events.push_back(change.event);
+  std::string name = first_beside(events, history.changes);
+  if (name.empty()) name = first_beside(history.changes, events);
+  if (name.empty()) return;  // late
+  history.reached = own.t[last];
+  history.values.resize(last);
+  history.stopped = fmt::format("only to t = {:.3g} s, from which on event {} makes the joints of both models differ",
+                                history.reached, name);
+}
+
 }  // namespace
 
 void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated& one, double weight,
@@ -60,18 +89,26 @@ void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated&
   const std::vector<int> theirs = places_of(own.columns, other.columns), ours = places_of(own.columns, one.columns);
   const std::size_t count = std::min({own.t.size(), other.values.size(), one.values.size()});
   ProbeErrors errors(own.columns);
+  std::size_t left_out = 0;
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> row(own.columns.size(), unknown);
+    bool compares = true;
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (theirs[c] < 0 || ours[c] < 0) continue;
       row[c] = weight * (other.values[i][theirs[c]] - one.values[i][ours[c]]);
       if (i < less.size()) row[c] -= less[i][c];
+      compares = compares && !std::isnan(row[c]);
     }
-    errors.add(row, own.values[i]);
+    if (compares) errors.add(row, own.values[i]);
+    if (!compares) ++left_out;
     part.t.push_back(own.t[i]);
     part.errors.push_back(std::move(row));
   }
-  if (count == 0) return;
+  if (left_out == count) part.t.clear();
+  if (part.t.empty()) return;
+  if (const double share = static_cast<double>(left_out) / static_cast<double>(count); share > 0.02)
+    part.notes.push_back(fmt::format(
+        "{} of the instants are between the times of an event in both models: not compared", math::percent(share)));
   part.until = part.t.back();
   part.probes = errors.relative(part.until - part.t.front());
   for (double& error : part.probes)
@@ -134,17 +171,21 @@ Model built(const FinishedMotion& motion, const Scene& scene, Formulation formul
 }
 
 ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, const Scene& scene, const Model& model,
-                       const solve::Integration& how, const std::vector<double>& times, const Enough& enough) {
+                       const solve::Integration& how, const ProbeSeries& own, const Enough& enough) {
   const auto looks = [&](const solve::Instant& instant) {
     return motion.at_rest || instant.step <= looked_at || instant.step % look_every == 0;
   };
   const auto history_of = [&](const std::function<bool(const solve::Instant&)>& ends) {
-    return motion.at_rest ? equilibrium_history(model, how, times, ends)
-                          : probe_history(scene, model, how, times, ends);
+    return motion.at_rest ? equilibrium_history(model, how, own.t, ends)
+                          : probe_history(scene, model, how, own.t, ends);
   };
-  if (!is_reduced(model.formulation) && !alone(motion))
-    return history_of(
+  ProbeHistory history;
+  if (!is_reduced(model.formulation) && !alone(motion)) {
+    history = history_of(
         [&](const solve::Instant& instant) { return enough && looks(instant) && enough(instant, time.spent()); });
+    leave_out_other_joints(own, history);
+    return history;
+  }
   bool failed = false;  // a rank, as all know
   const auto look = [&](bool here) {
     double all[2] = {here ? 1. : 0., petsc::first_rank(motion.comm) ? time.spent_here() : 0};
@@ -152,7 +193,6 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
     failed = all[0] > 0;
     return all[1];
   };
-  ProbeHistory history;
   std::exception_ptr fault;
   try {
     history = history_of([&](const solve::Instant& instant) {
@@ -166,6 +206,7 @@ ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, con
   const bool told = failed;
   if (!told) look(fault || !history.stopped.empty());
   if (failed) share_fault(motion.comm, told ? nullptr : fault, history);
+  leave_out_other_joints(own, history);
   return history;
 }
 
@@ -178,8 +219,8 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
   const petsc::VecHandle A = motion.model.system->create_vector();
   solve::set_state(*motion.model.system, motion.start.state, motion.model.U, motion.model.V, A);
   motion.model.system->load(motion.start.carried);
-  return compared(motion, own.columns, simulated(motion, time, motion.scene, motion.model, how, own.t),
-                  fmt::format("the motion in steps {} times as long", times), part);
+  return compared(motion, own.columns, simulated(motion, time, motion.scene, motion.model, how, own),
+                  fmt::format("the motion in steps {:g} times as long", times), part);
 }
 
 bool any_mesh(const Scene& scene) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed); }

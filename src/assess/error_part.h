@@ -10,7 +10,8 @@ namespace floe::assess {
 /// What the estimates of model and mesh have in common.
 
 /// y = weight (other - one), of the columns of `own` (by name), less the rows of `less` where there are any; fills in
-/// t, errors, probes and until. Columns that a model does not have are NaN.
+/// t, errors, probes and until. Columns that a model does not have are NaN; so are instants that are not to be
+/// compared, which do not count.
 struct Simulated {
   std::vector<ProbeColumn> columns;
   std::vector<std::vector<double>> values;  ///< of each instant of ProbeSeries::t that was reached
@@ -39,8 +40,10 @@ bool can_lengthen(const FinishedMotion& motion);
 /// The probes of a model that built() made, or of the motion's own: simulated, or its equilibria. Where every rank has
 /// its own copy, one that fails stops all of them when they look at the time next: they have as many values, and the
 /// reason (ProbeHistory::stopped) is that of the first one that failed. Collective.
+/// @param own  probes at whose instants they are wanted. Between the times that an event which changes joints has in
+/// both motions they are NaN; behind the time of one that happens in one motion only there are none (`stopped`).
 ProbeHistory simulated(const FinishedMotion& motion, const TimeBudget& time, const Scene& scene, const Model& model,
-                       const solve::Integration& how, const std::vector<double>& times, const Enough& enough = {});
+                       const solve::Integration& how, const ProbeSeries& own, const Enough& enough = {});
 
 /// A share of the motion: what simulates less than that is no estimate.
 inline constexpr double min_fraction = 0.2;

@@ -85,7 +85,7 @@ class MeshError {
   }
 
   ProbeHistory simulate(const Scene& scene, const Model& model, const solve::Integration& how, double most) const {
-    return simulated(motion_, time_, scene, model, how, own_.t,
+    return simulated(motion_, time_, scene, model, how, own_,
                      [&](const solve::Instant&, double spent) { return spent > most; });
   }
 

@@ -9,18 +9,18 @@
 #include "error_part.h"
 #include "floe/assess/probe_errors.h"
 #include "floe/error.h"
+#include "floe/math/rounded.h"
 
 namespace floe::assess {
 
 namespace {
 
-constexpr double min_step_seconds = 2e-6;  // processor time of a step of formulation cfr, for each element [s]
+constexpr double min_step_seconds = 2e-6;  // processor time of a step of cfr or nlffr, for each element [s]
 constexpr PetscInt slow_steps = 5;         // at the start, which take longer; looked_at of them show how long one takes
 
 /// How fine and how coarse both models are made: lengths of elements and steps, of those of the motion.
 struct Thinning {
-  double mesh = 1;
-  int step = 1;
+  double mesh = 1, step = 1;
 };
 
 std::string words(const Thinning& one) {
@@ -28,11 +28,19 @@ std::string words(const Thinning& one) {
   return one.mesh < 1 ? "elements half as long" : fmt::format("elements {:g} times as long", one.mesh);
 }
 
+std::string step_words(double step) {
+  if (step == 1) return "";
+  return step < 1 ? fmt::format(", steps 1/{:g} as long", 1 / step) : fmt::format(", steps {:g} times as long", step);
+}
+
+/// The difference to a better model, `formulation`, on the scene's mesh.
 class ModelError {
  public:
-  ModelError(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction, const ErrorPart& mesh,
-             const ErrorPart& step, double allowed, ErrorPart& part)
-      : motion_(motion),
+  ModelError(Formulation formulation, const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
+             const ErrorPart& mesh, const ErrorPart& step, double allowed, ErrorPart& part)
+      : formulation_(formulation),
+        name_("formulation " + name_of(formulation)),
+        motion_(motion),
         own_(own),
         reduction_(reduction),
         mesh_(mesh),
@@ -45,48 +53,54 @@ class ModelError {
 
   void estimate() {
     if (scene_.probes.empty()) {
-      part_.none = "no probe can be compared with formulation cfr";
+      part_.none = "no probe can be compared with " + name_;
       return;
     }
     if (const double seconds = min_seconds(); min_fraction * seconds / most_times_faster() > allowed_) {
-      part_.none = fmt::format("formulation cfr would take more than {:.2g} s (limit {:.2g} s)", seconds, allowed_);
+      part_.none = fmt::format("{} would take more than {:.2g} s (limit {:.2g} s)", name_, seconds, allowed_);
       return;
     }
     Thinning used;
-    std::optional<Exact> exact = corotational(used, motion_.how.end, true);
+    std::optional<Better> exact = better(used, motion_.how.end, true);
     if (!exact) {
       const std::optional<Thinning> thinning = affordable();
       if (!thinning) return;
       used = *thinning;
-      exact = corotational(used, until_, false);
+      exact = better(used, until_, false);
     }
-    part_.by = "formulation cfr, " + words(used);
-    const Exact plain = *exact;
-    if (used.mesh == 1) extrapolate(used, *exact);
-    if (used.step > 1) part_.by += fmt::format(", steps {} times as long", used.step);
+    if (!resolved(exact->event_error)) exact = in_shorter_steps(used, exact->event_error);
+    if (!exact) return;
+    part_.by = name_ + ", " + words(used);
+    const Better plain = *exact;
+    if (used.mesh == 1 && formulation_ == Formulation::cfr) extrapolate(used, *exact);
+    part_.by += step_words(used.step);
+    if (formulation_ == Formulation::cfr && reduction_.errors.empty()) {
+      part_.with_reduction = true;
+      part_.notes.push_back("it contains the reduction error, which is not known by itself");
+    }
     const Simulated one = own_motion(used, exact->reached);
     set_errors(own_, exact->probes, one, 1, others(), part_);
-    if (const std::optional<Exact> twice = extrapolate_steps(used, plain, *exact)) {
+    if (const std::optional<Better> twice = extrapolate_steps(used, plain, *exact)) {
       set_errors(own_, exact->probes, one, 1, others(), part_ = emptied());
       leave_out_unresolved(plain.probes, twice->probes);
     }
-    if (part_.t.empty()) part_.none = "formulation cfr has no results at the instants stored";
+    if (part_.t.empty()) part_.none = name_ + " has no results at the instants stored";
   }
 
   double spent() const { return time_.spent(); }
 
  private:
-  /// Of corotational elements.
-  struct Exact {
+  /// Of the better model.
+  struct Better {
     Simulated probes;
-    double reached = 0;
+    double reached = 0, event_error = 0;
   };
 
   /// A simulation; none: given up because the whole would take too long.
-  std::optional<Exact> corotational(Thinning thinning, double end, bool gives_up) {
+  std::optional<Better> better(Thinning thinning, double end, bool gives_up) {
     Scene scene = scene_;
     if (thinning.mesh != 1) scale_meshes(scene, 1 / thinning.mesh);
-    const Model model = built(motion_, scene, Formulation::cfr);
+    const Model model = built(motion_, scene, formulation_);
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
     const double left = time_.left(), steps = static_cast<double>(motion_.steps);
@@ -102,32 +116,59 @@ class ModelError {
                                          : (passed - begin) / static_cast<double>(instant.step - slow_steps);
       return (instant.step >= looked_at || passed > 0.2 * left) && each_ * steps > left;
     };
-    ProbeHistory history = simulated(motion_, time_, scene, model, how, own_.t, enough);
+    ProbeHistory history = simulated(motion_, time_, scene, model, how, own_, enough);
     if (history.enough && !late) return std::nullopt;
     if (late || !history.stopped.empty()) {
-      const std::string why = "formulation cfr: " + (late ? too_long(2 * allowed_) : first_line(history.stopped));
+      const std::string why = name_ + ": " + (late ? too_long(2 * allowed_) : first_line(history.stopped));
       if (history.reached < min_fraction * motion_.how.end) throw RunError(why);
       part_.notes.push_back(why);
     }
-    return Exact{{probe_columns(model), std::move(history.values)}, history.reached};
+    return Better{{probe_columns(model), std::move(history.values)}, history.reached, history.event_error};
+  }
+
+  /// Whether the steps resolve what events set free, as those of the motion do. A better model has higher frequencies:
+  /// where not, its velocities have an error from the event on that is not its own.
+  bool resolved(double event_error) const {
+    return time_.of_first(event_error) <= std::max(0.1, 1.5 * time_.of_first(own_.event_error));
+  }
+
+  /// Where longer ones do not resolve what events set free; of lines on longer elements where time is short. It may
+  /// take twice the time.
+  std::optional<Better> in_shorter_steps(Thinning& used, double event_error) {
+    const auto fits = [&](const Thinning& one) {
+      return can_scale(one.mesh) && time_.of_first(needs(one)) <= 2 * allowed_ - time_.spent();
+    };
+    while (used.step > 0.25 && can_lengthen(motion_)) {
+      used.step /= 2;
+      while (!fits(used) && used.mesh < 4 && !any_shells(scene_)) used.mesh *= 2;
+      if (!fits(used)) break;
+      std::optional<Better> one = better(used, motion_.how.end, false);
+      if (resolved(one->event_error)) return one;
+    }
+    part_.none = fmt::format(
+        "{}: the step after an event has an error of {} of its path in this model; a quarter of the step is too long "
+        "for "
+        "it, too, or would take too much time (limit {:.2g} s)",
+        name_, math::percent(event_error), allowed_);
+    return std::nullopt;
   }
 
   /// Richardson's extrapolation to elements of no length, with those half as long, or of plates twice as long, where
   /// the time allows.
-  void extrapolate(Thinning used, Exact& exact) {
+  void extrapolate(Thinning used, Better& exact) {
     for (const double mesh : {0.5, 2.0}) {
       const Thinning other{mesh, used.step};
       if (part_.apart || (mesh > 1 && !any_shells(scene_))) continue;
       if (mesh_.errors.size() < exact.probes.values.size() || !can_scale(mesh)) continue;  // e_mesh is subtracted
       if (time_.of_first(needs(other)) > time_.left()) continue;
-      std::optional<Exact> second;
+      std::optional<Better> second;
       const std::string why =
-          petsc::failed_together(motion_.comm, [&] { second = corotational(other, exact.reached, false); });
+          petsc::failed_together(motion_.comm, [&] { second = better(other, exact.reached, false); });
       if (!why.empty()) {  // the first one stands
         part_.notes.push_back(words(other) + ": " + first_line(why));
         return;
       }
-      if (second->reached < 0.98 * exact.reached) return;
+      if (second->reached < 0.98 * exact.reached || !resolved(second->event_error)) return;
       if (mesh > 1) std::swap(exact, *second);
       const std::vector<std::vector<double>> fine = second->probes.values;
       add_third(second->probes.values, fine, exact.probes.values);
@@ -140,17 +181,17 @@ class ModelError {
   /// Where the part is large, and the time allows: to steps of no length, with those twice as long. In coarse steps the
   /// errors of both models' steps may be unlike, as those of motions are that only one of them has.
   /// @return  the simulation in these; none: it was not made
-  std::optional<Exact> extrapolate_steps(Thinning used, const Exact& plain, Exact& exact) {
+  std::optional<Better> extrapolate_steps(Thinning used, const Better& plain, Better& exact) {
     constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
     const bool is_large = std::any_of(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
-    if (!is_large || !can_lengthen(motion_) || !step_.none.empty() ||
+    if (formulation_ != Formulation::cfr || !is_large || !can_lengthen(motion_) || !step_.none.empty() ||
         step_.errors.size() < plain.probes.values.size() || time_.of_first(needs(twice)) > time_.left())
       return std::nullopt;
-    std::optional<Exact> second;
-    const std::string why =
-        petsc::failed_together(motion_.comm, [&] { second = corotational(twice, exact.reached, false); });
-    if (!why.empty() || second->reached < 0.98 * exact.reached) return std::nullopt;  // the part stands
+    std::optional<Better> second;
+    const std::string why = petsc::failed_together(motion_.comm, [&] { second = better(twice, exact.reached, false); });
+    if (!why.empty() || second->reached < 0.98 * exact.reached || !resolved(second->event_error))
+      return std::nullopt;  // the part stands
     add_third(exact.probes.values, plain.probes.values, second->probes.values);
     part_.by += ", and in steps twice as long";
     steps_ = used.step;
@@ -216,7 +257,7 @@ class ModelError {
     const Model model = built(motion_, scene, motion_.model.formulation);
     solve::Integration how = motion_.how;
     how.step *= thinning.step, how.end = end;
-    return compared(motion_, own_.columns, simulated(motion_, time_, scene, model, how, own_.t),
+    return compared(motion_, own_.columns, simulated(motion_, time_, scene, model, how, own_),
                     "the reduced model on " + words(thinning), part_);
   }
 
@@ -248,7 +289,7 @@ class ModelError {
     for (const int mesh : any_shells(scene_) ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
       for (const int step : {1, 2, 4})
         if (mesh * step > 1 && can_scale(mesh) && (step == 1 || can_lengthen(motion_)))
-          all.push_back({static_cast<double>(mesh), step});
+          all.push_back({static_cast<double>(mesh), static_cast<double>(step)});
     until_ = motion_.how.end;
     for (const Thinning& one : all)
       if (time_.of_first(needs(one)) <= time_.left()) return one;
@@ -256,13 +297,15 @@ class ModelError {
     const double share = time_.left() / time_.of_first(needs(last));
     until_ *= share;
     if (share < min_fraction) {
-      part_.none = fmt::format("formulation cfr would take about {:.2g} s (limit {:.2g} s)",
+      part_.none = fmt::format("{} would take about {:.2g} s (limit {:.2g} s)", name_,
                                time_.of_first(each_ * static_cast<double>(motion_.steps)), allowed_);
       return std::nullopt;
     }
     return last;
   }
 
+  Formulation formulation_;
+  std::string name_;
   const FinishedMotion& motion_;
   const ProbeSeries& own_;
   const Estimate& reduction_;
@@ -272,15 +315,17 @@ class ModelError {
   TimeBudget time_;
   double allowed_, took_;
   Scene scene_;
-  double each_ = 0;   // a step of formulation cfr [s]
+  double each_ = 0;   // a step of the better model [s]
   double until_ = 0;  // [s]
-  int steps_ = 0;     // of those of the motion, where steps are extrapolated; 0: they are not
+  double steps_ = 0;  // of those of the motion, where steps are extrapolated; 0: they are not
 };
 
 }  // namespace
 
-ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
-                               const ErrorPart& mesh, double allowed, const ErrorPart& step) {
+namespace {
+
+ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, const ProbeSeries& own,
+                        const Estimate& reduction, const ErrorPart& mesh, double allowed, const ErrorPart& step) {
   ErrorPart part;
   part.apart = false;
   part.none.clear();
@@ -290,10 +335,28 @@ ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& 
     part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
   if (!part.none.empty()) return part;
-  ModelError error(motion, own, reduction, mesh, step, allowed, part);
+  ModelError error(formulation, motion, own, reduction, mesh, step, allowed, part);
   fill_in(motion, part, [&] { error.estimate(); });
   part.seconds = error.spent();
   return part;
+}
+
+}  // namespace
+
+ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
+                               const ErrorPart& mesh, double allowed, const ErrorPart& step) {
+  return difference_to(Formulation::cfr, motion, own, reduction, mesh, allowed, step);
+}
+
+Estimate estimate_by_full_order(const FinishedMotion& motion, const ProbeSeries& own, double allowed) {
+  ErrorPart part = difference_to(Formulation::nlffr, motion, own, {}, {}, allowed, {});
+  Estimate estimate;
+  estimate.none = std::move(part.none), estimate.notes = std::move(part.notes);
+  estimate.by = std::move(part.by), estimate.probes = std::move(part.probes);
+  estimate.t = std::move(part.t), estimate.errors = std::move(part.errors);
+  estimate.seconds = part.seconds, estimate.allowed = allowed;
+  note_files(*motion.model.offline, estimate);
+  return estimate;
 }
 
 }  // namespace floe::assess

@@ -19,12 +19,21 @@ AtTimes::AtTimes(const Model& model, std::vector<double> times, double step)
       V_(model.system->create_vector()),
       A_(model.system->create_vector()) {}
 
+bool same_joints(const std::vector<JointChange>& changes, double t, std::span<const std::string> happened) {
+  std::vector<std::string> before;
+  for (const JointChange& change : changes)
+    if (change.t < t) before.push_back(change.event);
+  return std::is_permutation(before.begin(), before.end(), happened.begin(), happened.end());
+}
+
 ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integration how,
                            const std::vector<double>& times, const std::function<bool(const solve::Instant&)>& enough) {
   ProbeHistory history;
   how.events = events_of(scene, model, how.end);
   how.kinks = kinks_of(scene, how.end);
-  how.on_event = [](const dynamics::EventReport&) {};
+  how.on_event = [&](const dynamics::EventReport& event) {
+    if (event.switches) history.changes.push_back(event.name);
+  };
   how.from = nullptr;
   AtTimes at(model, times, how.step);
   const std::size_t columns = probe_columns(model).size();
@@ -33,8 +42,10 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
       // an instant within a step of an integrator that does not interpolate is not known
       history.values.resize(i, std::vector<double>(columns, std::numeric_limits<double>::quiet_NaN()));
       history.values.push_back(probe_values(model, t, U, V, A));
+      history.happened.resize(i + 1, history.changes.size());
     });
     history.reached = instant.t;
+    if (!history.changes.empty()) history.event_error = std::max(history.event_error, instant.event_error);
     if (!enough || !enough(instant)) return;
     history.enough = true;
     throw RunError("enough");

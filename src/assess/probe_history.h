@@ -1,7 +1,10 @@
 #pragma once
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "floe/assembly/kept_motion.h"
 #include "floe/assembly/model.h"
 #include "floe/solve/simulation.h"
 
@@ -35,10 +38,17 @@ class AtTimes {
   std::size_t next_ = 0;
 };
 
+/// Whether the events that have changed joints before an instant t of a motion are those that `happened` in another
+/// one.
+bool same_joints(const std::vector<JointChange>& changes, double t, std::span<const std::string> happened);
+
 /// Probes of a motion at given instants.
 struct ProbeHistory {
   std::vector<std::vector<double>> values;  ///< of each instant that was reached, each column of the model
   double reached = 0;                       ///< [s]
+  double event_error = 0;                   ///< as KeptMotion::event_error
+  std::vector<std::string> changes = {};    ///< events that have changed joints, in their order
+  std::vector<std::size_t> happened = {};   ///< how many of them had, of each instant of `values`
   bool enough = false;                      ///< it was ended by `enough`
   std::string stopped;                      ///< why it stopped before its end; empty: it did not
 };

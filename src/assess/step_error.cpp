@@ -37,10 +37,15 @@ std::vector<double> times_of(const std::vector<State>& states) {
 class Comparison {
  public:
   Comparison(const Model& model, const KeptMotion& motion, double step)
-      : model_(model), states_(motion.states()), at_(model, times_of(states_), step), probes_(probe_columns(model)) {
+      : model_(model),
+        motion_(motion),
+        states_(motion.states()),
+        at_(model, times_of(states_), step),
+        probes_(probe_columns(model)) {
     const petsc::VecHandle U = model.system->create_vector(), V = model.system->create_vector(),
                            A = model.system->create_vector();
     for (const State& state : states_) {
+      motion.set_joints(state);
       solve::set_state(*model.system, state, U, V, A);
       values_.push_back(probe_values(model, state.t, U, V, A));
     }
@@ -50,7 +55,12 @@ class Comparison {
     at_.observe(instant, [&](std::size_t i, double t, Vec U, Vec V, Vec A) { add(i, t, U, V, A); });
   }
 
+  void note(const dynamics::EventReport& event) {
+    if (event.switches) changes_.push_back(event.name);
+  }
+
   std::size_t count() const { return t_.size(); }
+  double last() const { return t_.back(); }
   std::vector<double> probes(double duration) const { return probes_.relative(duration); }
   double deformation() const {
     const double nothing = model_.offline ? static_cast<double>(count()) * round_off_of(*model_.offline) : 0;
@@ -65,6 +75,7 @@ class Comparison {
 
  private:
   void add(std::size_t i, double t, Vec U, Vec V, Vec A) {
+    if (!same_joints(motion_.changes(), states_[i].t, changes_)) return;
     const std::vector<double>& mine = values_[i];
     std::vector<double> gap = probe_values(model_, t, U, V, A);
     for (std::size_t c = 0; c < gap.size(); ++c) gap[c] -= mine[c];
@@ -78,7 +89,9 @@ class Comparison {
   }
 
   const Model& model_;
+  const KeptMotion& motion_;
   const std::vector<State>& states_;
+  std::vector<std::string> changes_;  // events
   AtTimes at_;
   ProbeErrors probes_;
   std::vector<std::vector<double>> values_;
@@ -109,8 +122,8 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
   const double step = how.step;
   how.step = error.halved ? step / refinement : step * refinement;
   how.end = error.until;
-  how.on_event = [](const dynamics::EventReport&) {};
   Comparison comparison(model, motion, step);
+  how.on_event = [&](const dynamics::EventReport& event) { comparison.note(event); };
   const petsc::VecHandle A = model.system->create_vector();
   solve::set_state(*model.system, start.state, model.U, model.V, A);
   model.system->load(start.carried);
@@ -121,6 +134,7 @@ StepError estimate_step_error(const Model& model, const MotionStart& start, cons
     error.none = "the integrator does not interpolate within steps";
   else if (static_cast<double>(report.steps) < 0.75 * steps || static_cast<double>(report.steps) > 1.5 * steps + 2)
     error.none = "options set the step";
+  if (comparison.count() > 0 && comparison.last() < 0.98 * error.until) error.until = comparison.last();
   const double power = std::pow(refinement, order);
   const double share = error.halved ? power / (power - 1) : 1 / (power - 1);
   for (const double e : comparison.probes(error.until)) error.probes.push_back(known(share * e));

@@ -190,6 +190,8 @@ def errors(summary, run):
     if "none" in estimate:
         return f"<p>No estimate of the error: {escaped(estimate['none'])}.</p>" + budget(estimate)
     rows = [[name, 100 * value if value is not None else BEYOND] for name, value in (estimate.get("probes") or {}).items()]
+    if "by" in estimate:
+        return f"<p>Reduction error by comparison with {escaped(estimate['by'])}.</p>" + budget(estimate)
     return ("<p>Estimated without integrating the full-order model: error of this model relative to the full-order model of the same mesh, root "
             f"mean square over the simulated time. Deformations: {per_cent(estimate['deformation'])}; "
             f"{estimate['full_order_residuals']} full-order residuals, {estimate['columns']} further basis vectors.</p>"

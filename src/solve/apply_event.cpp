@@ -7,6 +7,7 @@ namespace floe::solve {
 EventReport apply_event(const System& system, const Event& event, double t, Vec U, Vec V) {
   EventReport report{event.name, event.what, t};
   if (!event.constraint_switch) return report;
+  report.switches = true;
   const double before = system.energy(t, U, V).kinetic;
   event.constraint_switch->closed = event.closes;
   system.commit_step(U);

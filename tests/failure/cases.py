@@ -505,7 +505,8 @@ UNUSUAL = [
            scene=scene({"events": {"enough": {"stop": True, **when}}}))
       for name, when in (("at a time", {"at": 0.02}), ("by a formula", {"when": "t - 0.0222"}),
                          ("by a probe", {"probe": "tip.y", "crosses": 2e-4}))),
-    Case("no estimate of a motion whose joints change", run(), lines=0, shows=("No estimate of the error: events change the joints",),
+    Case("estimate of a motion whose joints change", run(), lines=0, shows=("reduction: formulation nlffr, same mesh", "model: formulation cfr"),
+         never=("No estimate",), check=estimated((45, 55), "tip", by="formulation nlffr, same mesh"),
          scene=scene({"events": {"off": {"unlock": "clamp", "at": 0.02}}})),
     Case("accuracy of a motion that an event ends", run("vm+md", "--accuracy", "1%"), 2, ("no error estimate is possible: events",),
          lines=1, scene=scene({"events": {"enough": {"stop": True, "at": 0.02}}})),

@@ -41,11 +41,12 @@ def stopped_once(folder):
     assert math.isclose(float(times[0]), summary["integration"]["reached"], rel_tol=1e-5), summary["reason"]
 
 
-def estimated(instants, probe, out="out"):
+def estimated(instants, probe, out="out", by=None):
     """A run whose summary and result have an estimate of its error, at so many instants (least, most)."""
     def check(folder):
         estimate = json.loads((folder / out / "summary.json").read_text())["estimate"]
-        assert 0 < estimate["probes"][probe] < 1 and 0 < estimate["deformation"] < 1, estimate
+        assert 0 < estimate["probes"][probe] < 1 and estimate.get("by") == by, estimate
+        assert by or 0 < estimate["deformation"] < 1, estimate
         assert instants[0] <= estimate["steps"] <= instants[1], f"{estimate['steps']} instants, not {instants}"
         with h5py.File(folder / out / "result.h5") as result:
             times = list(result["estimate/t"][:])

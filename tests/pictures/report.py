@@ -105,6 +105,18 @@ def beyond_estimate(folder):
     assert any(row[1:] == ["beyond 10000"] for row in page.rows), page.rows
 
 
+def by_full_order(folder):
+    """The reduction error of a motion whose joints change is the difference to another simulation."""
+    shutil.copytree(folder / "crank", folder / "switched")
+    summary = json.loads((folder / "crank/summary.json").read_text())
+    probes = summary["estimate"]["probes"]
+    summary["estimate"] = {"probes": probes, "by": "formulation nlffr, same mesh", "total": {"probes": probes}}
+    (folder / "switched/summary.json").write_text(json.dumps(summary))
+    page, _ = page_of(folder, "switched")
+    assert "comparison with formulation nlffr, same mesh" in page.text, page.text
+    assert any(row[0] in probes and len(row) == 6 for row in page.rows), page.rows
+
+
 def of_other_folders(folder):
     floe(FLOE, folder, "compare", "beam.yaml", "--formulations", "nlffr,vm+md", "-o", "compare", "--no-reference-error")
     page, _ = page_of(folder, "compare")
@@ -207,7 +219,7 @@ def main():
             floe(FLOE, folder, "run", f"{scene}.yaml", "-o", scene)
             floe(FLOE, folder, "report", scene)
         write(folder, "beam.yaml", BEAM)
-        for case in (in_a_browser,) if "browser" in sys.argv else (of_a_run, beyond_estimate, of_other_folders, faults):
+        for case in (in_a_browser,) if "browser" in sys.argv else (of_a_run, beyond_estimate, by_full_order, of_other_folders, faults):
             case(folder)
     return 0
 

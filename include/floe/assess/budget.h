@@ -11,6 +11,8 @@ struct ProbeSeries {
   std::vector<ProbeColumn> columns;
   std::vector<double> t;                    ///< ascending [s]
   std::vector<std::vector<double>> values;  ///< of each instant, each column
+  std::vector<JointChange> changes = {};    ///< of the motion
+  double event_error = 0;                   ///< KeptMotion::event_error
 };
 
 /// Those of the kept states: at the instants of the estimate of the reduction, at all where there is none. Collective
@@ -27,6 +29,7 @@ struct ErrorPart {
   double seconds = 0;                       ///< processor time
   std::vector<std::string> notes;           ///< what was left out, and why
   bool apart = true;                        ///< of the model: it does not contain what meshes do to the better one
+  bool with_reduction = false;              ///< of the model: it contains the error of the reduction, unknown by itself
   std::vector<double> t;                    ///< instants [s]
   std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, better model less this one
 };
@@ -72,6 +75,15 @@ struct FinishedMotion {
 ///                   extrapolated (order 2) to steps of no length, too, and e_step subtracted
 ErrorPart estimate_model_error(const FinishedMotion& motion, const ProbeSeries& own, const Estimate& reduction,
                                const ErrorPart& mesh, double allowed, const ErrorPart& step = {});
+
+/// The error of the reduction where events change joints, for which estimate_error() has no equations: the full-order
+/// model (nlffr) of the same mesh is simulated, in the same steps,
+///
+///   e_reduction = y_nlffr - y     at every instant, of every probe column
+///
+/// Where the time is too short, both models are thinned as in estimate_model_error().
+/// Faults, collective: as estimate_model_error.
+Estimate estimate_by_full_order(const FinishedMotion& motion, const ProbeSeries& own, double allowed);
 
 /// The error of the meshes: the reduced model is built and simulated on the mesh of elements half as long, or, where
 /// that takes too much time, twice as long. Errors of order 2 in the length,

@@ -21,6 +21,7 @@ struct Estimate {
   std::vector<double> t;                    ///< instants [s]
   std::vector<std::vector<double>> errors;  ///< of each: the error of each probe column, full order less reduced
   std::vector<double> relative;  ///< of each: error of the deformations, of the maximum root mean square so far
+  std::string by;                ///< simulation that it is the difference to; empty: residuals
   int samples = 0;               ///< full-order residuals
   int columns = 0;               ///< that the bodies got for the estimate
   double unbalanced = 0;         ///< maximum |V'r| of what |V'f| is: round-off, or what omitted products do

@@ -48,6 +48,7 @@ struct EventReport {
   std::vector<double> impulses = {};  ///< on the rows that were closed [N s], [N m s]
   std::optional<double> speed = {};   ///< at a stop: of the places against one another [m/s], [rad/s]
   std::optional<double> work = {};    ///< at a kink of drives: what their impulses add to the kinetic energy [J]
+  bool switches = false;              ///< it has locked or unlocked a joint
 };
 
 /// An instant at which drives or loads are not smooth in time. A step ends `before` it, with what drives and loads are

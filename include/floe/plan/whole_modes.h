@@ -13,8 +13,8 @@ namespace floe::plan {
 /// with K and the displacements q of a piece in its own frame. K sees no rigid motion of a piece, so that the body is
 /// damped alike however far its pieces have rotated, and its rigid motions are not damped.
 struct WholeModes {
-  std::vector<int> bodies;                             ///< of the plan: its pieces
-  Eigen::VectorXd viscosity;                           ///< 2 zeta_i omega_i [1/s]
+  std::vector<int> bodies;                            ///< of the plan: its pieces
+  Eigen::VectorXd viscosity;                          ///< 2 zeta_i omega_i [1/s]
   std::vector<std::vector<petsc::VecHandle>> forces;  ///< f_i of each piece
 };
 

@@ -15,6 +15,7 @@ TEST_CASE("an accuracy that is missed by little is told with the digits that sho
 TEST_CASE("an estimate is told in per cent, or why there is none, or that it is beyond all use") {
   assess::Estimate estimate;
   CHECK(app::estimate_words(estimate) == "No estimate of the error: it was not asked for\n");
+  CHECK(app::estimate_words(estimate, true) == "No estimate of the reduction error: it was not asked for\n");
   estimate.none.clear();
   estimate.deformation = 0.0123, estimate.seconds = 0.5, estimate.notes = {"sampled"};
   CHECK(app::estimate_words(estimate) ==
@@ -22,4 +23,7 @@ TEST_CASE("an estimate is told in per cent, or why there is none, or that it is 
         "Note (estimate): sampled\n");
   estimate.deformation = std::numeric_limits<double>::infinity();
   CHECK_THAT(app::estimate_words(estimate), Catch::Contains("above 10000 %"));
+  estimate.by = "formulation nlffr, same mesh";
+  CHECK(app::estimate_words(estimate) ==
+        "reduction: formulation nlffr, same mesh (computed in 0.5 s)\nNote (estimate): sampled\n");
 }
