@@ -10,7 +10,7 @@ Chosen choose(const scene::Scene& scene, const scene::Accuracy& accuracy, MPI_Co
     throw InputError(scene.file + ": accuracy: applies to the probes, and there are none; expected `probes: {...}`");
   if (!scene.events.empty())
     throw InputError(scene.file +
-                     ": accuracy: no error estimate is possible: events change the joints, or end the simulation at a "
+                     ": accuracy: no selection is possible: events change the joints, or end the simulation, at a "
                      "time that depends on the model; expected a scene without events");
   const output::Waiting waiting(comm, "selecting the model");
   Chosen chosen =

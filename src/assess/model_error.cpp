@@ -68,7 +68,7 @@ class ModelError {
       used = *thinning;
       exact = better(used, until_, false);
     }
-    if (!resolved(exact->event_error)) exact = in_shorter_steps(used, exact->event_error);
+    if (!resolved(exact->event_error)) exact = in_shorter_steps(used, std::move(*exact));
     if (!exact) return;
     part_.by = name_ + ", " + words(used);
     const Better plain = *exact;
@@ -133,8 +133,11 @@ class ModelError {
   }
 
   /// Where longer ones do not resolve what events set free; of lines on longer elements where time is short. It may
-  /// take twice the time.
-  std::optional<Better> in_shorter_steps(Thinning& used, double event_error) {
+  /// take twice the time. @return  `longer`, where that stopped behind an event and shorter ones are no better
+  std::optional<Better> in_shorter_steps(Thinning& used, Better longer) {
+    const Thinning first = used;
+    const double error = time_.of_first(longer.event_error);
+    const std::vector<std::string> notes = part_.notes;
     const auto fits = [&](const Thinning& one) {
       return can_scale(one.mesh) && time_.of_first(needs(one)) <= 2 * allowed_ - time_.spent();
     };
@@ -143,13 +146,16 @@ class ModelError {
       while (!fits(used) && used.mesh < 4 && !any_shells(scene_)) used.mesh *= 2;
       if (!fits(used)) break;
       std::optional<Better> one = better(used, motion_.how.end, false);
-      if (resolved(one->event_error)) return one;
+      if (!resolved(one->event_error)) continue;
+      part_.notes.clear();  // of longer steps
+      return one;
     }
+    used = first, part_.notes = notes;
+    if (std::isinf(error)) return longer;
     part_.none = fmt::format(
-        "{}: the step after an event has an error of {} of its path in this model; a quarter of the step is too long "
-        "for "
-        "it, too, or would take too much time (limit {:.2g} s)",
-        name_, math::percent(event_error), allowed_);
+        "{}: the step after an event has an error of {} of its path in this model; a quarter of the step has, too, or "
+        "would take too much time (limit {:.2g} s)",
+        name_, math::percent(error), allowed_);
     return std::nullopt;
   }
 
@@ -162,13 +168,17 @@ class ModelError {
       if (mesh_.errors.size() < exact.probes.values.size() || !can_scale(mesh)) continue;  // e_mesh is subtracted
       if (time_.of_first(needs(other)) > time_.left()) continue;
       std::optional<Better> second;
+      const std::vector<std::string> notes = part_.notes;
       const std::string why =
           petsc::failed_together(motion_.comm, [&] { second = better(other, exact.reached, false); });
       if (!why.empty()) {  // the first one stands
         part_.notes.push_back(words(other) + ": " + first_line(why));
         return;
       }
-      if (second->reached < 0.98 * exact.reached || !resolved(second->event_error)) return;
+      if (!resolved(second->event_error) || second->reached < 0.98 * exact.reached) {
+        part_.notes = notes;
+        return;
+      }
       if (mesh > 1) std::swap(exact, *second);
       const std::vector<std::vector<double>> fine = second->probes.values;
       add_third(second->probes.values, fine, exact.probes.values);

@@ -53,7 +53,9 @@ ProbeHistory probe_history(const Scene& scene, const Model& model, solve::Integr
   try {
     solve::simulate(*model.system, how, model.U, model.V, observe);
   } catch (const solve::MotionStopped& stopped) {
-    if (!history.enough) history.stopped = stopped.what();
+    if (history.enough) return history;
+    history.stopped = stopped.what();
+    if (!history.changes.empty()) history.event_error = std::numeric_limits<double>::infinity();
   }
   return history;
 }

@@ -46,11 +46,11 @@ bool same_joints(const std::vector<JointChange>& changes, double t, std::span<co
 struct ProbeHistory {
   std::vector<std::vector<double>> values;  ///< of each instant that was reached, each column of the model
   double reached = 0;                       ///< [s]
-  double event_error = 0;                   ///< as KeptMotion::event_error
-  std::vector<std::string> changes = {};    ///< events that have changed joints, in their order
-  std::vector<std::size_t> happened = {};   ///< how many of them had, of each instant of `values`
-  bool enough = false;                      ///< it was ended by `enough`
-  std::string stopped;                      ///< why it stopped before its end; empty: it did not
+  double event_error = 0;  ///< as KeptMotion::event_error; infinite: it stopped behind an event that changed joints
+  std::vector<std::string> changes = {};   ///< events that have changed joints, in their order
+  std::vector<std::size_t> happened = {};  ///< how many of them had, of each instant of `values`
+  bool enough = false;                     ///< it was ended by `enough`
+  std::string stopped;                     ///< why it stopped before its end; empty: it did not
 };
 
 /// Simulates a scene's model from its vectors U, V.

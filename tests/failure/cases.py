@@ -508,7 +508,7 @@ UNUSUAL = [
     Case("estimate of a motion whose joints change", run(), lines=0, shows=("reduction: formulation nlffr, same mesh", "model: formulation cfr"),
          never=("No estimate",), check=estimated((45, 55), "tip", by="formulation nlffr, same mesh"),
          scene=scene({"events": {"off": {"unlock": "clamp", "at": 0.02}}})),
-    Case("accuracy of a motion that an event ends", run("vm+md", "--accuracy", "1%"), 2, ("no error estimate is possible: events",),
+    Case("accuracy of a motion that an event ends", run("vm+md", "--accuracy", "1%"), 2, ("no selection is possible: events",),
          lines=1, scene=scene({"events": {"enough": {"stop": True, "at": 0.02}}})),
     *(Case(f"estimate of equilibria, {f}", ["static", "scene.yaml", "--formulation", f, "--steps", "5", "-o", "out"], lines=0,
            shows=("estimated error  reduction", "estimated error ", "relative to the full-order model of the same mesh"),
