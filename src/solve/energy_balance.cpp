@@ -50,8 +50,7 @@ Powers powers(const System& system, double t, double interval, Vec U, Vec V, Vec
 }  // namespace
 
 void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, double energy, double max_part) {
-  if (count_ == 0) start_ = lowest_ = energy;
-  lowest_ = std::min(lowest_, energy);
+  if (count_ == 0) start_ = energy;
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
     const auto [power, dissipation] = powers(system, t, 1e-3 * h, U, V, A);
@@ -59,32 +58,32 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
     work_ += 0.5 * h * (power_ + power);
     dissipated_ += 0.5 * h * (dissipation_ + dissipation);
     turnover_ += 0.5 * h * (std::abs(power_) + std::abs(power));
-    const double grown = energy - start_ - work_;
-    growth_ = std::max(growth_, std::min(grown, std::max(grown - dissipated_, energy - lowest_)));
+    level_ = energy - start_ - work_ - dissipated_;
+    lowest_ = std::min(lowest_, level_);
+    growth_ = std::max(growth_, level_ - lowest_);
     power_ = power, dissipation_ = dissipation, known_ = 1;
   }
   const double exchanged = std::max(turnover_, max_part);
   if (growth() <= 0.5 * exchanged) accounted_ = exchanged;
   beyond_ = growth() > most_growth * accounted_ ? beyond_ + 1 : 0;
-  ++count_, t_ = t, energy_ = energy;
+  ++count_, t_ = t;
 }
 
 void EnergyBalance::pass_event(double energy) {
   work_ += energy, turnover_ += std::abs(energy);
   known_ = 0;
-  energy_ += energy;  // several events may be at one instant
-  lowest_ = energy_;
+  lowest_ = level_;
 }
 
 std::array<double, EnergyBalance::numbers> EnergyBalance::save() const {
-  return {count_,      t_,        known_,  power_,  dissipation_, start_,     work_,
-          dissipated_, turnover_, growth_, energy_, lowest_,      accounted_, beyond_};
+  return {count_,      t_,        known_,  power_, dissipation_, start_,     work_,
+          dissipated_, turnover_, growth_, level_, lowest_,      accounted_, beyond_};
 }
 
 void EnergyBalance::load(const std::array<double, numbers>& saved) {
   count_ = saved[0], t_ = saved[1], known_ = saved[2], power_ = saved[3], dissipation_ = saved[4];
   start_ = saved[5], work_ = saved[6], dissipated_ = saved[7], turnover_ = saved[8], growth_ = saved[9];
-  energy_ = saved[10], lowest_ = saved[11], accounted_ = saved[12], beyond_ = saved[13];
+  level_ = saved[10], lowest_ = saved[11], accounted_ = saved[12], beyond_ = saved[13];
 }
 
 }  // namespace floe::solve

@@ -8,16 +8,16 @@ using namespace dynamics;
 
 /// What of the total energy's growth no load and no drive has brought: sampled along a motion.
 ///
-///   growth = max over t of min(E - E(0) - W, max(E - E(0) - W - D, E - E_min)),   W = int P dt,   D = int P_d dt
+///   growth = max over t of X(t) - min of X before,   X = E - W - D,   W = int P dt,   D = int P_d dt
 ///
 /// by the trapezoidal rule. P [W] is the power of all that has no energy of its own: loads and drives, less what
 /// dampers dissipate, P = dE/dt - F.v with dE/dt the derivative of the total energy along (v, a) (a central difference,
 /// exact but for its third order) and F the residual of the equations of motion, which does work where they are not
-/// met. P_d = 1/2 v.(F(v) - F(-v)) is what dampers and friction dissipate: forces of inertia are even in v. What a
-/// sudden load excites and an event sets free vibrates in motions that steps do not resolve, whose dissipation samples
-/// overestimate. So the dissipation counts as growth only where E rises, above its minimum since the start, or since
-/// the last instant before an event.
-/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
+/// met. P_d = 1/2 v.(F(v) - F(-v)) is what dampers and friction dissipate: forces of inertia are even in v. So P + P_d
+/// is the power of loads and drives, and dissipation lets X only fall, however badly samples of P_d integrate
+/// (vibrations that steps do not resolve, friction that changes its sign from step to step). X counts from the last
+/// instant before an event on. The integrator takes energy away and adds none; a motion whose energy grows by itself is
+/// none.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Bases of attitudes and U are afterwards as before.
@@ -45,8 +45,7 @@ class EnergyBalance {
   double count_ = 0, t_ = 0, known_ = 0;  // of the instant before; whether its power is known
   double power_ = 0, dissipation_ = 0;    // P and P_d of the instant before
   double start_ = 0, work_ = 0, dissipated_ = 0, turnover_ = 0, growth_ = 0;
-  double energy_ = 0;                  // E of the instant before
-  double lowest_ = 0;                  // E since the start, or since the instant before the last event
+  double level_ = 0, lowest_ = 0;      // X of the instant before, and its minimum
   double accounted_ = 0, beyond_ = 0;  // energy while growth was less than half of it; instants in a row
 };
 
