@@ -103,6 +103,11 @@ void put(Writer& to, const body::Elasticity& elasticity) {
   to.integers("elasticity/pairs", {elasticity.pairs.size(), 2}, pairs, "a <= b, from 0");
 }
 
+/// Of a place without an arm the displacement of second order is zero, given or not.
+bool has_second_order(const ReducedPlace& place) {
+  return std::any_of(place.map.Q.begin(), place.map.Q.end(), [](const auto& form) { return !form.isZero(0); });
+}
+
 void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t k) {
   std::vector<std::string> names;
   Numbers x, S, psi, Q;
@@ -112,13 +117,13 @@ void put(Writer& to, const std::vector<ReducedPlace>& places, hsize_t d, hsize_t
     append(S, place.map.S);
     append(psi, place.map.psi);
     for (hsize_t a = 0; a < d; ++a)
-      append(Q, place.map.Q.empty() ? Eigen::MatrixXd::Zero(k, k).eval() : place.map.Q[a]);
+      append(Q, has_second_order(place) ? place.map.Q[a] : Eigen::MatrixXd::Zero(k, k).eval());
   }
   const hsize_t n = places.size();
   to.texts("places/names", names);
   to.numbers("places/x", {n, d}, x, "m", "undeformed, in the axes of the floating frame");
   to.numbers("places/S", {n, d, k}, S, "kg^-1/2", "displacement S q");
-  if (std::any_of(places.begin(), places.end(), [](const auto& place) { return !place.map.Q.empty(); }))
+  if (std::any_of(places.begin(), places.end(), has_second_order))
     to.numbers("places/Q", {n, d, k, k}, Q, "m^-1 kg^-1", "second-order displacement q' Q_a q / 2; symmetric");
   to.numbers("places/psi", {n, d == 2 ? hsize_t{1} : 3, k}, psi, "rad m^-1 kg^-1/2", "rotation psi q");
 }

@@ -56,6 +56,16 @@ TEST_CASE("a reduced body of the second or third version of the format, without 
   check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
 }
 
+TEST_CASE("a reduced body with places whose displacements of second order are zero is read") {
+  Scratch scratch;
+  ReducedBodyFile file = sample_body(3, 4);
+  if (GENERATE(false, true)) file.places[1].map.Q.clear();
+  file.places[0].map.Q.assign(3, Eigen::MatrixXd::Constant(4, 4, GENERATE(0.0, -0.0)));
+  write_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5", file, false);
+  file.places[0].map.Q.clear();
+  check_same(read_reduced_body(PETSC_COMM_WORLD, scratch / "arm.h5"), file);
+}
+
 TEST_CASE("what is written twice is the same file") {
   Scratch scratch;
   for (const char* name : {"a.h5", "b.h5"})
