@@ -6,6 +6,7 @@
 
 #include "floe/error.h"
 #include "floe/fem/shell.h"
+#include "floe/math/rotation.h"
 #include "floe/plan/prepare_spatial_joints.h"
 #include "floe/reference/facet_pressure.h"
 #include "floe/scene/joint_events.h"
@@ -149,22 +150,23 @@ void SpatialAssembly::add_corotated(int b) {
 
 std::vector<std::pair<SpatialMarker, double>> SpatialAssembly::corotated_parts(const Anchor& place) const {
   const reference::CorotationalBody& body = *slots_[place.body].corotated;
-  const bool by_arm = std::any_of(place.averaging_weights.begin(), place.averaging_weights.end(),
-                                  [](const AveragingWeight& weight) { return !weight.arm.isZero(0); });
+  const bool by_arm =
+      std::any_of(place.averaging_weights.begin(), place.averaging_weights.end(),
+                  [](const AveragingWeight& weight) { return !(weight.arm + math::skew(weight.lead)).isZero(0); });
   if (place.nodes.size() == 1 && body.has_frame(place.nodes.front()) && !by_arm)
     return {{body.place(place.nodes.front()), 1.}};
   std::vector<std::pair<SpatialMarker, double>> parts;
   int piece = -1;
   bool one = place.nodes.size() > 1;
   for (const AveragingWeight& weight : place.averaging_weights) {
-    if (!has_weight(weight)) continue;
+    if (!has_weight(weight) && weight.apart == 0) continue;
     const int other = body.piece_of(weight.node);
     one = one && other >= 0 && (parts.empty() || other == piece);
     piece = other;
     SpatialMarker at = body.place(weight.node);
     at.mass = weight.share;
     at.x0 = weight.share * at.x0 + arm_of(weight);
-    parts.emplace_back(std::move(at), weight.share);
+    parts.emplace_back(std::move(at), weight.share + weight.apart);
   }
   if (one) return {{body.place_on_piece(piece, place.x), 1.}};
   return parts;

@@ -1,6 +1,7 @@
 #include "floe/plan/beam_sides.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "floe/fem/quadratic_beam.h"
@@ -9,10 +10,11 @@
 namespace floe::plan {
 namespace {
 
-/// A cell of any rank: the nodes that move it; of beams where it is.
+/// A cell of any rank: the nodes that move it; of beams where it is, and of these nodes the one that each follows but
+/// for rotations of its own, or -1.
 struct Seen {
   int rank, cell;
-  std::vector<PetscInt> moved, ends;
+  std::vector<PetscInt> moved, ends, followed;
 };
 
 /// Numbers of all ranks, rank by rank. Collective.
@@ -31,16 +33,20 @@ std::vector<Seen> all_cells(const fem::Mesh& mesh) {
     mine.push_back(static_cast<PetscInt>(cell.nodes().size()));
     mine.push_back(beam ? static_cast<PetscInt>(cell.places().size()) : 0);
     for (const int node : cell.nodes()) mine.push_back(mesh.global_node(node));
-    if (beam)
-      for (const int node : cell.places()) mine.push_back(mesh.global_node(node));
+    if (!beam) continue;
+    for (const int node : cell.places()) mine.push_back(mesh.global_node(node));
+    for (std::size_t i = 0; i < cell.places().size(); ++i)
+      mine.push_back(cell.line[i] < 0 ? -1 : mesh.global_node(cell.moved[cell.line[i]]));
   }
   const mesh::Received<PetscInt> all = of_all_ranks(mesh.comm, mine);
   std::vector<Seen> cells;
   for (std::size_t rank = 0; rank + 1 < all.starts.size(); ++rank)
     for (int at = all.starts[rank], number = 0; at < all.starts[rank + 1]; ++number) {
-      const auto moved = all.values.begin() + at + 2, ends = moved + all.values[at];
-      at += 2 + static_cast<int>(all.values[at] + all.values[at + 1]);
-      cells.push_back({static_cast<int>(rank), number, {moved, ends}, {ends, all.values.begin() + at}});
+      const auto moved = all.values.begin() + at + 2, ends = moved + all.values[at],
+                 followed = ends + all.values[at + 1];
+      at += 2 + static_cast<int>(all.values[at] + 2 * all.values[at + 1]);
+      cells.push_back(
+          {static_cast<int>(rank), number, {moved, ends}, {ends, followed}, {followed, all.values.begin() + at}});
     }
   return cells;
 }
@@ -59,9 +65,9 @@ void see_element(const fem::Structure& structure, const fem::Mesh::Cell& cell, s
   side.axes << along, Eigen::Vector3d(-along.y(), along.x(), 0), Eigen::Vector3d::UnitZ();
 }
 
-/// Marks what hangs on a cell without the node `by`.
+/// Marks what hangs on a cell without the nodes `by`.
 std::vector<char> hanging(const std::vector<Seen>& cells, const std::map<PetscInt, std::vector<std::size_t>>& at,
-                          std::size_t first, PetscInt by, std::vector<char>& nodes) {
+                          std::size_t first, const std::array<PetscInt, 2>& by, std::vector<char>& nodes) {
   std::vector<char> marked(cells.size(), 0);
   std::vector<std::size_t> next{first};
   marked[first] = 1;
@@ -69,7 +75,7 @@ std::vector<char> hanging(const std::vector<Seen>& cells, const std::map<PetscIn
     const Seen& cell = cells[next.back()];
     next.pop_back();
     for (const PetscInt node : cell.moved) {
-      if (node == by || nodes[static_cast<std::size_t>(node)]) continue;
+      if (std::find(by.begin(), by.end(), node) != by.end() || nodes[static_cast<std::size_t>(node)]) continue;
       nodes[static_cast<std::size_t>(node)] = 1;
       for (const std::size_t other : at.at(node))
         if (!std::exchange(marked[other], 1)) next.push_back(other);
@@ -96,13 +102,15 @@ std::vector<BeamSide> beam_sides(const fem::Structure& structure, PetscInt node)
     BeamSide& side = sides.emplace_back();
     side.after = i == 0, side.middle = i == 2, side.by = cells[c].moved[i];
     side.nodes.assign(static_cast<std::size_t>(mesh.node_count), 0);
-    const std::vector<char> marked = hanging(cells, at, c, side.by, side.nodes);
+    const std::array<PetscInt, 2> by{side.by, cells[c].followed[i]};
+    const std::vector<char> marked = hanging(cells, at, c, by, side.nodes);
     side.cells.assign(mesh.cells.size(), 0);
     for (std::size_t other = 0; other < cells.size(); ++other) {
       if (!marked[other]) continue;
       if (cells[other].rank == rank) side.cells[static_cast<std::size_t>(cells[other].cell)] = 1;
       const auto& moved = cells[other].moved;
-      if (other != c && std::find(moved.begin(), moved.end(), side.by) != moved.end()) side.separates = false;
+      if (other != c && std::find_first_of(moved.begin(), moved.end(), by.begin(), by.end()) != moved.end())
+        side.separates = false;
     }
     if (cells[c].rank == rank) {
       side.cell = cells[c].cell;

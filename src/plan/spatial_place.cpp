@@ -62,7 +62,9 @@ std::vector<AveragingWeight> averaging_weights(const fem::Mesh& mesh,
     moves.lead += share * lead;
     moves.rotation += share * led;
     if (S.isZero(0)) continue;
+    moves.apart -= share;
     AveragingWeight& own = weight(node);
+    own.apart += share;
     own.arm += arm * S;
     own.rotation += share * S;
   }

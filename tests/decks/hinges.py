@@ -259,6 +259,55 @@ def motions(floe):
     return good
 
 
+def step_inp(arm):
+    """Two bars of two elements whose ends are `arm` apart along z, with a *KINEMATIC that leaves the rotation about y free."""
+    x = {1: (0, 0), 2: (0.3, 0), 3: (HINGE, 0), 4: (HINGE, arm), 5: (0.8, arm), 6: (LENGTH, arm)}
+    text = "*NODE\n" + "".join(f"{k}, {a!r}, 0., {z!r}\n" for k, (a, z) in x.items()) + "*ELEMENT, TYPE=B31, ELSET=BAR\n1,1,2\n2,2,3\n3,4,5\n4,5,6\n"
+    text += f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{E}, {NU}\n*DENSITY\n{RHO}\n*BEAM SECTION, ELSET=BAR, MATERIAL=STEEL, SECTION=RECT\n"
+    text += f"{WIDTH}, {HEIGHT}\n0., 1., 0.\n*NSET, NSET=BOTH\n4, 5\n"
+    text += "".join(f"*NSET, NSET={name}\n{k}\n" for name, k in (("A", 1), ("I", 3), ("D", 4), ("E", 5), ("B", 6)))
+    return text + "*SURFACE, NAME=SD, TYPE=NODE\nD,\n*COUPLING, REF NODE=3, SURFACE=SD, CONSTRAINT NAME=K\n*KINEMATIC\n1, 4\n6, 6\n"
+
+
+def static(floe, folder, scene, formulation):
+    """@return  the last row of the probes"""
+    (folder / "scene.yaml").write_text(scene)
+    done = subprocess.run([floe, "static", "scene.yaml", "--formulation", formulation, "--steps", "1", "--at", "1", "--no-estimate", "--force",
+                           "-o", "out"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr or done.stdout
+    return np.loadtxt(folder / "out" / "probes.csv", delimiter=",", skiprows=1)[-1, 1:]
+
+
+def at_the_link(floe):
+    """Moments, rotations and forces of sections at a dependent node at an arm: against beam theory (the arm keeps the first bar from
+    rotating at the link), statics, and one formulation against the others."""
+    bodies = "bodies: {b: {mesh: {file: {path: step.inp}}, reduction: {modes: 6, attachment: all}}}\njoints:\n"
+    clamped = bodies + "".join("  %s: {type: support, between: [ground, b.%s], hold: [x, y, z, rx, ry, rz]}\n" % (n, n) for n in "AB")
+    moment = clamped + ("loads: {m: {type: moment, at: b.%s, moment: [0, 1e-4*t, 0]}}\n"
+                        "probes: {z: {at: b.D}, d: {at: b.D, quantity: rotation}, both: {at: b.BOTH, quantity: rotation}}\n")
+    section = bodies + ("  a: {type: fixed, between: [ground, b.A]}\n  e: {type: spherical, between: [ground, b.B]}\n"
+                        "loads: {f: {type: force, at: b.E, force: [0, 0, 1e-3*t]}}\n"
+                        "probes: {D: {at: b.D, quantity: section_force}, M: {at: b.D, quantity: section_moment}}\n")
+    EI, M, a, b = E * WIDTH * HEIGHT**3 / 12, 1e-4, HINGE, LENGTH - HINGE
+    force = M * b**2 / 2 / (b**3 / 3 + a**3 / 12)
+    exact = [force * a**3 / 12 / EI, (M * b - force * b**2 / 2) / EI]
+    good = True
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        (folder / "step.inp").write_text(step_inp(0.02))
+        for place in ("D", "BOTH"):
+            reference = static(floe, folder, moment % place, "nlffr")
+            if place == "D":
+                good &= compare("moment at an arm", [reference[2], reference[4]], exact, 3e-2)
+            for formulation in ("cfr", "vm+md"):
+                own = static(floe, folder, moment % place, formulation)
+                good &= compare(f"moment at {place}, {formulation}", own[[2, 4, 7]], reference[[2, 4, 7]], 1e-6)
+        for formulation in ("cfr", "nlffr", "vm+md"):
+            D, moments = np.split(static(floe, folder, section, formulation), 2)
+            good &= compare(f"section, {formulation}", [D[2]], [5e-4], 1e-4) and abs(moments[1]) < 1e-9
+    return good
+
+
 def refusals(floe):
     """@return  whether joints that hold nodes with rotations of their own as one, and motions without stiffness, are refused"""
     joint = ("bodies: {b: {mesh: {file: {path: part.inp}}, reduction: {modes: 2}}}\njoints:\n"
@@ -281,7 +330,7 @@ def refusals(floe):
 
 def main():
     floe = str(pathlib.Path(sys.argv[1]).resolve())
-    good = [gerber(floe), plate(floe), refined(floe), motions(floe), refusals(floe)]
+    good = [gerber(floe), plate(floe), refined(floe), motions(floe), at_the_link(floe), refusals(floe)]
     sys.exit(0 if all(good) else 1)
 
 

@@ -27,6 +27,8 @@ struct AveragingWeight {
   Eigen::Matrix3d arm;
   Eigen::Matrix3d rotation;
   Eigen::Vector3d lead = Eigen::Vector3d::Zero();  ///< from it to those that follow it, times their shares
+  double apart = 0;  ///< of moments besides `share`: those that nodes with rotations of their own take from the ones
+                     ///< that they follow
 };
 
 /// A node that something acts on.
