@@ -96,13 +96,14 @@ void SpatialAssembly::find_constrained_nodes() {
     std::vector<ConstrainedNode>& nodes = constrained_nodes_[static_cast<int>(j)];
     const Pieces pieces = clamped_edges(place->body);
     for (const AveragingWeight& weight : place->averaging_weights) {
+      const PetscInt node = place->rotates_apart() ? place->nodes.front() : weight.node;
       const bool clamped = std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-        return std::binary_search(piece.begin(), piece.end(), weight.node);
+        return std::binary_search(piece.begin(), piece.end(), node);
       });
       if (!has_weight(weight) || clamped) continue;
-      ConstrainedNode one{weight.node, {}};
+      ConstrainedNode one{node, {}};
       for (int dof = 0; dof < 6; ++dof)
-        if ((released || joint.hold[dof]) && constrained.insert({place->body, weight.node, dof}).second)
+        if ((released || joint.hold[dof]) && constrained.insert({place->body, node, dof}).second)
           one.dofs.push_back(dof);
       if (!one.dofs.empty()) nodes.push_back(std::move(one));
     }

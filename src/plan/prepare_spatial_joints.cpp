@@ -76,14 +76,33 @@ Eigen::Vector3d axis_within(const Eigen::Matrix3d& W, const PlannedBody& body,
   return body.attitude.transpose() * W.col(2);
 }
 
+/// At a node that follows another one but for rotations of its own: the dof of either that is the component.
+/// @param along  axis of the frame. @throws InputError  no single dof is
+void hold_apart(const Joint& joint, const Anchor& place, int component, Eigen::Index along,
+                fem::Conditions& constrained) {
+  const AveragingWeight& followed = place.averaging_weights.front();
+  fem::Conditions dofs;
+  if (component < 3 && followed.lead.isZero(0)) dofs.push_back(6 * followed.node + static_cast<PetscInt>(along));
+  for (const AveragingWeight& weight : place.averaging_weights)
+    for (int d = 0; component >= 3 && d < 3; ++d)
+      if (std::abs(weight.rotation(along, d)) > 1e-12) dofs.push_back(6 * weight.node + 3 + d);
+  if (dofs.size() != 1)
+    throw InputError(joint.where.text() + ".hold: its node follows another one but for rotations of its own, by a " +
+                     (component < 3 ? "link at an arm; expected rotations only, or a node without such a link"
+                                    : "link whose axis is oblique to those of the mesh; expected displacements only, "
+                                      "or a node without such a link"));
+  constrained.push_back(dofs.front());
+}
+
 /// Of a support: each node by itself. @throws InputError  nodes that follow others; a frame oblique to the mesh
 void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& place, fem::Conditions& constrained) {
   if (body.spec.rigid)
     throw InputError(fmt::format("{}: body {} is rigid; expected a flexible body, or another type of joint",
                                  joint.where.text(), body.spec.name));
+  const bool apart = place.rotates_apart();
   for (const AveragingWeight& weight : place.averaging_weights)
-    if (std::count(place.nodes.begin(), place.nodes.end(), weight.node) == 0 ||
-        place.averaging_weights.size() < place.nodes.size())
+    if (!apart && (std::count(place.nodes.begin(), place.nodes.end(), weight.node) == 0 ||
+                   place.averaging_weights.size() < place.nodes.size()))
       throw InputError(joint.where.text() +
                        ": its place has nodes of a rigid region or line hinge of a link or another joint; expected a "
                        "place without them");
@@ -95,6 +114,10 @@ void hold_components(const Joint& joint, const PlannedBody& body, const Anchor& 
           fmt::format("{}: the floating frame of body {} is oblique to the axes of its mesh; expected no "
                       "key frame, or a mesh along its own axes",
                       joint.where.text(), body.spec.name));
+    if (apart) {
+      hold_apart(joint, place, component, along, constrained);
+      continue;
+    }
     for (const PetscInt node : place.nodes)
       constrained.push_back(6 * node + 3 * (component / 3) + static_cast<PetscInt>(along));
   }
@@ -112,9 +135,9 @@ bool hold_by_joint(const Joint& joint, const Eigen::Matrix3d& W, const PlannedBo
       for (int dof : dofs)
         if (!pinned || weight.node == place.node) constrained.push_back(6 * weight.node + dof);
   };
+  if (joint.kind == Kind::support) return hold_components(joint, body, place, constrained), true;
   if (place.rotates_apart()) return false;
   if (clamps(joint)) return hold({0, 1, 2, 3, 4, 5}), true;
-  if (joint.kind == Kind::support) return hold_components(joint, body, place, constrained), true;
   if (joint.kind == Kind::spring || joint.kind == Kind::bushing || joint.kind == Kind::distance) return false;
   const auto line = line_of(body.structure.mesh, place);
   const Eigen::Vector3d axis = axis_within(W, body, line);

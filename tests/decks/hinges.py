@@ -259,14 +259,14 @@ def motions(floe):
     return good
 
 
-def step_inp(arm):
-    """Two bars of two elements whose ends are `arm` apart along z, with a *KINEMATIC that leaves the rotation about y free."""
+def step_inp(arm, dependent="D"):
+    """Two bars of two elements whose ends I and D are `arm` apart along z, with a *KINEMATIC that leaves the rotation about y free."""
     x = {1: (0, 0), 2: (0.3, 0), 3: (HINGE, 0), 4: (HINGE, arm), 5: (0.8, arm), 6: (LENGTH, arm)}
     text = "*NODE\n" + "".join(f"{k}, {a!r}, 0., {z!r}\n" for k, (a, z) in x.items()) + "*ELEMENT, TYPE=B31, ELSET=BAR\n1,1,2\n2,2,3\n3,4,5\n4,5,6\n"
     text += f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{E}, {NU}\n*DENSITY\n{RHO}\n*BEAM SECTION, ELSET=BAR, MATERIAL=STEEL, SECTION=RECT\n"
     text += f"{WIDTH}, {HEIGHT}\n0., 1., 0.\n*NSET, NSET=BOTH\n4, 5\n"
     text += "".join(f"*NSET, NSET={name}\n{k}\n" for name, k in (("A", 1), ("I", 3), ("D", 4), ("E", 5), ("B", 6)))
-    return text + "*SURFACE, NAME=SD, TYPE=NODE\nD,\n*COUPLING, REF NODE=3, SURFACE=SD, CONSTRAINT NAME=K\n*KINEMATIC\n1, 4\n6, 6\n"
+    return text + f"*SURFACE, NAME=S, TYPE=NODE\n{dependent},\n*COUPLING, REF NODE={3 if dependent == 'D' else 4}, SURFACE=S, CONSTRAINT NAME=K\n*KINEMATIC\n1, 4\n6, 6\n"
 
 
 def static(floe, folder, scene, formulation):
@@ -308,8 +308,33 @@ def at_the_link(floe):
     return good
 
 
+def supports(floe):
+    """Supports at a dependent node against those of the same beam where this node is the independent one; at an arm, one formulation
+    against the others."""
+    scene = ("bodies: {b: {mesh: {file: {path: part.inp}}, reduction: {modes: 4, attachment: all}}}\njoints:\n"
+             + "".join("  %s: {type: support, between: [ground, b.%s], hold: [x, y, z, rx, ry, rz]}\n" % (n, n) for n in "AB")
+             + "  c: {type: support, between: [ground, b.D], hold: [%s]}\n")
+    push = "loads: {f: {type: force, at: b.E, force: [0, 0, 1e-3*t]}}\nprobes: {e: {at: b.E}}\n"
+    good = True
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = pathlib.Path(scratch)
+        for hold, arm in (("z", 0.0), ("ry", 0.0), ("x, y, z, rx, ry, rz", 0.0), ("ry", 0.02)):
+            independent = "D" if arm > 0 else "I"
+            own, reference = (modes(floe, folder, "part.inp", step_inp(arm, node), scene % hold) for node in ("D", independent))
+            if arm == 0:
+                good &= compare(f"support [{hold}]", own, reference, 1e-7)
+            reference = static(floe, folder, scene % hold + push, "nlffr")[2]
+            (folder / "part.inp").write_text(step_inp(arm))
+            for formulation in ("cfr", "nlffr", "vm+md"):
+                own = static(floe, folder, scene % hold + push, formulation)[2]
+                good &= compare(f"support [{hold}], {formulation}", [own], [reference], 1e-6)
+    return good
+
+
 def refusals(floe):
-    """@return  whether joints that hold nodes with rotations of their own as one, and motions without stiffness, are refused"""
+    """@return  whether joints that hold nodes with rotations of their own as one, displacements of those at an arm, and motions without
+    stiffness, are refused"""
+    at_arm = "bodies: {b: {mesh: {file: {path: step.inp}}, reduction: {modes: 2}}}\njoints:\n  c: {type: support, between: [ground, b.D], hold: [z]}\n"
     joint = ("bodies: {b: {mesh: {file: {path: part.inp}}, reduction: {modes: 2}}}\njoints:\n"
              "  j: {type: fixed, between: [ground, b.HINGE]}\n")
     free = "bodies: {b: {frame: mean-axis, mesh: {file: {path: part.inp}}, reduction: {modes: 2}}}\n"
@@ -318,7 +343,9 @@ def refusals(floe):
         folder = pathlib.Path(scratch)
         pin = lambda pairs: ("*MPC\n" + "".join(f"PIN, {a}, {b}\n" for a, b in pairs) + "*NSET, NSET=HINGE\n" + "".join(f"{a},\n" for a, _ in pairs))
         (folder / "part.inp").write_text(halves(4, 4, pin))
+        (folder / "step.inp").write_text(step_inp(0.02))
         for scene, code, message in ((joint, 2, "joints.j: its place b.HINGE has nodes whose rotations a link of part.inp leaves free"),
+                                     (at_arm, 2, "joints.c.hold: its node follows another one but for rotations of its own, by a link at an arm; expected"),
                                      (free, 1, "links that leave rotations free may leave a motion without stiffness")):
             (folder / "scene.yaml").write_text(scene)
             done = subprocess.run([floe, "modes", "scene.yaml"], cwd=folder, capture_output=True, text=True)
@@ -330,7 +357,7 @@ def refusals(floe):
 
 def main():
     floe = str(pathlib.Path(sys.argv[1]).resolve())
-    good = [gerber(floe), plate(floe), refined(floe), motions(floe), at_the_link(floe), refusals(floe)]
+    good = [gerber(floe), plate(floe), refined(floe), motions(floe), at_the_link(floe), supports(floe), refusals(floe)]
     sys.exit(0 if all(good) else 1)
 
 
