@@ -66,12 +66,12 @@ std::string text_of(const std::exception_ptr& fault) {
 /// Warns where the finished motion leaves the range of its model. Collective.
 void check_range(const scene::Scene& scene, const assembly::Model& model, const assess::KeptMotion& kept, MPI_Comm comm,
                  const RunPlan& plan, RunResult& result) {
+  std::string part;
   const std::string why =
-      petsc::failed_together(comm, [&] { result.out_of_range = assess::out_of_range(scene, model, kept, comm); });
-  if (!why.empty()) {  // as of frequencies that nothing else asked for
-    result.out_of_range.clear();
-    result.warnings.push_back("the model's validity was not checked: " + why);
-  }
+      petsc::failed_together(comm, [&] { result.out_of_range = assess::out_of_range(scene, model, kept, comm, part); });
+  if (!why.empty()) result.out_of_range.clear();
+  if (!why.empty()) result.warnings.push_back("the model's validity was not checked: " + why);
+  if (!part.empty()) result.warnings.push_back("part of the model's validity was not checked: " + part);
   if (plan.measured)
     std::erase_if(result.out_of_range, [](const assess::OutOfRange& one) { return !assess::also_of_full_order(one); });
   for (const assess::OutOfRange& one : result.out_of_range) result.warnings.push_back(one.text);

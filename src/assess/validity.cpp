@@ -9,6 +9,7 @@
 #include "floe/assembly/offline.h"
 #include "floe/fem/field_rows.h"
 #include "floe/math/rounded.h"
+#include "floe/petsc/together.h"
 #include "floe/petsc/values.h"
 #include "validity_seen.h"
 
@@ -229,7 +230,8 @@ std::vector<OutOfRange> shapes_out_of_range(const Model& model, const std::vecto
   return out;
 }
 
-std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, const KeptMotion& motion, MPI_Comm comm) {
+std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, const KeptMotion& motion, MPI_Comm comm,
+                                     std::string& unchecked) {
   std::vector<OutOfRange> out;
   if (motion.states().empty() || model.formulation == Formulation::cfr) return out;
   const Scene scene = split_frames(whole, comm);
@@ -238,7 +240,9 @@ std::vector<OutOfRange> out_of_range(const Scene& whole, const Model& model, con
   const bool linear = model.formulation == Formulation::lffr;
   std::vector<BodyReport> modes;
   const bool rotations = std::any_of(seen.begin(), seen.end(), [](const Seen& s) { return s.spin > 0; });
-  if (linear && rotations) modes = body_modes(whole, comm);
+  if (linear && rotations)
+    if (const std::string why = petsc::failed_together(comm, [&] { modes = body_modes(whole, comm); }); !why.empty())
+      unchecked = "spin against first frequencies: " + why;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const BodyReport& body = model.bodies[b];
     if (body.rigid) continue;

@@ -135,8 +135,9 @@ bool may_be_loose(const fem::Structure& structure) {
   });
   const fem::Mesh& mesh = structure.mesh;
   bool hinged = std::any_of(mesh.dependent_nodes.begin(), mesh.dependent_nodes.end(), [&](const auto& f) {
-    const fem::Mesh::Spin* spin = fem::spin_of(mesh, f.node);  // line hinges have arms
-    return spin && (spin->others || mesh.positions[f.node] == mesh.positions[f.independent_node]);
+    const fem::Mesh::Spin* spin = fem::spin_of(mesh, f.node);  // line hinges have arms along their axes
+    const Vector3d arm = mesh.positions[f.node] - mesh.positions[f.independent_node];
+    return spin && (spin->others || !(arm.dot(spin->axis) * arm.dot(spin->axis) > (1 - 1e-6) * arm.squaredNorm()));
   });
   MPI_Allreduce(MPI_IN_PLACE, &hinged, 1, MPI_C_BOOL, MPI_LOR, mesh.comm);
   return released || hinged || springs_connect(mesh);

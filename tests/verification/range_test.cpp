@@ -15,7 +15,10 @@ std::vector<assess::OutOfRange> judged(const std::string& text, Formulation form
   assess::KeptMotion kept(model, 100);
   solve::simulate(*model.system, {scene.motion.end, scene.motion.step, scene.motion.spectral_radius, {}}, model.U,
                   model.V, [&](const solve::Instant& at) { kept.keep(at); });
-  return assess::out_of_range(scene, model, kept, PETSC_COMM_WORLD);
+  std::string unchecked;
+  const auto found = assess::out_of_range(scene, model, kept, PETSC_COMM_WORLD, unchecked);
+  CHECK(unchecked.empty());
+  return found;
 }
 
 /// What the lines are about, with their number.

@@ -43,7 +43,9 @@ struct OutOfRange {
 ///               25 steps a period: generalised-alpha then lengthens periods by half a per cent
 ///
 /// Collective on the communicator of the scene.
-std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, const KeptMotion& motion, MPI_Comm comm);
+/// @param unchecked  what could not be checked, and why, as of bodies that have no modes
+std::vector<OutOfRange> out_of_range(const Scene& scene, const Model& model, const KeptMotion& motion, MPI_Comm comm,
+                                     std::string& unchecked);
 
 /// What the shapes alone say: slope, shortening, mesh, membrane, in-plane, coupling, rotary; for equilibria. Collective
 /// likewise.
