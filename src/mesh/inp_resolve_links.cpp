@@ -87,7 +87,7 @@ double size_of(const std::vector<Labelled>& nodes) {
   return size;
 }
 
-constexpr double coincident = 1e-6;  // of the size of the set
+constexpr double near_enough = 1e-6;  // of the size of the set
 
 /// *MPC TIE and PIN: all nodes at the place of the reference node. Collective.
 void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, const std::vector<long long>& labels,
@@ -95,7 +95,7 @@ void refuse_distant(MPI_Comm comm, const InpLink& link, long long reference, con
   const auto base = with_positions(comm, {reference}, reading), others = with_positions(comm, labels, reading);
   const Labelled origin{0, {0, 0, 0}};
   for (const auto& node : others)
-    if (!base.empty() && distance(node, base[0]) > coincident * distance(node, origin))
+    if (!base.empty() && distance(node, base[0]) > near_enough * distance(node, origin))
       reading.faults.add(link.where, std::string("*MPC ") + (link.free.others ? "PIN" : "TIE") + " of nodes " +
                                          std::to_string(node.label) + " and " + std::to_string(reference) +
                                          " at different points is not read; expected BEAM" +
@@ -130,7 +130,7 @@ void tie(MPI_Comm comm, const InpTie& given, InpReading& reading) {
   if (dependent < 0 || independent < 0) return;
   const auto first = with_positions(comm, reading.mesh.places[dependent].labels, reading),
              second = with_positions(comm, reading.mesh.places[independent].labels, reading);
-  const double limit = coincident * std::max(size_of(first), size_of(second));
+  const double limit = near_enough * std::max(size_of(first), size_of(second));
   std::vector<std::array<long long, 2>> pairs;  // reference, dependent
   long long apart = 0;
   for (const auto& node : first) {
