@@ -9,6 +9,7 @@
 #include "floe/dynamics/local_indices.h"
 #include "floe/error.h"
 #include "floe/mesh/exchange.h"
+#include "floe/petsc/all_ranks.h"
 #include "floe/petsc/error.h"
 
 namespace floe::assembly {
@@ -35,15 +36,6 @@ Vector3d ShellPoint::value(double t, const VectorXd& q) const {
 }
 
 namespace {
-
-template <class T>
-std::vector<T> of_all_ranks(MPI_Comm comm, const std::vector<T>& mine) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<T> copies;
-  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
-  return mesh::exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
-}
 
 /// This rank's shells with one of the nodes.
 std::vector<int> shells_at(const fem::Mesh& mesh, const std::set<PetscInt>& nodes) {
@@ -79,7 +71,7 @@ std::vector<Seen> samples_around(const fem::Structure& structure, PetscInt node,
     std::vector<PetscInt> near;
     for (const int c : cells)
       for (const int place : mesh.cells[c].places()) near.push_back(mesh.global_node(place));
-    const std::vector<PetscInt> all = of_all_ranks(mesh.comm, near);
+    const std::vector<PetscInt> all = petsc::of_all_ranks(mesh.comm, near);
     cells = shells_at(mesh, {all.begin(), all.end()});
   }
   std::vector<Seen> mine;
@@ -97,7 +89,7 @@ std::vector<Seen> samples_around(const fem::Structure& structure, PetscInt node,
       mine.push_back(seen);
     }
   }
-  return of_all_ranks(mesh.comm, mine);
+  return petsc::of_all_ranks(mesh.comm, mine);
 }
 
 /// Points in two axes from the node, and the second moments (xx, yy, xy) of what the samples are the means of.

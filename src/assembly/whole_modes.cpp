@@ -13,7 +13,7 @@
 #include "floe/dynamics/damping.h"
 #include "floe/error.h"
 #include "floe/fem/assembly.h"
-#include "floe/mesh/all_ranks.h"
+#include "floe/petsc/all_ranks.h"
 #include "floe/petsc/values.h"
 #include "floe/reference/modal_damping.h"
 #include "whole_axes.h"
@@ -48,7 +48,7 @@ class Field {
       const Vector3d X = place(body, node);
       places.push_back({X[0], X[1], X[2]});
     }
-    const std::vector<Point> all = mesh::of_all_ranks(mesh.comm, places);
+    const std::vector<Point> all = petsc::of_all_ranks(mesh.comm, places);
     for (const petsc::VecHandle& shape : shapes) {
       const petsc::ConstValues values(shape);
       std::vector<Motion6> own;
@@ -59,7 +59,7 @@ class Field {
         Motion6& motion = own.emplace_back();
         std::copy(u.begin(), u.end(), motion.begin());
       }
-      shapes_.push_back(mesh::of_all_ranks(mesh.comm, own));
+      shapes_.push_back(petsc::of_all_ranks(mesh.comm, own));
     }
     const double extent = fem::extent(body.structure);
     small_ = 1e-8 * extent;

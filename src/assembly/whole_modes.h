@@ -26,7 +26,8 @@ struct PieceUnknowns {
 /// The modal damping of one body in several frames in a model.
 class WholeDamping {
  public:
-  /// At full order y_i are unknowns of their own, with as many multipliers. @param full  Whether.
+  /// At full order y_i are unknowns of their own, with as many multipliers. @param full  whether the model is of full
+  /// order
   WholeDamping(const Plan& plan, const WholeModes& modes, bool full, dynamics::Coordinates& coordinates);
   /// Its terms. @param owner  whether this rank has what ranks share. Collective.
   std::vector<std::unique_ptr<dynamics::Term>> terms(const std::function<PieceUnknowns(int)>& piece, bool owner) const;

@@ -36,11 +36,13 @@ class MeshError {
     part_.by = finer_ ? "elements half as long" : "elements twice as long";
     const ErrorPart empty = part_;
     add(reduced());
-    if (!is_reduced(motion_.model.formulation) || !crowded() || !(worst(part_) > doubtful)) return;
+    if (!is_reduced(motion_.model.formulation) || !crowded()) return;
+    const double before = time_.of_first(worst(part_));
+    if (!(before > doubtful)) return;
     ErrorPart first = std::move(part_);
     part_ = empty;
     const std::string why = petsc::failed_together(motion_.comm, [&] { add(full_order()); });
-    if (!why.empty() || !(worst(part_) < worst(first))) part_ = std::move(first);
+    if (!why.empty() || !(time_.of_first(worst(part_)) < before)) part_ = std::move(first);
   }
 
  private:

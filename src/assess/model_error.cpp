@@ -194,7 +194,8 @@ class ModelError {
   std::optional<Better> extrapolate_steps(Thinning used, const Better& plain, Better& exact) {
     constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
-    const bool is_large = std::any_of(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
+    const bool is_large =
+        time_.of_first(std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; })) > 0;
     if (formulation_ != Formulation::cfr || !is_large || !can_lengthen(motion_) || !step_.none.empty() ||
         step_.errors.size() < plain.probes.values.size() || time_.of_first(needs(twice)) > time_.left())
       return std::nullopt;

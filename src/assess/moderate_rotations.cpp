@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "floe/math/rotation.h"
+#include "floe/petsc/all_ranks.h"
 
 namespace floe::assess {
 
@@ -279,13 +280,7 @@ std::vector<BentElement> bent_elements(const fem::Structure& structure, Vec defo
   const MPI_Comm comm = structure.mesh.comm;
   MPI_Allreduce(MPI_IN_PLACE, &shells, 1, MPI_INT, MPI_MAX, comm);
   if (shells) return {};
-  int ranks = 0, count = static_cast<int>(own.size());
-  MPI_Comm_size(comm, &ranks);
-  std::vector<int> counts(ranks), starts(ranks);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  for (int r = 1; r < ranks; ++r) starts[r] = starts[r - 1] + counts[r - 1];
-  std::vector<double> all(static_cast<std::size_t>(starts.back()) + counts.back());
-  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, comm);
+  const std::vector<double> all = petsc::of_all_ranks(comm, own);
   std::vector<BentElement> elements;
   for (std::size_t i = 0; i < all.size(); i += numbers) elements.push_back(unpacked(all.data() + i));
   std::sort(elements.begin(), elements.end(), [](const BentElement& a, const BentElement& b) {

@@ -2,8 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "floe/mesh/all_ranks.h"
+#include "floe/mesh/exchange.h"
 #include "floe/mesh/labels.h"
+#include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -116,7 +117,7 @@ void assign_cylinders(MPI_Comm comm, InpReading& reading) {
     all.erase(std::unique(all.begin(), all.end()), all.end());
   };
   unique(own);
-  std::vector<Variant> variants = of_all_ranks(comm, own);
+  std::vector<Variant> variants = petsc::of_all_ranks(comm, own);
   unique(variants);
   const int first = static_cast<int>(mesh.parts.size());
   for (const InpCylinder& one : reading.cylinders)  // of parts that keep no element

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "floe/mesh/all_ranks.h"
+#include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -118,7 +118,7 @@ class Equations {
       std::vector<long long> mine;
       for (const long long label : reading.mesh.places[static_cast<std::size_t>(set)].labels)
         if (positions_.contains(label)) mine.push_back(label);
-      for (const long long label : of_all_ranks(comm, mine)) transforms_[label] = &transform;
+      for (const long long label : petsc::of_all_ranks(comm, mine)) transforms_[label] = &transform;
     }
     find_used(comm);
   }
@@ -177,7 +177,7 @@ class Equations {
     for (const FileCell& cell : reading_.mesh.cells)
       for (int i = 0; i < node_count(cell.kind); ++i) use(cell.nodes[static_cast<std::size_t>(i)]);
     for (const Mention& mention : reading_.mesh.mentions) use(mention.label);
-    const std::vector<long long> all = of_all_ranks(comm, std::vector<long long>(mine.begin(), mine.end()));
+    const std::vector<long long> all = petsc::of_all_ranks(comm, std::vector<long long>(mine.begin(), mine.end()));
     used_.insert(all.begin(), all.end());
   }
 

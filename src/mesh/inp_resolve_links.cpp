@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floe/mesh/all_ranks.h"
+#include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -68,7 +68,7 @@ struct Labelled {
 std::vector<Labelled> with_positions(MPI_Comm comm, const std::vector<long long>& labels, const InpReading& reading) {
   std::vector<Labelled> mine;
   for (const auto& [label, x] : positions_of(comm, labels, reading)) mine.push_back({label, {x[0], x[1], x[2]}});
-  std::vector<Labelled> all = of_all_ranks(comm, mine);
+  std::vector<Labelled> all = petsc::of_all_ranks(comm, mine);
   const auto less = [](const Labelled& a, const Labelled& b) { return a.label < b.label; };
   std::sort(all.begin(), all.end(), less);
   all.erase(std::unique(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.label == b.label; }),

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floe/mesh/all_ranks.h"
+#include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 

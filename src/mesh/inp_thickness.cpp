@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "deck_file.h"
-#include "floe/mesh/all_ranks.h"
 #include "floe/mesh/labels.h"
+#include "floe/petsc/all_ranks.h"
 #include "inp_reading.h"
 #include "text.h"
 
@@ -33,7 +33,7 @@ std::vector<Given> given_thicknesses(MPI_Comm comm, InpReading& reading) {
     }
     for (const long long label : reading.mesh.places[set].labels) mine.push_back({label, line, one.value});
   }
-  std::vector<Given> all = of_all_ranks(comm, mine);
+  std::vector<Given> all = petsc::of_all_ranks(comm, mine);
   std::sort(all.begin(), all.end(),
             [](const Given& a, const Given& b) { return std::pair(a.label, -a.line) < std::pair(b.label, -b.line); });
   all.erase(std::unique(all.begin(), all.end(), [](const Given& a, const Given& b) { return a.label == b.label; }),
@@ -86,7 +86,7 @@ void assign_thicknesses(MPI_Comm comm, InpReading& reading) {
     if (variant.part >= 0) own.push_back(variant), ++elements;
   std::sort(own.begin(), own.end());
   own.erase(std::unique(own.begin(), own.end()), own.end());
-  std::vector<Variant> variants = of_all_ranks(comm, own);
+  std::vector<Variant> variants = petsc::of_all_ranks(comm, own);
   std::sort(variants.begin(), variants.end());
   variants.erase(std::unique(variants.begin(), variants.end()), variants.end());
   MPI_Allreduce(MPI_IN_PLACE, &elements, 1, MPI_LONG_LONG, MPI_SUM, comm);

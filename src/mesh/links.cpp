@@ -9,7 +9,8 @@
 #include <tuple>
 
 #include "floe/error.h"
-#include "floe/mesh/all_ranks.h"
+#include "floe/mesh/exchange.h"
+#include "floe/petsc/all_ranks.h"
 
 namespace floe::mesh {
 namespace {
@@ -102,7 +103,7 @@ std::vector<PetscInt> of_links(const RawMesh& mesh, const std::vector<DependentN
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   };
   sort(mine);
-  std::vector<PetscInt> found = of_all_ranks(mesh.comm, mine);
+  std::vector<PetscInt> found = petsc::of_all_ranks(mesh.comm, mine);
   sort(found);
   return found;
 }
@@ -185,7 +186,7 @@ std::vector<DependentNode> dependent_nodes(const RawMesh& mesh, const Deck& deck
   for (const RigidLink& link : deck.links)
     for (PetscInt node : link.nodes)
       if (node != link.reference) mine.push_back({node, link.reference, link.axis, link.others});
-  std::vector<DependentNode> all = of_all_ranks(mesh.comm, mine);
+  std::vector<DependentNode> all = petsc::of_all_ranks(mesh.comm, mine);
   const auto key = [](const DependentNode& a) { return std::tuple(a.node, a.independent_node, a.axis, a.others); };
   std::sort(all.begin(), all.end(), [&](const DependentNode& a, const DependentNode& b) { return key(a) < key(b); });
   all.erase(std::unique(all.begin(), all.end(),

@@ -4,21 +4,12 @@
 #include "cut_mesh.h"
 #include "floe/error.h"
 #include "floe/mesh/exchange.h"
+#include "floe/petsc/all_ranks.h"
 
 namespace floe::plan {
 namespace {
 
 using mesh::RawMesh;
-
-/// Of all ranks, one after the other. Collective.
-template <class T>
-std::vector<T> all_of(MPI_Comm comm, const std::vector<T>& mine) {
-  int ranks = 1;
-  MPI_Comm_size(comm, &ranks);
-  std::vector<T> copies;
-  for (int r = 0; r < ranks; ++r) copies.insert(copies.end(), mine.begin(), mine.end());
-  return mesh::exchange(comm, copies, std::vector<int>(ranks, static_cast<int>(mine.size()))).values;
-}
 
 struct Coordinates {
   double x[3];
@@ -33,12 +24,13 @@ RawMesh on_every_rank(const RawMesh& mesh) {
   whole.parts = mesh.parts, whole.places = mesh.places;
   std::vector<Coordinates> own;
   for (const Eigen::Vector3d& x : mesh.positions) own.push_back({{x[0], x[1], x[2]}});
-  for (const Coordinates& at : all_of(mesh.comm, own)) whole.positions.emplace_back(at.x[0], at.x[1], at.x[2]);
-  whole.cells = all_of(mesh.comm, mesh.cells);
-  whole.node_labels = all_of(mesh.comm, mesh.node_labels);
-  whole.cell_labels = all_of(mesh.comm, mesh.cell_labels);
+  for (const Coordinates& at : petsc::of_all_ranks(mesh.comm, own))
+    whole.positions.emplace_back(at.x[0], at.x[1], at.x[2]);
+  whole.cells = petsc::of_all_ranks(mesh.comm, mesh.cells);
+  whole.node_labels = petsc::of_all_ranks(mesh.comm, mesh.node_labels);
+  whole.cell_labels = petsc::of_all_ranks(mesh.comm, mesh.cell_labels);
   for (const std::vector<PetscInt>& found : mesh.place_nodes) {
-    std::vector<PetscInt> nodes = all_of(mesh.comm, found);
+    std::vector<PetscInt> nodes = petsc::of_all_ranks(mesh.comm, found);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     whole.place_nodes.push_back(std::move(nodes));

@@ -18,6 +18,7 @@
 #include "floe/mesh/nastran.h"
 #include "floe/mesh/partition.h"
 #include "floe/mesh/pieces.h"
+#include "floe/petsc/all_ranks.h"
 #include "floe/plan/prepare_spatial.h"
 #include "floe/scene/places.h"
 #include "hinge_lines.h"
@@ -261,14 +262,7 @@ std::string take_strains(const Body& body, const fem::Mesh& mesh, std::vector<fe
 
 /// Union over the ranks, ascending. Collective.
 std::vector<PetscInt> gathered(MPI_Comm comm, const std::vector<PetscInt>& mine) {
-  int size = 1;
-  MPI_Comm_size(comm, &size);
-  const int count = static_cast<int>(mine.size());
-  std::vector<int> counts(size), starts(size + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-  std::vector<PetscInt> all(starts.back());
-  MPI_Allgatherv(mine.data(), count, MPIU_INT, all.data(), counts.data(), starts.data(), MPIU_INT, comm);
+  std::vector<PetscInt> all = petsc::of_all_ranks(comm, mine);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -10,6 +10,7 @@
 
 #include "floe/fem/element_count.h"
 #include "floe/math/disjoint_sets.h"
+#include "floe/petsc/all_ranks.h"
 #include "floe/reduction/statics.h"
 
 namespace floe::reduction {
@@ -104,23 +105,12 @@ std::vector<PetscInt> connections(const fem::Mesh& mesh, bool of_springs) {
   return pairs;
 }
 
-std::vector<PetscInt> gather(const std::vector<PetscInt>& values, MPI_Comm comm) {
-  int ranks = 1, count = static_cast<int>(values.size());
-  MPI_Comm_size(comm, &ranks);
-  std::vector<int> counts(static_cast<std::size_t>(ranks)), starts(counts);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  std::exclusive_scan(counts.begin(), counts.end(), starts.begin(), 0);
-  std::vector<PetscInt> all(static_cast<std::size_t>(starts.back() + counts.back()));
-  MPI_Allgatherv(values.data(), count, MPIU_INT, all.data(), counts.data(), starts.data(), MPIU_INT, comm);
-  return all;
-}
-
 /// Whether a spring connects nodes that no other elements do; not those of a straight edge. Collective.
 bool springs_connect(const fem::Mesh& mesh) {
-  const std::vector<PetscInt> springs = gather(connections(mesh, true), mesh.comm);
+  const std::vector<PetscInt> springs = petsc::of_all_ranks(mesh.comm, connections(mesh, true));
   if (springs.empty()) return false;
   math::DisjointSets<PetscInt> components(static_cast<std::size_t>(mesh.node_count));
-  const std::vector<PetscInt> others = gather(connections(mesh, false), mesh.comm);
+  const std::vector<PetscInt> others = petsc::of_all_ranks(mesh.comm, connections(mesh, false));
   for (std::size_t i = 0; i < others.size(); i += 2) components.join(others[i], others[i + 1]);
   for (std::size_t i = 0; i < springs.size(); i += 2)
     if (components.root(springs[i]) != components.root(springs[i + 1])) return true;

@@ -11,6 +11,7 @@
 #include "floe/fem/element.h"
 #include "floe/fem/shell.h"
 #include "floe/math/rotation.h"
+#include "floe/petsc/all_ranks.h"
 #include "floe/petsc/values.h"
 
 namespace floe::reference {
@@ -27,18 +28,6 @@ bool is_last(MPI_Comm comm) {
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
   return rank == size - 1;
-}
-
-/// Numbers of all ranks, in their order, on every rank. Collective.
-std::vector<double> of_all_ranks(MPI_Comm comm, const std::vector<double>& mine) {
-  int ranks = 1, count = static_cast<int>(mine.size());
-  MPI_Comm_size(comm, &ranks);
-  std::vector<int> counts(ranks), first(ranks + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
-  for (int rank = 0; rank < ranks; ++rank) first[rank + 1] = first[rank] + counts[rank];
-  std::vector<double> all(first[ranks]);
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), first.data(), MPI_DOUBLE, comm);
-  return all;
 }
 
 /// Six numbers of each node, of all ranks; empty where there is no field. Collective.
@@ -109,7 +98,7 @@ void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& piec
       mine.insert(mine.end(), {double(mesh.global_node(f.node)), double(mesh.global_node(f.independent_node)), arm.x(),
                                arm.y(), arm.z(), e.x(), e.y(), e.z(), spin->others ? 1. : 0.});
     }
-  const std::vector<double> hinges = of_all_ranks(mesh.comm, mine);
+  const std::vector<double> hinges = petsc::of_all_ranks(mesh.comm, mine);
   for (std::size_t i = 0; i < hinges.size(); i += 9)
     links_.push_back({integer(hinges[i]), integer(hinges[i + 1]), Vector3d(hinges[i + 2], hinges[i + 3], hinges[i + 4]),
                       Vector3d(hinges[i + 5], hinges[i + 6], hinges[i + 7]), hinges[i + 8] != 0});
@@ -120,7 +109,7 @@ void CorotationalBody::find_links(const std::vector<std::vector<PetscInt>>& piec
         const Vector3d& X = mesh.positions[local];
         mine.insert(mine.end(), {double(node), X.x(), X.y(), X.z()});
       }
-  const std::vector<double> places = of_all_ranks(mesh.comm, mine);
+  const std::vector<double> places = petsc::of_all_ranks(mesh.comm, mine);
   std::map<PetscInt, Vector3d> X;
   for (std::size_t i = 0; i < places.size(); i += 4)
     X[integer(places[i])] = {places[i + 1], places[i + 2], places[i + 3]};

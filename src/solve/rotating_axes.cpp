@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "floe/petsc/all_ranks.h"
 #include "gather_to_all.h"
 
 namespace floe::solve {
@@ -22,13 +23,7 @@ std::vector<WorldFrame> world_frames(const System& system) {
     const Eigen::Quaterniond& q = attitude->base;
     mine.insert(mine.end(), {double(system.coordinates().global()[first]), q.w(), q.x(), q.y(), q.z()});
   }
-  int ranks = 1, count = static_cast<int>(mine.size());
-  MPI_Comm_size(system.comm(), &ranks);
-  std::vector<int> counts(ranks), offsets(ranks + 1, 0);
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, system.comm());
-  std::partial_sum(counts.begin(), counts.end(), offsets.begin() + 1);
-  std::vector<double> all(offsets.back());
-  MPI_Allgatherv(mine.data(), count, MPI_DOUBLE, all.data(), counts.data(), offsets.data(), MPI_DOUBLE, system.comm());
+  const std::vector<double> all = petsc::of_all_ranks(system.comm(), mine);
   std::vector<WorldFrame> frames;
   for (std::size_t i = 0; i < all.size(); i += 5)
     frames.push_back({std::lround(all[i]), {all[i + 1], all[i + 2], all[i + 3], all[i + 4]}});
