@@ -213,9 +213,9 @@ ordered_json error_budget(const assess::FinishedMotion& motion, const assess::Ke
   if (!made_rigid.empty()) j["total"]["made_rigid"] = made_rigid;
   for (std::size_t p = 0; p < motion.model.probes.size(); ++p) {
     ordered_json lacks = ordered_json::array();
+    const bool in_model = model.with_reduction && model.none.empty() && !std::isnan(model.probes[p]);
     for (int i = all_rigid(motion.scene) && made_rigid.empty() ? 3 : 0; i < count; ++i)
-      if ((i > 0 || !model.with_reduction) && (!all[i]->none.empty() || std::isnan(all[i]->probes[p])))
-        lacks.push_back(parts[i]);
+      if ((i > 0 || !in_model) && (!all[i]->none.empty() || std::isnan(all[i]->probes[p]))) lacks.push_back(parts[i]);
     if (!lacks.empty()) j["total"]["missing"][motion.model.probes[p].name] = lacks;
   }
   return j;

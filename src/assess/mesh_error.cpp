@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "error_part.h"
+#include "floe/assess/probe_errors.h"
 #include "floe/error.h"
 #include "floe/petsc/together.h"
 
@@ -37,12 +38,11 @@ class MeshError {
     const ErrorPart empty = part_;
     add(reduced());
     if (!is_reduced(motion_.model.formulation) || !crowded()) return;
-    const double before = time_.of_first(worst(part_));
-    if (!(before > doubtful)) return;
+    if (!(time_.of_first(worst(part_)) > doubtful)) return;
     ErrorPart first = std::move(part_);
     part_ = empty;
     const std::string why = petsc::failed_together(motion_.comm, [&] { add(full_order()); });
-    if (!why.empty() || !(time_.of_first(worst(part_)) < before)) part_ = std::move(first);
+    if (!why.empty() || time_.of_first(is_smaller(part_, first)) == 0) part_ = std::move(first);
   }
 
  private:
@@ -64,6 +64,25 @@ class MeshError {
     for (const double error : part.probes)
       if (!std::isnan(error)) worst = std::max(worst, error);
     return worst;
+  }
+
+  /// Whether an error is smaller than the first over the time that it covers, and known of the same probes.
+  bool is_smaller(const ErrorPart& part, const ErrorPart& first) const {
+    if (!part.none.empty()) return false;
+    if (!first.none.empty()) return true;
+    ProbeErrors same(own_.columns);
+    for (std::size_t i = 0; i < first.t.size() && first.t[i] <= part.until; ++i) {
+      const auto at = std::lower_bound(own_.t.begin(), own_.t.end(), first.t[i]);
+      same.add(first.errors[i], own_.values[static_cast<std::size_t>(at - own_.t.begin())]);
+    }
+    const std::vector<double> before = same.relative(part.until - own_.t.front());
+    double greatest = 0;
+    for (std::size_t p = 0; p < first.probes.size(); ++p) {
+      if (std::isnan(first.probes[p])) continue;
+      if (std::isnan(part.probes[p])) return false;
+      greatest = std::max(greatest, before[p]);
+    }
+    return worst(part) < greatest;
   }
 
   /// Whether the basis vectors of a body are a great part of all that it can do: those of the same names are a smaller

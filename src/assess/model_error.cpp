@@ -79,9 +79,10 @@ class ModelError {
       part_.notes.push_back("it contains the reduction error, which is not known by itself");
     }
     const Simulated one = own_motion(used, exact->reached);
+    const std::vector<std::string> notes = part_.notes;
     set_errors(own_, exact->probes, one, 1, others(), part_);
     if (const std::optional<Better> twice = extrapolate_steps(used, plain, *exact)) {
-      set_errors(own_, exact->probes, one, 1, others(), part_ = emptied());
+      set_errors(own_, exact->probes, one, 1, others(), part_ = emptied(notes));
       leave_out_unresolved(plain.probes, twice->probes);
     }
     if (part_.t.empty()) part_.none = name_ + " has no results at the instants stored";
@@ -194,15 +195,20 @@ class ModelError {
   std::optional<Better> extrapolate_steps(Thinning used, const Better& plain, Better& exact) {
     constexpr double large = 0.01;
     const Thinning twice{used.mesh, 2 * used.step};
-    const bool is_large =
-        time_.of_first(std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; })) > 0;
-    if (formulation_ != Formulation::cfr || !is_large || !can_lengthen(motion_) || !step_.none.empty() ||
-        step_.errors.size() < plain.probes.values.size() || time_.of_first(needs(twice)) > time_.left())
-      return std::nullopt;
+    const auto large_ones = std::count_if(part_.probes.begin(), part_.probes.end(), [](double e) { return e > large; });
+    const auto missing = std::count_if(own_.t.begin(), own_.t.end(), [&](double t) {
+      return t <= exact.reached && !std::binary_search(step_.t.begin(), step_.t.end(), t);
+    });
+    const bool wanted = formulation_ == Formulation::cfr && can_lengthen(motion_) && step_.none.empty();
+    const bool useful = time_.of_first(wanted && large_ones > 0 && missing == 0) > 0,
+               fits = time_.of_first(needs(twice)) <= time_.left();
+    if (!useful || !fits) return std::nullopt;
     std::optional<Better> second;
     const std::string why = petsc::failed_together(motion_.comm, [&] { second = better(twice, exact.reached, false); });
-    if (!why.empty() || second->reached < 0.98 * exact.reached || !resolved(second->event_error))
-      return std::nullopt;  // the part stands
+    if (!why.empty()) return std::nullopt;  // the part stands
+    const bool good = resolved(second->event_error),
+               short_of = time_.of_first(second->reached - 0.98 * exact.reached) < 0;
+    if (!good || short_of) return std::nullopt;
     add_third(exact.probes.values, plain.probes.values, second->probes.values);
     part_.by += ", and in steps twice as long";
     steps_ = used.step;
@@ -230,9 +236,10 @@ class ModelError {
                       fmt::join(names, ", "), names.size() > 1 ? "are" : "is"));
   }
 
-  /// The part without its errors.
-  ErrorPart emptied() const {
+  /// The part without its errors, and with the notes before them.
+  ErrorPart emptied(const std::vector<std::string>& notes) const {
     ErrorPart part = part_;
+    part.notes = notes;
     part.t.clear(), part.errors.clear(), part.probes.clear();
     return part;
   }
@@ -247,15 +254,19 @@ class ModelError {
 
   /// What is not of the model in the difference: the errors of the reduction, of the mesh, and of extrapolated steps.
   std::vector<std::vector<double>> others() const {
-    std::vector<std::vector<double>> sum = reduction_.errors;
-    if (sum.empty()) sum.assign(own_.t.size(), std::vector<double>(own_.columns.size(), 0));
-    const auto add = [&](double factor, const ErrorPart& part) {
-      for (std::size_t i = 0; i < std::min(sum.size(), part.errors.size()); ++i)
-        for (std::size_t c = 0; c < sum[i].size(); ++c)
-          if (!std::isnan(part.errors[i][c])) sum[i][c] += factor * part.errors[i][c];
+    std::vector<std::vector<double>> sum(own_.t.size(), std::vector<double>(own_.columns.size(), 0));
+    const auto add = [&](double factor, const std::vector<double>& t, const std::vector<std::vector<double>>& errors) {
+      for (std::size_t i = 0; i < sum.size(); ++i) {
+        const auto at = std::lower_bound(t.begin(), t.end(), own_.t[i]);
+        if (at == t.end() || *at != own_.t[i]) continue;
+        const std::vector<double>& row = errors[static_cast<std::size_t>(at - t.begin())];
+        for (std::size_t c = 0; c < row.size(); ++c)
+          if (!std::isnan(row[c])) sum[i][c] += factor * row[c];
+      }
     };
-    if (part_.apart) add(1, mesh_);
-    if (steps_ > 0) add(steps_ * steps_, step_);
+    add(1, reduction_.t, reduction_.errors);
+    if (part_.apart) add(1, mesh_.t, mesh_.errors);
+    if (steps_ > 0) add(steps_ * steps_, step_.t, step_.errors);
     return sum;
   }
 

@@ -273,7 +273,7 @@ const SchemaSection damping_section{
          nonnegative},
         {"modal", Type::numbers, "", "[]",
          "damping ratios of the first modes (with an interface: of the fixed-interface modes); with several frames "
-         "in cfr only",
+         "those of the body as a whole",
          nonnegative},
     }};
 

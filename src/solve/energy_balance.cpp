@@ -53,7 +53,8 @@ void EnergyBalance::add(const System& system, double t, Vec U, Vec V, Vec A, dou
   if (count_ == 0) start_ = energy;
   const double h = t - t_;
   if (count_ > 0 && A && h > 0) {
-    const auto [power, dissipation] = powers(system, t, 1e-3 * h, U, V, A);
+    const auto [power, dissipated] = powers(system, t, 1e-3 * h, U, V, A);
+    const double dissipation = std::max(0.0, dissipated);
     if (known_ == 0) power_ = power, dissipation_ = dissipation;
     work_ += 0.5 * h * (power_ + power);
     dissipated_ += 0.5 * h * (dissipation_ + dissipation);

@@ -196,7 +196,6 @@ TEST_CASE("damping: modal, in full-order models as in reduced ones") {
       }
 }
 
-// Ratios in axes that accompany the body; a rigid rotation on the side is not damped.
 TEST_CASE("damping: modal, the same in any number of frames") {
   const int dimension = GENERATE(2, 3);
   const std::string frames = GENERATE("2", "4");
@@ -209,6 +208,7 @@ TEST_CASE("damping: modal, the same in any number of frames") {
     }
 }
 
+// Ratios in axes that accompany the body; a rigid rotation on the side is not damped.
 TEST_CASE("damping: modal, in corotational elements") {
   const int dimension = GENERATE(2, 3);
   for (const Held& constrained : ways_to_hold(dimension)) {

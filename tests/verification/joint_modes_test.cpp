@@ -138,6 +138,7 @@ motion: {end: 0.5, step: 5e-4}
 $events
 probes:
   tip: {at: a.end, quantity: position}
+  M: {joint: h, quantity: moment}
   b: {at: a.middle, relative_to: a.start}
 )yaml";
   const std::string space = R"yaml(
@@ -153,6 +154,7 @@ motion: {end: 0.5, step: 5e-4}
 $events
 probes:
   tip: {at: a.end, quantity: position}
+  M: {joint: h, quantity: moment}
   b: {at: a.end, relative_to: a.start}
 )yaml";
   struct Case {
@@ -165,6 +167,6 @@ probes:
     const std::string scene = fill(text, {{"joint", c.joint}, {"events", c.events}});
     INFO(scene);
     const History reduced = move(scene, Formulation::vm_md), full = move(scene, Formulation::nlffr);
-    for (const char* probe : {"tip", "b"}) CHECK(vector_error(reduced, full, probe) < 0.01);
+    for (const char* probe : {"tip", "b", "M"}) CHECK(vector_error(reduced, full, probe) < 0.01);
   }
 }

@@ -91,7 +91,7 @@ Estimate estimate_by_full_order(const FinishedMotion& motion, const ProbeSeries&
 ///   e_mesh = 4/3 (y_h/2 - y_h)     or     1/3 (y_h - y_2h)
 ///
 /// Errors of higher order are overestimated by a third at most by the first, and by the power of two of the difference
-/// of orders by the second. Not estimated: imported meshes.
+/// of orders by the second.
 /// Faults, collective: as estimate_model_error.
 ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& own, double allowed);
 

@@ -13,11 +13,11 @@ using namespace dynamics;
 /// by the trapezoidal rule. P [W] is the power of all that has no energy of its own: loads and drives, less what
 /// dampers dissipate, P = dE/dt - F.v with dE/dt the derivative of the total energy along (v, a) (a central difference,
 /// exact but for its third order) and F the residual of the equations of motion, which does work where they are not
-/// met. P_d = 1/2 v.(F(v) - F(-v)) is what dampers and friction dissipate: forces of inertia are even in v. So P + P_d
-/// is the power of loads and drives, and dissipation lets X only fall, however badly samples of P_d integrate
-/// (vibrations that steps do not resolve, friction that changes its sign from step to step). X counts from the last
-/// instant before an event on. The integrator takes energy away and adds none; a motion whose energy grows by itself is
-/// none.
+/// met. P_d = max(0, 1/2 v.(F(v) - F(-v))) is what dampers and friction dissipate: forces of inertia are even in v. So
+/// P + P_d is the power of loads and drives, and dissipation lets X only fall, however badly samples of P_d integrate
+/// (vibrations that steps do not resolve, friction that changes its sign from step to step). What loads along the
+/// velocity feed in, beyond what is dissipated, is in P. X counts from the last instant before an event on.
+/// The integrator takes energy away and adds none; a motion whose energy grows by itself is none.
 class EnergyBalance {
  public:
   /// An instant. A null: not computed yet (at the start). Bases of attitudes and U are afterwards as before.

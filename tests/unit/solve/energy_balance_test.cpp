@@ -126,3 +126,21 @@ TEST_CASE("dissipation that samples overestimate is no growth of energy, and ris
   balance.add(system, 1.4, U, V, A, 37, 37);
   CHECK(balance.growth() == Approx(8));
 }
+
+// A load 30 N m s/rad times the rate, along it: 30 W, and the energy rises by as much.
+TEST_CASE("what loads along the velocity feed in is work, and no growth of energy") {
+  testing::Terms driven;
+  driven.push_back(
+      std::make_unique<dynamics::LinearDamping>(std::vector<int>{2}, Eigen::MatrixXd::Constant(1, 1, -30)));
+  const dynamics::System system = testing::pendulum(2, 1.5, 0, std::move(driven));
+  const petsc::VecHandle U = system.create_vector(), V = vector_of(system, {0, 0, -1, 0, 0}),
+                         A = system.create_vector();
+  solve::EnergyBalance balance;
+  balance.add(system, 0, U, V, A, 0.1, 0.1);
+  for (int i = 1; i <= 10; ++i) {
+    balance.add(system, 0.1 * i, U, V, A, 0.1 + 3 * i, 0.1 + 3 * i);
+    CHECK(!balance.runs_away(0));
+  }
+  CHECK(balance.work() == Approx(30));
+  CHECK(balance.growth() == Approx(0).margin(1e-9));
+}
