@@ -92,15 +92,16 @@ void set_errors(const ProbeSeries& own, const Simulated& other, const Simulated&
   std::size_t left_out = 0;
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> row(own.columns.size(), unknown);
-    bool compares = true;
+    std::size_t compared = 0, known = 0;
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (theirs[c] < 0 || ours[c] < 0) continue;
       row[c] = weight * (other.values[i][theirs[c]] - one.values[i][ours[c]]);
       if (i < less.size()) row[c] -= less[i][c];
-      compares = compares && !std::isnan(row[c]);
+      ++compared, known += std::isnan(row[c]) ? 0 : 1;
     }
-    if (compares) errors.add(row, own.values[i]);
-    if (!compares) ++left_out;
+    const bool none = known == 0 && compared > 0;
+    if (none) ++left_out;
+    if (!none) errors.add(row, own.values[i]);  // a probe without a value at one of them has no error
     part.t.push_back(own.t[i]);
     part.errors.push_back(std::move(row));
   }

@@ -146,8 +146,9 @@ class ModelError {
       used.step /= 2;
       while (!fits(used) && used.mesh < 4 && !any_shells(scene_)) used.mesh *= 2;
       if (!fits(used)) break;
-      std::optional<Better> one = better(used, motion_.how.end, false);
-      if (!resolved(one->event_error)) continue;
+      std::optional<Better> one;
+      const std::string why = petsc::failed_together(motion_.comm, [&] { one = better(used, motion_.how.end, false); });
+      if (!why.empty() || !resolved(one->event_error)) continue;
       part_.notes.clear();  // of longer steps
       return one;
     }

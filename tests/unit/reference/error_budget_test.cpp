@@ -32,12 +32,13 @@ Budget budget_of(const std::string& text, double allowed) {
   REQUIRE(estimate.none == "");
   const assess::FinishedMotion motion{scene, model, start, how, all.history.report.steps, 0.1, 0.1, PETSC_COMM_WORLD};
   const assess::ProbeSeries own = assess::probe_series(model, kept, estimate);
-  all.mesh = assess::estimate_mesh_error(motion, own, allowed);
-  all.model = assess::estimate_model_error(motion, own, estimate, all.mesh, allowed);
   all.step = assess::estimate_step_error(model, start, kept, how, 0.1, allowed);
   assess::ErrorPart reduction, step;
   reduction.probes = estimate.probes, reduction.t = estimate.t, reduction.errors = estimate.errors;
+  step.none = all.step.none;
   step.probes = all.step.probes, step.t = all.step.t, step.errors = all.step.errors;
+  all.mesh = assess::estimate_mesh_error(motion, own, allowed);
+  all.model = assess::estimate_model_error(motion, own, estimate, all.mesh, allowed, step);
   std::vector<const assess::ErrorPart*> parts = {&reduction, &step, &all.mesh};
   if (all.model.none.empty()) parts.push_back(&all.model);
   all.total = assess::total_error(own, parts);
@@ -190,6 +191,36 @@ TEST_CASE("error budget: the model contains the mesh where the mesh error covers
   CHECK(model().apart);
   mesh.errors.resize(mesh.errors.size() / 2);
   CHECK_FALSE(model().apart);
+}
+
+// Steps of 0.1 rad: twice as long, they move the tip of formulation cfr by more than both models differ.
+TEST_CASE("error budget: the model part leaves out what its steps do not resolve") {
+  const std::string beam = R"yaml(
+bodies:
+  beam:
+    mesh: {line: {from: [0, 0], to: [1, 0], elements: $elements}}
+    section: {EA: 2e5, EI: 20, rhoA: 1}
+    reduction: {modes: 3, derivatives: all}
+    initial: {angular_velocity: 10}
+joints: {hinge: {type: revolute, between: [ground, beam.start]}}
+loads: {tip: {type: force, at: beam.end, force: [0, "20*(t>0.1)"]}}
+motion: {end: 1, step: $step}
+probes: {tip: {at: beam.end}}
+)yaml";
+  const Budget fine = budget_of(fill(beam, {{"elements", "4"}, {"step", "2e-3"}}), 100),
+               coarse = budget_of(fill(beam, {{"elements", "4"}, {"step", "1e-2"}}), 100);
+  CHECK(fine.model.notes.empty());
+  CHECK(fine.model.probes[0] < 0.01);
+  CHECK_THAT(coarse.model.by, Catch::EndsWith("and in steps twice as long"));
+  REQUIRE(coarse.model.notes.size() == 1);
+  CHECK_THAT(coarse.model.notes[0], Catch::Contains("tip is left out"));
+  CHECK(std::isnan(coarse.model.probes[0]));
+  CHECK(std::isnan(coarse.model.errors.back()[0]));
+  const History exact = exact_motion(fill(beam, {{"elements", "16"}, {"step", "5e-4"}}));
+  const double error = vector_error(coarse.history, exact, "tip");
+  CHECK(error > 0.01);
+  CHECK(coarse.total[0] > 0.3 * error);
+  CHECK(coarse.total[0] < 3 * error);
 }
 
 // 10 selected vectors of 30 dofs: those of the same names on the refined mesh move by 80 % less.
