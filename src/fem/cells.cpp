@@ -47,7 +47,9 @@ ElementMaps maps_of(const Corners& at, const SpatialBeam& beam) {
   if (at.quadratic()) return quadratic_beam(curve_of(at, beam), beam.section, beam.strain);
   const ElementMaps rigidly_joined = spatial_beam(place_of(at, beam), beam.section, beam.strain);
   if (beam.releases.none()) return rigidly_joined;
-  return transformed(rigidly_joined, released(place_of(at, beam), beam.section, beam.releases));
+  ElementMaps maps = transformed(rigidly_joined, released(place_of(at, beam), beam.section, beam.releases));
+  if (beam.alone.any()) maps.bending += rod_rotations(place_of(at, beam), beam.section, beam.releases, beam.alone);
+  return maps;
 }
 ElementMaps maps_of(const Corners& at, const ShellSection& section) {
   if (at.quadratic()) return quadratic_shell(at.all(), section);

@@ -25,7 +25,7 @@ bool same(const SpatialBeam& a, const SpatialBeam& b) {
          s.rhoIy == t.rhoIy && s.rhoIz == t.rhoIz && s.rhoIyz == t.rhoIyz && s.centroid == t.centroid &&
          s.shear_centre == t.shear_centre && s.GA == t.GA && near(a.orientation, b.orientation) &&
          a.strain.membrane == b.strain.membrane && a.strain.wagner == b.strain.wagner &&
-         a.strain.strains == b.strain.strains && a.releases == b.releases;
+         a.strain.strains == b.strain.strains && a.releases == b.releases && a.alone == b.alone;
 }
 
 bool same(const ShellSection& a, const ShellSection& b) {

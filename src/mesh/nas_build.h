@@ -35,6 +35,7 @@ class NasBuild {
   struct Rotations;
   std::unordered_map<long long, Rotations> rotations_of_grids() const;
   void free_rotations();
+  void find_rods_alone();
   RigidLink freedom(const NasLink& link, long long grid);
   void add_shells();
   void add_beams();
@@ -93,6 +94,7 @@ class NasBuild {
   double extent_ = -1;
   std::map<std::pair<long long, Variant>, int> parts_;    // of beams by the negative number of the property
   std::vector<FilePlace> mean_places_;                    // the grids of each RBE3
+  std::map<std::size_t, unsigned> alone_;                 // of rods, as NasBeam::alone
   std::unordered_map<long long, long long> independent_;  // of dependent grids
   std::vector<Extra> extra_, between_;                    // at the ends of beams with offsets; inside beams with taper
   std::map<std::array<double, 4>, long long> extra_of_;

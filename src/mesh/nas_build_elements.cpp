@@ -236,7 +236,7 @@ void NasBuild::add_beam_section(const NasBeamProperty& own, const NasBeam& beam,
   section.part = own.name;
   section.number = part;
   section.direction_1 = orientation;
-  section.releases = beam.releases;
+  section.releases = beam.releases, section.alone = beam.alone;
   section.youngs = found->material.constants[0];
   section.shear = found->shear;
   const double density = (found->material.density + own.extra / own.area) * model_.mass_factor;
@@ -249,6 +249,7 @@ void NasBuild::add_beams() {
   for (const NasBeam& beam : model_.beams) next_element_ = std::max(next_element_, beam.id + 1);
   for (std::size_t i = 0; i < model_.beams.size(); ++i) {
     NasBeam beam = model_.beams[i];
+    if (const auto found = alone_.find(i); found != alone_.end()) beam.alone = found->second;
     if (const auto found = released_.find(i); found != released_.end()) beam.releases |= found->second;
     const NasBeamProperty* own =
         property(model_.beam_properties, beam.property, beam.where, "beam " + std::to_string(beam.id));
@@ -271,8 +272,9 @@ void NasBuild::add_beams() {
       add_pieces(*own, beam, nodes, x, v, mine(model_.shells.size() + i));
       continue;
     }
-    const int part = part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases), 1}, own->name,
-                             [&](int number) { add_beam_section(*own, beam, v, number); });
+    const int part =
+        part_of(-beam.property, {v[0], v[1], v[2], static_cast<double>(beam.releases | beam.alone << 12), 1}, own->name,
+                [&](int number) { add_beam_section(*own, beam, v, number); });
     if (mine(model_.shells.size() + i)) mesh.cells.push_back({beam.id, CellKind::line, part, nodes, beam.where});
   }
 }

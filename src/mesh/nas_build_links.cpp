@@ -57,7 +57,8 @@ RigidLink NasBuild::freedom(const NasLink& link, long long grid) {
 }
 
 /// Links that leave rotations of their dependent grids free: where nothing acts on these, they are rigid; where a
-/// single end of a beam does and all are free, this end is released; else the grids have rotations of their own.
+/// single end of a beam does and all are free, this end is released; else the grids have rotations of their own, also
+/// those that rods alone hold, where all are free.
 void NasBuild::free_rotations() {
   const auto partial = [](const NasLink& link) { return !link.constrains.empty(); };
   if (std::none_of(model_.links.begin(), model_.links.end(), partial)) return;
@@ -73,8 +74,8 @@ void NasBuild::free_rotations() {
         return model_.beams[end.first].offsets[static_cast<std::size_t>(end.second)];
       };
       const auto offset = std::find_if(beams.begin(), beams.end(), [&](const auto& end) { return !at(end).isZero(0); });
-      const bool released = other.empty() && beams.size() == 1 && link.constrains == "123";
-      if (linked || !(shell || std::any_of(beams.begin(), beams.end(), bends) || released))
+      const bool pinned = other.empty() && link.constrains == "123", released = pinned && beams.size() == 1;
+      if (linked || !(shell || pinned || std::any_of(beams.begin(), beams.end(), bends)))
         faults_.add(link.where,
                     fmt::format("{}: constrains {} of grid {}, whose other rotations are also dofs of {}; expected "
                                 "123456, or a grid of shells or beams that is in no other link",
@@ -90,6 +91,19 @@ void NasBuild::free_rotations() {
         free_[grid] = freedom(link, grid);
     }
   }
+}
+
+/// Ends of rods at grids where nothing but rods has rotations.
+void NasBuild::find_rods_alone() {
+  const auto is_rod = [&](const NasBeam& beam) { return beam.rod; };
+  if (std::none_of(model_.beams.begin(), model_.beams.end(), is_rod)) return;
+  const auto rods_alone = [&](const Rotations& at) {
+    return at.other.empty() && std::all_of(at.beams.begin(), at.beams.end(),
+                                           [&](const auto& end) { return is_rod(model_.beams[end.first]); });
+  };
+  for (const auto& [grid, at] : rotations_of_grids())
+    if ((!independent_.contains(grid) || free_.contains(grid)) && rods_alone(at))
+      for (const auto& [rod, end] : at.beams) alone_[rod] |= 1u << end;
 }
 
 void NasBuild::add_links() {
@@ -108,6 +122,7 @@ void NasBuild::add_links() {
       deck.links.back().others = free.first, deck.links.back().axis = free.second;
     }
   }
+  find_rods_alone();
 }
 
 }  // namespace floe::mesh

@@ -40,6 +40,7 @@ struct NasBeam {
   Where where;
   unsigned releases = 0;                       // PA, PB: bits 0 to 5 and 6 to 11
   bool rod = false;                            // of no orientation
+  unsigned alone = 0;                          // bits: ends at grids that rods alone hold
   bool in_basic = false;                       // the orientation vector (OFFT: B)
   std::array<bool, 2> own_axes{false, false};  // of the offsets: those of the element (OFFT: O)
 };

@@ -249,6 +249,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
     const fem::BeamReleases without = without_stiffness(shape);
     fem::SpatialBeam beam{fem::spatial_section(shape, material, centroid), section.direction_1, {}, {}};
     beam.releases = fem::BeamReleases(section.releases) | without;
+    beam.alone = section.alone;
     beam.section.rhoIy = material.rho * given.Iy, beam.section.rhoIz = material.rho * given.Iz;
     for (int i : {0, 1})
       if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;

@@ -36,6 +36,7 @@ struct SpatialBeam {
   Eigen::Vector3d orientation = Eigen::Vector3d::Zero();
   SpatialBeamStrain strain;
   BeamReleases releases = {};  ///< of elements of two nodes
+  std::bitset<2> alone = {};   ///< ends of a rod at nodes that rods alone hold
 };
 
 /// A rigid mass at a node, in body axes.

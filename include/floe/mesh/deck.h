@@ -80,6 +80,7 @@ struct BeamSection {
   double youngs = 0, shear = 0;           // where `material` is ""
   std::optional<double> density;          // likewise; none where the deck gives none
   unsigned releases = 0;                  // bits: dofs of the ends without force, as fem::BeamReleases
+  unsigned alone = 0;                     // bits: ends of a rod at nodes that rods alone hold
 };
 
 /// A linear spring between two nodes, about the point that divides the way from the first to the second.

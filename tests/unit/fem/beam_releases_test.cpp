@@ -43,6 +43,26 @@ TEST_CASE("a beam hinged at both ends is a rod: EA/L along it, GJ/L about it, no
   CHECK(relative_error(free, rod) < 1e-12);
 }
 
+TEST_CASE("rotations at ends of rods that nothing else holds follow the rods") {
+  const Eigen::Matrix3d Q = testing::some_rotation();
+  const fem::BeamPlace place{Vector3d(0.2, 1, -0.4), Vector3d(0.2, 1, -0.4) + L * Q.col(0), Q.col(1)};
+  const MatrixXd K = fem::rod_rotations(place, section, released_at({3, 4, 5, 9, 10, 11}), 3);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d e = Vector3d::Unit(i);
+    VectorXd moved = VectorXd::Zero(12), turned = moved;
+    moved << e, Vector3d::Zero(), e, Vector3d::Zero();
+    turned << e.cross(place.from), e, e.cross(place.to), e;
+    CHECK((K * moved).norm() < 1e-12 * K.norm());
+    CHECK((K * turned).norm() < 1e-12 * K.norm());
+  }
+  const auto rank = [](const MatrixXd& matrix) {
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix).eigenvalues();
+    return (values.array() > 1e-10 * values.maxCoeff()).count();
+  };
+  CHECK(rank(K) == 5);  // stretching has its own stiffness
+  CHECK(rank(fem::rod_rotations(place, section, released_at({4, 5, 10, 11}), 1)) == 2);
+}
+
 TEST_CASE("a beam hinged at one end resists a deflection of the other by 3 EI / L^3") {
   const MatrixXd K = with_releases(along_x(), released_at({10, 11})).stiffness();
   CHECK(K(7, 7) == Approx(3 * section.EIz / (L * L * L)));

@@ -55,7 +55,21 @@ TEST_CASE("rods and tubes of Nastran are beams without bending") {
   CHECK(tube.dimensions[0] == Approx(M_PI / 4 * (0.01 - 0.0064)));
   CHECK(tube.dimensions[4] == Approx(M_PI / 32 * (1e-4 - 4.096e-5)));
   CHECK(file.deck.beam_sections[2].dimensions[0] == 0.02);
+  for (const mesh::BeamSection& section : file.deck.beam_sections) CHECK(section.alone == 0);  // grids of a shell
   CHECK(file.mesh.parts == std::vector<std::string>{"PSHELL3", "PROD9", "PTUBE10", "CONROD72"});
+}
+
+// Grid 5 has rods alone; 6 is held by a link but for its rotations, 7 wholly; 8 has a spring against rotation.
+TEST_CASE("ends of rods at grids of Nastran that rods alone hold") {
+  const auto file = read("alone.bdf", square +
+                                          "GRID,5,,0.,0.,1.\nGRID,6,,1.,0.,1.\nGRID,7,,1.,1.,1.\nGRID,8,,0.,1.,1.\n"
+                                          "CONROD,71,1,5,1,1.-4\nCONROD,72,5,6,1,1.-4\nCONROD,73,6,7,1,1.-4\n"
+                                          "CONROD,74,7,8,1,1.-4\nCONROD,75,8,5,1,1.-4\nCELAS2,76,9.,8,4,4,4\n"
+                                          "RBE2,80,2,123,6\nRBE2,81,3,123456,7\n");
+  REQUIRE(file.deck.beam_sections.size() == 5);
+  std::vector<unsigned> alone;
+  for (const mesh::BeamSection& section : file.deck.beam_sections) alone.push_back(section.alone);
+  CHECK(alone == std::vector<unsigned>{2, 3, 1, 0, 2});
 }
 
 TEST_CASE("pin flags release the ends of a beam, and tell parts of one property apart") {
@@ -180,7 +194,8 @@ TEST_CASE("links that leave rotations free to grids without these, or to the end
       {bar + "RBE2,80,3,123,5\nRBE2,81,2,123,5\n",
        "RBE2 80: constrains 123 of grid 5, whose other rotations are also dofs of another link; expected 123456, or a "
        "grid of shells or beams that is in no other link"},
-      {"GRID,5,,1.,1.,0.\nCONROD,9,3,5,1,1.-4\nCONROD,10,2,5,1,1.-4\nRBE2,80,1,123,5\n", "are also dofs of rods alone"},
+      {"GRID,5,,1.,1.,0.\nCONROD,9,3,5,1,1.-4\nCONROD,10,2,5,1,1.-4\nRBE2,80,1,1234,5\n",
+       "are also dofs of rods alone"},
       {bar + "GRID,7,,0.,0.,0.\nGRID,8,,0.,0.,9.\nCBAR,11,5,7,8,0.,1.,0.,GGG\n,,,0.,0.,.3\nRBE2,80,3,123,7\n",
        "RBE2 80: constrains 123 of grid 7, at the end of beam 11 with the offset (0, 0, 0.3); expected 123456, or "
        "no offset"}};
