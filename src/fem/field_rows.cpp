@@ -1,5 +1,6 @@
 #include "floe/fem/field_rows.h"
 
+#include <algorithm>
 #include <span>
 
 #include "floe/math/clones.h"
@@ -216,12 +217,14 @@ namespace {
 struct Gradients {
   Eigen::Index count, in_plane;
 };
-Gradients gradients_of(const Mesh::Cell& cell, const StrainRows& point, bool flat) {
+Gradients gradients_of(const Structure& structure, const Mesh::Cell& cell, const StrainRows& point, bool flat) {
   const Eigen::Index rows = point.G.rows(), all = cell.kind == CellKind::line3       ? 3
                                                   : cell.kind == CellKind::triangle6 ? 27
                                                                                      : 6;
-  const bool more = mesh::is_quadratic(cell.kind) && rows > all;  // rotations and their gradients behind them
-  const Eigen::Index count = more ? all : rows;
+  const auto* shell = std::get_if<ShellSection>(&structure.sections[cell.part]);
+  const bool quadratic = mesh::is_quadratic(cell.kind);
+  const bool normal_alone = shell && !quadratic && shell->strains == Strains::von_karman;
+  const Eigen::Index count = shell || quadratic ? std::min(rows, normal_alone ? 2 : all) : rows;  // others behind them
   return {count, flat && count == all ? 2 * count / 3 : 0};
 }
 
@@ -240,7 +243,7 @@ Slopes slopes(const Structure& structure, const FieldRows& fields) {
         if (values.rows() < point.G.rows()) values.resize(point.G.rows(), fields.cols());
         const ColumnRange range = multiply(structure, piece, point.G, fields, ranges, values.data());
         sums.measure += point.weight;
-        const Gradients gradients = gradients_of(cell, point, flat);
+        const Gradients gradients = gradients_of(structure, cell, point, flat);
         for (Eigen::Index g = 0; g < gradients.count; ++g) {
           Eigen::VectorXd& sum = g < gradients.in_plane ? sums.in_plane : sums.across;
           for (int j = range.begin; j < range.end; ++j) sum[j] += point.weight * values(g, j) * values(g, j);

@@ -139,41 +139,16 @@ void generic_piece(const Structure& structure, const Mesh::Cell& cell, PiecePart
   add_masses(line, false, piece.line);
 }
 
-void bend(const shell::Geometry& g, const shell::Deformations& d, double share, SmallRows& bending) {
-  bending.resize(9, 18);
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Matrix3d half = std::sqrt(share * g.area) * root3(d.stiffness[1 + k]);
-    bending.middleRows<3>(3 * k) = half.lazyProduct(d.rows.middleRows<3>(3 * (1 + k)));
-  }
+/// Rows of a triple of deformations (shell::Deformation).
+shell::Rows18 rows_of(const shell::Geometry& g, const shell::Deformations& d, double share, int k) {
+  return (std::sqrt(share * g.area) * root3(d.stiffness[k])).lazyProduct(d.rows.middleRows<3>(3 * k));
 }
 
-/// Bending as strains, which can have terms of second order.
-void square_bending(PieceRows& piece) {
-  for (Eigen::Index first = 0; first < piece.bending.rows(); first += 3)
-    piece.strain.push_back({piece.bending.middleRows(first, 3), SmallRows(0, piece.bending.cols()), 0, {}});
-  piece.bending.resize(0, 0);
-}
-
-/// Adds what rotation vectors of the corners rotate the normal by at second order.
-void add_rotations(const shell::Geometry& g, StrainRows& rows) {
-  const int first = static_cast<int>(rows.G.rows());
-  std::array<StrainRows::Term, 6> terms;
-  bool any = false;
-  for (int i = 0; i < 3; ++i) {
-    StrainRows::Term x{first + 3 * i, first + 3 * i + 2, {}}, y{first + 3 * i + 1, first + 3 * i + 2, {}};
-    for (Eigen::Index s = 0; s < rows.L.rows(); ++s) {
-      Eigen::Vector2d c = shell::second_order_rotation(g, rows.L.row(s), i);
-      if (c.norm() < 1e-12 * rows.L.row(s).segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
-      x.C[static_cast<std::size_t>(s)] = c.x(), y.C[static_cast<std::size_t>(s)] = c.y();
-      any = any || !c.isZero(0);
-    }
-    terms[2 * i] = x, terms[2 * i + 1] = y;
-  }
-  if (!any) return;
-  rows.terms.insert(rows.terms.end(), terms.begin(), terms.end());
-  rows.G.conservativeResize(first + 9, Eigen::NoChange);
-  rows.G.bottomRows(9).setZero();
-  for (int i = 0; i < 3; ++i) rows.G.block<3, 3>(first + 3 * i, 6 * i + 3) = g.axes.transpose();
+/// Adds what rotations of the corners do at second order.
+void add_rotations(const shell::Geometry& g, Strains strains, StrainRows& rows) {
+  shell::add_rotations(g, strains, rows.L, rows.G, [&](int p, int q, const Eigen::Vector3d& C) {
+    rows.terms.push_back({p, q, {C[0], C[1], C[2]}});
+  });
 }
 
 void strain(const shell::Geometry& g, const shell::Deformations& d, const ShellSection& section, double share,
@@ -221,12 +196,15 @@ void triangle_piece(const Structure& structure, const std::array<int, 3>& nodes,
   const shell::Geometry g = shell::geometry({at[nodes[0]], at[nodes[1]], at[nodes[2]]}, section.axis);
   if (parts.bending || parts.strain) {
     const shell::Deformations d = shell::deformations(g, section);
-    if (parts.bending) bend(g, d, share, piece.bending);
     if (parts.strain) strain(g, d, section, share, piece.strain);
-    if (section.strains == Strains::second_order && parts.strain) {
-      square_bending(piece);
-      for (StrainRows& rows : piece.strain) add_rotations(g, rows);
+    for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling}) {
+      const bool squared = k == shell::drilling || section.strains == Strains::second_order;
+      if (squared && parts.strain) piece.strain.push_back({rows_of(g, d, share, k), SmallRows(0, 18), 0, {}});
+      if (squared || !parts.bending) continue;
+      piece.bending.conservativeResize(piece.bending.rows() + 3, 18);
+      piece.bending.bottomRows(3) = rows_of(g, d, share, k);
     }
+    for (StrainRows& rows : piece.strain) add_rotations(g, section.strains, rows);
   }
   if (parts.mass || parts.line)
     samples(g, (at[nodes[0]] + at[nodes[1]] + at[nodes[2]]) / 3, section, share, parts, piece);

@@ -1,6 +1,7 @@
 #include "shell_triangle.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace floe::fem {
 namespace {
@@ -53,7 +54,7 @@ Matrix18 shell_triangle_stiffness(const TriangleNodes& nodes, const ShellSection
 }
 
 Matrix18 shell_triangle_bending(const TriangleNodes& nodes, const ShellSection& section) {
-  return stiffness<9>(nodes, section, shell::mean_curvature);
+  return stiffness<6>(nodes, section, shell::mean_curvature);
 }
 
 ShellStrain shell_triangle_strain(const TriangleNodes& nodes, const ShellSection& section) {
@@ -84,27 +85,16 @@ Matrix18 shell_triangle_mass(const TriangleNodes& nodes, const ShellSection& sec
 
 namespace {
 
-/// Adds to a strain what rotation vectors of the corners rotate the normal by at second order
-/// (shell::second_order_rotation).
-void add_rotations(const shell::Geometry& g, StrainPoint& point) {
-  const Eigen::Index before = point.G.rows();
-  std::vector<Eigen::MatrixXd> P = point.P;
-  bool any = false;
-  for (std::size_t s = 0; s < P.size(); ++s) {
-    P[s].conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, before + 9));
-    for (int i = 0; i < 3; ++i) {
-      const auto row = point.L.row(static_cast<Eigen::Index>(s));
-      Eigen::Vector2d c = shell::second_order_rotation(g, row, i);
-      if (c.norm() < 1e-12 * row.segment<3>(6 * i + 3).norm()) c.setZero();  // drilling alone, rotated
-      const Eigen::Index x = before + 3 * i, y = x + 1, n = x + 2;
-      P[s](x, n) = P[s](n, x) = c.x(), P[s](y, n) = P[s](n, y) = c.y();
-      any = any || !c.isZero(0);
-    }
+void add_rotations(const shell::Geometry& g, Strains strains, StrainPoint& point) {
+  const Eigen::MatrixXd L = point.L;
+  std::vector<std::tuple<int, int, Eigen::Vector3d>> products;
+  shell::add_rotations(g, strains, L, point.G,
+                       [&](int p, int q, const Eigen::Vector3d& C) { products.emplace_back(p, q, C); });
+  const Eigen::Index rows = point.G.rows();
+  for (std::size_t s = 0; s < point.P.size(); ++s) {
+    point.P[s].conservativeResizeLike(Eigen::MatrixXd::Zero(rows, rows));
+    for (const auto& [p, q, C] : products) point.P[s](p, q) = point.P[s](q, p) = C[static_cast<Eigen::Index>(s)];
   }
-  if (!any) return;
-  point.P = std::move(P);
-  point.G.conservativeResizeLike(Eigen::MatrixXd::Zero(before + 9, 18));
-  for (int i = 0; i < 3; ++i) point.G.block<3, 3>(before + 3 * i, 6 * i + 3) = g.axes.transpose();
 }
 
 }  // namespace
@@ -119,17 +109,14 @@ ElementMaps shell_triangle(const TriangleNodes& nodes, const ShellSection& secti
   for (Eigen::Index x = 0; x < gradients; x += 2)
     P[0](x, x) = 1, P[1](x + 1, x + 1) = 1, P[2](x, x + 1) = P[2](x + 1, x) = 1;
   maps.membrane.push_back({strain.weight, strain.D, strain.L, strain.G, P});
-  if (second_order) {
-    const shell::Deformations d = shell::deformations(g, section);
-    maps.bending = Eigen::MatrixXd::Zero(18, 18);
-    const Eigen::MatrixXd none(0, 0);
-    for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
+  const shell::Deformations d = shell::deformations(g, section);
+  const Eigen::MatrixXd none(0, 0);
+  for (const int k : {shell::mean_curvature, shell::edge_bending, shell::drilling})
+    if (second_order || k == shell::drilling)
       maps.membrane.push_back(
           {g.area, d.stiffness[k], d.rows.middleRows<3>(3 * k), Eigen::MatrixXd(0, 18), {none, none, none}});
-    for (StrainPoint& point : maps.membrane) add_rotations(g, point);
-  } else {
-    maps.bending = shell_triangle_bending(nodes, section);
-  }
+  for (StrainPoint& point : maps.membrane) add_rotations(g, section.strains, point);
+  maps.bending = second_order ? Eigen::MatrixXd::Zero(18, 18) : Eigen::MatrixXd(shell_triangle_bending(nodes, section));
 
   const Eigen::Vector3d centroid = (nodes[0] + nodes[1] + nodes[2]) / 3;
   const double r = section.mass_radius;

@@ -48,14 +48,47 @@ void set_gradients(const Geometry& geometry, const ShellSection& section, Rows& 
   }
 }
 
-/// Rotation vectors theta of the corners rotate the normal n by exp(theta): the slopes of the surface are those of
-/// theta + 1/2 (theta.n) theta x n, to second order. What a row, linear in these, gets of corner i besides:
-/// (c_x theta_x + c_y theta_y) theta_n in the element's axes.
-/// @param row  on the dofs in body axes
-template <class Row>
-Eigen::Vector2d second_order_rotation(const Geometry& geometry, const Row& row, int i) {
-  const Eigen::Vector3d own = geometry.axes.transpose() * row.template segment<3>(6 * i + 3).transpose();
-  return {-own.y() / 2, own.x() / 2};
+/// Adds what rotations of the corners do at second order to strains whose rows L are linear in them. In the element's
+/// axes, with the slopes w_x and w_y of the plane through the displaced nodes:
+///
+///   slopes of the surface     theta + 1/2 (theta.n) theta x n, as exp(theta) rotates n (strains of second order)
+///   drilling of the corner    theta_n - 1/2 (w_x theta_x + w_y theta_y), relative to the plane
+///
+/// The second is the normal component of log(R'exp(theta)) with the rotation R of the plane. Without it the drilling
+/// stiffness resists the twist of a surface that has rotated.
+/// @param L    three rows on the dofs in body axes
+/// @param G    receives the rows of the slopes, unless it begins with them (von Karman's membrane), and of theta
+/// @param add  (p, q, C): C a_p a_q of each strain, a = G q, p < q
+template <class Rows, class Gradients, class Add>
+void add_rotations(const Geometry& geometry, Strains strains, const Rows& L, Gradients& G, Add&& add) {
+  constexpr double round_off = 1e-12;
+  std::array<Eigen::Matrix3d, 3> by_theta;  // of each corner: its coefficients in each strain, in the element's axes
+  bool normals = false, drills = false;
+  for (int i = 0; i < 3; ++i) {
+    by_theta[i] = L.template middleCols<3>(6 * i + 3) * geometry.axes;
+    for (int r = 0; r < 3; ++r) {
+      auto c = by_theta[i].row(r);
+      const double least = round_off * c.norm();
+      if (strains == Strains::von_karman || c.template head<2>().norm() < least) c.template head<2>().setZero();
+      if (std::abs(c[2]) < least) c[2] = 0;
+    }
+    normals = normals || !by_theta[i].leftCols<2>().isZero(0);
+    drills = drills || !by_theta[i].col(2).isZero(0);
+  }
+  if (!normals && !drills) return;
+  const bool sloped = strains == Strains::von_karman && G.rows() > 0;
+  const int before = static_cast<int>(G.rows()), slope = sloped ? 0 : before,
+            first = before + (drills && !sloped ? 2 : 0), each = normals ? 3 : 2;
+  G.conservativeResize(first + 3 * each, 18);
+  G.bottomRows(first - before + 3 * each).setZero();
+  for (int i = 0; i < 3; ++i) {
+    const int x = first + each * i, y = x + 1, n = x + 2;
+    if (first > before) G.template block<2, 3>(slope, 6 * i) = geometry.gradient[i] * geometry.axes.col(2).transpose();
+    G.block(x, 6 * i + 3, each, 3) = geometry.axes.leftCols(each).transpose();
+    const Eigen::Matrix3d c = by_theta[i] / 2;
+    if (normals) add(x, n, Eigen::Vector3d(-c.col(1))), add(y, n, Eigen::Vector3d(c.col(0)));
+    if (drills) add(slope, x, Eigen::Vector3d(-c.col(2))), add(slope + 1, y, Eigen::Vector3d(-c.col(2)));
+  }
 }
 
 /// Adds the coefficients of the normal's rotation, beta = (rotation_y, -rotation_x), of a corner to a row.

@@ -20,7 +20,8 @@ struct Tower {
     for (int foot = 0; foot < 4 * bays; foot += 4) {
       for (int i = 0; i < 4; ++i) {
         const int next = (i + 1) % 4;
-        rods.insert(rods.end(), {{foot + i, foot + 4 + i}, {foot + 4 + i, foot + 4 + next}, {foot + i, foot + 4 + next}});
+        rods.insert(rods.end(),
+                    {{foot + i, foot + 4 + i}, {foot + 4 + i, foot + 4 + next}, {foot + i, foot + 4 + next}});
       }
       rods.emplace_back(foot + 4, foot + 6);
     }

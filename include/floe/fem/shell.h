@@ -41,9 +41,14 @@ struct SurfacePoint {
 /// The mean strain is that of the constant-strain triangle whose nodes move by u_i - 3/4 theta_i z x (x_i - centroid)
 /// (lumping with alpha = 3/2); theta are the drilling rotations less the rotation of that triangle. e is one point and
 /// its slopes are those of the plane through the displaced nodes: the membrane can balance them on any mesh that
-/// follows a developable surface, so nothing locks. With all gradients of that plane a rigid rotation by any angle has
-/// no membrane strain. With strains of second order rotations of nodes are rotation vectors, as those of beams, joints
-/// and rigid regions: they rotate the normal n by exp(theta), so that the slopes in the bending rows are those of
+/// follows a developable surface, so nothing locks. Drilling rotations, in e and against the drilling stiffness, are
+/// relative to that plane to second order with both kinds of strains,
+///
+///   theta_n - (v_x - u_y) / 2 - (w_x theta_x + w_y theta_y) / 2   of log(R'exp(theta)), R the plane's rotation,
+///
+/// or a twist of what has rotated would lock. With all gradients of that plane a rigid rotation by any angle has no
+/// membrane strain. With strains of second order rotations of nodes are rotation vectors, as those of beams, joints and
+/// rigid regions: they rotate the normal n by exp(theta), so that the slopes in the bending rows are those of
 /// theta + 1/2 (theta.n) theta x n, bending is a strain, too, and K_b = 0. What is left of a rigid rotation's energy is
 /// of order a^6 in bending and drilling. Von Karman's have slopes instead of rotation vectors, K_b q linear. The
 /// membrane force is taken as constant over the element: coupling B acts on the mean curvature, and the rest of the
