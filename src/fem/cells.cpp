@@ -197,13 +197,40 @@ bool second_order(const Section& section) {
   return beam && beam->strain.strains == Strains::second_order;
 }
 
+/// Of the products of rotations that arms have added to strains those about axes in the plane remain.
+/// @param own  before
+void keep_slopes(const Eigen::Matrix3d& in_plane, const ElementMaps& own, ElementMaps& maps) {
+  for (std::size_t i = 0; i < maps.membrane.size(); ++i) {
+    const Eigen::Index before = own.membrane[i].G.rows();
+    StrainPoint& point = maps.membrane[i];
+    if (before == 0) {  // linear
+      point.G.conservativeResize(0, Eigen::NoChange);
+      for (Eigen::MatrixXd& P : point.P) P.resize(0, 0);
+    }
+    for (Eigen::Index row = before; row < point.G.rows(); row += 3)
+      point.G.middleRows<3>(row) = (in_plane * point.G.middleRows<3>(row)).eval();
+  }
+}
+
 }  // namespace
+
+Eigen::Matrix3d slopes_of_arms(const Mesh::Cell& cell, const std::vector<Eigen::Vector3d>& x) {
+  const auto at = [&](std::size_t i) -> const Eigen::Vector3d& { return x[cell.corners()[i]]; };
+  const bool three = cell.corners().size() == 3;
+  const Eigen::Vector3d normal = (at(2) - at(0)).cross(three ? at(0) - at(1) : at(3) - at(1)).normalized();
+  return Eigen::Matrix3d::Identity() - normal * normal.transpose();
+}
 
 ElementMaps Structure::maps(const Mesh::Cell& cell) const {
   const Corners at{mesh, cell, strain};
   ElementMaps own = std::visit([&](const auto& section) { return maps_of(at, section); }, sections[cell.part]);
   if (!cell.follows()) return own;
-  return transformed(own, following(mesh, cell), rigid_arms(mesh, cell), second_order(sections[cell.part]));
+  const auto* shell = std::get_if<ShellSection>(&sections[cell.part]);
+  const bool slopes = shell && shell->strains == Strains::von_karman;
+  ElementMaps maps =
+      transformed(own, following(mesh, cell), rigid_arms(mesh, cell), slopes || second_order(sections[cell.part]));
+  if (slopes) keep_slopes(slopes_of_arms(cell, mesh.positions), own, maps);
+  return maps;
 }
 
 Eigen::MatrixXd Structure::matrix(const Mesh::Cell& cell, double k, double m) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cells.h"
 #include "floe/fem/flat_body.h"
 #include "floe/fem/quadratic_shell.h"
 #include "floe/fem/transform.h"
@@ -254,17 +255,18 @@ void rotate_mass(const Eigen::Vector3d& arm, int at, int led, PieceRows& piece) 
 }
 
 /// Adds the second-order motion of corner `at`, 1/2 theta x (theta x arm), to mass and strains: before its rows are
-/// those of the node that it follows. @param led  the node with theta among the piece's
-void rotate_arm(const Eigen::Vector3d& arm, int at, int led, bool strained, PieceRows& piece) {
+/// those of the node that it follows.
+/// @param led      the node with theta among the piece's
+/// @param strains  projects the rotations that count in strains
+void rotate_arm(const Eigen::Vector3d& arm, int at, int led, const Eigen::Matrix3d& strains, PieceRows& piece) {
   if (arm.isZero(0)) return;
   rotate_mass(arm, at, led, piece);
-  if (!strained) return;
   for (StrainRows& point : piece.strain) {
-    const Eigen::Index first = point.G.rows(), strains = point.L.rows();
+    const Eigen::Index first = point.G.rows(), rows = point.L.rows();
     std::array<Eigen::Matrix3d, 3> P;
     bool any = false;
-    for (Eigen::Index s = 0; s < strains; ++s) {
-      P[s] = math::arm_form(point.L.row(s).segment<3>(6 * at).transpose(), arm);
+    for (Eigen::Index s = 0; s < rows; ++s) {
+      P[s] = strains * math::arm_form(point.L.row(s).segment<3>(6 * at).transpose(), arm) * strains;
       any = any || !P[s].isZero(0);
     }
     if (!any) continue;
@@ -274,18 +276,18 @@ void rotate_arm(const Eigen::Vector3d& arm, int at, int led, bool strained, Piec
     for (int p = 0; p < 3; ++p)
       for (int q = p; q < 3; ++q) {
         StrainRows::Term term{static_cast<int>(first) + p, static_cast<int>(first) + q, {}};
-        for (Eigen::Index s = 0; s < strains; ++s) term.C[s] = P[s](p, q);
+        for (Eigen::Index s = 0; s < rows; ++s) term.C[s] = P[s](p, q);
         point.terms.push_back(term);
       }
   }
 }
 
 /// Corner `at` of the piece as a node with rotations of its own.
-void spin_about(const Eigen::Vector3d& arm, int independent_node, PieceRows::Spin spin, bool second_order,
+void spin_about(const Eigen::Vector3d& arm, int independent_node, PieceRows::Spin spin, const Eigen::Matrix3d& strains,
                 PieceRows& piece) {
   piece.spins.push_back(spin);
   const int led = place_of(independent_node, piece);
-  rotate_arm(arm, spin.at, led, second_order, piece);
+  rotate_arm(arm, spin.at, led, strains, piece);
   const Eigen::Matrix<double, 6, 6> T = spin_arm(arm, spin.own);
   each_rows(piece, [&](auto& rows) {
     const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor, 24, 6> own =
@@ -306,12 +308,13 @@ bool is_second_order(const Structure& structure, const Mesh::Cell& cell) {
 void follow(const Structure& structure, const Mesh::Cell& cell, const std::array<int, 3>& of, PieceRows& piece) {
   const FlatBody* flat = flat_body(structure);
   const auto& at = flat ? flat->positions : structure.mesh.positions;
-  const bool second_order = is_second_order(structure, cell);
+  const Eigen::Matrix3d strains =
+      is_second_order(structure, cell) ? Eigen::Matrix3d::Identity() : slopes_of_arms(cell, at);
   for (int i = 0; i < 3; ++i) {
     const int moved = cell.moved[of[i]];
     if (moved == piece.node[i]) continue;
     const Eigen::Vector3d arm = at[piece.node[i]] - at[moved];
-    rotate_arm(arm, i, i, second_order, piece);
+    rotate_arm(arm, i, i, strains, piece);
     const Eigen::Matrix<double, 6, 6> T = rigid_arm(arm);
     each_rows(piece, [&](auto& rows) {
       rows.template middleCols<6>(6 * i) = (rows.template middleCols<6>(6 * i) * T).eval();
@@ -321,7 +324,7 @@ void follow(const Structure& structure, const Mesh::Cell& cell, const std::array
   for (int i = 0; i < 3; ++i) {
     if (cell.line[of[i]] < 0) continue;
     const int node = cell.place[of[i]], independent_node = cell.moved[cell.line[of[i]]];
-    spin_about(at[node] - at[independent_node], independent_node, spin_of(structure, node, i), second_order, piece);
+    spin_about(at[node] - at[independent_node], independent_node, spin_of(structure, node, i), strains, piece);
   }
 }
 
