@@ -1,5 +1,6 @@
 #include "floe/assembly/reduce_bodies.h"
 #include "floe/fem/element_count.h"
+#include "floe/plan/held_by_modes.h"
 
 namespace floe::assembly {
 
@@ -24,6 +25,8 @@ std::vector<BodyReport> body_sizes(const Scene& whole, MPI_Comm comm) {
     }
     report.name = body.spec.name, report.rigid = body.spec.rigid;
     report.notices = body.notices;
+    if (std::string line = held_otherwise(plan, static_cast<int>(reports.size())); !line.empty())
+      report.notices.push_back(std::move(line));
     report.frame = body.parent < 0 ? name_of(body.frame.kind) : "of " + plan.bodies[body.parent].spec.name;
     reports.push_back(std::move(report));
   }

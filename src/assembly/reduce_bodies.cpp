@@ -11,6 +11,7 @@
 #include "floe/assembly/shared_reduction.h"
 #include "floe/fem/element_count.h"
 #include "floe/plan/attachments.h"
+#include "floe/plan/held_by_modes.h"
 #include "floe/plan/hold_at_frame.h"
 #include "floe/plan/interface.h"
 #include "floe/plan/mesh_copy.h"
@@ -307,6 +308,7 @@ std::vector<ReducedBody> reduce_bodies(const Plan& plan, Formulation formulation
     }
     if (body.spec.reduced) {
       all[b] = from_file(body, formulation);
+      if (std::string line = held_otherwise(plan, b); !line.empty()) warnings.push_back(std::move(line));
       continue;
     }
     if (shared[b].of >= 0) {

@@ -11,6 +11,7 @@
 #include "floe/math/nearest.h"
 #include "floe/output/claim.h"
 #include "floe/petsc/values.h"
+#include "floe/plan/held_by_modes.h"
 #include "floe/plan/mesh_copy.h"
 #include "floe/plan/place_weights.h"
 #include "floe/reduction/place_set.h"
@@ -86,11 +87,8 @@ std::vector<output::ReducedPlace> places_of(const Plan& plan, const PlannedBody&
   std::map<std::string, std::vector<PetscInt>> nodes = body.places;
   const auto add = [&](const Place& place, const Anchor& found) {
     if (found.body < 0) return;
-    std::string name = place.name;
-    if (place.point)
-      name = fmt::format("at({})",
-                         fmt::join(place.point->begin(), place.point->begin() + body.structure.dimension(), ", "));
-    nodes.emplace(name, found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes);
+    nodes.emplace(name_in_file(place, body.structure.dimension()),
+                  found.nodes.empty() ? std::vector<PetscInt>{found.node} : found.nodes);
   };
   const Scene& scene = plan.scene;
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
@@ -181,7 +179,10 @@ output::ReducedBodyFile file_of(const Plan& plan, const PlannedBody& body, const
   file.body = reduced.body;
   file.omitted_products = report.omitted_products;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
-    if (plan.bodies[b].spec.name == body.spec.name) file.damping = linear_damping(plan, static_cast<int>(b), reduced);
+    if (plan.bodies[b].spec.name == body.spec.name) {
+      file.damping = linear_damping(plan, static_cast<int>(b), reduced);
+      file.held = held_by_modes(plan, static_cast<int>(b));
+    }
   file.strain_rate_damping = body.spec.damping.stiffness;
   file.places = places_of(plan, body, *reduced.basis);
   file.pressures = pressures_of(body, *reduced.basis);

@@ -113,6 +113,9 @@ std::string describe(const ReducedBodyFile& file) {
       fmt::format("body        {}, {} dimensions, {:.6g} kg\n", file.name, file.dimension, file.body.inertia.m);
   text += fmt::format("mesh        {} dofs, {} nodes, {} elements\n", file.dofs, file.nodes, file.cells);
   text += fmt::format("frame       {}\n", frame_text(file.frame));
+  if (file.held)
+    text += fmt::format("modes       constrained by {}\n",
+                        file.held->empty() ? "nothing" : fmt::format("{}", fmt::join(*file.held, ", ")));
   text += fmt::format("basis       {} coordinates of {} candidate vectors\n", kept, file.columns.size());
   text += left_out(file);
   const std::string of =

@@ -213,6 +213,7 @@ void put(Writer& to, const ReducedBodyFile& file) {
   to.text("frame/kind", file.frame.kind);
   to.numbers("frame/origin", {d}, {file.frame.origin.begin(), file.frame.origin.end()}, "m", "in the mesh");
   to.matrix("frame/axes", file.frame.axes, "1", "columns: x_mesh = origin + axes x");
+  if (file.held) to.remarks("frequencies/held", *file.held, "by what the modes are constrained besides the frame");
   put(to, file.made);
 }
 

@@ -216,6 +216,7 @@ ReducedBodyFile parse(hid_t file) {
   all.residual = read_whole<double>(file, "frequencies/residual", modes);
   all.frame = {read_text(file, "frame/kind"), read_vector(file, "frame/origin", d),
                read_matrix(file, "frame/axes", {hsize_t(d), hsize_t(d)})};
+  if (H5Lexists(file, "frequencies/held", H5P_DEFAULT) > 0) all.held = read_texts(file, "frequencies/held");
   all.made = read_made(file);
   check_contents(all);
   return all;

@@ -23,13 +23,6 @@ fem::Structure without_elements(MPI_Comm comm, int dimension) {
   return fem::Structure(std::move(mesh), {}, fem::MembraneStrain::averaged);
 }
 
-/// The first place of the file at a point, so that one node has one number; else a number behind the places'.
-PetscInt number_at(const output::ReducedBodyFile& file, const Eigen::VectorXd& x, PetscInt other) {
-  for (std::size_t i = 0; i < file.places.size(); ++i)
-    if ((file.places[i].map.x - x).norm() <= 1e-9 * extent_of(file)) return static_cast<PetscInt>(i);
-  return static_cast<PetscInt>(file.places.size()) + other;
-}
-
 Eigen::Vector3d filled(const Eigen::VectorXd& x) {
   Eigen::Vector3d all = Eigen::Vector3d::Zero();
   all.head(x.size()) = x;
@@ -37,6 +30,12 @@ Eigen::Vector3d filled(const Eigen::VectorXd& x) {
 }
 
 }  // namespace
+
+PetscInt number_in_file(const output::ReducedBodyFile& file, const Eigen::VectorXd& x, PetscInt other) {
+  for (std::size_t i = 0; i < file.places.size(); ++i)
+    if ((file.places[i].map.x - x).norm() <= 1e-9 * extent_of(file)) return static_cast<PetscInt>(i);
+  return static_cast<PetscInt>(file.places.size()) + other;
+}
 
 PlannedBody prepare_reduced(const Body& spec, MPI_Comm comm) {
   const output::ReducedBodyFile& file = *spec.reduced->file;
@@ -57,7 +56,7 @@ Anchor reduced_place(const Body& body, const Place& place, MPI_Comm comm) {
   Anchor found;
   if (!place.point || !file.has_shapes) {
     found.map = std::make_shared<const body::PlaceMap>(named_place(body, place).map);
-    found.node = number_at(file, found.map->x, 0);
+    found.node = number_in_file(file, found.map->x);
   } else {
     const Point& p = *place.point;
     const Eigen::VectorXd in_plane = Eigen::Vector3d(p[0], p[1], p[2]).head(file.dimension);
@@ -70,7 +69,7 @@ Anchor reduced_place(const Body& body, const Place& place, MPI_Comm comm) {
                                    fmt::join(at.begin(), at.begin() + file.dimension, ", ")));
     }
     found.map = std::make_shared<const body::PlaceMap>(node.map);
-    found.node = number_at(file, node.map.x, static_cast<PetscInt>(node.number));
+    found.node = number_in_file(file, node.map.x, static_cast<PetscInt>(node.number));
   }
   found.nodes = {found.node};
   found.x = filled(found.map->x);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,6 +72,8 @@ struct ReducedBodyFile {
   std::vector<double> omega;                    ///< natural frequencies found [rad/s]
   std::vector<double> residual;                 ///< relative, of each omega
   ReducedFrame frame;
+  /// What constrained the modes besides the frame, `fixed at left`; none: of the frame alone, or not in the file.
+  std::optional<std::vector<std::string>> held = {};
   MadeBy made;
   bool has_shapes = false;  ///< set by reading
   int version = 4;          ///< of the format: 1 has no Inertia::W, 2 no strain_rate_damping, 3 no Inertia::Q

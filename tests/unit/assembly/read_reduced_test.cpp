@@ -129,6 +129,36 @@ TEST_CASE("a reduced body in space floats, is clamped where it was held, and als
             .empty());
 }
 
+TEST_CASE("a body from a file that is held otherwise than its modes is reported with both lists") {
+  const Files files;
+  const auto warnings = [&](const std::string& body, const std::string& joints) {
+    const std::string path = (files.folder.path / (body + ".h5")).string();
+    return assembly::build(scene::parse_scene("bodies: {b: {reduced: " + path + "}, o: {rigid: {mass: 1, " +
+                                                  (body == "beam" ? "centre: [2, 0], inertia: 1"
+                                                                  : "centre: [0, 0, 0], inertia: [1, 1, 1]") +
+                                                  "}}}\njoints: {" + joints + "}\n",
+                                              "s.yaml"),
+                           scene::Formulation::vm_md, PETSC_COMM_WORLD)
+        .warnings;
+  };
+  const auto line = [&](const std::string& body, const std::string& of_modes, const std::string& of_scene) {
+    return std::vector{"body b: the modes in " + (files.folder.path / (body + ".h5")).string() +
+                       " are constrained by " + of_modes + ", the body in this scene by " + of_scene +
+                       ": it can be much too stiff; reduce it with the joints of this scene"};
+  };
+  CHECK(warnings("plate", "j: {type: fixed, between: [b.left, ground]}").empty());
+  CHECK(warnings("plate", "j: {type: driven, between: [ground, b.left], axis: [0, 0, 1], angle: t}").empty());
+  CHECK(warnings("plate", "") == line("plate", "fixed at left", "nothing"));
+  CHECK(warnings("plate", "j: {type: revolute, axis: [0, 1, 0], between: [ground, b.left]}") ==
+        line("plate", "fixed at left", "revolute about y at left"));
+  CHECK(warnings("plate", "j: {type: fixed, between: [ground, b.left]}, k: {type: fixed, between: [b.p3, ground]}")
+            .back() == line("plate", "fixed at left", "fixed at left, fixed at p3").front());
+  CHECK(warnings("beam", "").empty());
+  CHECK(warnings("beam", "j: {type: fixed, between: [b.end, o.centre]}").empty());
+  CHECK(warnings("beam", "j: {type: fixed, between: [ground, {body: b, node: [0, 0]}]}") ==
+        line("beam", "nothing", "fixed at (0, 0)"));
+}
+
 TEST_CASE("a body that is reduced already is not reduced again") {
   const Files files;
   std::vector<std::string> warnings;

@@ -51,6 +51,7 @@ inline floe::output::ReducedBodyFile sample_body(int d, int k) {
   file.residual = {1e-12, 2e-12, 1e-9 / 3};
   file.frame = {"chord", matrix(d, 1), Eigen::MatrixXd::Identity(d, d)};
   file.frame.axes.topLeftCorner(2, 2) << 0.6, -0.8, 0.8, 0.6;
+  file.held = {"fixed at tip", "revolute about z at root/left"};
   file.made = {"0.1.0",
                "abc123",
                "2024-05-06T07:08:09Z",
@@ -106,6 +107,7 @@ inline void check_same(const floe::output::ReducedBodyFile& a, const floe::outpu
     CHECK(left.dropped == right.dropped);
   }
   CHECK((a.omega == b.omega && a.residual == b.residual));
+  CHECK(a.held == b.held);
   CHECK((a.frame.kind == b.frame.kind && same(a.frame.origin, b.frame.origin) && same(a.frame.axes, b.frame.axes)));
   CHECK((a.made.version == b.made.version && a.made.commit == b.made.commit && a.made.date == b.made.date));
   CHECK((a.made.command == b.made.command && a.made.options == b.made.options && a.made.scene == b.made.scene));
