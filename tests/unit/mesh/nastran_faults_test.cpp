@@ -19,6 +19,15 @@ TEST_CASE("cards that are not read are refused by name and line, or left out on 
              Contains("2 cards CELAS2 left out, as the scene asks") && Contains("1 card RBE3 left out"));
 }
 
+TEST_CASE("equations of displacements are refused, or left out on request") {
+  const std::string tie = "MPC,5,3,3,1.,4,3,-1.\nMPCADD,6,5\n";
+  CHECK(said(square + tie) ==
+        "bad.bdf:8: MPC (an equation of displacements, which ties nodes; use RBE2 or RBAR, 1 card) is not read; to "
+        "leave them out: file: {ignore: [MPC]}");
+  CHECK_THAT(all_of(read("left.bdf", square + tie, {{}, false, {"MPC"}}).notices),
+             Contains("1 card MPC left out, as the scene asks") && Contains("MPCADD is ignored"));
+}
+
 TEST_CASE("wrong cards of Nastran are refused with line and field") {
   CHECK(said(square) == "nothing was thrown");
   CHECK(said("") == "bad.bdf: is empty");
