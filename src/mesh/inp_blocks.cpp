@@ -16,7 +16,7 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
-bool is_data(std::string_view line) { return !trimmed(line).empty() && !line.starts_with("**"); }
+bool is_data(std::string_view line) { return !trimmed(line).empty() && !trimmed(line).starts_with("**"); }
 
 // A keyword line with those that continue it, which follow a comma at the end.
 std::string keyword_line(std::string_view line, const char*& at, const char* end, long long& number) {
@@ -70,7 +70,7 @@ void walk(const std::string& path, int depth, InpBlocks& result, Faults& faults)
   InpLines* lines = nullptr;
   for (long long number = 1; at != end; ++number) {
     const char* begin = at;
-    const auto line = next_line(at, end);
+    const auto line = trimmed(next_line(at, end));
     if (line.starts_with('*') && !line.starts_with("**")) {
       const Where where{file, number};
       InpBlock block = block_of(keyword_line(line, at, end, number), where, faults);

@@ -8,6 +8,9 @@ namespace floe::mesh {
 void read_mass(const InpBlock& block, InpReading& reading) {
   const std::string set = without_instance(required(block, "ELSET", reading), reading);
   const auto lines = data_lines(block, 1, 1, "a mass", reading.faults);
+  if (const auto type = block.parameters.find("TYPE");
+      type != block.parameters.end() && upper(type->second) != "ISOTROPIC")
+    reading.faults.add(block.where, "*MASS is read with TYPE=ISOTROPIC, not " + in_quotes(type->second));
   if (set.empty() || lines.empty()) return;
   const auto mass = numbers(lines[0].second, lines[0].first, 1, 1, "a mass", reading.faults);
   if (!mass) return;

@@ -27,18 +27,25 @@ bool positive(const std::vector<double>& values, std::initializer_list<int> whic
   return true;
 }
 
+// Nine constants, of which a line may end after any; then the temperature.
 std::optional<std::vector<double>> engineering_constants(const InpBlock& block, InpReading& reading) {
-  constexpr std::size_t on_first = 8;
-  const auto lines =
-      data_lines(block, 2, most_lines, "E1 E2 E3 nu12 nu13 nu23 G12 G13 and, on a second line, G23", reading.faults);
+  constexpr std::size_t count = 9;
+  const char* what = "E1 E2 E3 nu12 nu13 nu23 G12 G13 G23[, temperature] on two lines";
+  const auto lines = data_lines(block, 1, most_lines, what, reading.faults);
   if (lines.empty()) return std::nullopt;
-  report_temperatures(block, block.lines() / 2, reading);
-  auto values =
-      numbers(lines[0].second, lines[0].first, on_first, on_first, "E1 E2 E3 nu12 nu13 nu23 G12 G13", reading.faults);
-  const auto last = numbers(lines[1].second, lines[1].first, 1, 2, "G23[, temperature]", reading.faults);
-  if (!values || !last) return std::nullopt;
-  values->push_back(last->front());
-  if (positive(*values, {0, 1, 2, 6, 7, 8})) return values;
+  std::vector<double> values;
+  std::size_t used = 0;
+  while (values.size() < count && used < lines.size()) {
+    const auto more =
+        numbers(lines[used].second, lines[used].first, 1, count + 1 - values.size(), what, reading.faults);
+    if (!more) return std::nullopt;
+    values.insert(values.end(), more->begin(), more->end()), ++used;
+  }
+  if (values.size() < count) reading.faults.add(block.where, block.name + " expects " + what);
+  if (values.size() < count) return std::nullopt;
+  values.resize(count);
+  report_temperatures(block, std::ssize(lines) / static_cast<long long>(used), reading);
+  if (positive(values, {0, 1, 2, 6, 7, 8})) return values;
   reading.faults.add(lines[0].first, "moduli of " + block.name + " must be greater than 0");
   return std::nullopt;
 }

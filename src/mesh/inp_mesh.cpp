@@ -154,15 +154,13 @@ void read_inp_nodes(const InpBlock& block, InpShares& shares, InpReading& readin
     const auto found = fields.empty() ? std::nullopt : number<long long>(fields[0]);
     const long long label = found.value_or(0);
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    const auto given = std::count(line.begin(), line.end(), ',');  // of coordinates, also empty ones
-    bool good = found && given >= 2 && fields.size() <= most_of_node;
+    bool good = found && fields.size() <= most_of_node;  // coordinates that are missing or empty are 0
     for (std::size_t i = 1; good && i < std::min<std::size_t>(fields.size(), 4); ++i) {
       const auto value = fields[i].empty() ? std::optional(0.0) : fortran_number(fields[i]);
       good = value.has_value();
       position[static_cast<Eigen::Index>(i) - 1] = value.value_or(0);
     }
-    if (!good)
-      return reading.faults.add(where, "expected a node number and 2 or 3 coordinates, found " + in_quotes(line));
+    if (!good) return reading.faults.add(where, "expected a node number and its coordinates, found " + in_quotes(line));
     if (axes == "C") {  // radius, degrees, height
       const double angle = position[1] * M_PI / 180;
       position.head<2>() = position[0] * Eigen::Vector2d(std::cos(angle), std::sin(angle));

@@ -109,6 +109,11 @@ void read_shell_section(const InpBlock& block, InpReading& reading) {
                        number_of(block, "OFFSET", reading),
                        {}};
   use_orientation(section.orientation, block.where, reading);
+  section.added_mass = number_of(block, "DENSITY", reading);
+  if (section.added_mass < 0)
+    reading.faults.add(block.where, block.name + " expects 0 or a positive mass per area after DENSITY=");
+  if (const std::string stack = value_of(block, "STACKDIRECTION"); !stack.empty() && stack != "3")
+    reading.faults.add(block.where, block.name + " is read with STACK DIRECTION=3, not " + in_quotes(stack));
   if (block.parameters.contains("NODALTHICKNESS")) reading.nodal.push_back(section.number);
   if (block.parameters.contains("COMPOSITE")) {
     constexpr std::size_t most_plies = 1000;
@@ -200,6 +205,10 @@ void read_shape(const InpBlock& block, InpReading& reading) {
   section.material = required(block, "MATERIAL", reading);
   if (!section.material.empty()) reading.materials_used.emplace_back(section.material, block.where);
   const std::string name = upper(required(block, "SECTION", reading));
+  if (block.parameters.contains("NODALTHICKNESS"))
+    reading.faults.add(block.where, block.name +
+                                        " is read without NODAL THICKNESS: expected uniform beams, whose "
+                                        "dimensions are on its data line");
   const Shape* shape = nullptr;
   for (const auto& candidate : shapes)
     if (name == candidate.name || ((name == "RECTANGULAR" || name == "CIRCULAR") && name.starts_with(candidate.name)))

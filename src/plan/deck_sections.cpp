@@ -122,6 +122,7 @@ void add_shell(Reader& reader, const mesh::ShellSection& section, DeckSections& 
     plies.push_back({shell_material(*material), ply.thickness, ply.angle * M_PI / 180});
     thickness += ply.thickness;
   }
+  for (fem::Ply& ply : plies) ply.material.density += section.added_mass / thickness;
   try {
     fem::ShellSection shell = fem::shell_section(
         plies, -section.offset * thickness,

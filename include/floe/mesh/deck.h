@@ -59,7 +59,8 @@ struct ShellSection {
   std::vector<Ply> plies;
   std::optional<ShellStiffness> stiffness = {};
   std::optional<ShellBending> bending = {};
-  double shear = 0;  // transverse, of elements of second order; 0: as of a homogeneous shell
+  double shear = 0;       // transverse, of elements of second order; 0: as of a homogeneous shell
+  double added_mass = 0;  // per area, besides that of the plies, over which it is spread
 };
 
 /// Dimensions: a b | radius, or half axes | outer radius, wall | a b t1 t2 t3 t4 | l h b1 b2 t1 t2 t3 | A I11 I12 I22

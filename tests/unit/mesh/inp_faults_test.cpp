@@ -45,7 +45,7 @@ TEST_CASE("nodes and elements that are wrong are refused with their lines") {
   CHECK(said(nodes + "2, 5, 5\n" + elements + section) == "bad.inp:6: node 2 is defined a second time");
   CHECK(said(nodes + elements + "2, 2, 3, 4\n" + section) == "bad.inp:9: element 2 is defined a second time");
   CHECK(said(nodes + elements + "3, 1, 2, 7\n" + section) == "bad.inp:9: element 3 names node 7, which is not defined");
-  CHECK_THAT(said(nodes + "5, 1\n" + elements + section), Contains("bad.inp:6: expected a node number and 2 or 3"));
+  CHECK_THAT(said(nodes + "5, a\n" + elements + section), Contains("bad.inp:6: expected a node number and its"));
   CHECK_THAT(said(nodes + "5, 1, 1e999\n" + elements + section), Contains("bad.inp:6: expected"));
   CHECK_THAT(said(nodes + elements + "3, 1, 2\n" + section),
              Contains("bad.inp:9: expected an element number and 3 nodes, found '3, 1, 2'"));
@@ -96,6 +96,23 @@ TEST_CASE("sections that do not fit the elements are refused") {
   CHECK_THAT(
       said(nodes + elements + section + "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=BOX\n1, 1, .6, .6, .6, .6\n"),
       Contains("bad.inp:15: the dimensions are inconsistent"));
+}
+
+TEST_CASE("forms of masses and sections that are not read are refused") {
+  CHECK_THAT(
+      said(nodes + elements + section + "*ELEMENT, TYPE=MASS, ELSET=P\n9, 3\n*MASS, ELSET=P, TYPE=ANISOTROPIC\n1\n"),
+      Contains("bad.inp:16: *MASS is read with TYPE=ISOTROPIC, not 'ANISOTROPIC'"));
+  const auto shell = [](const std::string& more) {
+    return said(nodes + elements + section + "*SHELL SECTION, ELSET=E, MATERIAL=M, " + more + "\n1\n");
+  };
+  CHECK_THAT(shell("STACK DIRECTION=1"),
+             Contains("bad.inp:14: *SHELL SECTION is read with STACK DIRECTION=3, not '1'"));
+  CHECK_THAT(shell("DENSITY=-1"), Contains("bad.inp:14: *SHELL SECTION expects 0 or a positive mass per area"));
+  CHECK_THAT(
+      said(nodes + elements + section + "*BEAM SECTION, ELSET=B, MATERIAL=M, SECTION=RECT, NODAL THICKNESS\n1, 1\n"),
+      Contains("bad.inp:14: *BEAM SECTION is read without NODAL THICKNESS"));
+  CHECK_THAT(said(nodes + elements + section + "*MATERIAL, NAME=N\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n1, 1, 1\n"),
+             Contains("bad.inp:15: *ELASTIC expects E1 E2 E3 nu12 nu13 nu23 G12 G13 G23"));
 }
 
 TEST_CASE("an ellipse is a circle with two diameters") {

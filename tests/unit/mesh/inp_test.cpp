@@ -156,6 +156,49 @@ TEST_CASE("numbers have the forms that the format allows") {
   CHECK_THAT(file.notices.at(0), Contains("*ELASTIC is given at 2 temperatures: the first is used"));
 }
 
+TEST_CASE("coordinates at the end of a line may be missing, and lines may begin with blanks") {
+  const auto file = read(testing::written(
+      "short.inp",
+      " ** a comment\n*NODE\n1\n2, 1\n ** another\n3, 1, 1\n4, , 1\n *ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, 3, "
+      "4\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SHELL SECTION, ELSET=E, MATERIAL=M\n1\n"));
+  CHECK(file.mesh.node_count == 4);
+  CHECK(testing::measure(file.mesh, 0) == Approx(1.0));
+}
+
+TEST_CASE("the nine engineering constants may be split over lines anywhere") {
+  const std::vector<double> all{9e9, 8e9, 7e9, .1, .2, .3, 6e9, 5e9, 4e9};
+  for (const std::string text :
+       {"9e9, 8e9, 7e9, .1, .2, .3, 6e9, 5e9,\n4e9\n", "9e9, 8e9, 7e9, .1, .2, .3, 6e9\n5e9, 4e9\n",
+        "9e9, 8e9, 7e9,\n.1, .2, .3,\n6e9, 5e9, 4e9, 20\n",
+        "9e9, 8e9, 7e9, .1, .2, .3, 6e9, 5e9,\n4e9, 20\n1, 1, 1, .1, .2, .3, 1, 1\n1, 90\n"}) {
+    INFO(text);
+    const auto file =
+        read(testing::written("nine.inp", square("*MATERIAL, NAME=N\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n" + text)));
+    CHECK(file.deck.materials.at(1).constants == all);
+    CHECK((file.notices.front().find("at 2 temperatures") != std::string::npos) ==
+          (text.find("90") != std::string::npos));
+  }
+}
+
+TEST_CASE("parameters of masses and shells, and keywords that do not concern a body") {
+  const auto file = read(testing::written(
+      "more.inp",
+      "*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=S4, ELSET=E\n1, 1, 2, 3, 4\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*EXPANSION TYPE=ISO\n1e-5\n*EXPANSION, TYPE=ANISO\n1, 1, 1, 0, 0, 0\n"
+      "*SHELL SECTION, ELSET=E, MATERIAL=M, DENSITY=3.5, STACK DIRECTION=3\n1\n"
+      "*ELEMENT, TYPE=MASS, ELSET=P\n9, 3\n*MASS, ELSET=P, TYPE=ISOTROPIC\n2\n*FILM PROPERTY, NAME=F\n1\n"
+      "*DISTRIBUTION, NAME=D\n, 1\n*SUBMODEL\nN\n*HOURGLASS STIFFNESS\n1\n"));
+  CHECK(file.deck.shell_sections.at(0).added_mass == 3.5);
+  CHECK(testing::of_all_ranks(file.deck.masses).at(0).mass == 2);
+  std::string all;
+  for (const std::string& notice : file.notices) all += notice + "\n";
+  for (const char* text :
+       {"*EXPANSION TYPE=ISO is ignored: heat", "*EXPANSION is ignored: heat", "*FILM PROPERTY is ignored: heat",
+        "*DISTRIBUTION is ignored: nothing that is read varies by it", "*SUBMODEL is ignored: supports",
+        "*HOURGLASS STIFFNESS is ignored: elements have no hourglass modes"})
+    CHECK_THAT(all, Contains(text));
+}
+
 TEST_CASE("a later section overrides an earlier one") {
   const std::string more =
       "*ELEMENT, TYPE=S4, ELSET=E\n2, 1, 2, 3, 4\n*ELSET, ELSET=F\n2\n*SHELL SECTION, ELSET=F, MATERIAL=M\n2\n"

@@ -97,6 +97,19 @@ TEST_CASE("shells by their stiffness, and by materials that bend apart") {
   CHECK(second.rotary_inertia() == Approx(t * t * t / 3));
 }
 
+TEST_CASE("mass per area of a section is spread over its plies") {
+  mesh::DeckFile file;
+  file.deck.materials = {{"M", mesh::Elasticity::isotropic, {10, 0.3}, 5}};
+  mesh::ShellSection section;
+  section.part = "A", section.number = 0;
+  section.plies = {{0.1, "M", "", 0}, {0.3, "M", "", 0}};
+  section.added_mass = 4;
+  file.deck.shell_sections = {section};
+  const auto shell = std::get<fem::ShellSection>(plan::deck_sections(file).parts.at(0));
+  CHECK(shell.mass == Approx(5 * 0.4 + 4));
+  CHECK(shell.rotary_inertia() == Approx((5 + 4 / 0.4) * 0.4 * 0.4 * 0.4 / 12));
+}
+
 TEST_CASE("plies share one orientation, from which their angles count") {
   mesh::DeckFile file;
   file.deck.materials = {{"M", mesh::Elasticity::lamina, {10, 1, 0.3, 0.5, 0.5, 0.5}, 1}};
