@@ -87,6 +87,7 @@ DeckFile read_inp(MPI_Comm comm, const std::string& path, const DeckRequest& req
   resolve_links(comm, reading);
   resolve_equations(comm, reading);
   assign_thicknesses(comm, reading);
+  assign_ply_angles(comm, reading);
   assign_cylinders(comm, reading);
   faults.throw_together(comm);
   return deck_file(comm, path, std::move(reading.mesh), std::move(reading.deck), faults, std::move(reading.notices));

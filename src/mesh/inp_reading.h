@@ -246,6 +246,9 @@ double extent_of(MPI_Comm comm, const FileMesh& mesh);
 /// Parts for shells whose nodes have a thickness of their own. Collective.
 void assign_thicknesses(MPI_Comm comm, InpReading& reading);
 
+/// Angles of plies with orientations of different names, about the normal. Collective.
+void assign_ply_angles(MPI_Comm comm, InpReading& reading);
+
 /// Parts for shells whose orientation is cylindrical, by its direction at their centres. Collective.
 void assign_cylinders(MPI_Comm comm, InpReading& reading);
 

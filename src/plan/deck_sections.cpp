@@ -50,22 +50,12 @@ fem::ShellMaterial shell_material(const mesh::Material& m) {
   }
 }
 
-/// Local x of an orientation, rotated.
-Eigen::Vector3d axis_of(const mesh::Orientation& o) {
-  Eigen::Matrix3d axes;
-  axes.col(0) = o.a.normalized();
-  axes.col(2) = o.a.cross(o.b).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  if (o.axis == 0) return axes.col(0);
-  return Eigen::AngleAxisd(o.angle * M_PI / 180, axes.col(o.axis - 1)) * axes.col(0);
-}
-
 /// Of a section without an orientation the global x-axis, projected on each element, as in Abaqus and CalculiX.
 Eigen::Vector3d axis_named(const Reader& reader, const std::string& orientation) {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   if (orientation.empty() && !reader.file.deck.nastran) axis = Eigen::Vector3d::UnitX();
   for (const mesh::Orientation& o : reader.file.deck.orientations)
-    if (o.name == orientation) axis = axis_of(o);
+    if (o.name == orientation) axis = mesh::axes_of(o).col(0);
   return axis;
 }
 

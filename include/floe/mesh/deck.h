@@ -30,6 +30,9 @@ struct Orientation {
   double angle = 0;
 };
 
+/// Its local axes as columns, rotated.
+Eigen::Matrix3d axes_of(const Orientation& orientation);
+
 /// A layer of COMPOSITE.
 struct Ply {
   double thickness = 0;

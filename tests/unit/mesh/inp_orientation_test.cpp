@@ -76,3 +76,41 @@ TEST_CASE("cylindrical orientations do not matter to isotropic shells; wrong one
   CHECK_THAT(said(tube("*ORIENTATION, NAME=cyl, SYSTEM=CYLINDRICAL\n2., 0., 1., 2., 0., 1.\n", composite)),
              Contains("bad.inp:22: the axis of a cylindrical orientation has no length"));
 }
+
+namespace {
+
+// Two plies of orientations O, about the normal z of a square, and P. `elements`: in its order of nodes.
+std::string plies(const std::string& p, const std::string& elements = "1, 1, 2, 3, 4\n",
+                  const std::string& section = "*SHELL SECTION, ELSET=E, COMPOSITE\n.1, , FIBRE, O\n.2, , FIBRE, P\n") {
+  return "*NODE\n1\n2, 1\n3, 1, 1\n4, 0, 1\n5, 0, 0, 1\n6, 1, 0, 1\n*ELEMENT, TYPE=S4, ELSET=E\n" + elements +
+         "*MATERIAL, NAME=Fibre\n*ELASTIC, TYPE=LAMINA\n1.3e11, 9e9, .3, 5e9, 5e9, 3e9\n*DENSITY\n1600\n"
+         "*ORIENTATION, NAME=O\n1, 0, 0, 0, 1, 0\n3, 10\n*ORIENTATION, NAME=P" +
+         p + section;
+}
+
+std::string refused(const std::string& text) {
+  const auto path = testing::written("bad.inp", text);
+  return testing::fault_of([&] { mesh::read_inp(PETSC_COMM_WORLD, path); });
+}
+
+}  // namespace
+
+TEST_CASE("plies of orientations of different names have the angles between them about the normal") {
+  const auto angle = [](const std::string& text) {
+    const auto section = read(text).deck.shell_sections.at(0);
+    CHECK(section.orientation == "O");
+    CHECK(section.plies.at(0).angle == Approx(0).margin(1e-12));
+    CHECK(section.plies.at(1).orientation.empty());
+    return section.plies.at(1).angle;
+  };
+  const std::string turned = "\n0, 1, 0, -1, 0, 0\n";
+  CHECK(angle(plies(turned)) == Approx(80));
+  CHECK(angle(plies(turned, "1, 4, 3, 2, 1\n")) == Approx(-80));        // the normal is -z
+  CHECK(angle(plies("\n1, 0, 0, 0, 1, 0\n3, 55.\n")) == Approx(45));    // rotated
+  CHECK(angle(plies("\n0, 1, 0, 1, 0, 0\n")) == Approx(80));            // its third axis is -z
+  CHECK_THAT(refused(plies(turned, "1, 1, 2, 3, 4\n2, 1, 2, 6, 5\n")),  // at right angles
+             Contains("bad.inp:21: the plies of set E have orientations of different names, and the normals of its "
+                      "elements are not all along their third axis; expected one orientation, with angles"));
+  CHECK_THAT(refused(plies("\n1, 0, 0, 0, 0, 1\n")), Contains("whose third axes are not parallel"));
+  CHECK_THAT(refused(plies(", SYSTEM=CYLINDRICAL\n0, 0, 0, 0, 0, 1\n")), Contains("one of which is cylindrical"));
+}
