@@ -43,7 +43,9 @@ std::vector<double> reference_sizes(const std::vector<ProbeColumn>& columns, con
     const Kind kind = columns[i].kind;
     double least = kind == Kind::place ? part : 1e-7 * most[group(columns[i])];
     if (kind == Kind::load) least = std::max(least, 1e-7);
-    if (kind == Kind::rate) least = std::max(least, part / (duration > 0 ? duration : 1));
+    const double time = duration > 0 ? duration : 1;
+    if (kind == Kind::rate) least = std::max(least, part / time);
+    if (kind == Kind::acceleration) least = std::max(least, part / (time * time));
     references[probe[i]] = std::max(references[probe[i]], least * columns[i].scale);
   }
   return references;

@@ -53,6 +53,14 @@ TEST_CASE("sizes that errors refer to: what goes far asks no more than what goes
   CHECK(reference_sizes(columns, {0, 0, 70}, 2) == std::vector<double>{still[0], still[1], 70});
 }
 
+TEST_CASE("accelerations of a body at rest that are zero up to round-off are of no account") {
+  const std::vector<ProbeColumn> at_rest = {{"tip.x", "m", 2},
+                                            {"shock.x", "m/s^2", 2, ProbeColumn::Kind::acceleration}};
+  const std::vector<double> sizes = reference_sizes(at_rest, {0.1, 1e-12}, 0.5);
+  CHECK(sizes[1] == Approx(1e-7 * 0.05 * 2 / 0.25));
+  CHECK(reference_sizes(at_rest, {0.1, 9.8}, 0.5)[1] == 9.8);
+}
+
 TEST_CASE("errors of probes that are no numbers stay none") {
   ProbeErrors errors(columns);
   errors.add({std::numeric_limits<double>::quiet_NaN(), 0, 0, 0}, {1, 0, 0, 0});
