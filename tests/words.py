@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Searches for terms that floe does not use (words.toml): prints file:line: term -> the term to use; exit code 1 where
-there are any.
+"""Searches for terms that floe does not use (words.toml), and in pages for paths of files that do not exist: prints
+file:line: term -> the term to use; exit code 1 where there are any.
 
 Groups of files: docs (pages of the manual, README.md, CONTRIBUTING.md: text without code, links' targets, formulas and
 quoted messages), headers (comments of include), strings (literals of src with more than one word, C++ and Python), names (code of include and src, C++, without these).
@@ -21,6 +21,7 @@ GROUPS = {
     "names": ["include/**/*.h", "src/**/*.cpp", "src/**/*.h"],
 }
 NO_TEXT = re.compile(r"^```.*?^```|`[^`\n]*`|\]\([^)\s]*\)|\$\$.*?\$\$|\$[^$\n]+\$|\"[^\"\n|]*\"", re.S | re.M)
+PATH = re.compile(r"`((?:[\w.*-]+/)+[\w.*-]+\.(?:cpp|h|py|cmake|toml|txt|md|opts|yaml|css|js))`")
 CPP = re.compile(r"(?P<comment>//[^\n]*|/\*.*?\*/)|R\"(?P<mark>\w*)\((?P<raw>.*?)\)(?P=mark)\"|"
                  r"\"(?P<string>(?:\\.|[^\"\\\n])*)\"|'(?:\\.|[^'\\\n])'", re.S)
 
@@ -81,6 +82,14 @@ def found_in(text, terms):
                 yield text.count("\n", 0, one.start()) + 1, " ".join(one.group().split()), term["use"]
 
 
+def missing_paths(path, root):
+    """(line, path) of files of the sources that a page names in backticks, `fem/element.h`, and that do not exist."""
+    text = re.sub(r"^```.*?^```", lambda found: blank(found.group()), path.read_text(encoding="utf-8"), flags=re.S | re.M)
+    for one in PATH.finditer(text):
+        if not any(any(base.glob(one[1])) for base in (root, root / "src", root / "include" / "floe", path.parent)):
+            yield text.count("\n", 0, one.start()) + 1, one[1]
+
+
 def read_terms():
     with open(Path(__file__).with_name("words.toml"), "rb") as file:
         terms = tomllib.load(file)["term"]
@@ -112,6 +121,10 @@ def main():
                     print(f"{sum(len(list(found_in(text, [term]))) for text in texts):5} {term['pattern'].pattern}")
             continue
         wanted = [term for term in terms if group in term["in"]]
+        for path in paths if group == "docs" else []:
+            for line, name in missing_paths(path, arguments.root):
+                print(f"{path.relative_to(arguments.root)}:{line}: {name} -> a file that exists")
+                count += 1
         for path in paths if wanted else []:
             for line, words, use in sorted(found_in(text_of(path, group), wanted)):
                 print(f"{path.relative_to(arguments.root)}:{line}: {words} -> {use}")
