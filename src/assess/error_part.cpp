@@ -224,7 +224,12 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
                   fmt::format("the motion in steps {:g} times as long", times), part);
 }
 
-bool any_mesh(const Scene& scene) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), scene::is_meshed); }
+std::string without_mesh(const Scene& scene) {
+  const auto any = [&](auto&& is) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), is); };
+  if (any(scene::is_meshed)) return "";
+  return any([](const Body& body) { return body.reduced.has_value(); }) ? "no flexible body has a mesh"
+                                                                        : "no body is flexible";
+}
 
 bool any_shells(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),

@@ -62,7 +62,7 @@ Simulated again(const FinishedMotion& motion, const ProbeSeries& own, const Time
 /// part out on all of them, with the reason. @return whether there was none. Collective.
 bool fill_in(const FinishedMotion& motion, ErrorPart& part, const std::function<void()>& work);
 
-/// Whether a body has a mesh.
-bool any_mesh(const Scene& scene);
+/// Why no body has a full-order model: `no body is flexible`, `no flexible body has a mesh`; empty: one has.
+std::string without_mesh(const Scene& scene);
 
 }  // namespace floe::assess

@@ -4,15 +4,16 @@
 
 #include <cmath>
 
+#include "error_part.h"
+
 namespace floe::assess {
 
 using Eigen::VectorXd;
 using petsc::check;
 
 std::string without_estimate(const Offline& offline) {
-  if (std::none_of(offline.plan.bodies.begin(), offline.plan.bodies.end(), has_structure))
-    return "no body has a mesh; bodies from files and rigid bodies have no full-order model to compare with";
-  return "";
+  const std::string none = without_mesh(offline.plan.scene);
+  return none.ends_with("mesh") ? none + "; bodies from files have no full-order model to compare with" : none;
 }
 
 std::vector<double> known(std::vector<double> errors) {

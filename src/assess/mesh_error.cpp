@@ -165,7 +165,7 @@ class MeshError {
 
 ErrorPart estimate_mesh_error(const FinishedMotion& motion, const ProbeSeries& own, double allowed) {
   ErrorPart part;
-  part.none = any_mesh(motion.scene) ? "" : "no body has a mesh";
+  part.none = without_mesh(motion.scene);
   if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
   if (part.none.empty() && motion.scene.probes.empty()) part.none = "no probes";
   if (!part.none.empty()) return part;

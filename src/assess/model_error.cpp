@@ -352,10 +352,8 @@ ErrorPart difference_to(Formulation formulation, const FinishedMotion& motion, c
   ErrorPart part;
   part.apart = false;
   part.none.clear();
-  if (!any_mesh(motion.scene))
-    part.none = "no body has a mesh";
-  else if (own.t.empty())
-    part.none = "the integrator provides no accelerations";
+  part.none = without_mesh(motion.scene);
+  if (part.none.empty() && own.t.empty()) part.none = "the integrator provides no accelerations";
   if (part.none.empty()) part.none = without_estimate(*motion.model.offline);
   if (!part.none.empty()) return part;
   ModelError error(formulation, motion, own, reduction, mesh, step, allowed, part);

@@ -94,8 +94,8 @@ void judge_slopes(const Model& model, const std::vector<const State*>& states, c
     out.push_back(
         {"slope", whole.name, found.error, limit,
          fmt::format(
-             "body {}: slopes of up to {:.2g} relative to its {}: the error of strains of second order is about "
-             "{} of its length (limit 1 %); {}",
+             "body {}: slopes of up to {:.2g} relative to its {}: the error of its strains, which hold for moderate "
+             "rotations, is about {} of its length (limit 1 %); {}",
              whole.name, slope, frames, math::percent(found.error, 1), remedy(whole, body, found.splits))});
   }
 }

@@ -608,7 +608,7 @@ UNUSUAL = [
 
 REDUCED = [
     Case("equilibria of a reduced body", ["static", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
-         prepare=reduced.made(), shows=("No estimate of the error: no body has a mesh",), check=files("finished", 11)),
+         prepare=reduced.made(), shows=("No estimate of the error: no flexible body has a mesh",), check=files("finished", 11)),
     Case("reduced body", run(), scene=reduced.from_file(), prepare=reduced.made(), check=files("finished", 51)),
     Case("reduced body, compared", ["compare", "scene.yaml", "-o", "out"], scene=reduced.from_file(),
          prepare=reduced.made(), check=stands("out/compare.csv"), shows=("lffr", "vm+md"), lines=0),

@@ -113,7 +113,7 @@ probes: {middle: {at: {body: rod, node: [0, 0]}, quantity: displacement}}
   for (int i = 0; i < 3; ++i) {
     const std::string part = std::array{"reduction", "model", "mesh"}[i];
     CHECK_THAT(warnings[i]["text"].get<std::string>(),
-               Contains("no estimate of the " + part + " error: no body has a mesh"));
+               Contains("no estimate of the " + part + " error: no body is flexible"));
     CHECK(warnings[i]["members"] == nlohmann::json{1, 2});
   }
   const auto refused = [&](const std::vector<app::Varied>& what, scene::Formulation formulation) {
