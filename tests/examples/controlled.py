@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""examples/controlled_arm and examples/rotor, on one rank and on two: what their pages say of torques, errors and root moments.
+"""examples/controlled_arm and examples/rotor, on one rank and on two: what their pages say of torques, errors, root moments
+and stresses.
 
 controlled.py FLOE
 """
@@ -21,6 +22,7 @@ def floe(*words, ranks=1):
     command = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
     done = subprocess.run([*command, FLOE, *words], capture_output=True, text=True, timeout=200)
     assert done.returncode == 0, f"{words} on {ranks} ranks:\n{done.stdout}{done.stderr}"
+    return done.stdout
 
 
 def columns(folder):
@@ -31,7 +33,13 @@ def columns(folder):
     return {name.split(" ")[0]: numbers[:, i] for i, name in enumerate(rows[0])}
 
 
-def moved(scene, folder, reactions=()):
+def largest_stress(folder):
+    """(body, stress, time) of each body from `floe stress`."""
+    rows = [line.split() for line in floe("stress", folder).splitlines()]
+    return [(row[0], float(row[2]), float(row[3])) for row in rows if len(row) > 3 and row[1] == "maximum"]
+
+
+def moved(scene, folder, reactions=(), see=lambda out: None):
     """Columns of the probes by name, the same on two ranks: bases from two partitions of a mesh differ by the tolerance of
     the eigenvalue problem, which reactions of stiff bodies (small differences of positions) magnify."""
     both = []
@@ -39,6 +47,7 @@ def moved(scene, folder, reactions=()):
         out = folder / f"{ranks}"
         floe("run", scene, "--formulation", "vm+md", "--no-estimate", "-o", out, ranks=ranks)
         both.append(columns(out))
+        see(out)
         shutil.rmtree(out)
     alone, two = both
     for column, values in alone.items():
@@ -66,13 +75,20 @@ def main():
         (folder / "rotor" / "blade.inp").unlink(missing_ok=True)
         subprocess.run([sys.executable, folder / "rotor" / "mesh.py"], check=True)
         assert (folder / "rotor" / "blade.inp").read_text() == (EXAMPLES / "rotor" / "blade.inp").read_text()
-        rotor = moved(folder / "rotor" / "scene.yaml", folder, ("root", "root2", "root3", "torque"))
+        stresses = []
+        rotor = moved(folder / "rotor" / "scene.yaml", folder, ("root", "root2", "root3", "torque"),
+                      see=lambda out: stresses.append(largest_stress(out)))
         before = rotor[next(iter(rotor))] < 0.0995  # the gust
         assert numpy.ptp(rotor["root.y"][before]) < 0.02, "the flap moment swings before the gust"
         close("flap moment at the start", rotor["root.y"][0], -34.5)
         close("flap moment in the gust", rotor["root.y"].max(), 92.97)
         close("lift of the tip", rotor["tip.z"].max(), 0.2771)
         assert numpy.abs(rotor["v1.z"] - rotor["v2.z"]).max() < 1e-4, "blades differ"
+        for ranks, found in enumerate(stresses, 1):
+            assert [body for body, _, _ in found] == ["one", "two", "three"], found
+            for body, stress, time in found:
+                close(f"stress of blade {body} on {ranks} ranks", stress, 55.9e6)
+                close(f"time of the stress of blade {body} on {ranks} ranks", time, 0.326)
     print("controlled_arm and rotor move as their pages say, on one rank and on two")
 
 
