@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
+#include "floe/fem/element_stiffness.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mass_forms.h"
@@ -165,6 +167,34 @@ std::vector<Column> orthonormalise(const fem::Structure& structure, double toler
   return columns;
 }
 
+/// Far above the square of all frequencies of a mesh of shells whose drilling rotations, which have no mass, follow
+/// [1/s2]; 0: of no shells.
+double shells_limit(const fem::Structure& structure) {
+  double most = 0;
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    const auto* shell = std::get_if<fem::ShellSection>(&structure.sections[cell.part]);
+    if (!shell || !(shell->mass > 0)) continue;
+    const auto corners = cell.corners();
+    double h2 = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      h2 = std::min(h2,
+                    (structure.mesh.positions[corners[i]] - structure.mesh.positions[corners[(i + 1) % corners.size()]])
+                        .squaredNorm());
+    most = std::max(most, (shell->A.trace() / h2 + shell->bending.trace() / (h2 * h2)) / shell->mass);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  return 1e6 * most;
+}
+
+/// Drops columns that are stiffer than anything the mesh can do: what orthonormalisation has left of them is round-off
+/// of drilling rotations, which have stiffness and no mass, and would make everything else round-off in a reduced K.
+void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns) {
+  const double limit = shells_limit(structure);
+  if (limit == 0 || X.cols() == 0) return;
+  const Eigen::VectorXd stiffness = fem::ElementStiffness(structure).gram(X).diagonal();
+  for (Eigen::Index i = 0; i < X.cols(); ++i) columns[i].kept = columns[i].kept && stiffness[i] < limit;
+}
+
 /// The columns that are kept, with M as inner product.
 void insert(const fem::Structure& structure, const fem::FieldRows& X, const std::vector<Column>& columns,
             Basis& basis) {
@@ -197,7 +227,8 @@ Basis orthonormal_basis(const fem::Structure& structure, fem::FieldRows candidat
   const petsc::Stage stage("basis");
   Basis basis;
   basis.origins = std::move(origins);
-  const std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
+  std::vector<Column> columns = orthonormalise(structure, tolerance, candidates, basis.norms);
+  drop_drilling(structure, candidates, columns);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     basis.origins[i].new_part = columns[i].share;
     basis.origins[i].kept = columns[i].kept;
