@@ -257,6 +257,10 @@ std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& p
     bodies.push_back(
         {spec.name, std::make_unique<BodyStress>(of, number, spec.name, motion, !request.uncorrected), {}});
     bodies.back().extremes = find_extremes(*bodies.back().stress, all, comm);
+    if (bodies.back().stress->lacks_torsion())
+      notes.push_back(fmt::format(
+          "body {}: von Mises' stress of beams whose sections are given by constants and fibres is without torsion",
+          spec.name));
     if (!(bodies.back().extremes.greatest.value >= 0))
       notes.push_back(
           fmt::format("body {}: its sections are given by their stiffness: forces and moments, no stresses "

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -23,6 +24,14 @@ double rectangle_torsion(double a, double b) {
   return a * b * b * b * (1.0 / 3 - 64 / std::pow(pi, 5) * b / a * sum);
 }
 
+/// J / W.
+double rectangle_shear(double a, double b) {
+  if (a < b) std::swap(a, b);
+  double sum = 0;
+  for (int n = 41; n >= 1; n -= 2) sum += 1 / (std::pow(n, 2) * std::cosh(n * pi * a / (2 * b)));
+  return b * (1 - 8 / (pi * pi) * sum);
+}
+
 SectionShape without(const SectionShape& outer, const SectionShape& hole) {
   return {outer.A - hole.A, outer.Iy - hole.Iy, outer.Iz - hole.Iz, 0, outer.J - hole.J};
 }
@@ -31,18 +40,24 @@ SectionShape without(const SectionShape& outer, const SectionShape& hole) {
 
 SectionShape rectangle(double b, double h) {
   expect_positive("rectangle", {b, h});
-  return {b * h, b * h * h * h / 12, h * b * b * b / 12, 0, rectangle_torsion(b, h)};
+  SectionShape shape{b * h, b * h * h * h / 12, h * b * b * b / 12, 0, rectangle_torsion(b, h)};
+  shape.W = shape.J / rectangle_shear(b, h);
+  return shape;
 }
 
 SectionShape circle(double radius) {
   expect_positive("circle", {radius});
   const double A = pi * radius * radius, I = A * radius * radius / 4;
-  return {A, I, I, 0, 2 * I};
+  SectionShape shape{A, I, I, 0, 2 * I};
+  shape.W = shape.J / radius;
+  return shape;
 }
 
 SectionShape tube(double outer, double inner) {
   expect_positive("tube", {outer, inner, outer - inner});
-  return without(circle(outer), circle(inner));
+  SectionShape shape = without(circle(outer), circle(inner));
+  shape.W = shape.J / outer;
+  return shape;
 }
 
 SectionShape box(double b, double h, double side, double cover) {
@@ -50,6 +65,7 @@ SectionShape box(double b, double h, double side, double cover) {
   SectionShape shape = without(rectangle(b, h), rectangle(b - 2 * side, h - 2 * cover));
   const double bm = b - side, hm = h - cover;
   shape.J = 4 * bm * bm * hm * hm / (2 * hm / side + 2 * bm / cover);
+  shape.W = 2 * bm * hm * std::min(side, cover);
   return shape;
 }
 
@@ -60,6 +76,7 @@ SectionShape i_section(double b, double h, double flange, double web) {
   const SectionShape middle = rectangle(web, h - 2 * flange);
   shape.A += middle.A, shape.Iy += middle.Iy, shape.Iz += middle.Iz;
   shape.J = (2 * b * std::pow(flange, 3) + (h - flange) * std::pow(web, 3)) / 3;
+  shape.W = shape.J / std::max(flange, web);
   return shape;
 }
 
@@ -69,7 +86,8 @@ SectionShape rotated(const SectionShape& shape, double angle) {
   Eigen::Matrix2d second;  // int [y, z]' [y, z]
   second << shape.Iz, shape.Iyz, shape.Iyz, shape.Iy;
   second = (R * second * R.transpose()).eval();
-  return {shape.A, second(1, 1), second(0, 0), (second(0, 1) + second(1, 0)) / 2, shape.J, R * shape.shear_centre};
+  return {shape.A, second(1, 1),           second(0, 0), (second(0, 1) + second(1, 0)) / 2,
+          shape.J, R * shape.shear_centre, shape.W};
 }
 
 double shear_modulus(double E, double nu) {

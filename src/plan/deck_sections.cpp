@@ -246,6 +246,7 @@ void add_beam(Reader& reader, const mesh::BeamSection& section, DeckSections& de
       if (section.shear_factors[i] > 0) beam.section.GA[i] = section.shear_factors[i] * material.G * shape.A;
     deck.parts[section.number] = beam;
     deck.points[section.number] = points_of(section, material.E);
+    deck.points[section.number].W = given.W;
     deck.described.push_back({section.number, section.part, std::exchange(reader.massless, {}), size_of(section)});
   } catch (const InputError& error) {
     reader.fault(section.part, error.what());

@@ -116,7 +116,7 @@ fem::Section beam_of(Document& document, Reading& reading, const Material& mater
   const Point y = reading.given("orientation") ? reading.point("orientation") : Point{};
   points = fibres_of(document, reading);
   if (document.fault_count() != before) return fem::SpatialBeam{};
-  points.E = *material.E;
+  points.E = *material.E, points.W = shape.W;
   const double E = *material.E, G = material.G ? *material.G : fem::shear_modulus(E, *material.nu);
   fem::SpatialBeam beam{fem::spatial_section(shape, {E, G, material.rho}, {centroid[0], centroid[1]}),
                         Eigen::Vector3d(y[0], y[1], y[2]),

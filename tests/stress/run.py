@@ -100,7 +100,7 @@ def beams(folder):
 
 
 def round_bars(folder):
-    """N / A and |M| r / I of bars and tubes bent about two axes, read from decks."""
+    """N / A, |M| r / I and T r / J of bars and tubes bent about two axes and twisted, read from decks."""
     deck = "*NODE\n" + "".join(f"{i + 1}, {i / 10}, 0, 0\n" for i in range(11)) + "*ELEMENT, TYPE=B31, ELSET=bar\n" + "".join(
         f"{i + 1}, {i + 1}, {i + 2}\n" for i in range(10)) + "*MATERIAL, NAME=steel\n*ELASTIC\n2e11, 0.3\n*DENSITY\n7800\n"
     for shape, area, inertia in (("CIRC\n0.02", np.pi * 0.02**2, np.pi * 0.02**4 / 4),
@@ -109,13 +109,20 @@ def round_bars(folder):
         path, _ = recovered(FLOE, folder, """
 bodies: {bar: {mesh: {file: {path: bar.inp}}, reduction: {modes: 4, attachment: all}}}
 joints: {root: {type: fixed, between: [ground, {body: bar, node: [0, 0, 0]}]}}
-loads: {tip: {type: force, at: {body: bar, node: [1, 0, 0]}, force: [500, 3, 4]}}
+loads:
+  tip: {type: force, at: {body: bar, node: [1, 0, 0]}, force: [500, 3, 4]}
+  turn: {type: moment, at: {body: bar, node: [1, 0, 0]}, moment: [20, 0, 0]}
 motion: {end: 1, step: 0.1}
 """, formulation="lffr")
         found = Fields(path, "bar")
         bend = 5 * (1.05 - found.x[:, 0]) * 0.02 / inertia  # at the start of the element
         close(found["stress_max"], 500 / area + bend, 0.01, f"{shape} in tension")
         close(found["stress_min"], 500 / area - bend, 0.01, f"{shape} in compression")
+        shear = 20 * 0.02 / (2 * inertia)
+        close(found["von_mises"], np.sqrt((500 / area + bend) ** 2 + 3 * shear**2), 0.01, f"{shape} twisted")
+    _, said = recovered(FLOE, folder, SPATIAL.replace(
+        "shape: rectangle, width: 0.03, height: 0.05", "A: 1.5e-3, Iy: 3.1e-7, Iz: 1.1e-7, J: 1e-7, fibres: [[.015, .025]]"))
+    assert "given by constants and fibres is without torsion" in said, said
 
 
 def large_rotations(folder):

@@ -12,12 +12,14 @@ struct SectionShape {
   double A = 0, Iy = 0, Iz = 0, Iyz = 0;
   double J = 0;                                            ///< Saint-Venant torsion constant [m4]
   Eigen::Vector2d shear_centre = Eigen::Vector2d::Zero();  ///< [y, z] from the centroid [m]
+  double W = 0;  ///< of Saint-Venant torsion: greatest shear stress tau = T / W [m3]; 0: not known
 };
 
 /// Width along y, height along z, all > 0 [m]; else, or with walls that leave no section, floe::InputError.
 ///
 /// J of a rectangle, a >= b:  a b^3 [1/3 - (64/pi^5) (b/a) sum_(n odd) tanh(n pi a / 2b) / n^5], summed to rounding.
-/// Source: Timoshenko & Goodier, Theory of elasticity, 3rd ed., art. 109.
+/// W of a rectangle:       J / (b [1 - (8/pi^2) sum_(n odd) 1 / (n^2 cosh(n pi a / 2b))]), in the middle of its long
+/// side. Source: Timoshenko & Goodier, Theory of elasticity, 3rd ed., art. 109.
 SectionShape rectangle(double width, double height);
 SectionShape circle(double radius);                           ///< full
 SectionShape tube(double outer_radius, double inner_radius);  ///< of any wall

@@ -18,6 +18,7 @@ struct StressPoints {
   double E = 0;                              ///< of a beam [Pa]
   std::vector<Eigen::Vector2d> fibres = {};  ///< of a beam: extreme ones, [y, z] from the centroid in section axes [m]
   double radius = 0;                         ///< of a beam with a round section, instead [m]
+  double W = 0;                              ///< of a beam in space, as SectionShape::W [m3]
   bool known() const { return !layers.empty() || !fibres.empty() || radius > 0; }
 };
 

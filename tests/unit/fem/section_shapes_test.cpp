@@ -66,6 +66,19 @@ TEST_CASE("circle and tube: polar moment") {
   CHECK(t.Iy + t.Iz == Approx(t.J).epsilon(1e-14));
 }
 
+// Timoshenko & Goodier, Theory of elasticity, 3rd ed., art. 109, table of k_2: tau = T / (k_2 a b^2).
+TEST_CASE("greatest shear stress of torsion: rectangles, round sections, thin walls") {
+  for (const auto& [ratio, k] : {std::pair{1., 0.208}, {1.5, 0.231}, {2., 0.246}, {3., 0.267}, {10., 0.312}}) {
+    CHECK(fem::rectangle(0.02, 0.02 * ratio).W == Approx(k * ratio * 8e-6).epsilon(3e-3));
+    CHECK(fem::rectangle(0.02 * ratio, 0.02).W == Approx(k * ratio * 8e-6).epsilon(3e-3));
+  }
+  CHECK(fem::circle(0.2).W == Approx(pi * std::pow(0.2, 3) / 2).epsilon(1e-14));
+  CHECK(fem::tube(0.2, 0.15).W == Approx(fem::tube(0.2, 0.15).J / 0.2).epsilon(1e-14));
+  CHECK(fem::box(0.1, 0.2, 0.004, 0.006).W == Approx(2 * 0.096 * 0.194 * 0.004).epsilon(1e-14));  // Bredt
+  CHECK(fem::i_section(166, 529, 13.6, 9.7).W == Approx(fem::i_section(166, 529, 13.6, 9.7).J / 13.6).epsilon(1e-14));
+  CHECK(fem::rotated(fem::circle(0.2), 0.3).W == fem::circle(0.2).W);
+}
+
 TEST_CASE("box: differences of rectangles, and Bredt's torsion constant") {
   const double b = 0.1, h = 0.2, side = 0.004, cover = 0.006;
   const fem::SectionShape s = fem::box(b, h, side, cover);
