@@ -135,14 +135,14 @@ TEST_CASE("accuracy: the scene that is written reproduces the selected model") {
 
 TEST_CASE("accuracy: correction vectors are written as residual responses of the scene") {
   const scene::Scene scene = scene::parse_scene(plate, "scene");
-  app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
+  app::Chosen chosen = app::choose(scene, {0.002, false}, PETSC_COMM_WORLD);
   REQUIRE(chosen.selection.responses >= 1);
   REQUIRE_FALSE(chosen.candidates->has_responses(chosen.selection));
   const app::RunResult result = app::move(chosen.scene, chosen.model, 0, PETSC_COMM_WORLD, std::nullopt, quiet());
   const double error = app::worst_error(result.series, reference_motion(scene));
   INFO("supported " << chosen.supported << ", true " << error);
   CHECK(chosen.within());
-  CHECK(error <= 0.01);
+  CHECK(error <= 0.002);
   const Scratch folder;
   const std::string path = (folder / "chosen.yaml").string();
   const std::vector<std::string> files = chosen.candidates->write(chosen.selection, chosen.scene.motion, path, false);
@@ -156,7 +156,7 @@ TEST_CASE("accuracy: correction vectors are written as residual responses of the
 
 TEST_CASE("accuracy: correction vectors themselves are written to the file of a reduced body") {
   const scene::Scene scene = scene::parse_scene(plate, "scene");
-  app::Chosen chosen = app::choose(scene, {0.01, false}, PETSC_COMM_WORLD);
+  app::Chosen chosen = app::choose(scene, {0.002, false}, PETSC_COMM_WORLD);
   assess::Selection selection = chosen.selection;
   selection.responses = 0;
   REQUIRE(chosen.candidates->has_responses(selection));

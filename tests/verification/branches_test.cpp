@@ -261,7 +261,7 @@ joints:
                                        {"8", "second_order"}}) {
     INFO(strains << " " << modes);
     app::CampbellRequest request;
-    request.speeds = "50", request.modes = 2;
+    request.speeds = "100", request.modes = 2;
     std::exception_ptr fault;
     const app::CampbellDiagram found =
         app::campbell(scene::parse_scene(fill(strip, {{"modes", modes}, {"strains", strains}}), "strip"),
