@@ -1,6 +1,7 @@
 #include "floe/solve/start.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "systems.h"
 #include "terms.h"
@@ -90,6 +91,23 @@ TEST_CASE("consistent velocities: the nearest allowed ones in kinetic energy") {
   const double before = m * l * l / 3 * 0.7 + m * l / 2 * (std::cos(theta) * -2 - std::sin(theta) * 1);
   CHECK(numbers_of(V)[2] == Approx(before / (m * l * l / 3)).epsilon(1e-12));
   CHECK(solve::consistent_velocities(system, 0, U, V) < 1e-14);  // nothing left to do
+}
+
+TEST_CASE("consistent velocities where numerical damping has left denormal ones") {
+  dynamics::Coordinates c(PETSC_COMM_SELF);
+  c.add_shared(3);
+  c.add_shared(3, true);
+  c.number();
+  testing::Terms terms;
+  terms.push_back(testing::rigid_rod(m, l));
+  terms.push_back(testing::to_ground(testing::on_rod(l), dynamics::Clamp{}));
+  const dynamics::System system(c, std::move(terms));
+  for (int digits = 1; digits < 60; ++digits) {
+    const double v = digits * std::numeric_limits<double>::denorm_min();
+    const petsc::VecHandle U = vector_of(system, {0, 0, 0.4, 0, 0, 0}), V = vector_of(system, {v, -2 * v, v, 0, 0, 0});
+    CHECK_NOTHROW(solve::consistent_velocities(system, 0, U, V));
+    CHECK(numbers_of(V).cwiseAbs().maxCoeff() < 1e-300);
+  }
 }
 
 TEST_CASE("equilibrium: a rod on a torsional hinge under its weight") {
