@@ -9,6 +9,9 @@ namespace floe::solve {
 class AllowedMotions {
  public:
   AllowedMotions(const System& system, const RotatingTangent& at, const Eigen::VectorXd& root_mass);
+  /// The same motions with D = 1 / `root`. The reflections mix coordinates, and their round-off is that of the greatest
+  /// entries: D ought to make these alike.
+  void rescale(const Eigen::VectorXd& root);
   Eigen::Index size() const { return static_cast<Eigen::Index>(free_.size()) - rank_; }
   /// (D Q)' X (D Q) of a matrix over all unknowns.
   Eigen::MatrixXd restrict_both(const Eigen::MatrixXd& X) const;
@@ -18,7 +21,11 @@ class AllowedMotions {
   Eigen::MatrixXd expand(const Eigen::MatrixXd& y, Eigen::Index unknowns) const;
 
  private:
-  std::vector<Eigen::Index> free_;
+  void scale(const Eigen::VectorXd& root);
+  Eigen::MatrixXd scaled_gradients() const;
+
+  const Eigen::MatrixXd& G_;
+  std::vector<Eigen::Index> free_, rows_;  ///< coordinates; constraints
   Eigen::VectorXd scale_;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::Index rank_ = 0;

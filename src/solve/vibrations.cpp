@@ -88,6 +88,26 @@ double typical(const Quadratic& problem) {
   }
 }
 
+Quadratic on(const AllowedMotions& allowed, const RotatingTangent& at) {
+  return {allowed.restrict_both(at.M), allowed.restrict_both(at.C), allowed.restrict_both(at.K)};
+}
+
+/// Scales coordinates until round-off of the stiffest does not reach the slow vibrations: those on coordinates of unit
+/// mass have errors of eps K_ii / M_ii in their squares, those on coordinates of unit K_ii / w^2 + M_ii of eps w^2.
+/// @return  w, typical of the slow vibrations, or the speed
+double resolve(const RotatingTangent& at, double speed, AllowedMotions& allowed, Quadratic& problem) {
+  constexpr double wanted = 1e-9;
+  const VectorXd stiffness = at.K.diagonal().cwiseAbs(), mass = at.M.diagonal().cwiseMax(0);
+  double fast = fastest(problem), swing = std::max(typical(problem), speed);
+  while (std::numeric_limits<double>::epsilon() * fast > wanted * swing * swing && swing > 0) {
+    fast = swing * swing;
+    allowed.rescale((mass + stiffness / fast).cwiseSqrt());
+    problem = on(allowed, at);
+    swing = std::max(typical(problem), speed);
+  }
+  return swing;
+}
+
 /// All exponents s of (s^2 M + s C + K) y = 0, by its linearisation in (y, s y / shift), shifted and inverted:
 ///
 ///   T = [-P (C' + M'), -P M'; I - P (C' + M'), -P M'],  C' = shift C, M' = shift^2 M, P = (K + C' + M')^-1
@@ -156,10 +176,10 @@ Exponents first_exponents(const Quadratic& problem, double shift, int count, Eig
 
 std::vector<Vibration> vibrations(const RotatingSystem& rotating, double speed, Vec U, int count) {
   const RotatingTangent at = rotating_tangent(rotating, speed, U);
-  const AllowedMotions allowed(rotating.system, at, mass_scale(rotating, at.M).root);
+  AllowedMotions allowed(rotating.system, at, mass_scale(rotating, at.M).root);
   if (allowed.size() == 0) return {};
-  const Quadratic problem{allowed.restrict_both(at.M), allowed.restrict_both(at.C), allowed.restrict_both(at.K)};
-  const double swing = std::max(typical(problem), std::abs(speed));
+  Quadratic problem = on(allowed, at);
+  const double swing = resolve(at, std::abs(speed), allowed, problem);
   const double scale = swing > 0 ? swing : 1;
   const double noise = std::clamp(noise_of(problem), 1e-6 * scale, 1e-2 * scale);
   constexpr Index small = 150;
