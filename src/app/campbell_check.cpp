@@ -9,6 +9,7 @@
 #include "floe/assembly/rotation.h"
 #include "floe/math/rounded.h"
 #include "floe/output/progress.h"
+#include "floe/solve/deviation.h"
 
 namespace floe::app {
 
@@ -33,15 +34,23 @@ double visit_speed(const solve::RotatingSystem& rotating, double from, int modes
   return point.speed;
 }
 
-namespace {
+const CampbellPoint* steady_at(const CampbellDiagram& diagram, double speed) {
+  const auto at = std::find_if(diagram.points.begin(), diagram.points.end(),
+                               [&](const CampbellPoint& point) { return point.steady && point.speed == speed; });
+  return at == diagram.points.end() ? nullptr : &*at;
+}
 
-/// A model at the last of the speeds, reached through the others as in the diagram.
-void follow(const solve::RotatingSystem& rotating, const std::vector<double>& before, int modes, Vec U,
-            CampbellPoint& point) {
+void follow(const solve::RotatingSystem& rotating, const CampbellDiagram& diagram, const CampbellPoint& last, int modes,
+            Vec U, CampbellPoint& point) {
   double from = 0;
-  for (const double speed : before) solve::steady_rotation(rotating, from, speed, U), from = speed;
+  for (const CampbellPoint& before : diagram.points) {
+    if (&before == &last) break;
+    if (before.steady) solve::steady_rotation(rotating, from, before.speed, U), from = before.speed;
+  }
   visit_speed(rotating, from, modes, U, point);
 }
+
+namespace {
 
 bool is_unstable(const CampbellPoint& point) {
   return std::any_of(point.vibrations.begin(), point.vibrations.end(),
@@ -57,9 +66,6 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
   if (unstable == diagram.points.end() || !is_reduced(diagram.model.formulation) ||
       std::all_of(bodies.begin(), bodies.end(), [](const assembly::BodyReport& body) { return body.rigid; }))
     return;
-  std::vector<double> before;
-  for (auto point = diagram.points.begin(); point != unstable; ++point)
-    if (point->steady) before.push_back(point->speed);
   const std::string what = fmt::format("the instability at {:.6g} rad/s", unstable->speed);
   CampbellPoint point{unstable->speed, {}, 0, {}};
   try {
@@ -68,7 +74,7 @@ void check_instability(const scene::Scene& given, const scene::Scene& scene, int
     if (unknowns > solve::largest_rotating_system)
       point.fault = fmt::format("{} unknowns (limit {})", unknowns, solve::largest_rotating_system);
     else
-      follow(assembly::rotating_system(given, full.model, full.axis), before, modes, full.model.U, point);
+      follow(assembly::rotating_system(given, full.model, full.axis), diagram, *unstable, modes, full.model.U, point);
   } catch (const InputError& error) {
     point.fault = error.what();
   } catch (const RunError& error) {
@@ -100,16 +106,19 @@ std::vector<double> frequencies_of(const CampbellPoint& point) {
 /// At rest and at the speed; empty: not found.
 using Frequencies = std::array<std::vector<double>, 2>;
 
-Frequencies at_rest_and_at(const scene::Scene& given, assembly::Model& model, const solve::RotationAxis& axis,
-                           double speed, int modes) {
-  const solve::RotatingSystem rotating = assembly::rotating_system(given, model, axis);
+Frequencies at_rest_and_at(const scene::Scene& given, assembly::Model& model, const CampbellDiagram& diagram,
+                           const CampbellPoint& fastest, int modes) {
+  const solve::RotatingSystem rotating = assembly::rotating_system(given, model, diagram.axis);
+  const petsc::VecHandle V = model.system->create_vector(), A = model.system->create_vector();
+  const solve::State start = solve::state_of(*model.system, 0, model.U, V, A);
+  std::array<CampbellPoint, 2> points;
+  visit_speed(rotating, 0, modes, model.U, points[0]);
+  solve::set_state(*model.system, start, model.U, V, A);
+  points[1].speed = fastest.speed;
+  follow(rotating, diagram, fastest, modes, model.U, points[1]);
   Frequencies found;
-  double from = 0;
-  for (const int i : {0, 1}) {
-    CampbellPoint point{i * speed, {}, 0, {}};
-    from = visit_speed(rotating, from, modes, model.U, point);
-    if (point.fault.empty()) found[i] = frequencies_of(point);
-  }
+  for (const int i : {0, 1})
+    if (points[i].fault.empty()) found[i] = frequencies_of(points[i]);
   return found;
 }
 
@@ -119,15 +128,16 @@ void check_rotating_model(const scene::Scene& given, const scene::Scene& scene, 
                           CampbellDiagram& diagram) {
   using scene::Formulation;
   const Formulation formulation = diagram.model.formulation;
-  if (scene.dimension == 2 || speed == 0) return;
+  const CampbellPoint* fastest = steady_at(diagram, speed);
+  if (scene.dimension == 2 || speed == 0 || !fastest) return;
   if (formulation == Formulation::cfr || formulation == Formulation::lffr) return;
   Frequencies mine, exact;
   try {
     assembly::Model cfr = plan_rotation(scene, Formulation::cfr, comm);
     if (cfr.coordinates + cfr.multipliers > most_unknowns) return;
-    exact = at_rest_and_at(given, cfr, diagram.axis, speed, modes);
+    exact = at_rest_and_at(given, cfr, diagram, *fastest, modes);
     assembly::Model again = plan_rotation(scene, formulation, comm);
-    mine = at_rest_and_at(given, again, diagram.axis, speed, modes);
+    mine = at_rest_and_at(given, again, diagram, *fastest, modes);
   } catch (const InputError&) {
     return;
   } catch (const RunError&) {

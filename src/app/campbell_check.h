@@ -9,7 +9,15 @@ assembly::Model plan_rotation(const scene::Scene& scene, scene::Formulation form
 /// From the steady rotation at `from` to the vibrations at `point.speed`. @return  where the next search begins
 double visit_speed(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point);
 
-/// Whether what a reduced model says of the first unstable speed is so at full order of the same mesh, from rest: a
+/// The first steady rotation of the diagram at this speed; null: there is none.
+const CampbellPoint* steady_at(const CampbellDiagram& diagram, double speed);
+
+/// visit_speed() of another model of the scene from its start, through the speeds by which the diagram came to `last`.
+/// @throws RunError  no steady rotation at one of these. Collective.
+void follow(const solve::RotatingSystem& rotating, const CampbellDiagram& diagram, const CampbellPoint& last, int modes,
+            Vec U, CampbellPoint& point);
+
+/// Whether what a reduced model says of the first unstable speed is so at full order of the same mesh: a
 /// warning where it is not, or where this is not known.
 /// @param given, scene  what the user wrote, and with a probe of the hub
 void check_instability(const scene::Scene& given, const scene::Scene& scene, int modes, MPI_Comm comm,

@@ -55,10 +55,9 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     return;
   CampbellEstimate& estimate = diagram.estimate;
   estimate.speed = speed;
-  const auto at = std::find_if(diagram.points.begin(), diagram.points.end(),
-                               [&](const CampbellPoint& point) { return point.steady && point.speed == speed; });
+  const CampbellPoint* at = steady_at(diagram, speed);
   const std::optional<scene::Scene> larger = on_larger_bases(scene);
-  if (at == diagram.points.end() || !larger) {
+  if (!at || !larger) {
     estimate.missing = larger ? "no steady rotation" : "no body has a mesh from which a larger basis could be computed";
     return;
   }
@@ -68,7 +67,7 @@ void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, 
     estimate.coordinates = second.model.coordinates;
     if (estimate.coordinates <= diagram.model.coordinates)
       throw InputError("the larger bases have no more coordinates than the model");
-    visit_speed(assembly::rotating_system(given, second.model, second.axis), 0, modes + 2, second.model.U, point);
+    follow(assembly::rotating_system(given, second.model, second.axis), diagram, *at, modes + 2, second.model.U, point);
     estimate.missing = point.fault;
   } catch (const InputError& error) {
     estimate.missing = error.what();

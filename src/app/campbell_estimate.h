@@ -16,7 +16,7 @@ inline constexpr int most_vectors = 100;
 std::vector<FrequencyError> frequency_errors(const CampbellPoint& point, const std::vector<solve::Vibration>& larger);
 
 /// Sets the estimate of a reduced diagram: frequency errors at `speed`, the fastest steady rotation, by a model on
-/// larger bases that comes there from rest; or why there is none.
+/// larger bases that comes there as the diagram does; or why there is none.
 /// @param given, scene  what the user wrote, and with a probe of the hub. Collective.
 void estimate_frequencies(const scene::Scene& given, const scene::Scene& scene, int modes, double speed, MPI_Comm comm,
                           CampbellDiagram& diagram);

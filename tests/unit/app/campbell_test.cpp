@@ -99,6 +99,36 @@ TEST_CASE("campbell: axes that are missing or wrong are refused with what was ex
   CHECK_THAT(refusal(spatial(fixed), request), Contains("the axis is not that of one driven or revolute joint"));
 }
 
+namespace {
+
+// It hangs outwards at all speeds, and inwards there is an unstable equilibrium, too.
+const std::string hinged_rod = R"yaml(
+gravity: [0, 0, -9.81]
+bodies:
+  hub:
+    rigid: true
+    mesh: {line: {from: [0, 0, 0], to: [0.05, 0, 0], elements: 1}}
+    section: {shape: rectangle, width: 0.02, height: 0.02, orientation: [0, 1, 0]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+  rod:
+    mesh: {line: {from: [0, 0, 0], to: [0.75, 0, 0], elements: 6}}
+    section: {shape: rectangle, width: 0.02, height: 0.002, orientation: [0, 0, 1]}
+    material: {E: 7e10, nu: 0.3, rho: 2700}
+    initial: {rotation: [0, 1.4, 0], position: [0.05, 0, 0]}
+joints:
+  drive: {type: driven, between: [ground, hub.start], axis: [0, 0, 1], angle: "t"}
+  hinge: {type: revolute, between: [hub.end, rod.start], axis: [0, 1, 0]}
+)yaml";
+
+}  // namespace
+
+TEST_CASE("campbell: estimate and comparison with cfr follow the branch of the diagram") {
+  const CampbellDiagram found = diagram(hinged_rod, Formulation::vm_md, at("1,5,9", 3, true));
+  REQUIRE(found.estimate.errors.size() == 3);
+  for (const FrequencyError& one : found.estimate.errors) CHECK(one.relative < 1e-4);
+  for (const std::string& one : found.model.warnings) CHECK_THAT(one, !Contains("cfr"));
+}
+
 TEST_CASE("campbell: an instability of a poor reduced model is checked with the full-order model") {
   // one mode without derivatives does not stiffen: omega^2 = 3.516^2 - Omega^2 about z in the plane, below 0 at 5
   const CampbellDiagram linear = diagram(planar(), Formulation::lffr, at("3,5", 1));
