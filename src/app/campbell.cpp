@@ -75,13 +75,17 @@ void warn(double speed, const std::vector<solve::State>& fastest, MPI_Comm comm,
     model.warnings.push_back(fmt::format("at {:.6g} rad/s: {}", speed, one.text));
 }
 
-void warn_of_jump(const CampbellPoint& point, CampbellDiagram& diagram) {
-  if (point.jump.ratio == 0) return;
+void warn_of_branch(const CampbellPoint& point, CampbellDiagram& diagram) {
+  if (point.search.other > 0)
+    diagram.model.warnings.push_back(
+        fmt::format("at {:.6g} rad/s: {}", point.speed, solve::other_rotation(point.search.other)));
+  const solve::BranchJump& jump = point.search.jump;
+  if (jump.ratio == 0) return;
   diagram.model.warnings.push_back(
       fmt::format("between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is {:.2g} "
                   "times that predicted by the tangents (limit {:.2g}). The results from there on belong to the other "
                   "branch; start from a speed or a shape (`initial`) on the intended branch",
-                  point.jump.from, point.jump.to, point.jump.ratio, solve::least_jump));
+                  jump.from, jump.to, jump.ratio, solve::least_jump));
 }
 
 }  // namespace
@@ -118,7 +122,7 @@ CampbellDiagram campbell(const scene::Scene& given, scene::Formulation formulati
       from = visit_speed(rotating, from, request.modes, diagram.model.U, point);
       if (point.steady && std::abs(speed) >= std::abs(fastest))
         fastest = speed, state = {state_at(diagram.model, diagram.axis, speed)};
-      warn_of_jump(point, diagram);
+      warn_of_branch(point, diagram);
       tracks.follow(point);
       diagram.points.push_back(std::move(point));
       progress.update(static_cast<double>(diagram.points.size()), static_cast<PetscInt>(diagram.points.size()));

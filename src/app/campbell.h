@@ -41,7 +41,7 @@ struct CampbellPoint {
   PetscInt iterations = 0;
   std::vector<TrackedVibration> vibrations;
   bool steady = true;
-  solve::BranchJump jump = {};  ///< on the way from the speed before; ratio 0: none
+  solve::RotationSearch search = {};  ///< on the way from the speed before
 };
 
 /// Estimated error of a reduced model's frequency (campbell_estimate.h).

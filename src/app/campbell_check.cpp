@@ -20,7 +20,7 @@ assembly::Model plan_rotation(const scene::Scene& scene, scene::Formulation form
 
 double visit_speed(const solve::RotatingSystem& rotating, double from, int modes, Vec U, CampbellPoint& point) {
   try {
-    point.iterations = solve::steady_rotation(rotating, from, point.speed, U, &point.jump);
+    point.iterations = solve::steady_rotation(rotating, from, point.speed, U, &point.search);
   } catch (const RunError& error) {
     point.fault = error.what(), point.steady = false;
     return from;

@@ -58,8 +58,9 @@ ordered_json campbell_summary(const scene::Scene& scene, const CampbellDiagram& 
   j["speeds"] = ordered_json::array();
   for (const CampbellPoint& point : diagram.points) {
     ordered_json at{{"rad_per_s", point.speed}, {"steady", point.steady}};
-    if (point.jump.ratio > 0)
-      at["jump"] = {{"from", point.jump.from}, {"to", point.jump.to}, {"ratio", point.jump.ratio}};
+    if (const solve::BranchJump& jump = point.search.jump; jump.ratio > 0)
+      at["jump"] = {{"from", jump.from}, {"to", jump.to}, {"ratio", jump.ratio}};
+    if (point.search.other > 0) at["other_steady_rotation_rad"] = point.search.other;
     if (!point.fault.empty())
       at["reason"] = point.fault;
     else

@@ -107,16 +107,17 @@ void start_in_rotation(const Plan& plan, Model& model) {
                     where, hub->name));
   refuse_other_speeds(plan, axis, speed, where);
   const solve::RotatingSystem rotating = rotating_system(plan.scene, model, axis);
-  solve::BranchJump jump;
+  solve::RotationSearch search;
   try {
     solve::check_rotations(rotating, model.U);
-    solve::steady_rotation(rotating, 0, speed, model.U, &jump);
+    solve::steady_rotation(rotating, 0, speed, model.U, &search);
   } catch (const InputError& error) {
     throw InputError(where + ": " + error.what());
   } catch (const RunError& error) {
     throw RunError(where + ": " + error.what());
   }
-  if (jump.ratio > 0)
+  if (search.other > 0) model.warnings.push_back(where + ": " + solve::other_rotation(search.other));
+  if (const solve::BranchJump& jump = search.jump; jump.ratio > 0)
     model.warnings.push_back(
         fmt::format("{}: between {:.6g} and {:.6g} rad/s the steady rotation jumps to another branch: the change is "
                     "{:.2g} times that predicted by the tangents (limit {:.2g}). The simulation starts on the other "

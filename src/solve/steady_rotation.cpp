@@ -148,6 +148,7 @@ class Follower {
     const BranchJump found = jump_of(from, before, speed);
     return found.ratio > 0 ? iterations + shorter(found, before) : iterations;
   }
+  bool follows() const { return follows_; }
   BranchJump jump;  ///< the greatest
 
  private:
@@ -190,6 +191,33 @@ class Follower {
   Vec U_;
 };
 
+/// Of U, steady at `speed`.
+double distance_to(const RotatingSystem& rotating, double speed, const KeptState& from, Vec U) {
+  rotating.system.rebase(U);
+  return size_of(from.change_to(U), mass_scale(rotating, rotating_tangent(rotating, speed, U).M));
+}
+
+/// Another steady rotation than U, by way of one at `from`; U is as it was where there is none.
+PetscInt search_from_steady(const RotatingSystem& rotating, double from, double speed, const KeptState& start, Vec U,
+                            RotationSearch& found) {
+  rotating.system.rebase(U);
+  const KeptState direct(rotating.system, U);
+  try {
+    start.restore(U);
+    PetscInt iterations = newton(rotating, from, U);
+    Follower follower(rotating, from, speed, U);
+    constexpr int steps = 8;  // whole ones may meet another branch by chance
+    const double step = (speed - from) / steps;
+    for (int i = 0; i < steps; ++i)
+      iterations += follower.go(from + i * step, i + 1 < steps ? from + (i + 1) * step : speed);
+    if (const double other = distance_to(rotating, speed, direct, U); other > 1e-6) found = {follower.jump, other};
+    return iterations;
+  } catch (const RunError&) {  // none at `from`, or none on the way
+    direct.restore(U);
+    return 0;
+  }
+}
+
 }  // namespace
 
 void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Vec V) {
@@ -197,12 +225,24 @@ void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Ve
   set(V, rotating_motion(rotating, speed, gather_to_all(rotating.system, U)).V);
 }
 
-PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump) {
+std::string other_rotation(double other) {
+  return fmt::format(
+      "the initial shape is no steady rotation, and the one reached from rest is given. From the initial shape "
+      "Newton's "
+      "method finds another one, {:.2g} rad away; start from a shape (`initial`) within {} rad of the one intended",
+      other, near_start);
+}
+
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, RotationSearch* search) {
   const KeptState before(rotating.system, U);
+  RotationSearch found;
   try {
     Follower follower(rotating, from, speed, U);
-    const PetscInt iterations = follower.go(from, speed);
-    if (jump) *jump = follower.jump;
+    PetscInt iterations = follower.go(from, speed);
+    found.jump = follower.jump;
+    if (!follower.follows() && speed != from && distance_to(rotating, speed, before, U) > near_start)
+      iterations += search_from_steady(rotating, from, speed, before, U, found);
+    if (search) *search = found;
     return iterations;
   } catch (const RunError& error) {
     before.restore(U);

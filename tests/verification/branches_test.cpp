@@ -144,7 +144,7 @@ TEST_CASE("campbell: the branch is followed, whatever the steps of the speed") {
     CHECK(warnings_of(found, "another branch") == 0);
     for (const app::CampbellPoint& point : found.points) {
       REQUIRE(point.fault == "");
-      CHECK(point.jump.ratio == 0);
+      CHECK(point.search.jump.ratio == 0);
       CHECK(point.vibrations.at(0).growth == 0);
       CHECK(point.vibrations.at(0).omega == Approx(std::sqrt(rod.square(point.speed, 0.01, M_PI / 2))).epsilon(1e-4));
     }
@@ -167,11 +167,11 @@ TEST_CASE("campbell: a branch that ends is left with a warning that gives the sp
   REQUIRE(found.points.size() == 4);
   for (int i = 0; i < 3; ++i) {
     const app::CampbellPoint& point = found.points[i];
-    CHECK(point.jump.ratio == 0);
+    CHECK(point.search.jump.ratio == 0);
     CHECK(point.vibrations.at(0).omega ==
           Approx(std::sqrt(rod.square(point.speed, -M_PI / 2, steepest(point.speed)))).epsilon(1e-4));
   }
-  const solve::BranchJump& jump = found.points[3].jump;
+  const solve::BranchJump& jump = found.points[3].search.jump;
   CHECK(jump.ratio > 3);
   CHECK(jump.from > end);
   CHECK(jump.to < end);

@@ -45,18 +45,32 @@ inline constexpr PetscInt largest_rotating_system = 1500;
 /// @throws InputError  too many unknowns, or what does not rotate: a joint (by name), or loads and gravity. Collective.
 void check_rotations(const RotatingSystem& rotating, Vec U);
 
+/// How a steady rotation was reached.
+struct RotationSearch {
+  BranchJump jump = {};  ///< where the shortest step did not continue; ratio 0: all did
+  /// From a start that is not steady at `from`: how far away Newton's method finds another steady rotation, largest
+  /// change of an unknown by mass, as the rotation of a frame [rad]. 0: there is none.
+  double other = 0;
+};
+
 /// The steady state F(0, U, V(U), A(U)) = 0 at `speed` [rad/s] by Newton's method from the one at `from`, in halved
 /// steps of the speed where a whole one fails, down to a thousandth of the way.
+///
+/// Where U is not steady at `from`, Newton's method starts from it at `speed`; where this leads further than
+/// `near_start` away, U becomes steady at `from` first, and is followed from there.
 ///
 /// Where the equations leave directions open (a hub that rotates freely, a hinge at rest) the nearest solution is
 /// taken. Where U is steady at `from`, it is followed in shorter steps likewise where it does not continue (branch.h,
 /// with speeds in place of t).
 ///
-/// @param jump  where the shortest step does not continue; ratio 0: it does
 /// Returns the iterations. Attitudes of U are their own bases afterwards.
 /// @throws RunError  none found, or a moment about the axis is left that spins the scene up; U is then as before.
 /// Collective, the same on every rank.
-PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U, BranchJump* jump = nullptr);
+PetscInt steady_rotation(const RotatingSystem& rotating, double from, double speed, Vec U,
+                         RotationSearch* search = nullptr);
+/// A warning of RotationSearch::other.
+std::string other_rotation(double other);
+inline constexpr double near_start = 0.1;  ///< [rad], as RotationSearch::other
 
 /// V = V(U) at `speed`; attitudes of U are their own bases afterwards. Collective.
 void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Vec V);

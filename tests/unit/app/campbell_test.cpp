@@ -1,5 +1,8 @@
 #include "../../../src/app/campbell.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "../../../src/app/campbell_tracks.h"
@@ -127,6 +130,28 @@ TEST_CASE("campbell: estimate and comparison with cfr follow the branch of the d
   REQUIRE(found.estimate.errors.size() == 3);
   for (const FrequencyError& one : found.estimate.errors) CHECK(one.relative < 1e-4);
   for (const std::string& one : found.model.warnings) CHECK_THAT(one, !Contains("cfr"));
+}
+
+// From an initial shape that is no equilibrium Newton's method came to the unstable one at 7 and at 9 rad/s.
+TEST_CASE("campbell: the first speed is approached from rest where the initial shape is far from a steady rotation") {
+  for (const double speed : {7., 9.}) {
+    const CampbellDiagram found = diagram(hinged_rod, Formulation::vm_md, at(fmt::format("{}", speed), 2)),
+                          followed = diagram(hinged_rod, Formulation::vm_md, at(fmt::format("1,3,5,{}", speed), 2));
+    REQUIRE(found.points[0].vibrations.size() == 2);
+    for (int i = 0; i < 2; ++i) {
+      const auto &one = found.points[0].vibrations[i], &other = followed.points[3].vibrations[i];
+      CHECK(one.growth == 0);
+      CHECK(one.omega == Approx(other.omega).epsilon(1e-6));
+    }
+    const auto warned = [](const CampbellDiagram& by) {
+      return std::any_of(by.model.warnings.begin(), by.model.warnings.end(), [](const std::string& text) {
+        return text.find("the initial shape is no steady rotation") != std::string::npos;
+      });
+    };
+    CHECK(found.points[0].search.other > 1);
+    CHECK(warned(found));
+    CHECK_FALSE(warned(followed));
+  }
 }
 
 TEST_CASE("campbell: an instability of a poor reduced model is checked with the full-order model") {
