@@ -266,14 +266,15 @@ const SchemaSection damping_section{
     "stiffness: 1e-4\nmodal: [0.01, 0.01]",
     {
         {"mass", Type::number, "1/s", "0",
-         "alpha of Rayleigh damping: damping ratios alpha/(2 omega) of the modes of the body with its joints fixed",
+         "alpha of Rayleigh damping: damping ratios alpha/(2 omega) of the modes of the body under its joints towards "
+         "the ground (where no joint leads to the ground, towards a rigid body)",
          nonnegative},
         {"stiffness", Type::number, "s", "0",
          "beta of Rayleigh damping: Kelvin-Voigt damping of the strain rates, damping ratios beta omega/2",
          nonnegative},
         {"modal", Type::numbers, "", "[]",
-         "damping ratios of the first modes (with an interface: of the fixed-interface modes); with several frames "
-         "those of the body as a whole",
+         "damping ratios of the first modes that floe modes lists: under joints to the ground, not to other bodies "
+         "(with an interface: fixed-interface modes); with several frames those of the body as a whole",
          nonnegative},
     }};
 

@@ -152,6 +152,16 @@ TEST_CASE("a drive is 0 at the start by its own size") {
   CHECK(told("sin(t) + 1e-9").find("at t = 0") != std::string::npos);
 }
 
+TEST_CASE("joints hold at the start: a drive's rate that is round-off of its formula is no change of velocities") {
+  const auto correction = [](const std::string& angle) {
+    const std::string text =
+        beam + "joints: {j: {type: driven, between: [ground, beam.start], angle: \"" + angle + "\"}}\n" + motion;
+    return built(text, Formulation::nlffr).velocity_correction;
+  };
+  CHECK(correction("0.2*t^1.5") == 0);
+  CHECK(correction("0.2*t^1.5 + 1e-4*t") == 1);
+}
+
 TEST_CASE("joints hold at the start: velocities of any size") {
   for (const double size : {1e-14, 1e-30}) {
     const std::string text = beam + fmt::format("    initial: {{velocity: [{0}, {1}]}}\n", size, 0.3 * size) +
