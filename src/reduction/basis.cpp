@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "floe/fem/element_stiffness.h"
+#include "floe/fem/field_rows.h"
+#include "floe/fem/piece_rows.h"
 #include "floe/petsc/stage.h"
 #include "floe/petsc/values.h"
 #include "mass_forms.h"
@@ -167,32 +169,54 @@ std::vector<Column> orthonormalise(const fem::Structure& structure, double toler
   return columns;
 }
 
-/// Far above the square of all frequencies of a mesh of shells whose drilling rotations, which have no mass, follow
-/// [1/s2]; 0: of no shells.
+/// Of a mesh of shells whose drilling rotations, which have no mass, follow: far above the squares of all frequencies
+/// [1/s2], of this rank; 0: of no shells.
 double shells_limit(const fem::Structure& structure) {
   double most = 0;
   for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
     const auto* shell = std::get_if<fem::ShellSection>(&structure.sections[cell.part]);
     if (!shell || !(shell->mass > 0)) continue;
     const auto corners = cell.corners();
+    const auto at = [&](std::size_t i) { return structure.mesh.positions[corners[i % corners.size()]]; };
     double h2 = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      h2 = std::min(h2,
-                    (structure.mesh.positions[corners[i]] - structure.mesh.positions[corners[(i + 1) % corners.size()]])
-                        .squaredNorm());
+    for (std::size_t i = 0; i < corners.size(); ++i) h2 = std::min(h2, (at(i + 1) - at(i)).squaredNorm());
     most = std::max(most, (shell->A.trace() / h2 + shell->bending.trace() / (h2 * h2)) / shell->mass);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
   return 1e6 * most;
 }
 
-/// Drops columns that are stiffer than anything the mesh can do: what orthonormalisation has left of them is round-off
-/// of drilling rotations, which have stiffness and no mass, and would make everything else round-off in a reduced K.
+/// Drops columns of which little was new, whose energy is that of shells, and whose shells by themselves are stiffer
+/// for their mass than anything that their mesh can do: orthonormalisation has left of them round-off of drilling
+/// rotations, which have stiffness and no mass, and in a reduced K everything else would be round-off of theirs.
 void drop_drilling(const fem::Structure& structure, const fem::FieldRows& X, std::vector<Column>& columns) {
-  const double limit = shells_limit(structure);
-  if (limit == 0 || X.cols() == 0) return;
-  const Eigen::VectorXd stiffness = fem::ElementStiffness(structure).gram(X).diagonal();
-  for (Eigen::Index i = 0; i < X.cols(); ++i) columns[i].kept = columns[i].kept && stiffness[i] < limit;
+  const auto suspect = [](const Column& column) { return column.kept && column.share < weak; };
+  if (std::none_of(columns.begin(), columns.end(), suspect)) return;
+  const Eigen::Index k = X.cols();
+  const fem::DofRanges ranges = fem::dof_ranges(structure, X);
+  Eigen::ArrayXXd sums = Eigen::ArrayXXd::Zero(k, 2);  // of each column: of K and of M
+  fem::FieldRows values;
+  std::vector<fem::PieceRows> pieces;
+  for (const fem::Mesh::Cell& cell : structure.mesh.cells) {
+    if (!mesh::is_shell(cell.kind)) continue;
+    fem::piece_rows(structure, cell, {.bending = true, .strain = true, .mass = true}, pieces);
+    for (const fem::PieceRows& piece : pieces) {
+      const auto add = [&](const fem::SmallRows& rows, double factor, int to) {
+        if (values.rows() < rows.rows()) values.resize(rows.rows(), k);
+        if (rows.rows() == 0 || fem::multiply(structure, piece, rows, X, ranges, values.data()).empty()) return;
+        sums.col(to) += factor * values.topRows(rows.rows()).array().square().colwise().sum().transpose();
+      };
+      add(piece.bending, 1, 0);
+      for (const fem::StrainRows& point : piece.strain) add(point.L, 1, 0);
+      for (const fem::MassRows& sample : piece.mass) add(sample.N, sample.mass, 1);
+    }
+  }
+  double limit = shells_limit(structure);
+  MPI_Allreduce(MPI_IN_PLACE, &limit, 1, MPI_DOUBLE, MPI_MAX, structure.mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, structure.mesh.comm);
+  if (limit == 0) return;
+  const Eigen::VectorXd whole = fem::ElementStiffness(structure).gram(X).diagonal();
+  for (Eigen::Index i = 0; i < k; ++i)
+    if (suspect(columns[i])) columns[i].kept = sums(i, 0) <= limit * sums(i, 1) || sums(i, 0) < 0.5 * whole[i];
 }
 
 /// The columns that are kept, with M as inner product.
