@@ -203,12 +203,15 @@ void keep_slopes(const Eigen::Matrix3d& in_plane, const ElementMaps& own, Elemen
   for (std::size_t i = 0; i < maps.membrane.size(); ++i) {
     const Eigen::Index before = own.membrane[i].G.rows();
     StrainPoint& point = maps.membrane[i];
-    if (before == 0) {  // linear
-      point.G.conservativeResize(0, Eigen::NoChange);
-      for (Eigen::MatrixXd& P : point.P) P.resize(0, 0);
-    }
-    for (Eigen::Index row = before; row < point.G.rows(); row += 3)
+    bool slopes = false;
+    for (Eigen::Index row = before; row < point.G.rows(); row += 3) {
       point.G.middleRows<3>(row) = (in_plane * point.G.middleRows<3>(row)).eval();
+      for (const Eigen::MatrixXd& P : point.P)
+        slopes = slopes || (in_plane * P.block<3, 3>(row, row) * in_plane).norm() > 1e-12 * P.norm();
+    }
+    if (before > 0 || slopes) continue;
+    point.G.conservativeResize(0, Eigen::NoChange);  // bending, which remains linear
+    for (Eigen::MatrixXd& P : point.P) P.resize(0, 0);
   }
 }
 
