@@ -16,39 +16,41 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Calls with (share, dofs among the corners', nodes) of the triangles of a shell element.
+/// Calls with (dofs among the corners', nodes) of the triangles of a shell element.
 template <class Act>
 void each_triangle(const Structure& structure, const Mesh::Cell& cell, Act&& act) {
-  const auto triangle = [&](double share, const std::array<int, 3>& of) {
+  const auto triangle = [&](const std::array<int, 3>& of) {
     TriangleNodes nodes;
     std::array<int, 18> dofs{};
     for (int i = 0; i < 3; ++i) {
       nodes[i] = structure.mesh.positions[cell.place[of[i]]];
       for (int d = 0; d < 6; ++d) dofs[6 * i + d] = 6 * of[i] + d;
     }
-    act(share, dofs, nodes);
+    act(dofs, nodes);
   };
-  if (cell.kind == CellKind::triangle) return triangle(1, {0, 1, 2});
-  for (const std::array<int, 3>& of : quadrilateral_triangles) triangle(0.5, of);
+  if (cell.kind == CellKind::triangle) return triangle({0, 1, 2});
+  for (const std::array<int, 3>& of : quadrilateral_triangles) triangle(of);
 }
 
-/// N_xx, N_yy, N_xy.
-Vector3d membrane_force(const ShellStrain& at, const VectorXd& q) {
-  const Eigen::Vector2d slope = at.G * q;
-  return at.D * (at.L * q + Vector3d(slope[0] * slope[0] / 2, slope[1] * slope[1] / 2, slope[0] * slope[1]));
+/// Of a strain point at displacements on the dofs of its maps.
+VectorXd stress_of(const StrainPoint& at, const VectorXd& q) {
+  const VectorXd slope = at.G * q;
+  return at.weight * at.D * (at.L * q + 0.5 * at.bilinear(slope, slope));
 }
 
 /// Of second-order strains at von Karman's forces, less what those have themselves.
-MatrixXd curved_in_plane(const Structure& structure, const Mesh::Cell& cell, ShellSection section, const VectorXd& q) {
+/// @param maps  the element's own, on the dofs that move it
+MatrixXd curved_in_plane(const Structure& structure, const Mesh::Cell& cell, ShellSection section,
+                         const ElementMaps& maps, const VectorXd& q, const VectorXd& own) {
   std::vector<Vector3d> x;
   for (const int node : cell.places()) x.push_back(structure.mesh.positions[node]);
   const ElementMaps known = quadratic_shell(x, section);
   section.strains = Strains::second_order;
   const ElementMaps all = quadratic_shell(x, section);
-  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+  MatrixXd A = MatrixXd::Zero(own.size(), own.size());
   for (std::size_t i = 0; i < quadratic_membrane_points(x.size()); ++i) {
     const StrainPoint &at = known.membrane[i], &full = all.membrane[i];
-    const VectorXd slope = at.G * q, stress = at.weight * at.D * (at.L * q + 0.5 * at.bilinear(slope, slope));
+    const VectorXd stress = stress_of(maps.membrane[i], q);
     for (std::size_t s = 0; s < at.P.size(); ++s)
       A += stress[static_cast<Eigen::Index>(s)] *
            (full.G.transpose() * full.P[s] * full.G - at.G.transpose() * at.P[s] * at.G);
@@ -56,14 +58,18 @@ MatrixXd curved_in_plane(const Structure& structure, const Mesh::Cell& cell, She
   return A;
 }
 
-MatrixXd in_plane(const Structure& structure, const Mesh::Cell& cell, const ShellSection& section, const VectorXd& q) {
-  MatrixXd A = MatrixXd::Zero(q.size(), q.size());
+/// @param q    on the dofs that move the element, of its corners `own`
+MatrixXd in_plane(const Structure& structure, const Mesh::Cell& cell, const ShellSection& section, const VectorXd& q,
+                  const VectorXd& own) {
+  MatrixXd A = MatrixXd::Zero(own.size(), own.size());
   if (section.strains == Strains::second_order) return A;
-  if (mesh::is_quadratic(cell.kind)) return curved_in_plane(structure, cell, section, q);
-  each_triangle(structure, cell, [&](double share, const std::array<int, 18>& dofs, const TriangleNodes& nodes) {
+  const ElementMaps maps = structure.maps(cell);
+  if (mesh::is_quadratic(cell.kind)) return curved_in_plane(structure, cell, section, maps, q, own);
+  std::size_t at = 0;  // a triangle has two strain points, the first one of the membrane
+  each_triangle(structure, cell, [&](const std::array<int, 18>& dofs, const TriangleNodes& nodes) {
     const shell::Geometry g = shell::geometry(nodes, section.axis);
-    const ShellStrain at = shell_triangle_strain(nodes, section);
-    const Vector3d N = share * at.weight * membrane_force(at, q(dofs));
+    const Vector3d N = stress_of(maps.membrane[at], q);
+    at += 2;
     const Eigen::Matrix2d force = (Eigen::Matrix2d() << N[0], N[2], N[2], N[1]).finished();
     const Eigen::Matrix3d projector = g.axes.leftCols<2>() * g.axes.leftCols<2>().transpose();
     for (int i = 0; i < 3; ++i)
@@ -164,7 +170,7 @@ MissingStiffness missing_stiffness(const Structure& structure, Vec q) {
   MissingStiffness missing;
   missing.in_plane =
       of_kind<ShellSection>(structure, [&](const Mesh::Cell& cell, const ShellSection& section, const MatrixXd& T) {
-        return in_plane(structure, cell, section, of_corners(cell, T));
+        return in_plane(structure, cell, section, all(structure.cell_dofs(cell)), of_corners(cell, T));
       });
   const auto lacks_coupling = [](const SpatialBeam& beam) { return beam.strain.strains == Strains::von_karman; };
   if (std::any_of(structure.sections.begin(), structure.sections.end(), [&](const Section& section) {
@@ -189,9 +195,9 @@ petsc::MatHandle initial_stress_stiffness(const Structure& structure, Vec q) {
     const VectorXd own = all(structure.cell_dofs(cell));
     MatrixXd A = MatrixXd::Zero(own.size(), own.size());
     for (const StrainPoint& g : maps.membrane) {
-      const VectorXd slope = g.G * own, stress = g.D * (g.L * own + 0.5 * g.bilinear(slope, slope));
+      const VectorXd stress = stress_of(g, own);
       for (std::size_t s = 0; s < g.P.size(); ++s)
-        A += g.weight * stress[static_cast<Eigen::Index>(s)] * g.G.transpose() * g.P[s] * g.G;
+        A += stress[static_cast<Eigen::Index>(s)] * g.G.transpose() * g.P[s] * g.G;
     }
     return A;
   });
