@@ -127,9 +127,11 @@ std::string base_of(const ShellSection& section) {
   return named == section.plies.end() ? "" : named->orientation;
 }
 
+/// Whether plies have orientations of different names, or some have none where the section has none.
 bool names_others(const ShellSection& section) {
   return std::any_of(section.plies.begin(), section.plies.end(), [&](const Ply& ply) {
-    return !ply.orientation.empty() && upper(ply.orientation) != upper(base_of(section));
+    return ply.orientation.empty() ? section.orientation.empty() && !base_of(section).empty()
+                                   : upper(ply.orientation) != upper(base_of(section));
   });
 }
 
@@ -145,6 +147,7 @@ const Orientation* rectangular(const std::string& name, const InpReading& readin
 std::string set_angles(ShellSection& section, int side, const InpReading& reading) {
   const Orientation* base = rectangular(base_of(section), reading);
   for (Ply& ply : section.plies) {
+    if (ply.orientation.empty() && section.orientation.empty()) return "and one has none, where the section has none";
     if (ply.orientation.empty()) continue;
     const Orientation* own = rectangular(ply.orientation, reading);
     if (!base || !own) return "one of which is cylindrical";

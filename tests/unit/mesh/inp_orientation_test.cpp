@@ -113,4 +113,8 @@ TEST_CASE("plies of orientations of different names have the angles between them
                       "elements are not all along their third axis; expected one orientation, with angles"));
   CHECK_THAT(refused(plies("\n1, 0, 0, 0, 0, 1\n")), Contains("whose third axes are not parallel"));
   CHECK_THAT(refused(plies(", SYSTEM=CYLINDRICAL\n0, 0, 0, 0, 0, 1\n")), Contains("one of which is cylindrical"));
+  const char* bare = "*SHELL SECTION, ELSET=E, COMPOSITE\n.1, , FIBRE, O\n.2, , FIBRE\n";
+  CHECK_THAT(refused(plies(turned, "1, 1, 2, 3, 4\n", bare)),
+             Contains("bad.inp:20: the plies of set E have orientations of different names, and one has none, where "
+                      "the section has none; expected one orientation, with angles"));
 }
