@@ -191,10 +191,16 @@ class Follower {
   Vec U_;
 };
 
-/// Of U, steady at `speed`.
+/// Of U, steady at `speed`, but for a rotation about the axis that nothing holds.
 double distance_to(const RotatingSystem& rotating, double speed, const KeptState& from, Vec U) {
   rotating.system.rebase(U);
-  return size_of(from.change_to(U), mass_scale(rotating, rotating_tangent(rotating, speed, U).M));
+  const RotatingTangent at = rotating_tangent(rotating, speed, U);
+  VectorXd change = from.change_to(U);
+  const VectorXd rotation = rotating_motion(rotating, 1, gather_to_all(rotating.system, U)).V,
+                 weighted = at.M * rotation;
+  if (const double inertia = rotation.dot(weighted); inertia > 0 && rotates_freely(at, rotation))
+    change -= weighted.dot(change) / inertia * rotation;
+  return size_of(change, mass_scale(rotating, at.M));
 }
 
 /// Another steady rotation than U, by way of one at `from`; U is as it was where there is none.
@@ -210,7 +216,8 @@ PetscInt search_from_steady(const RotatingSystem& rotating, double from, double 
     const double step = (speed - from) / steps;
     for (int i = 0; i < steps; ++i)
       iterations += follower.go(from + i * step, i + 1 < steps ? from + (i + 1) * step : speed);
-    if (const double other = distance_to(rotating, speed, direct, U); other > 1e-6) found = {follower.jump, other};
+    if (const double other = distance_to(rotating, speed, direct, U); other > near_start)
+      found = {follower.jump, other};
     return iterations;
   } catch (const RunError&) {  // none at `from`, or none on the way
     direct.restore(U);
@@ -227,9 +234,9 @@ void rotating_velocities(const RotatingSystem& rotating, double speed, Vec U, Ve
 
 std::string other_rotation(double other) {
   return fmt::format(
-      "the initial shape is no steady rotation, and the one reached from rest is given. From the initial shape "
-      "Newton's "
-      "method finds another one, {:.2g} rad away; start from a shape (`initial`) within {} rad of the one intended",
+      "the initial shape is not steady; the result is the steady rotation reached from rest. From the initial shape "
+      "Newton's method finds another one, {:.2g} rad away; start from a shape (`initial`) within {} rad of the one "
+      "intended",
       other, near_start);
 }
 

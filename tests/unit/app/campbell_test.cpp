@@ -145,7 +145,7 @@ TEST_CASE("campbell: the first speed is approached from rest where the initial s
     }
     const auto warned = [](const CampbellDiagram& by) {
       return std::any_of(by.model.warnings.begin(), by.model.warnings.end(), [](const std::string& text) {
-        return text.find("the initial shape is no steady rotation") != std::string::npos;
+        return text.find("the initial shape is not steady") != std::string::npos;
       });
     };
     CHECK(found.points[0].search.other > 1);
