@@ -120,12 +120,14 @@ std::string held_otherwise(const Plan& plan, int index) {
     for (const int side : {0, 1}) {
       const Anchor& place = plan.joints[j][side];
       if (place.body != index || in_interface(place.node)) continue;
-      const bool at_frame =
-          body.frame.kind == fem::ReferenceFrame::Kind::clamped && place.x.norm() <= 1e-9 * plan.extent;
-      if (!plan.joints[j][1 - side].ground() && !at_frame) continue;
       const Joint& joint = plan.scene.joints[j];
       const std::string text = text_of(plan, j, body);
       if (text.empty()) continue;
+      // joints to other bodies count where they hold the frame, also by an edge, as those of the file do
+      const bool at_frame = body.frame.kind == fem::ReferenceFrame::Kind::clamped &&
+                            (place.x.norm() <= 1e-9 * plan.extent ||
+                             std::find(of_file.begin(), of_file.end(), Hold(place.node, text)) != of_file.end());
+      if (!plan.joints[j][1 - side].ground() && !at_frame) continue;
       of_scene.emplace_back(place.node, text);
       lines.push_back(line_of(text, side == 0 ? joint.first : joint.second, file.dimension));
     }
