@@ -236,6 +236,14 @@ int body_in(const plan::Plan& source, const plan::PlannedBody& from) {
                                all.size(), from.spec.reduced->file->name));
 }
 
+/// Whether beams in space have fibres without W, as sections given by constants have.
+bool lacks_torsion(const plan::Plan& plan, const plan::PlannedBody& body) {
+  return plan.scene.dimension == 3 &&
+         std::any_of(body.points.begin(), body.points.end(), [](const fem::StressPoints& points) {
+           return (!points.fibres.empty() || points.radius > 0) && points.W == 0;
+         });
+}
+
 /// All flexible bodies whose elements are known. Collective.
 std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& plan, const Sources& sources,
                                const output::NodeMotion& motion, MPI_Comm comm, std::vector<std::string>& notes) {
@@ -257,7 +265,7 @@ std::vector<Recovered> recover(const StressRequest& request, const plan::Plan& p
     bodies.push_back(
         {spec.name, std::make_unique<BodyStress>(of, number, spec.name, motion, !request.uncorrected), {}});
     bodies.back().extremes = find_extremes(*bodies.back().stress, all, comm);
-    if (bodies.back().stress->lacks_torsion())
+    if (lacks_torsion(of, of.bodies[static_cast<std::size_t>(number)]))
       notes.push_back(fmt::format(
           "body {}: von Mises' stress of beams whose sections are given by constants and fibres is without torsion",
           spec.name));

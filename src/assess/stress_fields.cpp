@@ -124,26 +124,21 @@ BodyStress::BodyStress(const Plan& plan, int body, std::string name_there, const
 }
 
 void BodyStress::find_fields() {
-  int kinds[4] = {0, 0, 0, 0};  // shells, beams, layers, beams in space with fibres alone
+  int kinds[3] = {0, 0, 0};  // shells, beams, layers
   for (const fem::Mesh::Cell& cell : body_.structure.mesh.cells) {
     if (mesh::is_shell(cell.kind)) {
       kinds[0] = 1;
       const auto& layers = body_.points[static_cast<std::size_t>(cell.part)].layers;
       if (is_laminate(layers)) kinds[2] = std::max(kinds[2], static_cast<int>(layers.size()));
     }
-    if (!mesh::is_line(cell.kind)) continue;
-    const fem::StressPoints& points = body_.points[static_cast<std::size_t>(cell.part)];
-    kinds[1] = 1;
-    if (body_.structure.mesh.dimension == 3 && points.known() && points.W == 0) kinds[3] = 1;
+    if (mesh::is_line(cell.kind)) kinds[1] = 1;
   }
-  MPI_Allreduce(MPI_IN_PLACE, kinds, 4, MPI_INT, MPI_MAX, body_.structure.mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, kinds, 3, MPI_INT, MPI_MAX, body_.structure.mesh.comm);
   fields_ = {
       {"stress_max", 1, "Pa", "greatest principal stress of a shell through its thickness, normal stress of a beam"},
       {"stress_min", 1, "Pa", "least, likewise"},
-      {"von_mises", 1, "Pa",
-       "greatest through the thickness; of a beam by the extreme normal stress and the greatest shear "
-       "stress of torsion"}};
-  width_ = common, layers_ = kinds[2], lacks_torsion_ = kinds[3] > 0;
+      {"von_mises", 1, "Pa", "greatest through the thickness; of a beam with the shear stress of torsion"}};
+  width_ = common, layers_ = kinds[2];
   const auto add = [&](const std::string& name, const char* unit, const char* text, int width = 3) {
     fields_.push_back({name, width, unit, text});
     width_ += width;
@@ -274,6 +269,7 @@ void BodyStress::add_shell(const fem::Mesh::Cell& cell, const Fields& fields, st
 
 void BodyStress::add_beam(const fem::Mesh::Cell& cell, const Fields& fields, std::vector<SmallRows>& values) const {
   const fem::BeamForces forces(body_.structure, cell);
+  const fem::Section& section = body_.structure.sections[cell.part];
   const fem::StressPoints& points = body_.points[static_cast<std::size_t>(cell.part)];
   const SmallRows q = displacements(cell, fields);
   SmallRows& out = values.front();
@@ -283,11 +279,10 @@ void BodyStress::add_beam(const fem::Mesh::Cell& cell, const Fields& fields, std
     for (std::size_t i = 0; i < 2; ++i) {
       out.col(t).segment<3>(beams_ + 3 + 3 * static_cast<Eigen::Index>(i)) = ends.moment[i];
       if (!points.known()) continue;
-      const auto [least, greatest] =
-          fem::fibre_stress(body_.structure.sections[cell.part], points, ends.force[i], ends.moment[i]);
+      const auto [least, greatest] = fem::fibre_stress(section, points, ends.force[i], ends.moment[i]);
       out(stress_max, t) = std::fmax(out(stress_max, t), greatest);
       out(stress_min, t) = std::fmin(out(stress_min, t), least);
-      const double shear = points.W > 0 ? ends.moment[i][0] / points.W : 0;
+      const double shear = fem::torsion_stress(section, points, ends.force[i], ends.moment[i]);
       out(von_mises, t) = std::fmax(out(von_mises, t), std::hypot(std::max(-least, greatest), std::sqrt(3.) * shear));
     }
   }

@@ -172,4 +172,12 @@ std::array<double, 2> fibre_stress(const Section& section, const StressPoints& p
   return {mean + least, mean + greatest};
 }
 
+double torsion_stress(const Section& section, const StressPoints& points, const Eigen::Vector3d& force,
+                      const Eigen::Vector3d& moment) {
+  const auto* beam = std::get_if<SpatialBeam>(&section);
+  if (!beam || points.W == 0) return 0;
+  const Eigen::Vector2d& centre = beam->section.shear_centre;
+  return (moment[0] - centre[0] * force[2] + centre[1] * force[1]) / points.W;
+}
+
 }  // namespace floe::fem

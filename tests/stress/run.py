@@ -120,6 +120,24 @@ motion: {end: 1, step: 0.1}
         close(found["stress_min"], 500 / area - bend, 0.01, f"{shape} in compression")
         shear = 20 * 0.02 / (2 * inertia)
         close(found["von_mises"], np.sqrt((500 / area + bend) ** 2 + 3 * shear**2), 0.01, f"{shape} twisted")
+    # the centre of the section 30 mm beside the nodes: a force through it does not twist the bar, one at the nodes does
+    for turn in (0.12, 0):
+        path, _ = recovered(FLOE, folder, f"""
+bodies:
+  bar:
+    mesh: {{line: {{from: [0, 0, 0], to: [1, 0, 0], elements: 10}}}}
+    section: {{shape: circle, radius: 0.02, centroid: [0.03, 0], orientation: [0, 1, 0]}}
+    material: {{E: 2e11, nu: 0.3, rho: 7800}}
+joints: {{root: {{type: fixed, between: [ground, bar.start]}}}}
+loads:
+  tip: {{type: force, at: bar.end, force: [0, 0, 4]}}
+  turn: {{type: moment, at: bar.end, moment: [{turn}, 0, 0]}}
+motion: {{end: 1, step: 0.1}}
+""", formulation="nlffr")
+        found = Fields(path, "bar")
+        shear = (0.12 - turn) / (np.pi * 0.02**3 / 2)
+        close(found["von_mises"], np.sqrt(found["stress_max"] ** 2 + 3 * shear**2), 1e-3, f"force beside the centre, {turn}")
+        close(found["stress_max"], 4 * (1.05 - found.x[:, 0]) * 4 / (np.pi * 0.02**3), 0.01, "bent about its centre")
     _, said = recovered(FLOE, folder, SPATIAL.replace(
         "shape: rectangle, width: 0.03, height: 0.05", "A: 1.5e-3, Iy: 3.1e-7, Iz: 1.1e-7, J: 1e-7, fibres: [[.015, .025]]"))
     assert "given by constants and fibres is without torsion" in said, said

@@ -37,8 +37,6 @@ class BodyStress {
   /// those of beams; not a number where the element has none.
   const std::vector<output::CellField>& fields() const { return fields_; }
   int width() const { return width_; }
-  /// Whether von Mises' stress of some beams is without the shear stress of torsion.
-  bool lacks_torsion() const { return lacks_torsion_; }
   static constexpr int stress_max = 0, stress_min = 1, von_mises = 2;  ///< their places
 
   /// Calls with the number of each of cells() and its values at instants [first, first + values.cols()) of `rows`.
@@ -64,7 +62,6 @@ class BodyStress {
   std::vector<Eigen::Vector3d> centres_;
   std::vector<Singular> singular_;
   std::vector<output::CellField> fields_;
-  bool lacks_torsion_ = false;
   int width_ = 0, shells_ = -1, beams_ = -1, layers_ = 0;  // where the fields of each begin; of laminates
   Eigen::MatrixXd basis_;                                  // reduced: at the local dofs
 };

@@ -69,4 +69,9 @@ class BeamForces {
 std::array<double, 2> fibre_stress(const Section& section, const StressPoints& points, const Eigen::Vector3d& force,
                                    const Eigen::Vector3d& moment);
 
+/// Greatest shear stress of Saint-Venant's torsion in a section of a beam in space, (M_x - y_s V_z + z_s V_y) / W about
+/// the shear centre; 0 where W is not known. [Pa]
+double torsion_stress(const Section& section, const StressPoints& points, const Eigen::Vector3d& force,
+                      const Eigen::Vector3d& moment);
+
 }  // namespace floe::fem
