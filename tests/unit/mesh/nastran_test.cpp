@@ -184,11 +184,11 @@ TEST_CASE("rigid links of RBE2 and RBAR hold all six directions") {
 }
 
 TEST_CASE("what is not taken over is counted") {
-  const auto notices = all_of(
-      read("counts.bdf", "SOL 101\nCEND\nBEGIN BULK\n" + square +
-                             "FORCE,1,3,,1.,0.,0.,1.\nFORCE,1,4,,1.,0.,0.,1.\nMPCADD,5,1,2\nPARAM,POST,-1\n"
-                             "MAT1,9,1.,,.3\nPBAR,8,9,1.,1.,1.,1.\nGRID,9,,0.,0.,0.,,123456\n")
-          .notices);
+  const auto notices =
+      all_of(read("counts.bdf", "SOL 101\nCEND\nBEGIN BULK\n" + square +
+                                    "FORCE,1,3,,1.,0.,0.,1.\nFORCE,1,4,,1.,0.,0.,1.\nMPCADD,5,1,2\nPARAM,POST,-1\n"
+                                    "MAT1,9,1.,,.3\nPBAR,8,9,1.,1.,1.,1.\nGRID,9,,0.,0.,0.,,123456\n")
+                 .notices);
   CHECK_THAT(notices, Contains("counts.bdf:1: 2 lines before BEGIN BULK ignored"));
   CHECK_THAT(notices, Contains("FORCE is ignored: loads are those of the scene (2 cards)"));
   CHECK_THAT(notices, Contains("MPCADD is ignored: the nodes are not tied by it (1 card)"));
