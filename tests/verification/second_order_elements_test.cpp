@@ -2,7 +2,7 @@
 
 #include "floe/assembly/body_properties.h"
 #include "floe/solve/branch.h"
-#include "spatial_scenes.h"
+#include "shell_decks.h"
 
 using namespace floe;
 using namespace floe::test;
@@ -11,51 +11,6 @@ using Eigen::Vector3d;
 // Bodies of S8R, S6 and B32R, read from decks.
 
 namespace {
-
-using Surface = std::function<Vector3d(double, double)>;
-
-std::string node_line(std::size_t label, const Vector3d& x) {
-  return fmt::format("{}, {:.17g}, {:.17g}, {:.17g}\n", label, x[0], x[1], x[2]);
-}
-
-/// n x m shells of second order on the image of the unit square, with its edges as node sets.
-std::string shells(bool triangles, int n, int m, double thickness, const std::string& material, const Surface& at) {
-  std::string nodes = "*NODE\n", elements = fmt::format("*ELEMENT, TYPE={}, ELSET=skin\n", triangles ? "S6" : "S8R"),
-              sets[4];
-  std::map<std::pair<int, int>, std::size_t> labels;
-  const auto node = [&](int i, int j) {
-    const auto [found, made] = labels.try_emplace({i, j}, labels.size() + 1);
-    if (made) nodes += node_line(found->second, at(i / (2. * n), j / (2. * m)));
-    return found->second;
-  };
-  int count = 0;
-  const auto element = [&](const std::vector<std::size_t>& of) {
-    elements += std::to_string(++count);
-    for (const std::size_t label : of) elements += ", " + std::to_string(label);
-    elements += "\n";
-  };
-  for (int a = 0; a < 2 * n; a += 2)
-    for (int b = 0; b < 2 * m; b += 2) {
-      const std::size_t c[] = {node(a, b), node(a + 2, b), node(a + 2, b + 2), node(a, b + 2)},
-                        e[] = {node(a + 1, b), node(a + 2, b + 1), node(a + 1, b + 2), node(a, b + 1)};
-      if (!triangles) {
-        element({c[0], c[1], c[2], c[3], e[0], e[1], e[2], e[3]});
-        continue;
-      }
-      const std::size_t middle = node(a + 1, b + 1);
-      element({c[0], c[1], c[2], e[0], e[1], middle});
-      element({c[0], c[2], c[3], middle, e[2], e[3]});
-    }
-  for (const auto& [place, label] : labels) {
-    const bool on[] = {place.first == 0, place.first == 2 * n, place.second == 0, place.second == 2 * m};
-    for (int i = 0; i < 4; ++i)
-      if (on[i]) sets[i] += std::to_string(label) + ",\n";
-  }
-  const char* names[] = {"left", "right", "bottom", "top"};
-  for (int i = 0; i < 4; ++i) elements += fmt::format("*NSET, NSET={}\n{}", names[i], sets[i]);
-  return nodes + elements + "*MATERIAL, NAME=m\n" + material +
-         fmt::format("*SHELL SECTION, ELSET=skin, MATERIAL=m\n{:.17g}\n", thickness);
-}
 
 Vector3d flat(double u, double v) { return {u, v, 0}; }
 
@@ -75,12 +30,6 @@ std::string triple(const Vector3d& v) { return fmt::format("{:.17g}, {:.17g}, {:
 std::string unit_section(const Vector3d& orientation, double EA) {
   return fmt::format("{:.17g}, 1., 0., 1., 1.\n{}\n1., 1.\n", EA, triple(orientation));
 }
-
-struct Deck {
-  Scratch scratch;
-  std::string path() const { return (scratch.path / "part.inp").string(); }
-  explicit Deck(const std::string& text) { write_text(path(), text); }
-};
 
 std::string clamped_beam(const Deck& deck, const std::string& load) {
   return fill(R"yaml(
@@ -110,7 +59,7 @@ Vector3d tip_at_rest(const std::string& text, int steps) {
 /// Side 1, D = 1, mass 1 per area, nu = 0.3. @param edges  `fixed` or `revolute`
 std::vector<double> plate_frequencies(bool triangles, double thickness, const std::string& edges, int n) {
   const Deck deck(shells(
-      triangles, n, n, thickness,
+      triangles ? "S6" : "S8R", n, n, thickness,
       fmt::format("*ELASTIC\n{:.17g}, 0.3\n*DENSITY\n{:.17g}\n", 12 * 0.91 / std::pow(thickness, 3), 1 / thickness),
       flat));
   std::string joints;
@@ -145,7 +94,7 @@ TEST_CASE("plates of second order: frequencies of hinged and clamped plates, how
 TEST_CASE("clamped plate of second order under pressure: large static deflection") {
   const bool triangles = GENERATE(false, true);
   const int n = triangles ? 16 : 8;
-  const Deck deck(shells(triangles, n, n, 0.01, "*ELASTIC\n1e7, 0.3\n*DENSITY\n1.\n", flat));
+  const Deck deck(shells(triangles ? "S6" : "S8R", n, n, 0.01, "*ELASTIC\n1e7, 0.3\n*DENSITY\n1.\n", flat));
   const auto deflection = [&](double Q, Formulation formulation) {
     return rest(fill(R"yaml(
 bodies: {p: {mesh: {file: {path: $path}}, reduction: {modes: {count: 24, alone: 24}}}}
@@ -214,7 +163,7 @@ TEST_CASE("shells of second order: an end moment rolls a strip to a circle") {
   const bool triangles = GENERATE(false, true);
   const double h = GENERATE(0.1, 0.01), L = 10, EI = 1.2e6 * h * h * h / 12;
   CAPTURE(triangles, h);
-  const Deck deck(shells(triangles, 10, 1, h, "*ELASTIC\n1.2e6, 0\n*DENSITY\n1.\n",
+  const Deck deck(shells(triangles ? "S6" : "S8R", 10, 1, h, "*ELASTIC\n1.2e6, 0\n*DENSITY\n1.\n",
                          [&](double u, double v) { return Vector3d(L * u, v, 0); }));
   const auto rolled = [&](double rotations) {
     return tip_at_rest(fill(R"yaml(
@@ -238,7 +187,7 @@ TEST_CASE("shells of second order: a strip twists with a rigid edge as corotatio
   const auto [triangles, strains, tolerance] =
       GENERATE(std::tuple(false, "von_karman", 1e-3), std::tuple(true, "von_karman", 1e-3),
                std::tuple(false, "second_order", 5e-3), std::tuple(true, "second_order", 5e-3));
-  const Deck deck(shells(triangles, 10, 2, 0.002, "*ELASTIC\n7e10, 0\n*DENSITY\n2700\n",
+  const Deck deck(shells(triangles ? "S6" : "S8R", 10, 2, 0.002, "*ELASTIC\n7e10, 0\n*DENSITY\n2700\n",
                          [](double u, double v) { return Vector3d(u, 0.1 * v, 0); }));
   const std::string text = fill(R"yaml(
 bodies:
@@ -282,7 +231,7 @@ probes: {tip: {at: beam.end, quantity: position}}
     CHECK(1 - tip.x() == Approx(0.01592).epsilon(2e-2));
   }
   const double h = 5e-3, EI = 7e10 * 0.1 * h * h * h / 12;
-  const Deck strip(shells(false, 20, 2, h, "*ELASTIC\n7e10, 0\n*DENSITY\n2700.\n",
+  const Deck strip(shells("S8R", 20, 2, h, "*ELASTIC\n7e10, 0\n*DENSITY\n2700.\n",
                           [&](double u, double v) { return Vector3d(u, 0.1 * v, 0); }));
   const Vector3d tip = reduced(fill(R"yaml(
 bodies: {p: {mesh: {file: {path: $path}}, strains: second_order, reduction: {modes: 6, derivatives: all}}}
@@ -300,8 +249,8 @@ probes: {tip: {at: {body: p, node: [1, 0.05, 0]}, quantity: position}}
 TEST_CASE("shells of second order start with the energies of their deformation and its rate") {
   for (const bool triangles : {false, true}) {
     CAPTURE(triangles);
-    const Deck plate(
-        shells(triangles, 10, 10, 0.01, "*ELASTIC\n1.092e7, 0.3\n*DENSITY\n100.\n", flat));  // D = 1, m = 1
+    const Deck plate(shells(triangles ? "S6" : "S8R", 10, 10, 0.01, "*ELASTIC\n1.092e7, 0.3\n*DENSITY\n100.\n",
+                            flat));  // D = 1, m = 1
     const History at = move(fill(R"yaml(
 parameters: {a: 1e-5, b: 1e-4}
 bodies:
@@ -323,10 +272,11 @@ probes: {middle: {at: {body: plate, node: [0.5, 0.5, 0]}, quantity: position}}
 TEST_CASE("mass, centre and inertia of bodies of second order") {
   const bool triangles = GENERATE(false, true);
   const double R = 0.5, a = 0.6, L = 1, h = 0.005, rho = 7800;
-  const Deck deck(shells(triangles, 12, 8, h, "*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7800.\n", [&](double u, double v) {
-    const double b = a * (2 * v - 1);
-    return Vector3d(L * u, R * std::sin(b), R * std::cos(b));
-  }));
+  const Deck deck(
+      shells(triangles ? "S6" : "S8R", 12, 8, h, "*ELASTIC\n2.1e11, 0.3\n*DENSITY\n7800.\n", [&](double u, double v) {
+        const double b = a * (2 * v - 1);
+        return Vector3d(L * u, R * std::sin(b), R * std::cos(b));
+      }));
   const auto scene = scene::parse_scene("bodies: {p: {mesh: {file: {path: " + deck.path() + "}}}}\n", "scene");
   const auto found = assembly::body_properties(scene, PETSC_COMM_WORLD, 0).at(0);
   const double mass = rho * h * L * 2 * a * R, height = R * std::sin(a) / a, own = h * h / 12;
