@@ -3,10 +3,12 @@
 
 Strong: one plate on all numbers of ranks. Weak: as many dofs on each rank. Wall seconds of each phase, efficiency, memory
 of each rank, messages and reductions as PETSc counts them, and the projection of offline_projection.py beside what
-was measured. Written: scaling.md and scaling.png. No test passes or fails by time.
+was measured. Written: scaling.md and scaling.png. No test passes or fails by time. Measured elsewhere (makefiles/pack_program.sh):
+lines of the program offline_stage, each with "cells" added, in a file for --rows.
 """
 import argparse
 import datetime
+import json
 import os
 import subprocess
 import sys
@@ -35,7 +37,7 @@ def wall(row, names=offline.PHASES):
 
 
 def efficiency(row, first, weak):
-    """Strong: t_1 / (p t_p) of one size. Weak: t_1 / t_p, sizes grow with p."""
+    """Strong: r t_r / (p t_p) of one size, r the fewest ranks. Weak: t_r / t_p, sizes grow with p."""
     return wall(first) / wall(row) / (1 if weak else row["ranks"] / first["ranks"])
 
 
@@ -68,7 +70,8 @@ def draw(series, model, path):
                 panel.plot(ranks, [100 * alone / sum(offline_projection.seconds(model, row["dofs"], row["ranks"])[:3])
                                    / (1 if weak else row["ranks"]) for row in rows], "--", color=colour, label=f"{name}, projected")
         panel.set_xscale("log", base=2)
-        panel.set_xticks(ranks, [str(p) for p in ranks])
+        every = sorted({row["ranks"] for _, rows, _ in series for row in rows})
+        panel.set_xticks(every, [str(p) for p in every])
         panel.set_xlabel("ranks")
         panel.set_title("weak scaling" if weak else "strong scaling", fontsize=10)
         panel.set_ylim(0, 110)
@@ -76,6 +79,11 @@ def draw(series, model, path):
         panel.legend(fontsize=7, frameon=False)
     panels[0].set_ylabel("efficiency [%]")
     figure.savefig(path, dpi=130)
+
+
+def commit():
+    done = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True)
+    return done.stdout.strip()
 
 
 def main():
@@ -86,11 +94,18 @@ def main():
     parser.add_argument("--strong", type=int, nargs="*", default=[STRONG], help="elements along the plates of strong scaling")
     parser.add_argument("--weak", type=int, nargs="*", default=WEAK, help="the same on one rank, of weak scaling")
     parser.add_argument("--limit", type=float, default=600, help="seconds for each run")
+    parser.add_argument("--rows", help="what was measured elsewhere; nothing is measured here")
+    parser.add_argument("--machine", help="where and when, with --rows")
     args, options = parser.parse_known_args()
     known = {}
+    if args.rows:
+        with open(args.rows) as lines:
+            known = {(row["cells"], row["ranks"]): row for row in map(json.loads, lines)}
 
     def row_of(cells, ranks):
         cells = 2 * round(cells / 2)
+        if (cells, ranks) not in known and args.rows:
+            return None
         if (cells, ranks) not in known:
             known[cells, ranks] = offline.run(args.stage, cells, ranks, options, args.limit)
             if known[cells, ranks]:
@@ -101,21 +116,21 @@ def main():
     for weak, sizes in ((True, args.weak), (False, args.strong)):
         for cells in sizes:
             rows = [row for p in args.ranks if (row := row_of(cells * p**0.5 if weak else cells, p))]
-            if rows and rows[0]["ranks"] == args.ranks[0]:
+            if len(rows) > 1:
                 name = f"{rows[0]['dofs'] / 1000:.0f} thousand dofs" + (" per rank" if weak else "")
                 series.append((name, rows, weak))
-    alone = [row for row in known.values() if row and row["ranks"] == 1]
+    alone = [row for row in known.values() if row and row["ranks"] == 1 and offline.BARE[0] in row]
     model = offline_projection.model_of(alone) if len(alone) > 1 else None
     os.makedirs(args.out, exist_ok=True)
     draw(series, model, os.path.join(args.out, "scaling.png"))
     parts = {weak: "\n\n".join(f"{name[0].upper()}{name[1:]}:\n\n{table_of(rows, weak)}" for name, rows, is_weak in series
                                if is_weak == weak) for weak in (False, True)}
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    machine = args.machine or (f"{datetime.date.today()}, commit {commit()}, {offline.processor()}, {os.cpu_count()} cores, "
+                               f"mean load {os.getloadavg()[2]:.1f}; {offline.packages()}")
     with open(os.path.join(os.path.dirname(__file__), NOTES)) as notes:
         text = notes.read()
     with open(os.path.join(args.out, "scaling.md"), "w") as out:
-        out.write(text.format(date=datetime.date.today(), commit=commit, machine=offline.processor(), packages=offline.packages(),
-                              cores=os.cpu_count(), load=f"{os.getloadavg()[2]:.1f}", strong=parts[False], weak=parts[True]))
+        out.write(text.format(machine=machine, strong=parts[False], weak=parts[True]))
 
 
 if __name__ == "__main__":
