@@ -11,18 +11,18 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Displacement of the edge `right` along `axis` under a total force along it, clamped at `left`, over the force. Linear.
+/// Displacement of the edge `right` along `axis` under a total force along it, clamped at `left`, over the force.
+/// Linear.
 double compliance(const Deck& deck, char axis, double force) {
   const std::string f = number(force) + "*t";
-  const std::string text = fill(R"yaml(
+  const std::string text = fill(
+      R"yaml(
 bodies: {shell: {mesh: {file: {path: $path}}}}
 joints: {root: {type: fixed, between: [ground, shell.left]}}
 loads: {end: {type: force, at: shell.right, force: [0, $y, $z]}}
 probes: {end: {at: shell.right, quantity: displacement}}
 )yaml",
-                                {{"path", deck.path()},
-                                 {"y", axis == 'y' ? "\"" + f + "\"" : "0"},
-                                 {"z", axis == 'z' ? "\"" + f + "\"" : "0"}});
+      {{"path", deck.path()}, {"y", axis == 'y' ? "\"" + f + "\"" : "0"}, {"z", axis == 'z' ? "\"" + f + "\"" : "0"}});
   return rest(text, Formulation::lffr)[std::string("end.") + axis].back() / force;
 }
 
@@ -56,8 +56,8 @@ TEST_CASE("Raasch's hook: shells with transverse shear, and without") {
   CHECK(deflection("S3", 36, 6) == Approx(5.019 * (1 - 0.063)).epsilon(1e-2));
 }
 
-// MacNeal and Harder 1985, Finite Elem. Anal. Des. 1, 3-20: thickness 0.32, E = 29e6, nu = 0.22, unit forces; CalculiX 2.20
-// (C3D20R, 48 x 8 x 2): 0.0017532 and 0.0054217.
+// MacNeal and Harder 1985, Finite Elem. Anal. Des. 1, 3-20: thickness 0.32, E = 29e6, nu = 0.22, unit forces;
+// CalculiX 2.20 (C3D20R, 48 x 8 x 2): 0.0017532 and 0.0054217.
 TEST_CASE("twisted beam of MacNeal and Harder") {
   const std::string material = "*ELASTIC\n29e6, 0.22\n*DENSITY\n1.\n";
   const auto [type, n, m, tolerance] = GENERATE(std::tuple("S4", 24, 4, 6e-3), std::tuple("S3", 12, 2, 7e-3),
@@ -69,16 +69,16 @@ TEST_CASE("twisted beam of MacNeal and Harder") {
   CHECK(z == Approx(0.005424).epsilon(tolerance));
 }
 
-// The same, 100 times thinner; Simo, Fox and Rifai 1989, Comput. Methods Appl. Mech. Eng. 73, 53-92: unit forces of 1e-6.
-// Quadrilaterals of four nodes, which are warped here, need finer meshes.
+// The same, 100 times thinner; Simo, Fox and Rifai 1989, Comput. Methods Appl. Mech. Eng. 73, 53-92: unit forces of
+// 1e-6. Quadrilaterals of four nodes, which are warped here, need finer meshes.
 TEST_CASE("twisted beam, thin") {
   const Deck deck(shells("S8R", 24, 4, 0.0032, "*ELASTIC\n29e6, 0.22\n*DENSITY\n1.\n", twisted));
   CHECK(compliance(deck, 'y', 1e-8) * 1e-6 == Approx(0.001294).epsilon(5e-3));
   CHECK(compliance(deck, 'z', 1e-8) * 1e-6 == Approx(0.005256).epsilon(5e-3));
 }
 
-// Sze, Liu and Lo 2004, Finite Elem. Anal. Des. 40, 1551-1569, 3.5: R = 10, h = 0.04, E = 6.825e7, nu = 0.3, two pairs of
-// forces of 400; a quarter of it.
+// Sze, Liu and Lo 2004, Finite Elem. Anal. Des. 40, 1551-1569, 3.5: R = 10, h = 0.04, E = 6.825e7, nu = 0.3, two pairs
+// of forces of 400; a quarter of it.
 TEST_CASE("hemisphere with a hole of 18 degrees at large deflections") {
   const Deck deck(shells("S3", 16, 16, 0.04, "*ELASTIC\n6.825e7, 0.3\n*DENSITY\n1.\n", [](double u, double v) {
     const double a = u * M_PI / 2, b = v * 0.4 * M_PI;
@@ -103,15 +103,16 @@ probes:
   CHECK(at["in.y"].back() == Approx(-8.184).epsilon(2.5e-2));
 }
 
-// Dowell and Traybar 1975, Princeton University: a slender beam under a force at its end, at an angle to its stiff axis.
-// Numbers: geometrically exact beams of Exudyn (its test geometricallyExactBeamTest), (stiff, soft) [m].
+// Dowell and Traybar 1975, Princeton University: a slender beam under a force at its end, at an angle to its stiff
+// axis. Numbers: geometrically exact beams of Exudyn (its test geometricallyExactBeamTest), (stiff, soft) [m].
 TEST_CASE("Princeton beam: bending in two directions with torsion") {
-  const auto [angle, stiff, soft] = GENERATE(std::tuple(15, 0.01061329, 0.04208232), std::tuple(45, 0.00883723, 0.10898794),
-                                             std::tuple(75, 0.00353889, 0.14219437));
+  const auto [angle, stiff, soft] =
+      GENERATE(std::tuple(15, 0.01061329, 0.04208232), std::tuple(45, 0.00883723, 0.10898794),
+               std::tuple(75, 0.00353889, 0.14219437));
   const auto [formulation, frames] = GENERATE(std::pair(Formulation::cfr, 1), std::pair(Formulation::nlffr, 4));
   const double a = angle * M_PI / 180;
-  const std::string text =
-      fill(R"yaml(
+  const std::string text = fill(
+      R"yaml(
 bodies:
   beam:
     mesh: {line: {from: [0, 0, 0], to: [0.508, 0, 0], elements: 16}}
@@ -122,7 +123,7 @@ joints: {root: {type: fixed, between: [ground, beam.start]}}
 loads: {end: {type: force, at: beam.end, force: [0, "$y*t", "$z*t"]}}
 probes: {end: {at: beam.end, quantity: displacement}}
 )yaml",
-           {{"frames", std::to_string(frames)}, {"y", number(8.896 * std::sin(a))}, {"z", number(8.896 * std::cos(a))}});
+      {{"frames", std::to_string(frames)}, {"y", number(8.896 * std::sin(a))}, {"z", number(8.896 * std::cos(a))}});
   const History at = rest(text, formulation, 8);
   CAPTURE(angle, frames);
   CHECK(at["end.z"].back() == Approx(stiff).epsilon(8e-3));

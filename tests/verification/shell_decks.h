@@ -35,7 +35,8 @@ inline std::string shells(const std::string& type, int n, int m, double thicknes
     for (int b = 0; b < s * m; b += s) {
       const std::size_t c[] = {node(a, b), node(a + s, b), node(a + s, b + s), node(a, b + s)};
       std::size_t e[4] = {}, middle = 0;
-      if (middle_nodes) e[0] = node(a + 1, b), e[1] = node(a + 2, b + 1), e[2] = node(a + 1, b + 2), e[3] = node(a, b + 1);
+      if (middle_nodes)
+        e[0] = node(a + 1, b), e[1] = node(a + 2, b + 1), e[2] = node(a + 1, b + 2), e[3] = node(a, b + 1);
       if (!triangles) {
         element({c[0], c[1], c[2], c[3]}, {e[0], e[1], e[2], e[3]});
         continue;
