@@ -7,7 +7,7 @@ if(FLOE_INDEX64)
 endif()
 pkg_check_modules(PETSC REQUIRED IMPORTED_TARGET petsc${index64})
 pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc${index64})
-pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi)
+pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-openmpi hdf5)  # Debian's name of the parallel one, and HDF5's own
 pkg_check_modules(EIGEN REQUIRED IMPORTED_TARGET eigen3)
 find_package(yaml-cpp REQUIRED)
 find_package(fmt REQUIRED)
@@ -15,7 +15,7 @@ find_path(CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
 find_path(NLOHMANN_INCLUDE nlohmann/json.hpp REQUIRED)
 find_path(CATCH_INCLUDE catch2/catch.hpp)
 # floe registers a TS type of its own; PETSc ships the header that this needs beside its public ones.
-find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS /usr/share/petsc/3.18/include ${PETSC_INCLUDE_DIRS} REQUIRED)
+find_path(PETSC_PRIVATE petsc/private/tsimpl.h PATHS ${PETSC_INCLUDE_DIRS} /usr/share/petsc/3.18/include REQUIRED)
 
 find_path(METIS_INCLUDE metis.h REQUIRED)
 find_library(METIS_LIBRARY metis REQUIRED)
